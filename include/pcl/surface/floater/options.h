@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Choices of a reconstruction. One line each: default, meaning, unit.
+#pragma once
+
+#include <pcl_floater/export.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// How the boundary points become one ordered loop.
+enum class BoundaryMethod
+{
+  SPANNING_TREE, ///< longest path of a spanning tree over points whose star has a gap
+  TWO_SEGMENTS   ///< TW 385, section 3: largest cluster, two segments, 1D parameterization
+};
+
+/// Convex curve on which the boundary loop is laid (TW 385, section 2.1).
+enum class Domain
+{
+  CIRCLE, ///< unit circle
+  SQUARE, ///< square inscribed in the unit circle
+  POLYGON ///< regular polygon with Options::polygon_sides sides, inscribed in the unit circle
+};
+
+/// Weights lambda_ij of a point in its neighbours (TW 385, section 4.1).
+enum class Weighting
+{
+  UNIFORM,          ///< 1 / number of neighbours
+  INVERSE_DISTANCE, ///< 1 / |p_j - p_i|
+  SHAPE_PRESERVING, ///< Floater 1997
+  MEAN_VALUE        ///< Floater 2003, equation (2) of TW 385
+};
+
+/// Column ordering before the factorization.
+enum class Ordering
+{
+  AUTOMATIC, ///< AMD up to 500,000 unknowns, METIS above
+  AMD,       ///< approximate minimum degree
+  METIS      ///< nested dissection
+};
+
+/// The stages of a run, in order; a name for each is given by stageName().
+enum class Stage
+{
+  WORKING_SET,
+  NEIGHBORS,
+  STARS,
+  BOUNDARY,
+  WEIGHTS,
+  SOLVE,
+  DELAUNAY,
+  FLIPS,
+  COUNT ///< not a stage: how many there are
+};
+
+/// Short English name of a stage ("neighbors"), also the key in reports.
+PCL_FLOATER_EXPORT const char*
+stageName (Stage stage);
+
+/// All parameters of a run. The defaults need no tuning; a run never changes them.
+struct Options
+{
+  int k = 20;                      ///< 20: nearest neighbours of each point, 6 to 200
+  double opening_angle = 160.0;    ///< 160: degrees; a boundary point sees a wider empty sector
+  double cluster_tolerance = 0.05; ///< 0.05: growing distance, fraction of the bounding box diagonal
+  int cluster_k = 10;              ///< 10: nearest boundary points appended in cluster growing
+  BoundaryMethod boundary = BoundaryMethod::SPANNING_TREE;
+  Domain domain = Domain::CIRCLE;
+  int polygon_sides = 6; ///< 6: sides of Domain::POLYGON, 3 or more
+  Weighting weighting = Weighting::MEAN_VALUE;
+  Ordering ordering = Ordering::AUTOMATIC;
+  bool filter_sheets = true; ///< true: drop neighbours that lie on another sheet of the surface
+  bool flip_edges = true;    ///< true: Delaunay flips on the surface after lifting
+  int threads = 0;           ///< 0: number of threads, 0 for all cores; does not change the result
+
+  /// The boundary loop as cloud indices in order; empty: find it.
+  std::vector<std::uint32_t> loop;
+
+  /// Called when a stage begins, from the thread that runs the reconstruction.
+  std::function<void (Stage)> progress;
+};
+
+} // namespace floater
+} // namespace pcl
