@@ -21,6 +21,9 @@ resolveThreads (int threads)
   return threads > 0 ? threads : std::max (1, static_cast<int> (std::thread::hardware_concurrency ()));
 }
 
+/// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
+constexpr std::size_t RANGE_LENGTH = 1024;
+
 /// Calls body (first, last) for consecutive ranges that cover 0 to count. Ranges are handed out to
 /// `threads` threads in any order, so body must write only to places that belong to its range. The
 /// first exception thrown by a body is rethrown here.
@@ -28,15 +31,14 @@ template <typename Body>
 void
 parallelRanges (std::size_t count, int threads, Body&& body)
 {
-  constexpr std::size_t GRAIN = 1024;
-  const std::size_t chunks = (count + GRAIN - 1) / GRAIN;
+  const std::size_t chunks = (count + RANGE_LENGTH - 1) / RANGE_LENGTH;
   std::atomic<std::size_t> next{0};
   std::exception_ptr error;
   std::mutex error_mutex;
   const auto work = [&] {
     try {
       for (std::size_t c = next++; c < chunks; c = next++)
-        body (c * GRAIN, std::min (count, (c + 1) * GRAIN));
+        body (c * RANGE_LENGTH, std::min (count, (c + 1) * RANGE_LENGTH));
     }
     catch (...) {
       const std::lock_guard<std::mutex> lock (error_mutex);

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "boundary/boundary_loop.h"
+
+#include "boundary/clusters.h"
+#include "boundary/spanning_tree_loop.h"
+#include "boundary/two_segment_loop.h"
+#include "neighborhoods/stars.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double DEGREE = 0.017453292519943295; // radians
+
+// Cloud indices to points; a duplicate means the point that stands for it.
+Boundary
+fromUser (const WorkingSet& set, const std::vector<Index>& user_loop)
+{
+  Boundary boundary;
+  const auto invalid = [&] (const std::string& why) {
+    boundary.problem = {Status::INVALID_LOOP, "the given boundary loop " + why};
+    boundary.loop.clear ();
+    return boundary;
+  };
+  std::vector<std::pair<Index, Index>> point_of; // (cloud index, point), ascending
+  point_of.reserve (set.cloud_index.size () + set.duplicates.size ());
+  for (Index p = 0; p < set.cloud_index.size (); ++p)
+    point_of.emplace_back (set.cloud_index[p], p);
+  std::sort (point_of.begin (), point_of.end ());
+  const auto find = [&] (Index cloud_index) {
+    const auto at = std::lower_bound (point_of.begin (), point_of.end (), std::make_pair (cloud_index, Index{0}));
+    return at != point_of.end () && at->first == cloud_index ? at->second : NONE;
+  };
+  std::vector<std::uint8_t> seen (set.positions.size (), 0);
+  for (Index cloud_index : user_loop) {
+    Index p = find (cloud_index);
+    if (p == NONE) {
+      const auto duplicate = std::lower_bound (set.duplicates.begin (), set.duplicates.end (),
+                                               std::array<Index, 2>{cloud_index, 0});
+      if (duplicate != set.duplicates.end () && (*duplicate)[0] == cloud_index)
+        p = find ((*duplicate)[1]);
+    }
+    if (p == NONE)
+      return invalid ("names point " + std::to_string (cloud_index) +
+                      ", which is not in the cloud, not selected, or not finite");
+    if (seen[p] != 0)
+      return invalid ("passes twice through point " + std::to_string (cloud_index));
+    seen[p] = 1;
+    boundary.loop.push_back (p);
+  }
+  if (boundary.loop.size () < 3)
+    return invalid ("has fewer than 3 points");
+  boundary.candidates = boundary.loop.size ();
+  return boundary;
+}
+
+Boundary
+byTwoSegments (const WorkingSet& set, const Stars& stars, const Options& options)
+{
+  Boundary boundary;
+  const std::vector<Index> points = openingAnglePoints (stars, options.opening_angle * DEGREE);
+  boundary.candidates = points.size ();
+  // The bounding box of the working set has diagonal 1, so xi D is xi.
+  const std::vector<std::vector<Index>> clusters =
+      clusterBoundaryPoints (set.positions, points, options.cluster_tolerance, options.cluster_k);
+  if (!clusters.empty ())
+    boundary.loop = twoSegmentLoop (set.positions, clusters.front ());
+  return boundary;
+}
+
+} // namespace
+
+Boundary
+findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars, const Options& options)
+{
+  const std::vector<float> spacing = localSpacing (set.positions, near, options.threads);
+  Boundary boundary;
+  if (!options.loop.empty ()) {
+    boundary = fromUser (set, options.loop);
+    if (boundary.problem)
+      return boundary;
+  }
+  else if (options.boundary == BoundaryMethod::TWO_SEGMENTS) {
+    boundary = byTwoSegments (set, stars, options);
+  }
+  else {
+    BoundaryLoop found = spanningTreeLoop (set.positions, stars, spacing);
+    boundary.loop = std::move (found.points);
+    boundary.candidates = found.candidates;
+  }
+  if (boundary.loop.size () < 3) {
+    boundary.loop.clear ();
+    boundary.problem = {Status::NO_BOUNDARY,
+                        "no boundary loop found among " + std::to_string (boundary.candidates) +
+                            " boundary points: the surface seems closed or is not one disc; cut it open, "
+                            "or give the loop"};
+    return boundary;
+  }
+  for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
+    const Index p = boundary.loop[i];
+    const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
+    const double step = (set.positions[p] - set.positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
+    if (step > boundary.largest_step) {
+      boundary.largest_step = step;
+      boundary.longest_from = p;
+    }
+  }
+  return boundary;
+}
+
+} // namespace floater
+} // namespace pcl

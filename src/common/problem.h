@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Why a stage cannot go on.
+#pragma once
+
+#include <pcl/surface/floater/report.h>
+
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// Status and one sentence for the user; Status::OK means that there is no problem.
+struct Problem
+{
+  Status status = Status::OK;
+  std::string message;
+
+  explicit operator bool () const { return status != Status::OK; }
+};
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "neighborhoods/planar_star.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Relative to the lengths involved: below it, a cross product of neighbours reads as zero, so that
+// rounding on grids does not open a star or turn a straight line into a corner.
+constexpr double COLLINEAR = 1e-9;
+
+double
+cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return a.x () * b.y () - a.y () * b.x ();
+}
+
+// Increases with the angle of v, from 0 to 4.
+double
+pseudoAngle (const Eigen::Vector2d& v)
+{
+  const double t = v.y () / (std::abs (v.x ()) + std::abs (v.y ()));
+  if (v.x () < 0.0)
+    return 2.0 - t;
+  return v.y () < 0.0 ? 4.0 + t : t;
+}
+
+bool
+sameDirection (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return a.dot (b) > 0.0 && std::abs (cross (a, b)) <= COLLINEAR * a.norm () * b.norm ();
+}
+
+// Half a turn or more from a to b, anti-clockwise. Neighbours in one direction do not come here.
+bool
+spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return cross (a, b) <= COLLINEAR * a.norm () * b.norm ();
+}
+
+// True if b lies strictly outside the segment from a to c, walking anti-clockwise around the origin.
+bool
+isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+{
+  const Eigen::Vector2d ab = b - a;
+  const Eigen::Vector2d bc = c - b;
+  return cross (ab, bc) > COLLINEAR * ab.norm () * bc.norm ();
+}
+
+} // namespace
+
+bool
+PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
+{
+  constexpr double TWO_PI = 6.283185307179586;
+  std::sort (neighbors.begin (), neighbors.end (), [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
+    const double angle_a = pseudoAngle (a.offset);
+    const double angle_b = pseudoAngle (b.offset);
+    return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
+  });
+
+  // Of several neighbours in one direction only the nearest can be in the star.
+  hull_.clear ();
+  for (const PlanarNeighbor& neighbor : neighbors) {
+    if (hull_.empty () || !sameDirection (hull_.back ().offset, neighbor.offset))
+      hull_.push_back (neighbor);
+    else if (neighbor.offset.squaredNorm () < hull_.back ().offset.squaredNorm ())
+      hull_.back () = neighbor;
+  }
+  while (hull_.size () > 1 && sameDirection (hull_.back ().offset, hull_.front ().offset)) {
+    if (hull_.back ().offset.squaredNorm () < hull_.front ().offset.squaredNorm ())
+      hull_.front () = hull_.back ();
+    hull_.pop_back ();
+  }
+
+  // Rotate so that an open star begins after its gap, a closed one at its nearest neighbour, which
+  // is farthest when inverted and so a hull vertex.
+  const std::size_t count = hull_.size ();
+  std::size_t gap = count;
+  std::size_t nearest = 0;
+  double smallest_cosine = 1.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector2d& a = hull_[i].offset;
+    const Eigen::Vector2d& b = hull_[(i + 1) % count].offset;
+    const double cosine = a.dot (b) / (a.norm () * b.norm ());
+    if (count < 2 || spansHalfTurn (a, b)) {
+      gap = i;
+      opening_angle_ = count < 2 ? TWO_PI : TWO_PI - std::acos (std::clamp (cosine, -1.0, 1.0));
+    }
+    smallest_cosine = std::min (smallest_cosine, cosine);
+    if (a.squaredNorm () < hull_[nearest].offset.squaredNorm ())
+      nearest = i;
+  }
+  const bool open = gap < count || count < 3;
+  if (!open)
+    opening_angle_ = std::acos (std::clamp (smallest_cosine, -1.0, 1.0));
+  else if (count == 0)
+    opening_angle_ = TWO_PI;
+  if (count > 0)
+    std::rotate (hull_.begin (), hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
+                 hull_.end ());
+
+  // Graham scan in angular order. An open star is scanned from the origin back to the origin, a
+  // closed one from its first neighbour back to it.
+  inverted_.clear ();
+  neighbors.clear ();
+  const Eigen::Vector2d origin = Eigen::Vector2d::Zero ();
+  for (std::size_t i = 0; i <= count; ++i) {
+    const bool closing = i == count;
+    if (closing && count == 0)
+      break;
+    const Eigen::Vector2d next = !closing ? Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ())
+                                 : open   ? origin
+                                          : inverted_.front ();
+    while (inverted_.size () >= 2 || (open && !inverted_.empty ())) {
+      const Eigen::Vector2d& before = inverted_.size () >= 2 ? inverted_[inverted_.size () - 2] : origin;
+      if (isCorner (before, inverted_.back (), next) || (open && inverted_.size () == 1))
+        break;
+      inverted_.pop_back ();
+      neighbors.pop_back ();
+    }
+    if (!closing) {
+      inverted_.push_back (next);
+      neighbors.push_back (hull_[i]);
+    }
+  }
+  return open;
+}
+
+} // namespace floater
+} // namespace pcl

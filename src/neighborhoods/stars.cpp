@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "neighborhoods/stars.h"
+
+#include "common/parallel.h"
+#include "neighborhoods/planar_star.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double LEAVES_PLANE = 0.75; // sine of the angle between a neighbour and a tangent plane
+constexpr double SAME_SIDE = 0.3;     // cosine between the normals of neighbours
+
+enum class Tier
+{
+  EITHER_PLANE,
+  BOTH_PLANES,
+  ALL
+};
+
+struct Frame
+{
+  Eigen::Vector3d normal, x, y;
+};
+
+Frame
+frameOf (const Eigen::Vector3d& normal)
+{
+  const Eigen::Vector3d x = normal.unitOrthogonal ();
+  return {normal, x, normal.cross (x)};
+}
+
+// Makes the star of one point; scratch is reused from point to point.
+class StarMaker
+{
+public:
+  StarMaker (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+             const std::vector<Eigen::Vector3f>& normals)
+  : positions_ (positions), near_ (near), normals_ (normals)
+  {
+  }
+
+  /// Returns true if the star is open.
+  bool
+  make (Index p, bool filter_sheets)
+  {
+    frame_ = frameOf (normals_[p].cast<double> ());
+    if (!filter_sheets)
+      return select (p, Tier::ALL, star_);
+    if (!select (p, Tier::EITHER_PLANE, star_))
+      return false;
+    for (const Tier tier : {Tier::BOTH_PLANES, Tier::ALL})
+      if (!select (p, tier, wider_)) {
+        star_.swap (wider_);
+        return false;
+      }
+    // Opening angle and star of the first tier, which has seen the surface with the fewest strays.
+    return select (p, Tier::EITHER_PLANE, star_);
+  }
+
+  const std::vector<PlanarNeighbor>& star () const { return star_; }
+  double openingAngle () const { return planar_star_.openingAngle (); }
+
+private:
+  bool
+  select (Index p, Tier tier, std::vector<PlanarNeighbor>& star)
+  {
+    star.clear ();
+    for (Index q : near_.row (p)) {
+      const Eigen::Vector3d offset = positions_[q] - positions_[p];
+      const double length = offset.norm ();
+      if (tier != Tier::ALL) {
+        const Eigen::Vector3d other_normal = normals_[q].cast<double> ();
+        const bool leaves_own = std::abs (frame_.normal.dot (offset)) > LEAVES_PLANE * length;
+        const bool leaves_other = std::abs (other_normal.dot (offset)) > LEAVES_PLANE * length;
+        const bool turned = std::abs (frame_.normal.dot (other_normal)) < SAME_SIDE;
+        if (tier == Tier::EITHER_PLANE ? leaves_own || leaves_other || turned : leaves_own && leaves_other)
+          continue;
+      }
+      // Unrolled into the plane: the direction of the projection, the length in space.
+      const Eigen::Vector2d projected (frame_.x.dot (offset), frame_.y.dot (offset));
+      const double planar_length = projected.norm ();
+      if (planar_length > 1e-6 * length)
+        star.push_back ({projected * (length / planar_length), q});
+    }
+    return planar_star_.make (star);
+  }
+
+  const std::vector<Eigen::Vector3d>& positions_;
+  const FlatLists& near_;
+  const std::vector<Eigen::Vector3f>& normals_;
+  Frame frame_;
+  PlanarStar planar_star_;
+  std::vector<PlanarNeighbor> star_, wider_;
+};
+
+} // namespace
+
+Stars
+makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads)
+{
+  const std::size_t n = positions.size ();
+  Stars stars;
+  stars.open.resize (n);
+  stars.opening_angle.resize (n);
+  stars.neighbors.offsets.assign (n + 1, 0);
+
+  // Each range collects its stars; then they are packed.
+  std::vector<std::vector<PlanarNeighbor>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (n, threads, [&] (std::size_t first, std::size_t last) {
+    StarMaker maker (positions, near, normals);
+    std::vector<PlanarNeighbor>& range = ranges[first / RANGE_LENGTH];
+    range.reserve (8 * (last - first));
+    for (std::size_t p = first; p < last; ++p) {
+      stars.open[p] = maker.make (static_cast<Index> (p), filter_sheets) ? 1 : 0;
+      stars.opening_angle[p] = static_cast<float> (maker.openingAngle ());
+      stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
+      range.insert (range.end (), maker.star ().begin (), maker.star ().end ());
+    }
+  });
+  for (std::size_t p = 0; p < n; ++p)
+    stars.neighbors.offsets[p + 1] += stars.neighbors.offsets[p];
+  stars.neighbors.ids.reserve (stars.neighbors.offsets[n]);
+  stars.offsets_in_plane.reserve (stars.neighbors.offsets[n]);
+  for (std::vector<PlanarNeighbor>& range : ranges) {
+    for (const PlanarNeighbor& neighbor : range) {
+      stars.neighbors.ids.push_back (neighbor.point);
+      stars.offsets_in_plane.push_back (neighbor.offset);
+    }
+    std::vector<PlanarNeighbor> ().swap (range);
+  }
+  stars.normals = std::move (normals);
+  return stars;
+}
+
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads)
+{
+  constexpr std::size_t NEAREST = 6;
+  std::vector<float> spacing (positions.size ());
+  parallelRanges (positions.size (), threads, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const Row row = near.row (p);
+      const std::size_t count = std::min (NEAREST, row.size ());
+      double sum = 0.0;
+      for (std::size_t i = 0; i < count; ++i)
+        sum += (positions[row[i]] - positions[p]).norm ();
+      spacing[p] = static_cast<float> (sum / static_cast<double> (std::max<std::size_t> (1, count)));
+    }
+  });
+  return spacing;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Delaunay neighbourhoods in the tangent planes (TW 385, section 4.1).
+#pragma once
+
+#include "common/types.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Stars of all points. With the sheet filter, a neighbour on another sheet of the surface is left
+/// out, in tiers:
+///  1. drop a neighbour whose direction leaves either point's plane by more than 49 degrees (sine
+///     0.75) or whose normal is more than 72 degrees away (cosine 0.3);
+///  2. where that opens the star, drop only neighbours that leave both planes;
+///  3. where that star is open too, take that of all neighbours if it is closed.
+/// A star open in all three is that of tier 1. O(n k log k).
+Stars
+makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads);
+
+/// Distance scale of the sampling around each point: mean distance of its 6 nearest neighbours.
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parameterization/parameterize.h"
+
+#include "parameterization/domain.h"
+#include "parameterization/reachability.h"
+#include "parameterization/system.h"
+#include "parameterization/weights.h"
+#include "solvers/umfpack_solver.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Below this share of points on the loop's side the cloud is taken for several components.
+constexpr double ENOUGH_REACHED = 0.5;
+// UMFPACK_RCOND below which the factorization is not trusted: an island that escaped the search.
+constexpr double SINGULAR_RCOND = 1e-14;
+
+// Adds each link as one more neighbour, with the weight of an average neighbour.
+void
+addLinks (const std::vector<std::array<Index, 2>>& links, FlatLists& neighbors, std::vector<double>& weights)
+{
+  if (links.empty ())
+    return;
+  std::vector<std::array<Index, 2>> sorted = links;
+  std::sort (sorted.begin (), sorted.end ());
+  FlatLists wider;
+  std::vector<double> wider_weights;
+  wider.offsets.push_back (0);
+  auto link = sorted.begin ();
+  for (Index p = 0; p < neighbors.rows (); ++p) {
+    const Index first = neighbors.offsets[p], last = neighbors.offsets[p + 1];
+    wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first, neighbors.ids.begin () + last);
+    wider_weights.insert (wider_weights.end (), weights.begin () + first, weights.begin () + last);
+    for (; link != sorted.end () && (*link)[0] == p; ++link) {
+      wider.ids.push_back ((*link)[1]);
+      wider_weights.push_back (1.0 / std::max<double> (1.0, last - first));
+    }
+    wider.offsets.push_back (static_cast<Index> (wider.ids.size ()));
+  }
+  neighbors = std::move (wider);
+  weights = std::move (wider_weights);
+}
+
+Problem
+describeOutcome (const Solution& solution)
+{
+  switch (solution.outcome) {
+  case Solution::Outcome::OK:
+    if (solution.reciprocal_condition < SINGULAR_RCOND)
+      return {Status::SINGULAR, "the linear system is singular to working precision: some points hang together "
+                                "with the boundary by too few neighbours; use a larger k"};
+    return {};
+  case Solution::Outcome::SINGULAR:
+    return {Status::SINGULAR, "the linear system is singular (" + solution.message + "); use a larger k"};
+  case Solution::Outcome::OUT_OF_MEMORY:
+    return {Status::OUT_OF_MEMORY, "not enough memory for the factorization (" + solution.message +
+                                       "): use fewer points, or a machine with more memory"};
+  case Solution::Outcome::FAILED: break;
+  }
+  return {Status::INTERNAL_ERROR, "the factorization failed (" + solution.message + ")"};
+}
+
+} // namespace
+
+Parameterization
+parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, Stars& stars,
+              const std::vector<Index>& loop, const Options& options, StageClock& clock, Statistics& statistics)
+{
+  Parameterization result;
+  clock.start (Stage::WEIGHTS);
+  std::vector<double> weights = computeWeights (stars, options.weighting, options.threads);
+  FlatLists neighbors = std::move (stars.neighbors);
+  std::vector<Eigen::Vector2d> ().swap (stars.offsets_in_plane);
+
+  const Reachability reach = reachLoop (neighbors, near, positions, loop);
+  addLinks (reach.links, neighbors, weights);
+  result.relinked = reach.links.size ();
+  result.unreachable = static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
+  const double reached = static_cast<double> (positions.size () - result.unreachable);
+  if (reached < ENOUGH_REACHED * static_cast<double> (positions.size ())) {
+    result.problem = {Status::UNREACHABLE,
+                      std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
+                          " points do not connect to the boundary loop: the cloud has several components, or gaps "
+                          "wider than its spacing; reconstruct its parts one by one, or use a larger k"};
+    return result;
+  }
+  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, options.domain, options.polygon_sides);
+  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable);
+  neighbors = {};
+  std::vector<double> ().swap (weights);
+  statistics.unknowns = system.unknowns ();
+  statistics.nnz_matrix = system.nonzeros ();
+
+  clock.start (Stage::SOLVE);
+  const Solution solution = solveWithUmfpack (system, options.ordering);
+  statistics.nnz_factors = solution.nnz_factors;
+  statistics.fill_in = system.nonzeros () == 0
+                           ? 0.0
+                           : static_cast<double> (solution.nnz_factors) / static_cast<double> (system.nonzeros ());
+  statistics.residual = solution.residual;
+  statistics.reciprocal_condition = solution.reciprocal_condition;
+  statistics.factorization_bytes = solution.peak_bytes;
+  result.problem = describeOutcome (solution);
+  if (result.problem)
+    return result;
+
+  result.uv.assign (positions.size (), Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    result.uv[loop[i]] = loop_uv[i];
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    result.uv[system.point_of_unknown[i]] = solution.uv[i];
+  return result;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "triangulation/planar_delaunay.h"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+// Numbers the faces inside the loop: a triangle behind a hull edge that is no loop edge is outside,
+// and so on inward.
+Index
+numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
+{
+  std::vector<Index> successor (points, NONE);
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    successor[loop[i]] = loop[(i + 1) % loop.size ()];
+  constexpr Index OUTSIDE = NONE;
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    face->info () = delaunay.is_infinite (face) ? OUTSIDE : 0;
+  std::vector<Delaunay::Face_handle> outside;
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    if (face->info () == OUTSIDE)
+      outside.push_back (face);
+  while (!outside.empty ()) {
+    const Delaunay::Face_handle face = outside.back ();
+    outside.pop_back ();
+    for (int i = 0; i < 3; ++i) {
+      const Delaunay::Face_handle inner = face->neighbor (i);
+      if (inner->info () == OUTSIDE)
+        continue;
+      const Index from = face->vertex (Delaunay::cw (i))->info ();
+      const Index to = face->vertex (Delaunay::ccw (i))->info ();
+      if (successor[from] == to || successor[to] == from)
+        continue;
+      inner->info () = OUTSIDE;
+      outside.push_back (inner);
+    }
+  }
+  Index count = 0;
+  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face)
+    if (face->info () != OUTSIDE)
+      face->info () = count++;
+  return count;
+}
+
+} // namespace
+
+SurfaceMesh
+triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
+{
+  std::vector<std::pair<Kernel::Point_2, Index>> sites;
+  sites.reserve (uv.size ());
+  for (Index p = 0; p < uv.size (); ++p)
+    if (uv[p].allFinite ())
+      sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
+  Delaunay delaunay;
+  delaunay.insert (sites.begin (), sites.end ());
+  // Where points coincide, the vertex has the name of any of them: a loop point goes first.
+  if (delaunay.number_of_vertices () < sites.size ())
+    for (Index p : loop) {
+      Delaunay::Locate_type type{};
+      int side = 0;
+      const auto face = delaunay.locate (Kernel::Point_2 (uv[p].x (), uv[p].y ()), type, side);
+      if (type == Delaunay::VERTEX)
+        face->vertex (side)->info () = p;
+    }
+  std::vector<std::pair<Kernel::Point_2, Index>> ().swap (sites);
+
+  SurfaceMesh mesh;
+  mesh.triangle_of.assign (uv.size (), NONE);
+  if (delaunay.dimension () < 2)
+    return mesh;
+  const Index count = numberFaces (delaunay, loop, uv.size ());
+  mesh.triangles.resize (count);
+  mesh.neighbors.resize (count);
+  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face) {
+    const Index t = face->info ();
+    if (t == NONE)
+      continue;
+    for (int i = 0; i < 3; ++i) {
+      const auto side = static_cast<std::size_t> (i);
+      mesh.triangles[t][side] = face->vertex (i)->info ();
+      mesh.neighbors[t][side] = face->neighbor (i)->info ();
+      mesh.triangle_of[mesh.triangles[t][side]] = t;
+    }
+  }
+  return mesh;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+Problem
+checkOptions (const Options& options)
+{
+  const auto out_of_range = [] (const char* name, const char* range) {
+    return Problem{Status::INVALID_OPTION, std::string (name) + " must be " + range};
+  };
+  if (options.k < 6 || options.k > 200)
+    return out_of_range ("k", "from 6 to 200");
+  if (!(options.opening_angle > 0.0 && options.opening_angle < 360.0))
+    return out_of_range ("the opening angle", "above 0 and below 360 degrees");
+  if (!(options.cluster_tolerance > 0.0 && options.cluster_tolerance <= 1.0))
+    return out_of_range ("the cluster tolerance", "above 0 and at most 1");
+  if (options.cluster_k < 1)
+    return out_of_range ("cluster k", "1 or more");
+  if (options.polygon_sides < 3)
+    return out_of_range ("the number of polygon sides", "3 or more");
+  if (options.threads < 0)
+    return out_of_range ("the number of threads", "0 (all cores) or more");
+  if (!options.loop.empty () && options.loop.size () < 3)
+    return {Status::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
+  return {};
+}
+
+Problem
+checkWorkingSet (const WorkingSet& set)
+{
+  constexpr std::size_t FEWEST = 4;
+  const std::size_t n = set.positions.size ();
+  if (n < FEWEST)
+    return {Status::TOO_FEW_POINTS, "only " + std::to_string (n) + " distinct finite points; at least " +
+                                        std::to_string (FEWEST) + " are needed"};
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : set.positions)
+    mean += p;
+  mean /= static_cast<double> (n);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
+  for (const Eigen::Vector3d& p : set.positions)
+    covariance += (p - mean) * (p - mean).transpose ();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (covariance);
+  const Eigen::Vector3d spread = solver.eigenvalues ().cwiseMax (0.0).cwiseSqrt ();
+  // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
+  if (spread[1] < 1e-6 * spread[2])
+    return {Status::DEGENERATE, "all points lie on one line; a surface needs points in two directions"};
+  return {};
+}
+
+Problem
+checkDisc (const std::vector<Triangle>& triangles, std::size_t points, const std::vector<Index>& loop)
+{
+  const Problem broken{Status::INTERNAL_ERROR, "the result is not one manifold disc within the boundary loop; "
+                                               "please report this with the cloud"};
+  SurfaceMesh mesh;
+  mesh.triangles = triangles;
+  if (triangles.empty () || !mesh.connect (points))
+    return broken;
+  const std::vector<std::vector<Index>> loops = boundaryLoops (mesh);
+  if (loops.size () != 1 || loops.front ().size () != loop.size ())
+    return broken;
+  std::vector<Index> turned = loop;
+  std::rotate (turned.begin (), std::min_element (turned.begin (), turned.end ()), turned.end ());
+  if (turned != loops.front ()) {
+    std::reverse (turned.begin () + 1, turned.end ());
+    if (turned != loops.front ())
+      return broken;
+  }
+  // With one loop and manifold fans, Euler characteristic 1 and one component go together.
+  const auto vertices = static_cast<std::int64_t> (
+      points - static_cast<std::size_t> (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE)));
+  const auto faces = static_cast<std::int64_t> (triangles.size ());
+  const std::int64_t edges = (3 * faces + static_cast<std::int64_t> (loop.size ())) / 2;
+  return vertices - edges + faces == 1 ? Problem{} : broken;
+}
+
+} // namespace floater
+} // namespace pcl
