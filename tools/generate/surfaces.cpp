@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surfaces.h"
+
+#include "random_stream.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double PI = 3.14159265358979323846;
+constexpr double GOLDEN = 0.61803398874989484820;
+constexpr double JITTER = 0.3;        // largest displacement of a sample, in local spacings
+constexpr double RING_JITTER = 0.2;   // the same where the lattice is less even
+constexpr double HOLE_RADIUS = 0.3;   // of the cut-out sheet, in widths of a cell
+constexpr double MIN_HOLE = 4.0;      // radius in mean spacings from which a hole is one
+constexpr double TORUS_RADII = 2.5;   // great radius over small radius
+constexpr double MAX_DENSITY = 100.0; // density ratio up to which the lattice stays even
+
+// A surface as the image of the unit square, area for area: equal pieces of the square become equal
+// areas. Points slightly beyond the square are on the surface's continuation.
+struct Chart
+{
+  double area = 0.0;                                     // of the image of the square
+  std::function<Eigen::Vector3d (double, double)> lift;  // (s, t) -> point
+  std::function<double (double, double)> stretch;        // (s, t) -> |d point / dt|
+  std::function<bool (double, double)> inside = nullptr; // (s, t) -> not in a hole; null: always
+  bool ring = false;                                     // s = 1 continues at s = 0
+};
+
+Chart
+heightField (double n)
+{
+  const double side = std::sqrt (n);
+  auto lift = [side] (double s, double t) {
+    const double height = 0.060 * std::sin (2.0 * PI * (1.1 * s + 0.4 * t)) +
+                          0.040 * std::sin (2.0 * PI * (1.9 * t - 0.7 * s) + 1.0) +
+                          0.012 * std::sin (2.0 * PI * (2.7 * s + 2.3 * t) + 2.0);
+    return Eigen::Vector3d (side * s, side * t, side * height);
+  };
+  return {n, lift, [side] (double, double) { return side; }};
+}
+
+// By Archimedes, equal heights of a sphere have equal areas: height = radius * (1 - scale * s).
+Chart
+sphere (double n, bool half)
+{
+  const double scale = half ? 1.0 : 2.0;
+  const double radius = std::sqrt (n / (2.0 * PI * scale));
+  auto distance_to_axis = [radius, scale] (double s) {
+    const double z = 1.0 - scale * std::abs (s);
+    return radius * std::sqrt (std::max (0.0, 1.0 - z * z));
+  };
+  auto lift = [=] (double s, double t) {
+    const double r = distance_to_axis (s);
+    const double z = radius * std::max (-1.0, 1.0 - scale * std::abs (s));
+    return Eigen::Vector3d (r * std::cos (2.0 * PI * t), r * std::sin (2.0 * PI * t), z);
+  };
+  return {n, lift, [=] (double s, double) { return 2.0 * PI * distance_to_axis (s); }};
+}
+
+// From the tip downwards. The same height has the same area on the hemisphere and the cylinder.
+Chart
+finger (double n, double length)
+{
+  const double radius = std::sqrt (n / (2.0 * PI * (1.0 + length)));
+  auto distance_to_axis = [=] (double s) {
+    const double z = 1.0 - std::min (1.0, (1.0 + length) * std::abs (s)); // in the hemisphere
+    return radius * std::sqrt (1.0 - z * z);
+  };
+  auto lift = [=] (double s, double t) {
+    const double r = distance_to_axis (s), angle = 2.0 * PI * t;
+    return Eigen::Vector3d (r * std::cos (angle), r * std::sin (angle),
+                            radius * (length + 1.0) * (1.0 - std::abs (s)));
+  };
+  return {n, lift, [=] (double s, double) { return 2.0 * PI * distance_to_axis (s); }};
+}
+
+// A strip twice as long as wide, folded in the middle of its length around a half cylinder.
+Chart
+foldedSheet (double n, double gap)
+{
+  const double width = std::sqrt (0.5 * n), radius = 0.5 * gap;
+  const double flap = width - 0.5 * PI * radius;
+  auto lift = [=] (double s, double t) {
+    const double along = 2.0 * width * s;
+    if (along < flap)
+      return Eigen::Vector3d (along, width * t, 0.0);
+    const double angle = (along - flap) / radius;
+    if (angle < PI)
+      return Eigen::Vector3d (flap + radius * std::sin (angle), width * t,
+                              radius * (1.0 - std::cos (angle)));
+    return Eigen::Vector3d (flap - (along - flap - PI * radius), width * t, gap);
+  };
+  return {n, lift, [width] (double, double) { return width; }};
+}
+
+// Radius of the holes in units of the sheet's side, and cells in both directions.
+struct Holes
+{
+  int columns, rows;
+  double radius;
+};
+
+Holes
+holesOf (int holes)
+{
+  const int columns = static_cast<int> (std::ceil (std::sqrt (static_cast<double> (holes))));
+  const int rows = (holes + columns - 1) / columns;
+  return {columns, rows, HOLE_RADIUS / static_cast<double> (std::max (columns, rows))};
+}
+
+double
+sideOfCutOut (double n, int holes)
+{
+  const double radius = holes > 0 ? holesOf (holes).radius : 0.0;
+  return std::sqrt (n / (1.0 - holes * PI * radius * radius));
+}
+
+Chart
+cutOut (double n, int holes)
+{
+  const double side = sideOfCutOut (n, holes);
+  auto lift = [side] (double s, double t) {
+    return Eigen::Vector3d (side * s, side * t, 0.04 * side * std::sin (2.0 * PI * (s + 0.5 * t)));
+  };
+  Chart chart{side * side, lift, [side] (double, double) { return side; }};
+  if (holes > 0)
+    chart.inside = [layout = holesOf (holes), holes] (double s, double t) {
+      const int column = std::clamp (static_cast<int> (s * layout.columns), 0, layout.columns - 1);
+      const int row = std::clamp (static_cast<int> (t * layout.rows), 0, layout.rows - 1);
+      if (row * layout.columns + column >= holes)
+        return true;
+      return std::hypot (s - (column + 0.5) / layout.columns, t - (row + 0.5) / layout.rows) >
+             layout.radius;
+    };
+  return chart;
+}
+
+// s runs along the great circle; equal steps of t are equal areas around the tube, where the angle
+// v obeys v + sin (v) / TORUS_RADII = 2 pi t.
+Chart
+torus (double n)
+{
+  const double small = std::sqrt (n / (4.0 * PI * PI * TORUS_RADII));
+  auto tube_angle = [] (double t) {
+    const double target = 2.0 * PI * t;
+    double v = target;
+    for (int i = 0; i < 8; ++i) // Newton; converges from anywhere, since the slope is 0.6 to 1.4
+      v -= (v + std::sin (v) / TORUS_RADII - target) / (1.0 + std::cos (v) / TORUS_RADII);
+    return v;
+  };
+  auto lift = [=] (double s, double t) {
+    const double u = 2.0 * PI * s, v = tube_angle (t);
+    const double r = small * (TORUS_RADII + std::cos (v));
+    return Eigen::Vector3d (r * std::cos (u), r * std::sin (u), small * std::sin (v));
+  };
+  auto stretch = [=] (double, double t) {
+    return 2.0 * PI * small / (1.0 + std::cos (tube_angle (t)) / TORUS_RADII);
+  };
+  return {n, lift, stretch, nullptr, true};
+}
+
+Chart
+chartOf (const SurfaceSpec& spec)
+{
+  const double n = static_cast<double> (spec.points);
+  switch (spec.kind) {
+  case SurfaceKind::HEIGHT_FIELD:
+    return heightField (n);
+  case SurfaceKind::HEMISPHERE:
+    return sphere (n, true);
+  case SurfaceKind::FINGER:
+    return finger (n, spec.length);
+  case SurfaceKind::FOLDED_SHEET:
+    return foldedSheet (n, spec.gap);
+  case SurfaceKind::CUT_OUT:
+    return cutOut (n, spec.holes);
+  case SurfaceKind::SPHERE:
+    return sphere (n, false);
+  case SurfaceKind::TORUS:
+    return torus (n);
+  }
+  throw std::invalid_argument ("unknown kind of surface");
+}
+
+// Where along s the density falls from dense to sparse: s as a function of the share f of the
+// points before it, with its derivative.
+class Grading
+{
+public:
+  Grading (double ratio, bool there_and_back)
+      : log_ratio_ (std::log (ratio)), there_and_back_ (there_and_back)
+  {
+  }
+
+  std::pair<double, double> operator() (double f) const
+  {
+    if (!(log_ratio_ > 0.0))
+      return {f, 1.0};
+    if (!there_and_back_)
+      return oneWay (f);
+    const double turn = std::floor (f), g = 2.0 * (f - turn) - 1.0;
+    const auto [s, slope] = oneWay (std::abs (g));
+    return {turn + 0.5 + 0.5 * std::copysign (s, g), slope};
+  }
+
+private:
+  // Density proportional to exp (-log_ratio_ * s).
+  std::pair<double, double> oneWay (double f) const
+  {
+    const double share = -std::expm1 (-log_ratio_);
+    const double left = 1.0 - f * share;
+    return {-std::log (left) / log_ratio_, share / (left * log_ratio_)};
+  }
+
+  double log_ratio_;
+  bool there_and_back_;
+};
+
+// Share of the sampled points that are not in holes, by midpoints of a fine grid.
+double
+shareInside (const Chart& chart, const Grading& grading)
+{
+  if (!chart.inside)
+    return 1.0;
+  constexpr int cells = 1000;
+  int inside = 0;
+  for (int i = 0; i < cells; ++i) {
+    const double s = grading ((i + 0.5) / cells).first;
+    for (int j = 0; j < cells; ++j)
+      inside += chart.inside (s, (j + 0.5) / cells) ? 1 : 0;
+  }
+  return static_cast<double> (inside) / (static_cast<double> (cells) * cells);
+}
+
+// Evenness of the lattice (k / n, k p / n mod 1): n times the smallest product of the coordinates
+// of its vectors, which Euclid's algorithm meets. No stretching along the axes changes it. It is
+// 0.38 for the golden lattice; 0 if p and n have a common factor.
+double
+evenness (std::size_t p, std::size_t n)
+{
+  std::size_t previous = n, rest = p, previous_steps = 0, steps = 1;
+  std::size_t smallest = n;
+  while (rest > 0) {
+    smallest = std::min (smallest, steps * rest);
+    const std::size_t quotient = previous / rest;
+    previous = std::exchange (rest, previous % rest);
+    previous_steps = std::exchange (steps, previous_steps + quotient * steps);
+  }
+  return previous == 1 ? static_cast<double> (smallest) / static_cast<double> (n) : 0.0;
+}
+
+// p / n for the most even such lattice with p near the golden section of n.
+double
+ringRotation (std::size_t n)
+{
+  constexpr std::size_t candidates = 1000;
+  const std::size_t middle =
+      static_cast<std::size_t> (std::round (GOLDEN * static_cast<double> (n)));
+  std::size_t best = middle;
+  for (std::size_t p = middle - std::min (middle - 1, candidates / 2);
+       p < std::min (n, middle + candidates / 2); ++p)
+    if (evenness (p, n) > evenness (best, n))
+      best = p;
+  return static_cast<double> (best) / static_cast<double> (n);
+}
+
+} // namespace
+
+const std::vector<SurfaceKind>&
+surfaceKinds ()
+{
+  static const std::vector<SurfaceKind> kinds{SurfaceKind::HEIGHT_FIELD, SurfaceKind::HEMISPHERE,
+                                              SurfaceKind::FINGER,       SurfaceKind::FOLDED_SHEET,
+                                              SurfaceKind::CUT_OUT,      SurfaceKind::SPHERE,
+                                              SurfaceKind::TORUS};
+  return kinds;
+}
+
+const char*
+surfaceName (SurfaceKind kind)
+{
+  switch (kind) {
+  case SurfaceKind::HEIGHT_FIELD:
+    return "height-field";
+  case SurfaceKind::HEMISPHERE:
+    return "hemisphere";
+  case SurfaceKind::FINGER:
+    return "finger";
+  case SurfaceKind::FOLDED_SHEET:
+    return "folded-sheet";
+  case SurfaceKind::CUT_OUT:
+    return "cut-out";
+  case SurfaceKind::SPHERE:
+    return "sphere";
+  case SurfaceKind::TORUS:
+    return "torus";
+  }
+  return "unknown";
+}
+
+int
+boundaryLoops (const SurfaceSpec& spec)
+{
+  switch (spec.kind) {
+  case SurfaceKind::SPHERE:
+  case SurfaceKind::TORUS:
+    return 0;
+  case SurfaceKind::CUT_OUT:
+    return 1 + spec.holes;
+  default:
+    return 1;
+  }
+}
+
+int
+eulerCharacteristic (const SurfaceSpec& spec)
+{
+  const int handles = spec.kind == SurfaceKind::TORUS ? 1 : 0;
+  return 2 - 2 * handles - boundaryLoops (spec);
+}
+
+std::string
+surfaceSpecError (const SurfaceSpec& spec)
+{
+  const double n = static_cast<double> (spec.points);
+  if (spec.points < MIN_SURFACE_POINTS)
+    return "a surface needs " + std::to_string (MIN_SURFACE_POINTS) + " points or more";
+  if (!(spec.density_ratio >= 1.0 && spec.density_ratio <= MAX_DENSITY))
+    return "the density ratio must be 1 to 100";
+  if (!(spec.noise >= 0.0 && std::isfinite (spec.noise)))
+    return "the noise must be zero or positive";
+  if (spec.kind == SurfaceKind::FINGER && !(spec.length >= 0.0 && std::isfinite (spec.length)))
+    return "the length of the finger must be zero or positive";
+  if (spec.kind == SurfaceKind::FINGER && 2.0 * PI * (1.0 + spec.length) > 0.25 * n)
+    return "the finger is too long for so few points: its radius is below 2 spacings";
+  if (spec.kind == SurfaceKind::FOLDED_SHEET &&
+      !(spec.gap > 0.0 && 0.25 * PI * spec.gap < 0.9 * std::sqrt (0.5 * n)))
+    return "the gap of the folded sheet must be positive and narrow enough to leave flaps";
+  if (spec.kind == SurfaceKind::CUT_OUT && !(spec.holes >= 0 && spec.holes <= 10000))
+    return "the cut-out sheet can have 0 to 10000 holes";
+  if (spec.kind == SurfaceKind::CUT_OUT && spec.holes > 0 &&
+      holesOf (spec.holes).radius * sideOfCutOut (n, spec.holes) < MIN_HOLE)
+    return "the holes are too many for so few points: their radius is below 4 spacings";
+  return {};
+}
+
+// Samples are the golden lattice (k / n, k * golden ratio mod 1): stretched along its axes by any
+// factors it stays even, so it stays even on the surface too, with any grading along s. On a ring
+// the rotation is rounded to a multiple of 1 / n, so that the end meets the beginning.
+std::vector<Eigen::Vector3d>
+generateSurface (const SurfaceSpec& spec)
+{
+  if (const std::string error = surfaceSpecError (spec); !error.empty ())
+    throw std::invalid_argument (error);
+  const Chart chart = chartOf (spec);
+  const Grading grading (spec.density_ratio, chart.ring);
+  const double lattice = static_cast<double> (spec.points) / shareInside (chart, grading);
+  const double rotation = chart.ring ? ringRotation (spec.points) : GOLDEN;
+  const double jitter = chart.ring ? RING_JITTER : JITTER;
+
+  RandomStream random (spec.seed);
+  std::vector<Eigen::Vector3d> points;
+  points.reserve (spec.points);
+  for (double k = 0.5; points.size () < spec.points; k += 1.0) { // holes: as far as is needed
+    double f = k / lattice, t = std::fmod (k * rotation, 1.0);
+    const auto [s, slope] = grading (f);
+    const double along_t = chart.stretch (s, t), along_f = chart.area * slope / along_t;
+    const double spacing = std::sqrt (slope * chart.area / lattice);
+    const double reach = jitter * spacing * std::sqrt (random.uniform ());
+    const double direction = 2.0 * PI * random.uniform ();
+    f += reach * std::cos (direction) / along_f;
+    t += reach * std::sin (direction) / along_t;
+    const double moved_s = grading (f).first;
+    if (!chart.inside || chart.inside (moved_s, t))
+      points.push_back (chart.lift (moved_s, t));
+  }
+
+  if (spec.noise > 0.0)
+    for (Eigen::Vector3d& p : points)
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] += spec.noise * random.normal ();
+  for (std::size_t i = points.size (); i > 1; --i)
+    std::swap (points[i - 1], points[random.below (i)]);
+  return points;
+}
+
+} // namespace floater
+} // namespace pcl
