@@ -11,21 +11,28 @@ namespace pcl
 {
 namespace floater
 {
+/// Links given to a point that does not reach the loop, at most. With one alone a lone point would
+/// fall on the point that it is linked to.
+constexpr std::size_t LINKS_PER_POINT = 3;
+
 /// Points from which the loop can be reached along directed neighbours.
 struct Reachability
 {
   std::vector<std::uint8_t> reachable; ///< per point; 1 for points of the loop
-  std::vector<std::array<Index, 2>> links; ///< (point, neighbour) to add so that `reachable` holds
+  std::vector<std::array<Index, 2>>
+      links;                     ///< (point, neighbour) to add so that `reachable` holds; ascending
+  std::size_t linked_points = 0; ///< distinct points in links
 };
 
-/// Reverse breadth-first search from the loop over `neighbors`; then points not reached are linked
-/// to a reached point, over `near` read in both directions, nearest first, and so on until nothing
-/// more can be reached. What stays unreachable is another component. O(entries).
-/// \param neighbors directed rows of the system
-/// \param near      the unfiltered nearest neighbours
+/// Reverse breadth-first search from the loop over `neighbors`. Then, in rounds until nothing more
+/// can be reached: every point not reached that is near reached ones (`near` read in both
+/// directions) is linked to the LINKS_PER_POINT nearest of them, and the search goes on from it.
+/// All of an island's rim is linked in one round, because an island with a single link would shrink
+/// to a point. What stays unreachable is another component. O(entries). \param neighbors directed
+/// rows of the system \param near      the unfiltered nearest neighbours
 Reachability
-reachLoop (const FlatLists& neighbors, const FlatLists& near, const std::vector<Eigen::Vector3d>& positions,
-           const std::vector<Index>& loop);
+reachLoop (const FlatLists& neighbors, const FlatLists& near,
+           const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop);
 
 } // namespace floater
 } // namespace pcl

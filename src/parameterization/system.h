@@ -27,15 +27,18 @@ struct LinearSystem
 };
 
 /// Assembles the system. A row's diagonal is the sum of its weights with those of loop points
-/// included, so that row sums are exact and the solution is as good as the solver.
-/// \param neighbors    rows of points; a neighbour that is neither unknown nor on the loop is left out
+/// included, so that row sums are exact and the solution is as good as the solver. O(entries); the
+/// same for every number of threads.
+/// \param neighbors    rows of points, distinct in each row and without the row's own point; a
+///                     neighbour that is neither unknown nor on the loop is left out
 /// \param weights      parallel to neighbors.ids, positive
 /// \param loop         points of the loop in order
 /// \param loop_uv      their parameters
 /// \param reachable    per point, 1 if it takes part (see reachability.h)
 LinearSystem
-assembleSystem (const FlatLists& neighbors, const std::vector<double>& weights, const std::vector<Index>& loop,
-                const std::vector<Eigen::Vector2d>& loop_uv, const std::vector<std::uint8_t>& reachable);
+assembleSystem (const FlatLists& neighbors, const std::vector<double>& weights,
+                const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
+                const std::vector<std::uint8_t>& reachable, int threads = 1);
 
 } // namespace floater
 } // namespace pcl

@@ -24,19 +24,25 @@ struct Solution
     FAILED
   };
   Outcome outcome = Outcome::FAILED;
-  std::string message;              ///< why, unless OK
-  std::vector<Eigen::Vector2d> uv;  ///< per unknown
-  std::size_t nnz_factors = 0;      ///< nnz (L + U), unit diagonal of L not counted twice
-  double residual = 0.0;            ///< max |b - A u|
-  double reciprocal_condition = 0.0;
-  std::size_t peak_bytes = 0; ///< of symbolic and numeric factorization, as used
+  std::string message;               ///< why, unless OK
+  std::vector<Eigen::Vector2d> uv;   ///< per unknown; empty unless OK
+  std::size_t nnz_factors = 0;       ///< nnz (L + U), unit diagonal of L not counted twice
+  double residual = 0.0;             ///< max |b - A u|
+  double reciprocal_condition = 0.0; ///< min |U_kk| / max |U_kk|; 1 for an empty system
+  std::size_t peak_bytes = 0;        ///< of symbolic and numeric factorization, as used
 };
+
+/// Reciprocal condition below which a system counts as singular: an island of unknowns leaves a
+/// pivot of rounding errors, which is seldom exactly 0.
+constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-14;
 
 /// One factorization, two right-hand sides. UMFPACK takes columns, so the rows are passed as the
 /// transpose and solved with UMFPACK_At. Symmetric strategy, no scaling, no refinement, one BLAS
-/// thread (restored afterwards); 64-bit indices from a million unknowns.
+/// thread (of OpenBLAS; restored afterwards); 64-bit indices from a million unknowns. An empty
+/// system is OK. May throw std::bad_alloc; UMFPACK's own failures are outcomes. \param threads 2 or
+/// more: the two right-hand sides are solved at the same time; same result
 Solution
-solveWithUmfpack (const LinearSystem& system, Ordering ordering);
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads = 1);
 
 } // namespace floater
 } // namespace pcl

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solvers/umfpack_solver.h"
+
+#include "common/parallel.h"
+#include "solvers/single_blas_thread.h"
+
+#include <umfpack.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <system_error>
+#include <thread>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// AMD is faster below, METIS needs less memory everywhere and is faster above.
+constexpr std::size_t METIS_UNKNOWNS = 500000;
+// UMFPACK addresses its memory by its own integers.
+constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
+
+// UMFPACK's two integer types.
+struct IntInterface
+{
+  using Int = int;
+  static constexpr auto defaults = &umfpack_di_defaults;
+  static constexpr auto symbolic = &umfpack_di_symbolic;
+  static constexpr auto numeric = &umfpack_di_numeric;
+  static constexpr auto solve = &umfpack_di_solve;
+  static constexpr auto freeSymbolic = &umfpack_di_free_symbolic;
+  static constexpr auto freeNumeric = &umfpack_di_free_numeric;
+};
+
+struct LongInterface
+{
+  using Int = SuiteSparse_long;
+  static constexpr auto defaults = &umfpack_dl_defaults;
+  static constexpr auto symbolic = &umfpack_dl_symbolic;
+  static constexpr auto numeric = &umfpack_dl_numeric;
+  static constexpr auto solve = &umfpack_dl_solve;
+  static constexpr auto freeSymbolic = &umfpack_dl_free_symbolic;
+  static constexpr auto freeNumeric = &umfpack_dl_free_numeric;
+};
+
+// UMFPACK's handles are freed through a pointer to them.
+template <void (*release) (void**)>
+struct Release
+{
+  void operator() (void* handle) const { release (&handle); }
+};
+template <void (*release) (void**)>
+using Handle = std::unique_ptr<void, Release<release>>;
+
+// Records why a call did not end well.
+// \return true if it did
+bool
+accept (double status, const char* call, Solution& solution)
+{
+  if (status == UMFPACK_OK)
+    return true;
+  const int code = static_cast<int> (status);
+  solution.message = std::string (call) + ": UMFPACK status " + std::to_string (code);
+  if (code == UMFPACK_WARNING_singular_matrix)
+    solution.outcome = Solution::Outcome::SINGULAR;
+  else if (code == UMFPACK_ERROR_out_of_memory)
+    solution.outcome = Solution::Outcome::OUT_OF_MEMORY;
+  else
+    solution.outcome = Solution::Outcome::FAILED;
+  return false;
+}
+
+// The matrix with another type of index, or as it is.
+template <typename Int>
+struct Pattern
+{
+  explicit Pattern (const LinearSystem& system)
+      : offsets (system.row_offsets.begin (), system.row_offsets.end ()),
+        columns (system.columns.begin (), system.columns.end ())
+  {
+  }
+  std::vector<Int> offsets, columns;
+};
+template <>
+struct Pattern<int>
+{
+  explicit Pattern (const LinearSystem& system)
+      : offsets (system.row_offsets), columns (system.columns)
+  {
+  }
+  const std::vector<int>&offsets, &columns;
+};
+
+// Calls body (0) and body (1), which must not throw; at the same time where threads allow.
+template <typename Body>
+void
+bothSides (int threads, const Body& body)
+{
+  std::thread helper;
+  if (resolveThreads (threads) > 1) {
+    try {
+      helper = std::thread (body, 1);
+    }
+    catch (const std::system_error&) {
+      // No thread to be had: one after the other.
+    }
+  }
+  body (0);
+  if (helper.joinable ())
+    helper.join ();
+  else
+    body (1);
+}
+
+template <typename Interface>
+Solution
+solve (const LinearSystem& system, Ordering ordering, int threads)
+{
+  using Int = typename Interface::Int;
+  Solution solution;
+  std::array<double, UMFPACK_CONTROL> control{};
+  std::array<double, UMFPACK_INFO> info{};
+  Interface::defaults (control.data ());
+  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
+  control[UMFPACK_IRSTEP] = 0;
+  control[UMFPACK_ORDERING] =
+      ordering == Ordering::METIS ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
+
+  const auto n = static_cast<Int> (system.unknowns ());
+  Handle<Interface::freeNumeric> numeric;
+  {
+    // The pattern and the symbolic analysis are not needed after the factorization.
+    const Pattern<Int> pattern (system);
+    void* handle = nullptr;
+    Interface::symbolic (n, n, pattern.offsets.data (), pattern.columns.data (),
+                         system.values.data (), &handle, control.data (), info.data ());
+    const Handle<Interface::freeSymbolic> symbolic (handle);
+    if (!accept (info[UMFPACK_STATUS], "symbolic analysis", solution))
+      return solution;
+    handle = nullptr;
+    Interface::numeric (pattern.offsets.data (), pattern.columns.data (), system.values.data (),
+                        symbolic.get (), &handle, control.data (), info.data ());
+    numeric.reset (handle);
+  }
+  // Figures that UMFPACK did not get to are -1.
+  const auto figure = [&] (int entry) { return std::max (0.0, info[entry]); };
+  solution.peak_bytes =
+      static_cast<std::size_t> (figure (UMFPACK_PEAK_MEMORY) * figure (UMFPACK_SIZE_OF_UNIT));
+  solution.reciprocal_condition = figure (UMFPACK_RCOND);
+  if (!accept (info[UMFPACK_STATUS], "factorization", solution))
+    return solution;
+  solution.nnz_factors =
+      static_cast<std::size_t> (info[UMFPACK_LNZ] + info[UMFPACK_UNZ]) - system.unknowns ();
+  if (!(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
+    solution.outcome = Solution::Outcome::SINGULAR;
+    solution.message = "factorization: a pivot is nothing but rounding errors";
+    return solution;
+  }
+
+  // The factors are only read, so both right-hand sides can go at once. Without refinement the
+  // matrix is not needed.
+  const std::array<const std::vector<double>*, 2> rhs{&system.rhs_u, &system.rhs_v};
+  std::array<std::vector<double>, 2> unknowns;
+  for (auto& one : unknowns)
+    one.resize (system.unknowns ());
+  std::array<double, 2> status{};
+  bothSides (threads, [&] (std::size_t side) {
+    std::array<double, UMFPACK_INFO> solve_info{};
+    Interface::solve (UMFPACK_At, nullptr, nullptr, nullptr, unknowns[side].data (),
+                      rhs[side]->data (), numeric.get (), control.data (), solve_info.data ());
+    status[side] = solve_info[UMFPACK_STATUS];
+  });
+  numeric.reset ();
+  for (const double one : status)
+    if (!accept (one, "solution", solution))
+      return solution;
+
+  solution.uv.resize (system.unknowns ());
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    solution.uv[i] = {unknowns[0][i], unknowns[1][i]};
+  solution.outcome = Solution::Outcome::OK;
+  return solution;
+}
+
+double
+largestResidual (const LinearSystem& system, const std::vector<Eigen::Vector2d>& uv)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < system.unknowns (); ++i) {
+    Eigen::Vector2d rest (system.rhs_u[i], system.rhs_v[i]);
+    const auto last = static_cast<std::size_t> (system.row_offsets[i + 1]);
+    for (auto entry = static_cast<std::size_t> (system.row_offsets[i]); entry < last; ++entry)
+      rest -= system.values[entry] * uv[static_cast<std::size_t> (system.columns[entry])];
+    const double of_row = rest.cwiseAbs ().maxCoeff<Eigen::PropagateNaN> ();
+    if (!std::isfinite (of_row))
+      return of_row;
+    largest = std::max (largest, of_row);
+  }
+  return largest;
+}
+
+} // namespace
+
+Solution
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads)
+{
+  Solution solution;
+  if (system.unknowns () == 0) {
+    solution.outcome = Solution::Outcome::OK;
+    solution.reciprocal_condition = 1.0;
+    return solution;
+  }
+  if (ordering == Ordering::AUTOMATIC)
+    ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
+  const SingleBlasThread single_blas_thread;
+  if (system.unknowns () < LONG_INDEX_UNKNOWNS)
+    solution = solve<IntInterface> (system, ordering, threads);
+  // Running out of 32-bit indices is reported as running out of memory.
+  if (system.unknowns () >= LONG_INDEX_UNKNOWNS ||
+      solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
+    solution = solve<LongInterface> (system, ordering, threads);
+  if (solution.outcome != Solution::Outcome::OK)
+    return solution;
+  solution.residual = largestResidual (system, solution.uv);
+  if (!std::isfinite (solution.residual)) {
+    solution.outcome = Solution::Outcome::FAILED;
+    solution.message = "the solution is not finite";
+    solution.uv.clear ();
+  }
+  return solution;
+}
+
+} // namespace floater
+} // namespace pcl
