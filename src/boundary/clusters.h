@@ -10,17 +10,19 @@ namespace pcl
 {
 namespace floater
 {
-/// Points whose empty sector is wider than `opening_angle` (radians; TW 385, section 3.1), ascending.
+/// Points whose empty sector is wider than `opening_angle` (radians; TW 385, section 3.1),
+/// ascending.
 std::vector<Index>
 openingAnglePoints (const Stars& stars, double opening_angle);
 
 /// Region growing from the densest unprocessed point; clusters are disjoint, largest first, ties by
-/// smallest point; points ascending in each.
+/// smallest point; points ascending in each. O(n log n) for points along curves.
+/// \param boundary_points ascending
 /// \param tolerance growing distance and density radius, in the unit of the positions (xi D)
 /// \param k         nearest boundary points appended at each step
 std::vector<std::vector<Index>>
-clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& boundary_points,
-                       double tolerance, int k);
+clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
+                       const std::vector<Index>& boundary_points, double tolerance, int k);
 
 } // namespace floater
 } // namespace pcl

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boundary/two_segment_loop.h"
 
-#include "neighborhoods/kd_tree.h"
+#include "boundary/neighbor_graph.h"
 
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -29,124 +28,6 @@ constexpr Index LARGEST_K = 16;
 /// Neighbours of a point in the univariate parameterization: the shortest order of these is taken.
 constexpr std::array<Index, 3> UNIVARIATE_K = {3, 4, 5};
 
-/// Two neighbours. rank: 0 if one is the nearest point of the other, 1 if the second nearest, ...
-struct Edge
-{
-  Index a, b; ///< a < b
-  Index rank;
-  double length;
-};
-
-/// Disjoint sets of points.
-class Components
-{
-public:
-  explicit Components (std::size_t size) : parent_ (size)
-  {
-    std::iota (parent_.begin (), parent_.end (), Index{0});
-  }
-
-  Index find (Index p)
-  {
-    while (parent_[p] != p)
-      p = parent_[p] = parent_[parent_[p]];
-    return p;
-  }
-
-  /// \return false if they were in the same set
-  bool join (Index p, Index q)
-  {
-    p = find (p);
-    q = find (q);
-    parent_[std::max (p, q)] = std::min (p, q);
-    return p != q;
-  }
-
-private:
-  std::vector<Index> parent_;
-};
-
-/// Shortest edge from each component to another, at its smallest point; NONE if there is only one.
-///
-/// Labels of different components differ in a bit: the nearest point of another component is found
-/// among trees of all points that differ in one bit, without a tree for each component.
-std::vector<Edge>
-shortestBridges (const Positions& points, const std::vector<Index>& labels, Index components)
-{
-  const auto less = [] (const Edge& e, const Edge& f) {
-    return std::tie (e.length, e.a, e.b) < std::tie (f.length, f.a, f.b);
-  };
-  const double infinity = std::numeric_limits<double>::infinity ();
-  std::vector<Edge> shortest (components, Edge{NONE, NONE, LARGEST_K, infinity});
-  std::vector<Neighbor> nearest;
-  for (Index bit = 1; bit < components; bit *= 2)
-    for (const Index side : {Index{0}, bit}) {
-      std::vector<Index> ids;
-      Positions others;
-      for (Index p = 0; p < points.size (); ++p)
-        if ((labels[p] & bit) == side) {
-          ids.push_back (p);
-          others.push_back (points[p]);
-        }
-      const KdTree tree (others);
-      for (Index p = 0; p < points.size (); ++p)
-        if ((labels[p] & bit) != side) {
-          tree.nearest (points[p], 1, nearest);
-          if (nearest.empty ())
-            continue;
-          const Index q = ids[nearest[0].point];
-          const Edge edge{std::min (p, q), std::max (p, q), LARGEST_K,
-                          std::sqrt (nearest[0].sqr_distance)};
-          Edge& best = shortest[labels[p]];
-          if (less (edge, best))
-            best = edge;
-        }
-    }
-  return shortest;
-}
-
-/// Graph of the k nearest neighbours, symmetric and connected: gaps that no neighbourhood spans are
-/// bridged where they are narrowest (Boruvka's algorithm), with rank LARGEST_K. Sorted by (a, b).
-std::vector<Edge>
-neighborGraph (const Positions& points, Index k)
-{
-  const KdTree tree (points);
-  std::vector<Edge> edges;
-  std::vector<Neighbor> nearest;
-  for (Index p = 0; p < points.size (); ++p) {
-    tree.nearest (points[p], std::size_t{k} + 1, nearest);
-    Index rank = 0;
-    for (const Neighbor& neighbor : nearest)
-      if (neighbor.point != p && rank < k)
-        edges.push_back ({std::min (p, neighbor.point), std::max (p, neighbor.point), rank++,
-                          std::sqrt (neighbor.sqr_distance)});
-  }
-
-  Components sets (points.size ());
-  for (const Edge& edge : edges)
-    sets.join (edge.a, edge.b);
-  while (true) {
-    std::vector<Index> labels (points.size ());
-    Index components = 0;
-    for (Index p = 0; p < points.size (); ++p) {
-      const Index root = sets.find (p); // the smallest point of its set
-      labels[p] = root == p ? components++ : labels[root];
-    }
-    if (components < 2)
-      break;
-    for (const Edge& bridge : shortestBridges (points, labels, components))
-      if (sets.join (bridge.a, bridge.b))
-        edges.push_back (bridge);
-  }
-
-  std::sort (edges.begin (), edges.end (), [] (const Edge& e, const Edge& f) {
-    return std::tie (e.a, e.b, e.rank) < std::tie (f.a, f.b, f.rank);
-  });
-  const auto same = [] (const Edge& e, const Edge& f) { return e.a == f.a && e.b == f.b; };
-  edges.erase (std::unique (edges.begin (), edges.end (), same), edges.end ());
-  return edges;
-}
-
 /// Appends points to a segment that begins with `seed` until it has `size` points.
 ///
 /// k is a property of the moment: neighbours up to the third come first, and a farther one is taken
@@ -156,15 +37,15 @@ neighborGraph (const Positions& points, Index k)
 std::vector<Index>
 growSegment (const Positions& points, Index seed, std::size_t size)
 {
-  std::vector<Edge> edges = neighborGraph (points, LARGEST_K);
+  std::vector<NeighborEdge> edges = neighborGraph (points, LARGEST_K);
   const std::size_t half = edges.size ();
   for (std::size_t e = 0; e < half; ++e)
     edges.push_back ({edges[e].b, edges[e].a, edges[e].rank, edges[e].length});
-  std::sort (edges.begin (), edges.end (), [] (const Edge& e, const Edge& f) {
+  std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
     return std::tie (e.a, e.b) < std::tie (f.a, f.b);
   });
   std::vector<std::size_t> offsets (points.size () + 1, 0);
-  for (const Edge& edge : edges)
+  for (const NeighborEdge& edge : edges)
     ++offsets[edge.a + 1];
   std::partial_sum (offsets.begin (), offsets.end (), offsets.begin ());
 
@@ -190,15 +71,15 @@ growSegment (const Positions& points, Index seed, std::size_t size)
 }
 
 /// Univariate Floater parameterization: t = 0 at the first point, t = 1 at the last one, every
-/// other point a convex combination of its k neighbours with weights proportional to 1 / distance.
+/// other point a convex combination of its neighbours with weights proportional to 1 / distance.
 /// Each row is multiplied by its sum of 1 / distance: the matrix is then symmetric, and positive
-/// definite as the graph is connected. \return rows of `points` ascending in t; empty if the system
-/// is singular
+/// definite as the graph is connected.
+/// \return points ascending in t; empty if two points coincide or the system is singular
 std::vector<Index>
-univariateOrder (const Positions& points, Index k)
+univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
 {
-  const Index last = static_cast<Index> (points.size ()) - 1;
-  const Eigen::Index unknowns = static_cast<Eigen::Index> (points.size ()) - 2;
+  const Index last = size - 1;
+  const Eigen::Index unknowns = static_cast<Eigen::Index> (size) - 2;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero (unknowns);
   const auto combine = [&] (Index p, Index q, double weight) {
@@ -210,7 +91,9 @@ univariateOrder (const Positions& points, Index k)
     else if (q != 0)
       entries.emplace_back (p - 1, q - 1, -weight);
   };
-  for (const Edge& edge : neighborGraph (points, k)) {
+  for (const NeighborEdge& edge : graph) {
+    if (!(edge.length > 0.0))
+      return {};
     combine (edge.a, edge.b, 1.0 / edge.length);
     combine (edge.b, edge.a, 1.0 / edge.length);
   }
@@ -223,7 +106,7 @@ univariateOrder (const Positions& points, Index k)
   if (!t.allFinite ())
     return {};
 
-  std::vector<Index> order (points.size ());
+  std::vector<Index> order (size);
   std::iota (order.begin (), order.end (), Index{0});
   std::stable_sort (order.begin () + 1, order.end () - 1,
                     [&t] (Index p, Index q) { return t[p - 1] < t[q - 1]; });
@@ -240,10 +123,12 @@ orderSegment (const Positions& positions, const std::vector<Index>& segment)
   points.reserve (segment.size ());
   for (const Index p : segment)
     points.push_back (positions[p]);
+  const std::vector<NeighborEdge> graph = neighborGraph (points, LARGEST_K);
+  const Index size = static_cast<Index> (points.size ());
   std::vector<Index> shortest;
   double shortest_length = std::numeric_limits<double>::infinity ();
   for (const Index k : UNIVARIATE_K) {
-    std::vector<Index> order = univariateOrder (points, k);
+    std::vector<Index> order = univariateOrder (nearestPart (graph, size, k), size);
     if (order.empty ())
       return {};
     double length = 0.0;
