@@ -249,7 +249,7 @@ TEST (TwoSegmentLoop, DoesNotChangeUnderMotionAndScaling)
   }
 }
 
-// A border as long as that of a cloud of a hundred million points.
+// A square cloud of 25 million points has a border as long as this one.
 TEST (TwoSegmentLoop, LongBorder)
 {
   const Positions border = sample (star, 20000, 0.3);
