@@ -90,14 +90,14 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
     return result;
   }
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, options.domain, options.polygon_sides);
-  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable);
+  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable, options.threads);
   neighbors = {};
   std::vector<double> ().swap (weights);
   statistics.unknowns = system.unknowns ();
   statistics.nnz_matrix = system.nonzeros ();
 
   clock.start (Stage::SOLVE);
-  const Solution solution = solveWithUmfpack (system, options.ordering);
+  const Solution solution = solveWithUmfpack (system, options.ordering, options.threads);
   statistics.nnz_factors = solution.nnz_factors;
   statistics.fill_in = system.nonzeros () == 0
                            ? 0.0

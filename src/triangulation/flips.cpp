@@ -20,9 +20,14 @@ constexpr double IMPROVES = 1e-9; // relative gain below which the diagonals of 
 class Flipper
 {
 public:
-  Flipper (SurfaceMesh& mesh, const TriangleCost& cost) : mesh_ (mesh), cost_ (cost) {}
-
-  void push (MeshEdge e) { stack_.push_back (e); }
+  Flipper (SurfaceMesh& mesh, const TriangleCost& cost, const std::function<bool (Index, Index)>& allowed)
+  : mesh_ (mesh), cost_ (cost), allowed_ (allowed)
+  {
+    for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
+          stack_.push_back ({t, side});
+  }
 
   std::size_t
   run ()
@@ -54,11 +59,12 @@ private:
     const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
     const double now = cost_ (c, a, b) + cost_ (d, b, a);
     const double then = cost_ (c, a, d) + cost_ (d, b, c);
-    return then < now - IMPROVES * std::abs (now) && !mesh_.hasEdge (c, d);
+    return then < now - IMPROVES * std::abs (now) && !mesh_.hasEdge (c, d) && (!allowed_ || allowed_ (c, d));
   }
 
   SurfaceMesh& mesh_;
   const TriangleCost& cost_;
+  const std::function<bool (Index, Index)>& allowed_;
   std::vector<MeshEdge> stack_;
 };
 
@@ -98,25 +104,15 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 }
 
 std::size_t
-flipEdges (SurfaceMesh& mesh, const TriangleCost& cost, const std::vector<Index>& triangles)
+flipEdges (SurfaceMesh& mesh, const TriangleCost& cost)
 {
-  Flipper flipper (mesh, cost);
-  for (Index t : triangles)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] != NONE)
-        flipper.push ({t, side});
-  return flipper.run ();
+  return Flipper (mesh, cost, {}).run ();
 }
 
 std::size_t
-flipEdges (SurfaceMesh& mesh, const TriangleCost& cost)
+flipEdges (SurfaceMesh& mesh, const TriangleCost& cost, const std::function<bool (Index, Index)>& allowed)
 {
-  Flipper flipper (mesh, cost);
-  for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
-        flipper.push ({t, side});
-  return flipper.run ();
+  return Flipper (mesh, cost, allowed).run ();
 }
 
 } // namespace floater

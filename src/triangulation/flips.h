@@ -4,6 +4,7 @@
 
 #include "triangulation/surface_mesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace pcl
@@ -45,9 +46,10 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 std::size_t
 flipEdges (SurfaceMesh& mesh, const TriangleCost& cost);
 
-/// The same, starting from the edges of some triangles only.
+/// The same for a patch of a larger mesh: `allowed (p, q)` tells whether points p and q, not joined in
+/// the patch, may become neighbours.
 std::size_t
-flipEdges (SurfaceMesh& mesh, const TriangleCost& cost, const std::vector<Index>& triangles);
+flipEdges (SurfaceMesh& mesh, const TriangleCost& cost, const std::function<bool (Index, Index)>& allowed);
 
 } // namespace floater
 } // namespace pcl

@@ -18,9 +18,5 @@ void
 finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
                std::vector<Eigen::Vector3f>& normals, const Options& options, Statistics& statistics);
 
-/// Edges whose two triangles are more than 120 degrees apart.
-std::vector<MeshEdge>
-findFolds (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions);
-
 } // namespace floater
 } // namespace pcl

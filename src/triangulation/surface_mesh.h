@@ -46,7 +46,7 @@ struct SurfaceMesh
     const Index other = neighbors[e.triangle][e.side];
     if (other == NONE)
       return {NONE, 0};
-    return {other, previous (sideOf (other, from (e)))};
+    return {other, next (sideOf (other, from (e)))};
   }
 
   /// Triangles around p, anti-clockwise; at the boundary from one boundary edge to the other.
