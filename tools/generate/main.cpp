@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pcl_floater_generate: writes points on a known surface, as a sample cloud.
+#include "atomic_file.h"
+#include "surfaces.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace
+{
+using pcl::floater::SurfaceKind;
+
+constexpr std::size_t MOST_POINTS = 1000000000;
+
+enum ExitCode : int
+{
+  DONE = 0,
+  USAGE = 1,
+  CANNOT_WRITE = 4
+};
+
+int
+fail (ExitCode code, const std::string& message)
+{
+  std::cerr << "pcl_floater_generate: " << message << "\n";
+  return code;
+}
+
+std::string
+pcdHeader (std::size_t points)
+{
+  const std::string count = std::to_string (points);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
+         "TYPE F F F\nCOUNT 1 1 1\nWIDTH " +
+         count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
+}
+
+std::string
+plyHeader (std::size_t points)
+{
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string (points) +
+         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+}
+
+std::vector<std::array<float, 3>>
+toFloats (const std::vector<Eigen::Vector3d>& points)
+{
+  std::vector<std::array<float, 3>> floats (points.size ());
+  std::transform (points.begin (), points.end (), floats.begin (), [] (const Eigen::Vector3d& p) {
+    const Eigen::Vector3f q = p.cast<float> ();
+    return std::array<float, 3>{q.x (), q.y (), q.z ()};
+  });
+  return floats;
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  CLI::App app{
+      "Writes points on a known surface, in random order, as a sample cloud (.pcd or .ply, "
+      "binary).\n"
+      "The unit of length is the mean spacing of the points: one point per unit of area.\n"
+      "Exit codes: 0 done, 1 wrong usage, 4 cannot write."};
+  std::string name, path;
+  pcl::floater::SurfaceSpec spec;
+  std::vector<std::string> names;
+  for (const SurfaceKind kind : pcl::floater::surfaceKinds ())
+    names.emplace_back (pcl::floater::surfaceName (kind));
+  app.add_option ("surface", name, "kind of surface")->required ()->check (CLI::IsMember (names));
+  app.add_option ("output", path, "file to write, .pcd or .ply")->required ();
+  app.add_option ("--points", spec.points, "how many points")
+      ->capture_default_str ()
+      ->check (CLI::Range (pcl::floater::MIN_SURFACE_POINTS, MOST_POINTS));
+  app.add_option ("--seed", spec.seed, "seed of all randomness")
+      ->capture_default_str ()
+      ->check (CLI::NonNegativeNumber);
+  app.add_option (
+         "--density-ratio", spec.density_ratio,
+         "points per area where the surface is densest over where it is sparsest, 1 to 100")
+      ->capture_default_str ();
+  app.add_option ("--noise", spec.noise, "standard deviation of each coordinate, in mean spacings")
+      ->capture_default_str ();
+  app.add_option ("--length", spec.length, "finger: length of the cylinder over its radius")
+      ->capture_default_str ();
+  app.add_option ("--gap", spec.gap, "folded-sheet: distance of its halves, in mean spacings")
+      ->capture_default_str ();
+  app.add_option ("--holes", spec.holes, "cut-out: how many holes")->capture_default_str ();
+  try {
+    app.parse (argc, argv);
+  }
+  catch (const CLI::ParseError& error) {
+    return app.exit (error) == 0 ? DONE : USAGE;
+  }
+
+  const std::string extension = std::filesystem::path (path).extension ().string ();
+  if (extension != ".pcd" && extension != ".ply")
+    return fail (USAGE, "'" + path + "' must end in .pcd or .ply");
+  for (const SurfaceKind kind : pcl::floater::surfaceKinds ())
+    if (name == pcl::floater::surfaceName (kind))
+      spec.kind = kind;
+  if (const std::string error = pcl::floater::surfaceSpecError (spec); !error.empty ())
+    return fail (USAGE, error);
+
+  try {
+    pcl::floater::requireWritable (path);
+    pcl::floater::handleSignals ();
+    const auto points = toFloats (pcl::floater::generateSurface (spec));
+    pcl::floater::AtomicFile file (path);
+    file.write (extension == ".pcd" ? pcdHeader (points.size ()) : plyHeader (points.size ()));
+    file.write (points.data (), points.size () * sizeof (points[0]));
+    file.close ();
+    file.publish ();
+  }
+  catch (const pcl::floater::WriteError& error) {
+    return fail (CANNOT_WRITE, error.what ());
+  }
+  catch (const std::bad_alloc&) {
+    return fail (CANNOT_WRITE, "not enough memory for so many points");
+  }
+  return DONE;
+}

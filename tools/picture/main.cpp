@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pcl_floater_picture: draws a mesh and its parameterization into a PNG file.
+#include "atomic_file.h"
+#include "mesh_picture.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+enum ExitCode : int
+{
+  DONE = 0,
+  USAGE = 1,
+  CANNOT_READ = 2,
+  CANNOT_DRAW = 3,
+  CANNOT_WRITE = 4
+};
+
+int
+fail (ExitCode code, const std::string& message)
+{
+  std::cerr << "pcl_floater_picture: " << message << "\n";
+  return code;
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  CLI::App app{"Draws a triangle mesh, and beside it its parameterization, into a PNG file.\n"
+               "Front sides are blue, back sides orange, boundary edges red.\n"
+               "Exit codes: 0 done, 1 wrong usage, 2 cannot read, 3 cannot draw, 4 cannot write."};
+  std::vector<std::string> files;
+  int height = 700;
+  app.add_option ("files", files, "MESH [PARAMETERIZATION] OUT.png; meshes as .vtk or .ply")
+      ->required ()
+      ->expected (2, 3);
+  app.add_option ("--height", height, "height of the picture in pixels")
+      ->capture_default_str ()
+      ->check (CLI::Range (16, 4000));
+  try {
+    app.parse (argc, argv);
+  }
+  catch (const CLI::ParseError& error) {
+    return app.exit (error) == 0 ? DONE : USAGE;
+  }
+
+  pcl::floater::handleSignals ();
+  vtkSmartPointer<vtkPolyData> mesh, parameterization;
+  try {
+    mesh = pcl::floater::readMesh (files[0]);
+    if (files.size () == 3)
+      parameterization = pcl::floater::readMesh (files[1]);
+  }
+  catch (const std::exception& error) {
+    return fail (CANNOT_READ, error.what ());
+  }
+  if (!pcl::floater::displayAvailable ())
+    return fail (CANNOT_DRAW,
+                 "there is no X display to draw on; try: xvfb-run -a pcl_floater_picture ...");
+  std::vector<unsigned char> png;
+  try {
+    png = pcl::floater::drawMesh (mesh, parameterization, height);
+  }
+  catch (const std::exception& error) {
+    return fail (CANNOT_DRAW, error.what ());
+  }
+  try {
+    pcl::floater::AtomicFile file (files.back ());
+    file.write (png.data (), png.size ());
+    file.close ();
+    file.publish ();
+  }
+  catch (const pcl::floater::WriteError& error) {
+    return fail (CANNOT_WRITE, error.what ());
+  }
+  return DONE;
+}

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_picture.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkFeatureEdges.h>
+#include <vtkIdList.h>
+#include <vtkImageShrink3D.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPLYReader.h>
+#include <vtkPNGWriter.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkPolyDataReader.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <X11/Xlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr int SUPERSAMPLING = 2;              // pixels drawn per pixel of the picture, each way
+constexpr vtkIdType MOST_DRAWN_EDGES = 15000; // polygons of a shaded mesh up to which edges show
+constexpr double MARGIN = 1.06;               // side of the picture over that of what it shows
+constexpr double DEGREE = 3.14159265358979323846 / 180.0;
+constexpr double CLOSED = 1e-3; // length of the mean normal below which a mesh is as good as closed
+constexpr double ONE_SIDED = 0.55;      // length of the mean normal from which a mesh faces one way
+constexpr double SHEET = 0.8;           // the same from which it is a sheet
+constexpr double NEARLY_PARALLEL = 0.8; // cosine
+constexpr double TIP_BACK = 50.0, FROM_ABOVE = 15.0, TURN = 20.0; // degrees
+
+using Colour = std::array<double, 3>;
+constexpr Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
+    EDGE{0.18, 0.27, 0.40}, PAPER{1.0, 1.0, 1.0};
+
+struct View
+{
+  Eigen::Vector3d towards_viewer, up;
+};
+
+std::vector<Eigen::Vector3d>
+pointsOf (vtkPolyData* mesh)
+{
+  std::vector<Eigen::Vector3d> points (static_cast<std::size_t> (mesh->GetNumberOfPoints ()));
+  for (std::size_t i = 0; i < points.size (); ++i)
+    mesh->GetPoint (static_cast<vtkIdType> (i), points[i].data ());
+  return points;
+}
+
+// Mean of the unit normals, weighted by area: its length tells how one-sided the mesh is.
+Eigen::Vector3d
+meanNormal (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+  double area = 0.0;
+  vtkNew<vtkIdList> polygon;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells (); ++cell) {
+    mesh->GetCellPoints (cell, polygon);
+    for (vtkIdType i = 2; i < polygon->GetNumberOfIds (); ++i) {
+      const auto corner = [&] (vtkIdType j) -> const Eigen::Vector3d& {
+        return points[static_cast<std::size_t> (polygon->GetId (j))];
+      };
+      const Eigen::Vector3d normal = (corner (i - 1) - corner (0)).cross (corner (i) - corner (0));
+      sum += normal;
+      area += normal.norm ();
+    }
+  }
+  return area > 0.0 ? Eigen::Vector3d (sum / area) : Eigen::Vector3d::Zero ();
+}
+
+Eigen::Vector3d
+axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : points)
+    centre += p / static_cast<double> (points.size ());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
+  for (const Eigen::Vector3d& p : points)
+    covariance += (p - centre) * (p - centre).transpose ();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (covariance);
+  const Eigen::Vector3d axis = solver.eigenvectors ().col (0);
+  return axis.sum () < 0.0 ? Eigen::Vector3d (-axis) : axis;
+}
+
+// What faces one way is seen from there, a sheet tipped back; its upright direction is y as in
+// scans, or z. What faces all ways is seen across its flattest direction; it opens downwards if it
+// is open, for the mean normal points away from the opening.
+View
+chooseView (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
+{
+  const Eigen::Vector3d normal = meanNormal (mesh, points);
+  Eigen::Vector3d facing = normal.normalized (), up = Eigen::Vector3d::UnitY ();
+  if (normal.norm () <= ONE_SIDED) {
+    facing = axisOfLeastVariance (points);
+    if (normal.norm () > CLOSED)
+      up = normal.normalized ();
+  }
+  if (std::abs (facing.dot (up)) > NEARLY_PARALLEL)
+    (normal.norm () <= ONE_SIDED ? facing : up) = Eigen::Vector3d::UnitZ ();
+  if (std::abs (facing.dot (up)) > NEARLY_PARALLEL)
+    facing = up.unitOrthogonal ();
+
+  const Eigen::Vector3d right = up.cross (facing).normalized ();
+  facing = right.cross (up);
+  const double tilt = normal.norm () > SHEET ? TIP_BACK : -FROM_ABOVE;
+  const Eigen::Vector3d tilted = Eigen::AngleAxisd (tilt * DEGREE, right) * facing;
+  return {Eigen::AngleAxisd (TURN * DEGREE, up) * tilted, up};
+}
+
+vtkSmartPointer<vtkActor>
+makeActor (vtkPolyDataMapper* mapper, const Colour& colour)
+{
+  mapper->ScalarVisibilityOff ();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper (mapper);
+  actor->GetProperty ()->SetColor (colour[0], colour[1], colour[2]);
+  return actor;
+}
+
+void
+addBoundary (vtkRenderer* renderer, vtkPolyData* mesh)
+{
+  vtkNew<vtkFeatureEdges> edges;
+  edges->SetInputData (mesh);
+  edges->BoundaryEdgesOn ();
+  edges->FeatureEdgesOff ();
+  edges->ManifoldEdgesOff ();
+  edges->NonManifoldEdgesOff ();
+  edges->ColoringOff ();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection (edges->GetOutputPort ());
+  mapper->SetResolveCoincidentTopologyToPolygonOffset ();
+  const vtkSmartPointer<vtkActor> lines = makeActor (mapper, BOUNDARY);
+  lines->GetProperty ()->LightingOff ();
+  lines->GetProperty ()->SetLineWidth (2.0F * SUPERSAMPLING);
+  renderer->AddActor (lines);
+}
+
+bool
+edgesShow (vtkPolyData* mesh)
+{
+  return mesh->GetNumberOfPolys () <= MOST_DRAWN_EDGES;
+}
+
+void
+addSurface (vtkRenderer* renderer, vtkPolyData* mesh)
+{
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData (mesh);
+  normals->SplittingOff ();
+  normals->ConsistencyOff (); // show the orientation of the mesh as it is
+  normals->AutoOrientNormalsOff ();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection (normals->GetOutputPort ());
+  const vtkSmartPointer<vtkActor> surface = makeActor (mapper, FRONT);
+  surface->GetProperty ()->SetEdgeVisibility (edgesShow (mesh) ? 1 : 0);
+  surface->GetProperty ()->SetEdgeColor (EDGE[0], EDGE[1], EDGE[2]);
+  vtkNew<vtkProperty> back;
+  back->DeepCopy (surface->GetProperty ());
+  back->SetColor (BACK[0], BACK[1], BACK[2]);
+  surface->SetBackfaceProperty (back);
+  renderer->AddActor (surface);
+  addBoundary (renderer, mesh);
+}
+
+void
+addWireframe (vtkRenderer* renderer, vtkPolyData* mesh)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData (mesh);
+  const vtkSmartPointer<vtkActor> wires = makeActor (mapper, EDGE);
+  wires->GetProperty ()->LightingOff ();
+  wires->GetProperty ()->SetRepresentationToWireframe ();
+  wires->GetProperty ()->SetOpacity (edgesShow (mesh) ? 1.0 : 0.2);
+  renderer->AddActor (wires);
+  addBoundary (renderer, mesh);
+}
+
+// The light comes over the viewer's left shoulder, with a weaker one from the lower right.
+void
+addLights (vtkRenderer* renderer)
+{
+  for (const auto& [x, y, z, intensity] :
+       {std::array<double, 4>{-0.8, 1.0, 1.0, 0.9}, std::array<double, 4>{1.0, -0.6, 0.8, 0.55}}) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight ();
+    light->SetPosition (x, y, z);
+    light->SetFocalPoint (0.0, 0.0, 0.0);
+    light->SetIntensity (intensity);
+    renderer->AddLight (light);
+  }
+}
+
+// Parallel projection, so that the points fill the square picture whatever their shape.
+void
+aimCamera (vtkRenderer* renderer, const View& view, const std::vector<Eigen::Vector3d>& points)
+{
+  const Eigen::Vector3d right = view.up.cross (view.towards_viewer).normalized ();
+  const Eigen::Vector3d up = view.towards_viewer.cross (right).normalized ();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points)
+    box.extend (Eigen::Vector3d (right.dot (p), up.dot (p), view.towards_viewer.dot (p)));
+  const Eigen::Vector3d middle = box.center ();
+  const Eigen::Vector3d focus =
+      middle.x () * right + middle.y () * up + middle.z () * view.towards_viewer;
+  const Eigen::Vector3d position = focus + box.diagonal ().norm () * view.towards_viewer;
+  vtkCamera* camera = renderer->GetActiveCamera ();
+  camera->ParallelProjectionOn ();
+  camera->SetFocalPoint (focus.data ());
+  camera->SetPosition (position.data ());
+  camera->SetViewUp (up.data ());
+  camera->SetParallelScale (0.5 * MARGIN * std::max (box.sizes ().x (), box.sizes ().y ()));
+  renderer->ResetCameraClippingRange ();
+}
+
+} // namespace
+
+bool
+displayAvailable ()
+{
+  Display* display = XOpenDisplay (nullptr);
+  if (display != nullptr)
+    XCloseDisplay (display);
+  return display != nullptr;
+}
+
+vtkSmartPointer<vtkPolyData>
+readMesh (const std::string& path)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file (path, error))
+    throw std::runtime_error ("cannot read '" + path + "': there is no such file");
+  std::string extension = std::filesystem::path (path).extension ().string ();
+  std::transform (extension.begin (), extension.end (), extension.begin (),
+                  [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
+  vtkSmartPointer<vtkPolyData> mesh;
+  if (extension == ".ply") {
+    vtkNew<vtkPLYReader> reader;
+    reader->SetFileName (path.c_str ());
+    reader->Update ();
+    mesh = reader->GetOutput ();
+  }
+  else if (extension == ".vtk") {
+    vtkNew<vtkPolyDataReader> reader;
+    reader->SetFileName (path.c_str ());
+    reader->Update ();
+    mesh = reader->GetOutput ();
+  }
+  else
+    throw std::runtime_error ("cannot read '" + path + "': only .vtk and .ply files are known");
+  if (mesh == nullptr || mesh->GetNumberOfPolys () == 0)
+    throw std::runtime_error ("cannot read '" + path + "': there is no mesh in it");
+  return mesh;
+}
+
+std::vector<unsigned char>
+drawMesh (vtkPolyData* mesh, vtkPolyData* parameterization, int height)
+{
+  const int panels = parameterization != nullptr ? 2 : 1;
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering (1);
+  window->SetMultiSamples (0);
+  window->SetSize (panels * height * SUPERSAMPLING, height * SUPERSAMPLING);
+
+  for (int panel = 0; panel < panels; ++panel) {
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetViewport (panel / static_cast<double> (panels), 0.0,
+                           (panel + 1) / static_cast<double> (panels), 1.0);
+    renderer->SetBackground (PAPER[0], PAPER[1], PAPER[2]);
+    window->AddRenderer (renderer);
+    if (panel == 0) {
+      addSurface (renderer, mesh);
+      addLights (renderer);
+      const std::vector<Eigen::Vector3d> points = pointsOf (mesh);
+      aimCamera (renderer, chooseView (mesh, points), points);
+    }
+    else {
+      addWireframe (renderer, parameterization);
+      aimCamera (renderer, {Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()},
+                 pointsOf (parameterization));
+    }
+  }
+  window->Render ();
+
+  vtkNew<vtkWindowToImageFilter> pixels;
+  pixels->SetInput (window);
+  pixels->ReadFrontBufferOff ();
+  vtkNew<vtkImageShrink3D> shrink;
+  shrink->SetInputConnection (pixels->GetOutputPort ());
+  shrink->SetShrinkFactors (SUPERSAMPLING, SUPERSAMPLING, 1);
+  shrink->MeanOn ();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection (shrink->GetOutputPort ());
+  writer->WriteToMemoryOn ();
+  writer->SetCompressionLevel (9);
+  writer->Write ();
+  vtkUnsignedCharArray* bytes = writer->GetResult ();
+  if (bytes == nullptr || bytes->GetNumberOfValues () == 0)
+    throw std::runtime_error ("VTK could not make a picture");
+  return {bytes->Begin (), bytes->End ()};
+}
+
+} // namespace floater
+} // namespace pcl
