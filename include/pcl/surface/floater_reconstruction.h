@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surface reconstruction by Floater's meshless parameterization, as a class of PCL.
+#pragma once
+
+#include <pcl/surface/floater/options.h>
+#include <pcl/surface/floater/reconstruct.h>
+#include <pcl/surface/floater/report.h>
+#include <pcl/surface/reconstruction.h>
+#include <pcl/types.h>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+/** \brief Triangulates an unorganized point cloud so that its points are the vertices of the mesh.
+ *
+ * The points are laid out flat by one sparse linear system (M. S. Floater, M. Reimers: Meshless
+ * parameterization and surface reconstruction, 2001; in the form of report TW 385, K.U.Leuven),
+ * triangulated there by Delaunay, and the triangles are carried back to the points:
+ *
+ * \code
+ * pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+ * floater.setInputCloud (cloud);
+ * pcl::PolygonMesh mesh;
+ * floater.reconstruct (mesh);
+ * if (floater.getStatus () != pcl::floater::Status::OK)
+ *   std::cerr << floater.getMessage () << '\n';
+ * \endcode
+ *
+ * - \b Input: one piece of surface with one border (a disc, however it is bent). Only x, y, z are
+ *   read. Points with a NaN or infinity, and all but one of equal points, stay in the cloud but in
+ *   no triangle. setIndices() selects points; an index given twice counts once.
+ * - \b Output: the whole input cloud, unchanged and in its order, with every field of PointT; one
+ *   consistently oriented manifold of triangles, whose indices count in the whole cloud also with
+ *   setIndices(). The order of points and the number of threads make no difference.
+ * - \b Failure: an empty cloud, no polygons, one line by PCL_ERROR, and the cause in getStatus()
+ *   and getMessage(). What is odd about a mesh, getReport().warnings, is also given by PCL_WARN.
+ *   No exception leaves reconstruct().
+ * - \b Search: its own kd-tree, in parallel. A method given to setSearchMethod() is asked instead,
+ *   by one thread; like for all of PCL's classes its input cloud is then set by each run.
+ * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after
+ *   another cloud or option has been set. A run changes no parameter.
+ *
+ * An object may be used for one cloud after another, but by one thread at a time.
+ * \ingroup surface
+ */
+template <typename PointT>
+class PCL_FLOATER_EXPORT FloaterReconstruction : public SurfaceReconstruction<PointT>
+{
+public:
+  using Ptr = shared_ptr<FloaterReconstruction<PointT>>;
+  using ConstPtr = shared_ptr<const FloaterReconstruction<PointT>>;
+  using PointCloud = pcl::PointCloud<PointT>;
+
+  /** \brief All parameters at their defaults, which need no tuning. */
+  FloaterReconstruction () { check_tree_ = false; }
+
+  /** \brief Reconstructs the surface of setInputCloud() and setIndices().
+   * \param[out] output the whole input cloud and the triangles; its header is that of the input */
+  void reconstruct (pcl::PolygonMesh& output) override;
+
+  /** \brief Reconstructs the surface of setInputCloud() and setIndices().
+   * \param[out] points the whole input cloud; not the object given to setInputCloud()
+   * \param[out] polygons the triangles, as indices of the whole cloud */
+  void reconstruct (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
+
+  /** \brief Nearest neighbours of each point, 6 to 200; default 20. */
+  void setKNearest (int k) { options_.k = k; }
+  int getKNearest () const { return options_.k; }
+
+  /** \brief Above 0 and below 360 degrees, default 160: a point of the boundary sees a wider sector
+   * without neighbours. */
+  void setOpeningAngle (double degrees) { options_.opening_angle = degrees; }
+  double getOpeningAngle () const { return options_.opening_angle; }
+
+  /** \brief How boundary points become one loop; default SPANNING_TREE. */
+  void setBoundaryMethod (floater::BoundaryMethod method) { options_.boundary = method; }
+  floater::BoundaryMethod getBoundaryMethod () const { return options_.boundary; }
+
+  /** \brief Distance over which clusters of boundary points grow (BoundaryMethod::TWO_SEGMENTS), as
+   * a fraction of the diagonal of the bounding box: above 0, at most 1; default 0.05. */
+  void setClusterTolerance (double fraction) { options_.cluster_tolerance = fraction; }
+  double getClusterTolerance () const { return options_.cluster_tolerance; }
+
+  /** \brief Nearest boundary points that such a cluster takes in at a time, 1 or more; default 10.
+   */
+  void setClusterK (int k) { options_.cluster_k = k; }
+  int getClusterK () const { return options_.cluster_k; }
+
+  /** \brief Gives the boundary loop: cloud indices in order, either way round, each once, 3 or
+   * more. Empty, the default: it is found from the points. */
+  void setPrescribedLoop (const pcl::Indices& loop) { prescribed_loop_ = loop; }
+  const pcl::Indices& getPrescribedLoop () const { return prescribed_loop_; }
+
+  /** \brief Convex curve on which the loop is laid; default CIRCLE. */
+  void setDomain (floater::Domain domain) { options_.domain = domain; }
+  floater::Domain getDomain () const { return options_.domain; }
+
+  /** \brief Sides of Domain::POLYGON, 3 or more; default 6. */
+  void setPolygonSides (int sides) { options_.polygon_sides = sides; }
+  int getPolygonSides () const { return options_.polygon_sides; }
+
+  /** \brief Weights of a point in its neighbours; default MEAN_VALUE. */
+  void setWeighting (floater::Weighting weighting) { options_.weighting = weighting; }
+  floater::Weighting getWeighting () const { return options_.weighting; }
+
+  /** \brief Column ordering of the factorization; default AUTOMATIC. */
+  void setOrdering (floater::Ordering ordering) { options_.ordering = ordering; }
+  floater::Ordering getOrdering () const { return options_.ordering; }
+
+  /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
+  void setFilterSheets (bool filter_sheets) { options_.filter_sheets = filter_sheets; }
+  bool getFilterSheets () const { return options_.filter_sheets; }
+
+  /** \brief Whether edges are flipped on the surface towards Delaunay; default true. */
+  void setFlipEdges (bool flip_edges) { options_.flip_edges = flip_edges; }
+  bool getFlipEdges () const { return options_.flip_edges; }
+
+  /** \brief Threads of a run; default 0: all cores. Changes time only, not the result. */
+  void setNumberOfThreads (int threads = 0) { options_.threads = threads; }
+  int getNumberOfThreads () const { return options_.threads; }
+
+  /** \brief Called as each stage of a run begins, by the thread that called reconstruct(). An
+   * exception from it ends the run with Status::INTERNAL_ERROR. Default: empty. */
+  void setProgressCallback (std::function<void (floater::Stage)> callback)
+  {
+    options_.progress = std::move (callback);
+  }
+  const std::function<void (floater::Stage)>& getProgressCallback () const
+  {
+    return options_.progress;
+  }
+
+  /** \brief Outcome of the last run; NOT_RUN before the first. */
+  floater::Status getStatus () const { return report_.status; }
+
+  /** \brief Cause of a failure and what to do, in one sentence; empty if the status is OK. */
+  const std::string& getMessage () const { return report_.message; }
+
+  /** \brief All that the last run told. */
+  const floater::Report& getReport () const { return report_; }
+
+  /** \brief Counts, times and figures of the solver. */
+  const floater::Statistics& getStatistics () const { return report_.statistics; }
+
+  /** \brief Boundary loop in order, each point once. */
+  pcl::Indices getBoundaryLoop () const;
+
+  /** \brief Place of every point of the cloud in the plane; NaN where it was not used. */
+  const std::vector<Eigen::Vector2d>& getParameters () const { return report_.parameters; }
+
+  /** \brief Finite points, not duplicates, that are in no triangle; ascending. */
+  pcl::Indices getUnusedIndices () const;
+
+  /** \brief Points with a NaN or infinite coordinate; ascending. */
+  pcl::Indices getNonFiniteIndices () const;
+
+  /** \brief Pairs (point, the equal point that stands for it in the mesh); ascending. */
+  std::vector<std::array<pcl::index_t, 2>> getDuplicates () const;
+
+protected:
+  using SurfaceReconstruction<PointT>::check_tree_;
+  using SurfaceReconstruction<PointT>::fake_indices_;
+  using SurfaceReconstruction<PointT>::indices_;
+  using SurfaceReconstruction<PointT>::input_;
+  using SurfaceReconstruction<PointT>::tree_;
+
+  std::string getClassName () const override { return "FloaterReconstruction"; }
+
+  void performReconstruction (pcl::PolygonMesh& output) override;
+
+  void performReconstruction (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
+
+private:
+  /// Runs a reconstruction with all guards; false, with the failure told, if there is no mesh.
+  bool guarded (const std::function<void ()>& reconstruction);
+
+  /// Records a failure. \return false
+  bool fail (floater::Status status, const std::string& message);
+
+  /// Points and options for the core; false, with the failure recorded, if there is nothing to run.
+  bool makeInput (floater::Input& input, floater::Options& options);
+
+  /// Triangles of the cloud, or none and a report that says why.
+  void triangulate (std::vector<pcl::Vertices>& polygons);
+
+  floater::Options options_;     // but for the loop
+  pcl::Indices prescribed_loop_; // apart, for indices that the core's type cannot hold
+  floater::Report report_;
+};
+
+} // namespace pcl
+
+#ifdef PCL_NO_PRECOMPILE
+#include <pcl/surface/impl/floater_reconstruction.hpp>
+#endif
