@@ -32,15 +32,17 @@ struct Solution
   std::size_t peak_bytes = 0;        ///< of symbolic and numeric factorization, as used
 };
 
-/// Reciprocal condition below which a system counts as singular: an island of unknowns leaves a
-/// pivot of rounding errors, which is seldom exactly 0.
-constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-14;
+/// Reciprocal condition below which a system counts as singular. An island of unknowns leaves a
+/// pivot of rounding errors, seldom exactly 0 (up to 3e-14 with 5000 unknowns); unknowns that hang
+/// on the loop by the smallest weights (see weights.h) stay above.
+constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-12;
 
 /// One factorization, two right-hand sides. UMFPACK takes columns, so the rows are passed as the
 /// transpose and solved with UMFPACK_At. Symmetric strategy, no scaling, no refinement, one BLAS
-/// thread (of OpenBLAS; restored afterwards); 64-bit indices from a million unknowns. An empty
-/// system is OK. May throw std::bad_alloc; UMFPACK's own failures are outcomes. \param threads 2 or
-/// more: the two right-hand sides are solved at the same time; same result
+/// thread (of OpenBLAS; restored afterwards). Above a million unknowns, the automatic ordering is
+/// METIS and indices have 64 bits. An empty system is OK. May throw std::bad_alloc; UMFPACK's own
+/// failures are outcomes.
+/// \param threads 2 or more: the two right-hand sides are solved at the same time; same result
 Solution
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads = 1);
 
