@@ -44,12 +44,14 @@ spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 }
 
 // True if b lies strictly outside the segment from a to c, walking anti-clockwise around the origin.
+// Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close neighbour.
 bool
 isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
   const Eigen::Vector2d ab = b - a;
   const Eigen::Vector2d bc = c - b;
-  return cross (ab, bc) > COLLINEAR * ab.norm () * bc.norm ();
+  const double tolerance = ab.dot (bc) > 0.0 ? COLLINEAR * ab.norm () * bc.norm () : 0.0;
+  return cross (ab, bc) > tolerance;
 }
 
 } // namespace
@@ -105,22 +107,16 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
     std::rotate (hull_.begin (), hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
                  hull_.end ());
 
-  // Graham scan in angular order. An open star is scanned from the origin back to the origin, a
-  // closed one from its first neighbour back to it.
+  // Graham scan in angular order. A closed star is scanned back to its first neighbour; the ends of
+  // an open one are hull vertices.
   inverted_.clear ();
   neighbors.clear ();
-  const Eigen::Vector2d origin = Eigen::Vector2d::Zero ();
-  for (std::size_t i = 0; i <= count; ++i) {
+  const std::size_t steps = open ? count : count + 1;
+  for (std::size_t i = 0; i < steps; ++i) {
     const bool closing = i == count;
-    if (closing && count == 0)
-      break;
-    const Eigen::Vector2d next = !closing ? Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ())
-                                 : open   ? origin
-                                          : inverted_.front ();
-    while (inverted_.size () >= 2 || (open && !inverted_.empty ())) {
-      const Eigen::Vector2d& before = inverted_.size () >= 2 ? inverted_[inverted_.size () - 2] : origin;
-      if (isCorner (before, inverted_.back (), next) || (open && inverted_.size () == 1))
-        break;
+    const Eigen::Vector2d next =
+        closing ? inverted_.front () : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
+    while (inverted_.size () >= 2 && !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
       inverted_.pop_back ();
       neighbors.pop_back ();
     }

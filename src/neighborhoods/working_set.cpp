@@ -78,18 +78,23 @@ makeWorkingSet (const std::vector<Eigen::Vector3d>& positions, const std::vector
     return set;
 
   set.centre = 0.5 * box.min () + 0.5 * box.max ();
-  const Eigen::Vector3d half_size = box.max () - set.centre;
+  // Both sides: the centre of a box as small as its digits may be rounded to one of its ends.
+  const Eigen::Vector3d half_size = (box.max () - set.centre).cwiseMax (set.centre - box.min ());
   const double diagonal = 2.0 * half_size.stableNorm ();
   set.scale = diagonal > 0.0 ? diagonal : 1.0;
 
   // One cell size for all axes: the curve is to follow distance, not the shape of the box.
   const double cells = static_cast<double> (1U << BITS) - 1.0;
+  const auto scaled = [&] (Index row) -> Eigen::Vector3d {
+    return (positions[row] - set.centre) / set.scale;
+  };
   parallelRanges (entries.size (), threads, [&] (std::size_t first, std::size_t last) {
     for (std::size_t e = first; e < last; ++e) {
       std::array<std::uint32_t, 3> cell{};
+      const Eigen::Vector3d position = scaled (entries[e].row);
       for (int axis = 0; axis < 3; ++axis)
-        cell[static_cast<std::size_t> (axis)] = static_cast<std::uint32_t> (
-            cells * ((positions[entries[e].row][axis] - set.centre[axis]) / set.scale + 0.5));
+        cell[static_cast<std::size_t> (axis)] =
+            static_cast<std::uint32_t> (cells * (position[axis] + 0.5));
       entries[e].code = hilbertCode (cell);
     }
   });
@@ -98,8 +103,8 @@ makeWorkingSet (const std::vector<Eigen::Vector3d>& positions, const std::vector
   const auto before = [&] (const Entry& a, const Entry& b) {
     if (a.code != b.code)
       return a.code < b.code;
-    const Eigen::Vector3d& p = positions[a.row];
-    const Eigen::Vector3d& q = positions[b.row];
+    const Eigen::Vector3d p = scaled (a.row);
+    const Eigen::Vector3d q = scaled (b.row);
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] != q[axis])
         return p[axis] < q[axis];
@@ -109,15 +114,13 @@ makeWorkingSet (const std::vector<Eigen::Vector3d>& positions, const std::vector
 
   set.positions.reserve (entries.size ());
   set.cloud_index.reserve (entries.size ());
-  const Eigen::Vector3d* previous = nullptr;
   for (const Entry& entry : entries) {
-    const Eigen::Vector3d& position = positions[entry.row];
-    if (previous != nullptr && *previous == position) {
+    const Eigen::Vector3d position = scaled (entry.row);
+    if (!set.positions.empty () && set.positions.back () == position) {
       set.duplicates.push_back ({cloud_index[entry.row], set.cloud_index.back ()});
       continue;
     }
-    previous = &position;
-    set.positions.emplace_back ((position - set.centre) / set.scale);
+    set.positions.push_back (position);
     set.cloud_index.push_back (cloud_index[entry.row]);
   }
   std::sort (set.duplicates.begin (), set.duplicates.end ());
