@@ -38,7 +38,8 @@ main (int argc, char** argv)
                "Exit codes: 0 done, 1 wrong usage, 2 cannot read, 3 cannot draw, 4 cannot write."};
   std::vector<std::string> files;
   int height = 700;
-  app.add_option ("files", files, "MESH [PARAMETERIZATION] OUT.png; meshes as .vtk or .ply")
+  app.add_option ("files", files, "meshes as .vtk or .ply, and the picture to write")
+      ->option_text ("MESH [PARAMETERIZATION] OUT.png")
       ->required ()
       ->expected (2, 3);
   app.add_option ("--height", height, "height of the picture in pixels")
@@ -52,6 +53,12 @@ main (int argc, char** argv)
   }
 
   pcl::floater::handleSignals ();
+  try {
+    pcl::floater::requireWritable (files.back ());
+  }
+  catch (const pcl::floater::WriteError& error) {
+    return fail (CANNOT_WRITE, error.what ());
+  }
   vtkSmartPointer<vtkPolyData> mesh, parameterization;
   try {
     mesh = pcl::floater::readMesh (files[0]);
@@ -62,8 +69,9 @@ main (int argc, char** argv)
     return fail (CANNOT_READ, error.what ());
   }
   if (!pcl::floater::displayAvailable ())
-    return fail (CANNOT_DRAW,
-                 "there is no X display to draw on; try: xvfb-run -a pcl_floater_picture ...");
+    return fail (
+        CANNOT_DRAW,
+        "there is no X display to draw on; put tools/picture/on_virtual_display.sh in front");
   std::vector<unsigned char> png;
   try {
     png = pcl::floater::drawMesh (mesh, parameterization, height);

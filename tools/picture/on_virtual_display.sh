@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs a command on an X display of its own that needs no screen. Exits as the command does
+# (xvfb-run of Debian 12 sometimes exits with 5 instead).
+set -euo pipefail
+
+if (($# == 0)); then
+  echo "Usage: on_virtual_display.sh COMMAND [ARGUMENT...]" >&2
+  exit 1
+fi
+if ! command -v Xvfb >/dev/null; then
+  echo "on_virtual_display.sh: Xvfb is missing; tools/install_packages.sh installs it" >&2
+  exit 1
+fi
+
+# Xvfb chooses a free display and writes its number when it is ready.
+coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null; }
+server_id=$!
+trap 'kill "$server_id" 2>/dev/null || true' EXIT
+if ! read -r -t 60 display <&"${server[0]}"; then
+  echo "on_virtual_display.sh: Xvfb did not start" >&2
+  exit 1
+fi
+DISPLAY=:$display "$@"

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# From a fresh checkout to a mesh: installs what is missing, builds the tools, reconstructs a cloud.
+set -euo pipefail
+
+usage () {
+  cat <<'END'
+Usage: quickstart.sh [CLOUD]
+Reconstructs a point cloud (.pcd, .ply or .obj; without one a sample is made) and writes mesh,
+parameterization, report and picture to the folder floater_result of the working directory.
+END
+}
+
+fail () {
+  echo "quickstart.sh: $*" >&2
+  exit 1
+}
+
+case "${1-}" in
+  -h | --help) usage; exit 0 ;;
+  -*) usage >&2; exit 1 ;;
+esac
+if (($# > 1)); then
+  usage >&2
+  exit 1
+fi
+if (($# == 1)) && [[ ! -r $1 ]]; then
+  fail "cannot read '$1'"
+fi
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/release
+result=$PWD/floater_result
+
+bash "$root/tools/install_packages.sh"
+
+echo "Building (the first time takes minutes) ..."
+mkdir -p "$build"
+log=$build/quickstart.log
+if ! (cd "$root" && cmake --preset release && cmake --build --preset release) >"$log" 2>&1; then
+  tail -n 40 "$log" >&2
+  fail "the build failed; all of its output is in $log"
+fi
+
+mkdir -p "$result"
+cloud=${1-}
+if [[ -z $cloud ]]; then
+  cloud=$result/cloud.pcd
+  "$build/tools/generate/pcl_floater_generate" height-field "$cloud" --points 5000
+fi
+
+echo "Reconstructing $cloud ..."
+reconstruct=$build/tools/reconstruct/pcl_floater_reconstruct
+"$reconstruct" --report "$result/report.json" --parameterization "$result/parameterization.ply" \
+  "$cloud" "$result/mesh.vtk"
+"$reconstruct" --quiet "$cloud" "$result/mesh.ply"
+"$root/tools/picture/on_virtual_display.sh" "$build/tools/picture/pcl_floater_picture" \
+  "$result/mesh.vtk" "$result/parameterization.ply" "$result/picture.png"
+
+cat <<END
+Done. In $result:
+  mesh.vtk, mesh.ply    the mesh; its vertices are the points of the cloud
+  parameterization.ply  the same triangles in the plane
+  report.json           all there is to say about the run
+  picture.png           both, drawn
+To turn it around (key r: all of it, w: edges, q: quit):
+  pcl_viewer '$result/mesh.vtk'
+END
+if ! command -v pcl_viewer >/dev/null; then
+  echo "(pcl_viewer is in the Debian package pcl-tools.)"
+fi
