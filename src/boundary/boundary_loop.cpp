@@ -2,6 +2,7 @@
 #include "boundary/boundary_loop.h"
 
 #include "boundary/clusters.h"
+#include "boundary/opening_angle.h"
 #include "boundary/spanning_tree_loop.h"
 #include "boundary/two_segment_loop.h"
 #include "neighborhoods/stars.h"
@@ -59,10 +60,11 @@ fromUser (const WorkingSet& set, const std::vector<Index>& user_loop)
 }
 
 Boundary
-byTwoSegments (const WorkingSet& set, const Stars& stars, const Options& options)
+byTwoSegments (const WorkingSet& set, const FlatLists& near, const Stars& stars, const Options& options)
 {
   Boundary boundary;
-  const std::vector<Index> points = openingAnglePoints (stars, options.opening_angle * DEGREE);
+  const std::vector<Index> points = openingAnglePoints (set.positions, near, stars.normals,
+                                                         options.opening_angle * DEGREE, options.threads);
   boundary.candidates = points.size ();
   // The bounding box of the working set has diagonal 1, so xi D is xi.
   const std::vector<std::vector<Index>> clusters =
@@ -85,7 +87,7 @@ findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars, 
       return boundary;
   }
   else if (options.boundary == BoundaryMethod::TWO_SEGMENTS) {
-    boundary = byTwoSegments (set, stars, options);
+    boundary = byTwoSegments (set, near, stars, options);
   }
   else {
     BoundaryLoop found = spanningTreeLoop (set.positions, stars, spacing);

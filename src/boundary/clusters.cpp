@@ -101,16 +101,6 @@ byDescendingDensity (const std::vector<Eigen::Vector3d>& points, double radius)
 
 } // namespace
 
-std::vector<Index>
-openingAnglePoints (const Stars& stars, double opening_angle)
-{
-  std::vector<Index> points;
-  for (std::size_t p = 0; p < stars.opening_angle.size (); ++p)
-    if (static_cast<double> (stars.opening_angle[p]) > opening_angle)
-      points.push_back (static_cast<Index> (p));
-  return points;
-}
-
 std::vector<std::vector<Index>>
 clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
                        const std::vector<Index>& boundary_points, double tolerance, int k)

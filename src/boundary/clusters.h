@@ -10,11 +10,6 @@ namespace pcl
 {
 namespace floater
 {
-/// Points whose empty sector is wider than `opening_angle` (radians; TW 385, section 3.1),
-/// ascending.
-std::vector<Index>
-openingAnglePoints (const Stars& stars, double opening_angle);
-
 /// Region growing from the densest unprocessed point; clusters are disjoint, largest first, ties by
 /// smallest point; points ascending in each. O(n log n) for points along curves.
 /// \param boundary_points ascending

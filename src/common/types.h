@@ -63,7 +63,6 @@ struct Stars
   std::vector<Eigen::Vector2d> offsets_in_plane; ///< parallel to neighbors.ids: position in the plane
                                                  ///< relative to the centre, length as in space
   std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
-  std::vector<float> opening_angle; ///< radians: widest sector without any of the k neighbours
   std::vector<Eigen::Vector3f> normals;
 };
 

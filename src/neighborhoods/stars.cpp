@@ -3,8 +3,7 @@
 
 #include "common/parallel.h"
 #include "neighborhoods/planar_star.h"
-
-#include <Eigen/Geometry>
+#include "neighborhoods/tangent_frame.h"
 
 #include <cmath>
 
@@ -24,18 +23,6 @@ enum class Tier
   ALL
 };
 
-struct Frame
-{
-  Eigen::Vector3d normal, x, y;
-};
-
-Frame
-frameOf (const Eigen::Vector3d& normal)
-{
-  const Eigen::Vector3d x = normal.unitOrthogonal ();
-  return {normal, x, normal.cross (x)};
-}
-
 // Makes the star of one point; scratch is reused from point to point.
 class StarMaker
 {
@@ -50,26 +37,24 @@ public:
   bool
   make (Index p, bool filter_sheets)
   {
-    frame_ = frameOf (normals_[p].cast<double> ());
+    const TangentFrame frame (normals_[p].cast<double> ());
     if (!filter_sheets)
-      return select (p, Tier::ALL, star_);
-    if (!select (p, Tier::EITHER_PLANE, star_))
+      return select (p, frame, Tier::ALL, star_);
+    if (!select (p, frame, Tier::EITHER_PLANE, star_))
       return false;
     for (const Tier tier : {Tier::BOTH_PLANES, Tier::ALL})
-      if (!select (p, tier, wider_)) {
+      if (!select (p, frame, tier, wider_)) {
         star_.swap (wider_);
         return false;
       }
-    // Opening angle and star of the first tier, which has seen the surface with the fewest strays.
-    return select (p, Tier::EITHER_PLANE, star_);
+    return true; // that of the first tier, which has the fewest strays
   }
 
   const std::vector<PlanarNeighbor>& star () const { return star_; }
-  double openingAngle () const { return planar_star_.openingAngle (); }
 
 private:
   bool
-  select (Index p, Tier tier, std::vector<PlanarNeighbor>& star)
+  select (Index p, const TangentFrame& frame, Tier tier, std::vector<PlanarNeighbor>& star)
   {
     star.clear ();
     for (Index q : near_.row (p)) {
@@ -77,14 +62,14 @@ private:
       const double length = offset.norm ();
       if (tier != Tier::ALL) {
         const Eigen::Vector3d other_normal = normals_[q].cast<double> ();
-        const bool leaves_own = std::abs (frame_.normal.dot (offset)) > LEAVES_PLANE * length;
+        const bool leaves_own = std::abs (frame.normal.dot (offset)) > LEAVES_PLANE * length;
         const bool leaves_other = std::abs (other_normal.dot (offset)) > LEAVES_PLANE * length;
-        const bool turned = std::abs (frame_.normal.dot (other_normal)) < SAME_SIDE;
+        const bool turned = std::abs (frame.normal.dot (other_normal)) < SAME_SIDE;
         if (tier == Tier::EITHER_PLANE ? leaves_own || leaves_other || turned : leaves_own && leaves_other)
           continue;
       }
       // Unrolled into the plane: the direction of the projection, the length in space.
-      const Eigen::Vector2d projected (frame_.x.dot (offset), frame_.y.dot (offset));
+      const Eigen::Vector2d projected = frame.project (offset);
       const double planar_length = projected.norm ();
       if (planar_length > 1e-6 * length)
         star.push_back ({projected * (length / planar_length), q});
@@ -95,7 +80,6 @@ private:
   const std::vector<Eigen::Vector3d>& positions_;
   const FlatLists& near_;
   const std::vector<Eigen::Vector3f>& normals_;
-  Frame frame_;
   PlanarStar planar_star_;
   std::vector<PlanarNeighbor> star_, wider_;
 };
@@ -109,7 +93,6 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
   const std::size_t n = positions.size ();
   Stars stars;
   stars.open.resize (n);
-  stars.opening_angle.resize (n);
   stars.neighbors.offsets.assign (n + 1, 0);
 
   // Each range collects its stars; then they are packed.
@@ -120,7 +103,6 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
     range.reserve (8 * (last - first));
     for (std::size_t p = first; p < last; ++p) {
       stars.open[p] = maker.make (static_cast<Index> (p), filter_sheets) ? 1 : 0;
-      stars.opening_angle[p] = static_cast<float> (maker.openingAngle ());
       stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
       range.insert (range.end (), maker.star ().begin (), maker.star ().end ());
     }

@@ -13,7 +13,7 @@ namespace floater
 namespace
 {
 constexpr double TURNED = 0.4;   // cosine to the corners' normals below which a triangle is penalized
-constexpr double PENALTY = 20.0; // per unit of that cosine; a right isosceles triangle costs 2
+constexpr double PENALTY = 1000.0; // per unit of that cosine; a right isosceles triangle costs 2
 constexpr double IMPROVES = 1e-9; // relative gain below which the diagonals of a quad count as equal
 
 // Flips from a stack of edges; the mesh stays a manifold throughout.

@@ -17,7 +17,7 @@ namespace floater
 namespace
 {
 constexpr double FOLD_COSINE = -0.5; // 120 degrees between the normals of neighbours
-constexpr double FOLD_COST = 20.0;   // of an edge, per unit of negative cosine between its triangles
+constexpr double FOLD_COST = 200.0;   // of an edge, per unit of negative cosine between its triangles
 constexpr int RINGS = 2;             // of triangles around a fold that may change
 constexpr int PASSES = 6;
 constexpr std::size_t LARGEST_FAN = 14;  // vertices of more triangles are not moved

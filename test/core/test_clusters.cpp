@@ -96,16 +96,6 @@ literalClusters (const Positions& positions, const std::vector<Index>& boundary_
   return clusters;
 }
 
-TEST (OpeningAngle, TakesPointsWithAWiderSectorOnly)
-{
-  Stars stars;
-  stars.opening_angle = {0.5F, 3.0F, 2.0F, 6.0F, 2.5F};
-  EXPECT_EQ (openingAnglePoints (stars, 2.0), (std::vector<Index>{1, 3, 4}));
-  EXPECT_EQ (openingAnglePoints (stars, 6.0), std::vector<Index>{});
-  EXPECT_EQ (openingAnglePoints (stars, 0.0), range (0, 5));
-  EXPECT_TRUE (openingAnglePoints (Stars{}, 2.0).empty ());
-}
-
 TEST (Clusters, SeparateLoopsLargestFirst)
 {
   Positions positions;
