@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Setters and getters of FloaterReconstruction, and what the parameters do to a run.
+#include "mesh_check.h"
+
+#include <pcl/point_types.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
+Cloud::Ptr
+heightField (std::size_t points = 500)
+{
+  return makeCloud<pcl::PointXYZ> (SurfaceKind::HEIGHT_FIELD, points);
+}
+
+/// A setter given a value, and the getter that must tell it, before and after a run.
+struct Choice
+{
+  std::string name;
+  std::function<void (Floater&)> set;
+  std::function<bool (const Floater&)> is_set;
+};
+
+#define CHOICE(parameter, value)                                                                   \
+  Choice                                                                                           \
+  {                                                                                                \
+#parameter " " #value, [] (Floater& floater) { floater.set##parameter (value); },              \
+        [] (const Floater& floater) { return floater.get##parameter () == (value); }   \
+  }
+
+TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
+{
+  const Options defaults;
+  const Floater floater;
+  EXPECT_EQ (floater.getKNearest (), defaults.k);
+  EXPECT_EQ (floater.getOpeningAngle (), defaults.opening_angle);
+  EXPECT_EQ (floater.getClusterTolerance (), defaults.cluster_tolerance);
+  EXPECT_EQ (floater.getClusterK (), defaults.cluster_k);
+  EXPECT_EQ (floater.getBoundaryMethod (), defaults.boundary);
+  EXPECT_EQ (floater.getDomain (), defaults.domain);
+  EXPECT_EQ (floater.getPolygonSides (), defaults.polygon_sides);
+  EXPECT_EQ (floater.getWeighting (), defaults.weighting);
+  EXPECT_EQ (floater.getOrdering (), defaults.ordering);
+  EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
+  EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
+  EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
+  EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
+  EXPECT_FALSE (floater.getProgressCallback ());
+
+  EXPECT_EQ (floater.getStatus (), Status::NOT_RUN);
+  EXPECT_EQ (floater.getReport ().status, Status::NOT_RUN);
+  EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
+  EXPECT_TRUE (floater.getParameters ().empty ());
+  EXPECT_EQ (floater.getStatistics ().cloud_points, 0U);
+}
+
+TEST_F (FloaterClass, EveryChoiceMakesADiscAndStays)
+{
+  const std::vector<Choice> choices{
+      CHOICE (KNearest, 12),
+      CHOICE (OpeningAngle, 150.0),
+      CHOICE (BoundaryMethod, BoundaryMethod::TWO_SEGMENTS),
+      CHOICE (ClusterTolerance, 0.07),
+      CHOICE (ClusterK, 12),
+      CHOICE (Domain, Domain::SQUARE),
+      CHOICE (Domain, Domain::POLYGON),
+      CHOICE (PolygonSides, 5),
+      CHOICE (Weighting, Weighting::UNIFORM),
+      CHOICE (Weighting, Weighting::INVERSE_DISTANCE),
+      CHOICE (Weighting, Weighting::SHAPE_PRESERVING),
+      CHOICE (Ordering, Ordering::AMD),
+      CHOICE (Ordering, Ordering::METIS),
+      CHOICE (FilterSheets, false),
+      CHOICE (FlipEdges, false),
+      CHOICE (NumberOfThreads, 1),
+  };
+  const Cloud::Ptr cloud = heightField ();
+  for (const Choice& choice : choices) {
+    SCOPED_TRACE (choice.name);
+    Floater floater;
+    EXPECT_FALSE (choice.is_set (floater));
+    choice.set (floater);
+    EXPECT_TRUE (choice.is_set (floater));
+    floater.setInputCloud (cloud);
+    runDisc (floater, allOf (cloud->size ()));
+    EXPECT_TRUE (choice.is_set (floater));
+    const Floater copy (floater);
+    EXPECT_TRUE (choice.is_set (copy));
+  }
+}
+
+TEST_F (FloaterClass, RefusesValuesOutOfRange)
+{
+  constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
+  const std::vector<Choice> choices{
+      CHOICE (KNearest, 5),
+      CHOICE (KNearest, 201),
+      CHOICE (OpeningAngle, 0.0),
+      CHOICE (OpeningAngle, 360.0),
+      {"OpeningAngle NaN", [] (Floater& floater) { floater.setOpeningAngle (NOT_A_NUMBER); },
+       [] (const Floater& floater) {
+         return floater.getOpeningAngle () != floater.getOpeningAngle ();
+       }},
+      CHOICE (ClusterTolerance, 0.0),
+      CHOICE (ClusterTolerance, 1.5),
+      CHOICE (ClusterK, 0),
+      CHOICE (PolygonSides, 2),
+      CHOICE (NumberOfThreads, -1),
+  };
+  const Cloud::Ptr cloud = heightField (100);
+  for (const Choice& choice : choices) {
+    SCOPED_TRACE (choice.name);
+    Floater floater;
+    floater.setInputCloud (cloud);
+    choice.set (floater);
+    expectFailure (floater, Status::INVALID_OPTION);
+    EXPECT_TRUE (choice.is_set (floater)); // refused, not replaced
+  }
+}
+
+TEST_F (FloaterClass, ParametersChangeTheRun)
+{
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  runWell (floater);
+  const std::vector<Eigen::Vector2d> on_circle = floater.getParameters ();
+  floater.setWeighting (Weighting::UNIFORM);
+  runWell (floater);
+  EXPECT_NE (floater.getParameters (), on_circle);
+  floater.setWeighting (Weighting::MEAN_VALUE);
+  floater.setFlipEdges (false);
+  runWell (floater);
+  EXPECT_EQ (floater.getParameters (), on_circle);
+  EXPECT_EQ (floater.getStatistics ().flips, 0U);
+
+  // Border points lie on the domain: on a triangle, half as far from the centre as its corners at
+  // least; on the circle all equally far.
+  floater.setDomain (Domain::POLYGON);
+  floater.setPolygonSides (3);
+  runWell (floater);
+  double nearest = 1.0;
+  for (const pcl::index_t i : floater.getBoundaryLoop ())
+    nearest = std::min (nearest, floater.getParameters ()[static_cast<std::size_t> (i)].norm ());
+  EXPECT_GE (nearest, 0.5 - 1e-12);
+  EXPECT_LT (nearest, 0.6);
+  for (const pcl::index_t i : floater.getBoundaryLoop ())
+    EXPECT_NEAR (on_circle[static_cast<std::size_t> (i)].norm (), 1.0, 1e-12);
+}
+
+TEST_F (FloaterClass, ThreadsDoNotChangeTheResult)
+{
+  const Cloud::Ptr cloud = makeCloud<pcl::PointXYZ> (SurfaceKind::HEMISPHERE, 3000);
+  Floater floater;
+  floater.setInputCloud (cloud);
+  Cloud points;
+  Polygons polygons;
+  floater.setNumberOfThreads (1);
+  floater.reconstruct (points, polygons);
+  ASSERT_EQ (floater.getStatus (), Status::OK);
+  const std::vector<Eigen::Vector2d> parameters = floater.getParameters ();
+  const pcl::Indices loop = floater.getBoundaryLoop ();
+  for (const int threads : {2, 5, 0}) {
+    SCOPED_TRACE (threads);
+    floater.setNumberOfThreads (threads);
+    Polygons again;
+    floater.reconstruct (points, again);
+    ASSERT_EQ (again.size (), polygons.size ());
+    for (std::size_t i = 0; i < polygons.size (); ++i)
+      ASSERT_EQ (again[i].vertices, polygons[i].vertices);
+    EXPECT_EQ (floater.getParameters (), parameters);
+    EXPECT_EQ (floater.getBoundaryLoop (), loop);
+  }
+}
+
+TEST_F (FloaterClass, TakesTheUsersLoop)
+{
+  const Cloud::Ptr cloud = heightField ();
+  Floater floater;
+  floater.setInputCloud (cloud);
+  const Triangles expected = runWell (floater);
+  pcl::Indices loop = floater.getBoundaryLoop ();
+
+  std::rotate (loop.begin (), loop.begin () + 5, loop.end ());
+  floater.setPrescribedLoop (loop);
+  EXPECT_EQ (floater.getPrescribedLoop (), loop);
+  EXPECT_EQ (runWell (floater), expected);
+  EXPECT_EQ (floater.getPrescribedLoop (), loop);
+  const std::set<pcl::index_t> members (loop.begin (), loop.end ());
+  const pcl::Indices found = floater.getBoundaryLoop ();
+  EXPECT_EQ (std::set<pcl::index_t> (found.begin (), found.end ()), members);
+
+  std::reverse (loop.begin (), loop.end ());
+  floater.setPrescribedLoop (loop);
+  const Triangles reversed = runWell (floater);
+  EXPECT_TRUE (reversed == expected || turnedOver (reversed) == expected);
+
+  // Another loop is used, not looked for: without the first border point that one becomes interior,
+  // or is cut off.
+  loop.erase (loop.begin ());
+  floater.setPrescribedLoop (loop);
+  runWell (floater);
+  EXPECT_EQ (floater.getBoundaryLoop ().size (), loop.size ());
+
+  floater.setPrescribedLoop ({});
+  EXPECT_EQ (runWell (floater), expected);
+}
+
+TEST_F (FloaterClass, RefusesLoopsThatAreNone)
+{
+  const Cloud::Ptr cloud = heightField (200);
+  Floater floater;
+  floater.setInputCloud (cloud);
+  runWell (floater);
+  const pcl::Indices loop = floater.getBoundaryLoop ();
+  const auto with = [&loop] (pcl::index_t last) {
+    pcl::Indices changed = loop;
+    changed.back () = last;
+    return changed;
+  };
+  cloud->push_back (pcl::PointXYZ (0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN ()));
+  const std::vector<pcl::Indices> wrong{
+      {loop[0], loop[1]}, with (loop.front ()), with (200), with (201), with (-1)};
+  for (const pcl::Indices& loop_given : wrong) {
+    SCOPED_TRACE (loop_given.back ());
+    floater.setPrescribedLoop (loop_given);
+    expectFailure (floater, Status::INVALID_LOOP);
+  }
+  // A point of the loop that is not selected.
+  pcl::IndicesPtr indices (new pcl::Indices);
+  for (pcl::index_t i = 0; i < 200; ++i)
+    if (i != loop[4])
+      indices->push_back (i);
+  floater.setIndices (indices);
+  floater.setPrescribedLoop (loop);
+  expectFailure (floater, Status::INVALID_LOOP);
+}
+
+TEST_F (FloaterClass, TellsItsProgress)
+{
+  std::vector<Stage> stages;
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  floater.setProgressCallback ([&stages] (Stage stage) { stages.push_back (stage); });
+  ASSERT_TRUE (floater.getProgressCallback ());
+  runWell (floater);
+  const std::vector<Stage> all{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
+                               Stage::BOUNDARY,    Stage::WEIGHTS,   Stage::SOLVE,
+                               Stage::DELAUNAY,    Stage::FLIPS};
+  EXPECT_EQ (stages, all);
+
+  floater.setProgressCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
+  expectFailure (floater, Status::INTERNAL_ERROR);
+  EXPECT_NE (floater.getMessage ().find ("enough of this"), std::string::npos);
+  floater.setProgressCallback ([] (Stage) { throw 1; });
+  expectFailure (floater, Status::INTERNAL_ERROR);
+  floater.setProgressCallback (nullptr);
+  runWell (floater);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
