@@ -46,7 +46,7 @@ mkdir -p "$result"
 cloud=${1-}
 if [[ -z $cloud ]]; then
   cloud=$result/cloud.pcd
-  "$build/tools/generate/pcl_floater_generate" height-field "$cloud" --points 5000
+  "$build/tools/generate/pcl_floater_generate" height-field "$cloud" --points 2500
 fi
 
 echo "Reconstructing $cloud ..."
