@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
+#include <cstring>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t BUFFER_BYTES = 1U << 20U;
+constexpr std::size_t MOST_FILES = 8;
+
+/// Names of temporary files that exist, where a signal handler may read them.
+struct TemporaryName
+{
+  std::atomic<bool> in_use{false};
+  std::array<char, PATH_MAX> name{};
+};
+std::array<TemporaryName, MOST_FILES> temporary_names;
+
+extern "C" void
+removeTemporaryFiles (int signal_number)
+{
+  for (TemporaryName& temporary : temporary_names)
+    if (temporary.in_use)
+      ::unlink (temporary.name.data ());
+  // The handler was reset (SA_RESETHAND): end as the signal alone would have ended the program.
+  ::raise (signal_number);
+}
+
+std::size_t
+remember (const std::string& name)
+{
+  for (std::size_t slot = 0; slot < MOST_FILES && name.size () < PATH_MAX; ++slot)
+    if (!temporary_names[slot].in_use) {
+      std::strcpy (temporary_names[slot].name.data (), name.c_str ());
+      temporary_names[slot].in_use = true;
+      return slot;
+    }
+  return MOST_FILES;
+}
+
+void
+forget (std::size_t slot)
+{
+  if (slot < MOST_FILES)
+    temporary_names[slot].in_use = false;
+}
+
+[[noreturn]] void
+failOn (const std::filesystem::path& path, const std::string& cause)
+{
+  throw WriteError ("cannot write '" + path.string () + "': " + cause);
+}
+
+/// The file that a path stands for, through symbolic links.
+std::filesystem::path
+resolve (const std::filesystem::path& path)
+{
+  std::error_code error;
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical (path, error);
+  return error ? path : resolved;
+}
+
+std::filesystem::path
+folderOf (const std::filesystem::path& path)
+{
+  return path.has_parent_path () ? path.parent_path () : std::filesystem::path (".");
+}
+
+} // namespace
+
+void
+requireWritable (const std::filesystem::path& path)
+{
+  std::error_code error;
+  const std::filesystem::path target = resolve (path);
+  const std::filesystem::path folder = folderOf (target);
+  if (!std::filesystem::exists (folder, error))
+    failOn (path, "there is no folder '" + folder.string () + "'; create it first");
+  if (!std::filesystem::is_directory (folder, error))
+    failOn (path, "'" + folder.string () + "' is not a folder");
+  if (std::filesystem::is_directory (target, error))
+    failOn (path, "it is a folder; give the name of a file");
+  if (std::filesystem::exists (target, error) && !std::filesystem::is_regular_file (target, error))
+    failOn (path, "it is a device or a pipe; give the name of a file");
+  if (::access (folder.c_str (), W_OK | X_OK) != 0)
+    failOn (path, "nothing may be written in the folder '" + folder.string () +
+                      "': " + std::strerror (errno));
+}
+
+void
+handleSignals ()
+{
+  struct sigaction action = {};
+  action.sa_handler = SIG_IGN;
+  ::sigaction (SIGXFSZ, &action, nullptr);
+  action.sa_handler = removeTemporaryFiles;
+  action.sa_flags = static_cast<int> (SA_RESETHAND);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before = {};
+    // What the parent chose to ignore (nohup) stays ignored.
+    if (::sigaction (signal_number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      ::sigaction (signal_number, &action, nullptr);
+  }
+}
+
+AtomicFile::AtomicFile (const std::filesystem::path& path)
+    : path_ (path), target_ (resolve (path)), slot_ (MOST_FILES), buffer_ (BUFFER_BYTES)
+{
+  requireWritable (path);
+  constexpr int MOST_TRIES = 100;
+  constexpr mode_t FOR_ALL = 0666; // less the umask
+  for (int i = 0; i < MOST_TRIES && descriptor_ < 0; ++i) {
+    const std::string name =
+        ".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp";
+    temporary_ = (folderOf (target_) / name).string ();
+    descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, FOR_ALL);
+    if (descriptor_ < 0 && errno != EEXIST)
+      break;
+  }
+  if (descriptor_ < 0)
+    fail (errno);
+  slot_ = remember (temporary_);
+  struct stat status = {};
+  constexpr mode_t PERMISSIONS = 07777;
+  if (::stat (target_.c_str (), &status) == 0)
+    ::fchmod (descriptor_, status.st_mode & PERMISSIONS);
+}
+
+AtomicFile::~AtomicFile ()
+{
+  if (descriptor_ >= 0)
+    ::close (descriptor_);
+  if (!temporary_.empty ())
+    ::unlink (temporary_.c_str ());
+  forget (slot_);
+}
+
+void
+AtomicFile::write (const void* bytes, std::size_t size)
+{
+  if (used_ + size > buffer_.size ())
+    flush ();
+  if (size > buffer_.size ()) {
+    writeThrough (static_cast<const char*> (bytes), size);
+    return;
+  }
+  std::memcpy (buffer_.data () + used_, bytes, size);
+  used_ += size;
+}
+
+template <typename T>
+void
+AtomicFile::writeDecimal (T number)
+{
+  constexpr std::size_t LONGEST = 32;
+  char* first = room (LONGEST);
+  used_ += static_cast<std::size_t> (std::to_chars (first, first + LONGEST, number).ptr - first);
+}
+
+template void
+AtomicFile::writeDecimal<float> (float);
+template void
+AtomicFile::writeDecimal<double> (double);
+template void AtomicFile::writeDecimal<std::uint64_t> (std::uint64_t);
+
+void
+AtomicFile::flush ()
+{
+  writeThrough (buffer_.data (), used_);
+  used_ = 0;
+}
+
+void
+AtomicFile::writeThrough (const char* bytes, std::size_t size)
+{
+  while (size > 0) {
+    const ssize_t done = ::write (descriptor_, bytes, size);
+    if (done < 0 && errno == EINTR)
+      continue;
+    if (done < 0)
+      fail (errno);
+    bytes += done;
+    size -= static_cast<std::size_t> (done);
+    written_ += static_cast<std::size_t> (done);
+  }
+}
+
+void
+AtomicFile::close ()
+{
+  flush ();
+  // Some file systems report a full disk only here.
+  if (::fsync (descriptor_) != 0 && errno != EINVAL)
+    fail (errno);
+  struct stat status = {};
+  if (::fstat (descriptor_, &status) != 0)
+    fail (errno);
+  if (static_cast<std::size_t> (status.st_size) != written_)
+    fail (EIO);
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close (descriptor) != 0)
+    fail (errno);
+}
+
+void
+AtomicFile::publish ()
+{
+  if (::rename (temporary_.c_str (), target_.c_str ()) != 0)
+    fail (errno);
+  temporary_.clear ();
+  forget (slot_);
+  slot_ = MOST_FILES;
+}
+
+void
+AtomicFile::fail (int error) const
+{
+  std::string advice;
+  if (error == ENOSPC || error == EDQUOT)
+    advice = "; free some space or write elsewhere";
+  else if (error == EFBIG)
+    advice = "; raise the limit on file sizes (ulimit -f) or write a smaller format";
+  failOn (path_, std::strerror (error) + advice);
+}
+
+} // namespace floater
+} // namespace pcl

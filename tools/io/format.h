@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// File formats go by their extensions.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// Extension of a file in lower case, with its dot.
+inline std::string
+lowerExtension (const std::filesystem::path& path)
+{
+  std::string extension = path.extension ().string ();
+  std::transform (extension.begin (), extension.end (), extension.begin (), [] (char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
+  });
+  return extension;
+}
+
+} // namespace floater
+} // namespace pcl

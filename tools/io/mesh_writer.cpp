@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_writer.h"
+
+#include "format.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+const std::string COMMENT = "written by pcl_floater_reconstruct";
+
+void
+writeObjTriple (AtomicFile& file, const FieldTriple& fields, std::size_t i)
+{
+  visitType (fields[0]->type, [&] (auto tag) {
+    using T = decltype (tag);
+    std::array<double, 3> values{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      values[axis] = static_cast<double> (fields[axis]->value<T> (i));
+    const bool are_finite =
+        std::isfinite (values[0]) && std::isfinite (values[1]) && std::isfinite (values[2]);
+    for (const double value : values) {
+      file.write (" ");
+      if constexpr (std::is_same_v<T, float>)
+        file.writeDecimal (are_finite ? static_cast<float> (value) : 0.0F);
+      else
+        file.writeDecimal (are_finite ? value : 0.0);
+    }
+  });
+}
+
+} // namespace
+
+bool
+isMeshFile (const std::filesystem::path& path)
+{
+  const std::string extension = lowerExtension (path);
+  return extension == ".vtk" || extension == ".ply" || extension == ".obj" || extension == ".stl";
+}
+
+std::vector<std::string>
+writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
+           const Triangles& triangles)
+{
+  const std::string extension = lowerExtension (path);
+  std::vector<std::string> losses;
+  if (extension == ".vtk")
+    writeVtk (file, cloud, triangles);
+  else if (extension == ".ply") {
+    for (const std::string& name : writePly (file, cloud, triangles))
+      losses.push_back ("PLY has no 64-bit integers: the field '" + name +
+                        "' was written as double");
+  }
+  else if (extension == ".obj")
+    writeObj (file, cloud, triangles);
+  else if (extension == ".stl") {
+    writeStl (file, cloud, triangles);
+    if (!cloud.single_precision)
+      losses.emplace_back ("STL holds single precision only: the coordinates were rounded; "
+                           "write .vtk or .ply to keep them");
+  }
+  else
+    throw WriteError ("cannot write '" + path.string () +
+                      "': its extension is unknown; use .vtk, .ply, .obj or .stl");
+  return losses;
+}
+
+void
+writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  const FieldTriple colors = colorFields (cloud);
+  const FieldTriple normals = normalFields (cloud);
+  file.write ("# " + COMMENT + "\n");
+  for (std::size_t i = 0; i < cloud.size (); ++i) {
+    file.write ("v");
+    for (const double coordinate : cloud.positions[i]) {
+      file.write (" ");
+      if (cloud.single_precision)
+        file.writeDecimal (static_cast<float> (coordinate));
+      else
+        file.writeDecimal (coordinate);
+    }
+    if (colors[0])
+      for (const Field* channel : colors) {
+        constexpr float WHITE = 255.0F;
+        file.write (" ");
+        file.writeDecimal (static_cast<float> (channel->value<std::uint8_t> (i)) / WHITE);
+      }
+    file.write ("\n");
+  }
+  if (normals[0])
+    for (std::size_t i = 0; i < cloud.size (); ++i) {
+      file.write ("vn");
+      writeObjTriple (file, normals, i);
+      file.write ("\n");
+    }
+  for (const auto& triangle : triangles) {
+    file.write ("f");
+    for (const std::uint32_t corner : triangle) {
+      const std::uint64_t number = corner + std::uint64_t{1};
+      file.write (" ");
+      file.writeDecimal (number);
+      if (normals[0]) {
+        file.write ("//");
+        file.writeDecimal (number);
+      }
+    }
+    file.write ("\n");
+  }
+}
+
+void
+writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  constexpr std::size_t HEADER_BYTES = 80; // must not begin with "solid"
+  std::string header = COMMENT;
+  header.resize (HEADER_BYTES, ' ');
+  file.write (header);
+  file.writeNumber (static_cast<std::uint32_t> (triangles.size ()), ByteOrder::LITTLE);
+  for (const auto& triangle : triangles) {
+    const Eigen::Vector3d& p = cloud.positions[triangle[0]];
+    const Eigen::Vector3d normal =
+        (cloud.positions[triangle[1]] - p).cross (cloud.positions[triangle[2]] - p).normalized ();
+    for (const double value : normal)
+      file.writeNumber (static_cast<float> (value), ByteOrder::LITTLE);
+    for (const std::uint32_t corner : triangle)
+      for (const double value : cloud.positions[corner])
+        file.writeNumber (static_cast<float> (value), ByteOrder::LITTLE);
+    file.writeNumber (std::uint16_t{0}, ByteOrder::LITTLE);
+  }
+}
+
+} // namespace floater
+} // namespace pcl

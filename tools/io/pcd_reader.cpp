@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "byte_order.h"
+#include "cloud_reader.h"
+#include "text_scanner.h"
+
+#include <lzf.h>
+
+#include <limits>
+#include <optional>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+struct PcdHeader
+{
+  std::vector<Field> fields; ///< without their bytes
+  std::size_t points = 0;
+  std::string_view data; ///< ascii, binary or binary_compressed
+};
+
+const std::string PADDING = "_";
+
+std::optional<ScalarType>
+pcdType (std::string_view type, std::size_t size)
+{
+  struct Known
+  {
+    char type;
+    std::size_t size;
+    ScalarType scalar;
+  };
+  static constexpr std::array<Known, 11> KNOWN{{{'I', 1, ScalarType::INT8},
+                                                {'I', 2, ScalarType::INT16},
+                                                {'I', 4, ScalarType::INT32},
+                                                {'I', 8, ScalarType::INT64},
+                                                {'U', 1, ScalarType::UINT8},
+                                                {'U', 2, ScalarType::UINT16},
+                                                {'U', 4, ScalarType::UINT32},
+                                                {'U', 8, ScalarType::UINT64},
+                                                {'F', 4, ScalarType::FLOAT32},
+                                                {'F', 8, ScalarType::FLOAT64},
+                                                {'B', 1, ScalarType::UINT8}}};
+  for (const Known& known : KNOWN)
+    if (type.size () == 1 && type.front () == known.type && size == known.size)
+      return known.scalar;
+  return std::nullopt;
+}
+
+/// The lines of the header as they stand.
+struct HeaderLines
+{
+  std::vector<std::string> names;
+  std::vector<std::size_t> sizes;
+  std::vector<std::string> types;
+  std::vector<std::size_t> counts;
+  std::optional<std::size_t> width, height, points;
+};
+
+template <typename Add>
+void
+eachWord (TextScanner& scanner, Add&& add)
+{
+  for (std::string_view word = scanner.word (); !word.empty (); word = scanner.word ())
+    add (word);
+}
+
+void
+readSizes (TextScanner& scanner, std::vector<std::size_t>& numbers, const char* what)
+{
+  eachWord (scanner, [&] (std::string_view word) {
+    std::uint32_t number = 0;
+    if (!parseNumber (word, number) || number == 0)
+      scanner.fail (std::string (what) + " must be whole numbers from 1, not '" +
+                    std::string (word) + "'");
+    numbers.push_back (number);
+  });
+}
+
+std::vector<Field>
+makeFields (const TextScanner& scanner, const HeaderLines& lines)
+{
+  const std::size_t n = lines.names.size ();
+  if (n == 0)
+    scanner.fail ("the header has no FIELDS");
+  if (lines.sizes.size () != n || lines.types.size () != n ||
+      (!lines.counts.empty () && lines.counts.size () != n))
+    scanner.fail ("FIELDS, SIZE, TYPE and COUNT of the header differ in length");
+  std::vector<Field> fields;
+  for (std::size_t f = 0; f < n; ++f) {
+    const std::optional<ScalarType> type = pcdType (lines.types[f], lines.sizes[f]);
+    if (!type)
+      scanner.fail ("field '" + lines.names[f] + "' has TYPE " + lines.types[f] + " and SIZE " +
+                    std::to_string (lines.sizes[f]) + ", which is no type of PCD");
+    fields.push_back ({lines.names[f], *type, lines.counts.empty () ? 1 : lines.counts[f]});
+  }
+  return fields;
+}
+
+std::size_t
+countPoints (const TextScanner& scanner, const HeaderLines& lines)
+{
+  if (!lines.width && !lines.points)
+    scanner.fail ("the header tells neither POINTS nor WIDTH");
+  const std::size_t height = lines.height.value_or (1);
+  const std::size_t width = lines.width.value_or (height > 0 ? *lines.points / height : 0);
+  if (height > 0 && width > std::numeric_limits<std::size_t>::max () / height)
+    scanner.fail ("WIDTH times HEIGHT is beyond all bounds");
+  const std::size_t points = lines.points.value_or (width * height);
+  if (points != width * height)
+    scanner.fail ("POINTS is " + std::to_string (points) + ", but WIDTH times HEIGHT is " +
+                  std::to_string (width * height));
+  return points;
+}
+
+PcdHeader
+readHeader (TextScanner& scanner)
+{
+  HeaderLines lines;
+  while (scanner.nextFilledLine ()) {
+    const std::string_view key = scanner.word ();
+    if (key.front () == '#' || key == "VERSION" || key == "VIEWPOINT")
+      continue;
+    if (key == "FIELDS" || key == "COLUMNS")
+      eachWord (scanner, [&] (std::string_view word) { lines.names.emplace_back (word); });
+    else if (key == "TYPE")
+      eachWord (scanner, [&] (std::string_view word) { lines.types.emplace_back (word); });
+    else if (key == "SIZE")
+      readSizes (scanner, lines.sizes, "SIZE");
+    else if (key == "COUNT")
+      readSizes (scanner, lines.counts, "COUNT");
+    else if (key == "WIDTH")
+      lines.width = scanner.number<std::size_t> ();
+    else if (key == "HEIGHT")
+      lines.height = scanner.number<std::size_t> ();
+    else if (key == "POINTS")
+      lines.points = scanner.number<std::size_t> ();
+    else if (key == "DATA")
+      return {makeFields (scanner, lines), countPoints (scanner, lines), scanner.word ()};
+    else
+      scanner.fail ("this is no line of a PCD header");
+  }
+  throw ReadError ("the PCD header has no DATA line; the file may be truncated");
+}
+
+std::size_t
+pointBytes (const std::vector<Field>& fields, bool with_padding)
+{
+  std::size_t bytes = 0;
+  for (const Field& field : fields)
+    bytes += with_padding || field.name != PADDING ? field.pointBytes () : 0;
+  return bytes;
+}
+
+/// Checked before anything is allocated: a header may claim any number of points.
+void
+requireSize (std::size_t points, std::size_t bytes_of_point, std::size_t bytes)
+{
+  if (bytes_of_point == 0 || points > bytes / bytes_of_point)
+    throw ReadError ("the header promises " + std::to_string (points) + " points of " +
+                     std::to_string (bytes_of_point) + " bytes or more, but there are only " +
+                     std::to_string (bytes) +
+                     " bytes of data; the file is truncated or its header wrong");
+}
+
+void
+allocate (PcdHeader& header)
+{
+  for (Field& field : header.fields)
+    if (field.name != PADDING)
+      field.bytes.resize (header.points * field.pointBytes ());
+}
+
+bool
+readAscii (TextScanner& scanner, PcdHeader& header)
+{
+  std::size_t words = 0;
+  for (const Field& field : header.fields)
+    words += field.count;
+  requireSize (header.points, 2 * words, scanner.rest ().size () + 1);
+  allocate (header);
+  for (std::size_t i = 0; i < header.points; ++i) {
+    if (!scanner.nextFilledLine ())
+      throw ReadError ("the header promises " + std::to_string (header.points) +
+                       " points, but there are only " + std::to_string (i) +
+                       "; the file is truncated or its header wrong");
+    for (Field& field : header.fields) {
+      if (field.name != PADDING)
+        scanField (scanner, field, i);
+      else
+        for (std::size_t c = 0; c < field.count; ++c)
+          scanner.word ();
+    }
+    if (!scanner.word ().empty ())
+      scanner.fail ("it has more values than there are fields (" + std::to_string (words) + ")");
+  }
+  return scanner.nextFilledLine ();
+}
+
+bool
+readBinary (std::string_view bytes, PcdHeader& header)
+{
+  const std::size_t stride = pointBytes (header.fields, true);
+  requireSize (header.points, stride, bytes.size ());
+  allocate (header);
+  std::size_t offset = 0;
+  for (Field& field : header.fields) {
+    const std::size_t size = field.pointBytes ();
+    if (field.name != PADDING) {
+      visitType (field.type, [&] (auto tag) {
+        using T = decltype (tag);
+        for (std::size_t i = 0; i < header.points; ++i)
+          for (std::size_t c = 0; c < field.count; ++c)
+            copyNumber<T> (field.bytes.data () + i * size + c * sizeof (T),
+                           bytes.data () + i * stride + offset + c * sizeof (T), ByteOrder::LITTLE);
+      });
+    }
+    offset += size;
+  }
+  return bytes.size () - header.points * stride >= stride;
+}
+
+/// Two 32-bit sizes, compressed and not, then all values field by field, compressed with LZF.
+void
+readCompressed (std::string_view bytes, PcdHeader& header)
+{
+  constexpr std::size_t SIZES = 2 * sizeof (std::uint32_t);
+  constexpr std::size_t MOST_PER_BYTE = 132; // an LZF reference of 2 bytes stands for at most 264
+  if (bytes.size () < SIZES)
+    throw ReadError ("the compressed data are truncated");
+  const auto compressed = readNumber<std::uint32_t> (bytes.data (), ByteOrder::LITTLE);
+  const auto expected =
+      readNumber<std::uint32_t> (bytes.data () + sizeof (std::uint32_t), ByteOrder::LITTLE);
+  bytes.remove_prefix (SIZES);
+  if (compressed > bytes.size ())
+    throw ReadError ("there should be " + std::to_string (compressed) +
+                     " bytes of compressed data, but there are " + std::to_string (bytes.size ()) +
+                     "; the file is truncated");
+  const std::size_t point_bytes = pointBytes (header.fields, false);
+  requireSize (header.points, point_bytes, expected);
+  if (header.points * point_bytes != expected || expected / MOST_PER_BYTE > compressed)
+    throw ReadError ("the size of the compressed data does not fit the number of points");
+  std::string values (expected, '\0');
+  if (lzf_decompress (bytes.data (), compressed, values.data (), expected) != expected)
+    throw ReadError ("the compressed data are damaged");
+  allocate (header);
+  const char* from = values.data ();
+  for (Field& field : header.fields)
+    visitType (field.type, [&] (auto tag) {
+      using T = decltype (tag);
+      for (std::size_t at = 0; at < field.bytes.size (); at += sizeof (T), from += sizeof (T))
+        copyNumber<T> (field.bytes.data () + at, from, ByteOrder::LITTLE);
+    });
+}
+
+} // namespace
+
+Cloud
+parsePcd (std::string_view bytes)
+{
+  TextScanner scanner (bytes);
+  PcdHeader header = readHeader (scanner);
+  bool has_more = false;
+  if (header.points == 0)
+    throw ReadError ("it holds no points");
+  if (header.data == "ascii")
+    has_more = readAscii (scanner, header);
+  else if (header.data == "binary")
+    has_more = readBinary (scanner.rest (), header);
+  else if (header.data == "binary_compressed")
+    readCompressed (scanner.rest (), header);
+  else
+    scanner.fail ("DATA is '" + std::string (header.data) +
+                  "'; it must be ascii, binary or binary_compressed");
+  header.fields.erase (std::remove_if (header.fields.begin (), header.fields.end (),
+                                       [] (const Field& field) { return field.name == PADDING; }),
+                       header.fields.end ());
+  Cloud cloud = makeCloud (std::move (header.fields), header.points);
+  if (has_more)
+    cloud.warnings.push_back ("the input file holds more data than the " +
+                              std::to_string (header.points) +
+                              " points of its header; the rest was ignored");
+  return cloud;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "byte_order.h"
+#include "cloud_reader.h"
+#include "text_scanner.h"
+
+#include <optional>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+struct Property
+{
+  Field field; ///< for lists: type of the entries, no bytes
+  bool is_list = false;
+  ScalarType length_type = ScalarType::UINT8;
+};
+
+struct Element
+{
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct PlyHeader
+{
+  std::optional<ByteOrder> byte_order; ///< none: ascii
+  std::vector<Element> elements;       ///< as far as the vertices, which are the last
+};
+
+ScalarType
+plyType (const TextScanner& scanner, std::string_view name)
+{
+  static const std::array<std::pair<std::string_view, ScalarType>, 16> known{
+      {{"char", ScalarType::INT8},
+       {"int8", ScalarType::INT8},
+       {"uchar", ScalarType::UINT8},
+       {"uint8", ScalarType::UINT8},
+       {"short", ScalarType::INT16},
+       {"int16", ScalarType::INT16},
+       {"ushort", ScalarType::UINT16},
+       {"uint16", ScalarType::UINT16},
+       {"int", ScalarType::INT32},
+       {"int32", ScalarType::INT32},
+       {"uint", ScalarType::UINT32},
+       {"uint32", ScalarType::UINT32},
+       {"float", ScalarType::FLOAT32},
+       {"float32", ScalarType::FLOAT32},
+       {"double", ScalarType::FLOAT64},
+       {"float64", ScalarType::FLOAT64}}};
+  for (const auto& [known_name, type] : known)
+    if (name == known_name)
+      return type;
+  scanner.fail ("'" + std::string (name) + "' is no type of PLY");
+}
+
+Property
+readProperty (TextScanner& scanner)
+{
+  Property property;
+  std::string_view type = scanner.word ();
+  if (type == "list") {
+    property.is_list = true;
+    property.length_type = plyType (scanner, scanner.word ());
+    if (property.length_type == ScalarType::FLOAT32 || property.length_type == ScalarType::FLOAT64)
+      scanner.fail ("the length of a list must be a whole number");
+    type = scanner.word ();
+  }
+  property.field.type = plyType (scanner, type);
+  property.field.name = std::string (scanner.word ());
+  if (property.field.name.empty ())
+    scanner.fail ("the property has no name");
+  return property;
+}
+
+PlyHeader
+readHeader (TextScanner& scanner)
+{
+  if (!scanner.nextLine () || scanner.word () != "ply")
+    throw ReadError ("it does not begin with 'ply': this is no PLY file");
+  PlyHeader header;
+  bool has_format = false;
+  bool is_after_vertices = false;
+  while (scanner.nextFilledLine ()) {
+    const std::string_view key = scanner.word ();
+    if (key == "comment" || key == "obj_info")
+      continue;
+    if (key == "format") {
+      const std::string_view format = scanner.word ();
+      if (format == "binary_little_endian")
+        header.byte_order = ByteOrder::LITTLE;
+      else if (format == "binary_big_endian")
+        header.byte_order = ByteOrder::BIG;
+      else if (format != "ascii")
+        scanner.fail ("'" + std::string (format) + "' is no format of PLY");
+      has_format = true;
+    }
+    else if (key == "element") {
+      is_after_vertices |= !header.elements.empty () && header.elements.back ().name == "vertex";
+      Element element;
+      element.name = std::string (scanner.word ());
+      element.count = scanner.number<std::size_t> ();
+      if (!is_after_vertices)
+        header.elements.push_back (std::move (element));
+    }
+    else if (key == "property") {
+      if (header.elements.empty ())
+        scanner.fail ("a property before the first element");
+      Property property = readProperty (scanner);
+      if (!is_after_vertices)
+        header.elements.back ().properties.push_back (std::move (property));
+    }
+    else if (key == "end_header") {
+      if (!has_format)
+        scanner.fail ("the header has no format line");
+      if (header.elements.empty () || header.elements.back ().name != "vertex")
+        scanner.fail ("the header has no element 'vertex'");
+      return header;
+    }
+    else
+      scanner.fail ("this is no line of a PLY header");
+  }
+  throw ReadError ("the PLY header has no end; the file may be truncated");
+}
+
+[[noreturn]] void
+failTruncated (const Element& element, std::size_t found)
+{
+  throw ReadError ("the header promises " + std::to_string (element.count) + " of element '" +
+                   element.name + "', but there are only " + std::to_string (found) +
+                   "; the file is truncated or its header wrong");
+}
+
+/// Keeps the values of an element, but for lists, in its fields.
+void
+readAscii (TextScanner& scanner, Element& element, bool keep)
+{
+  for (std::size_t i = 0; i < element.count; ++i) {
+    if (!scanner.nextFilledLine ())
+      failTruncated (element, i);
+    if (!keep)
+      continue;
+    for (Property& property : element.properties) {
+      if (!property.is_list)
+        scanField (scanner, property.field, i);
+      else
+        for (auto left = scanner.number<std::uint32_t> (); left > 0; --left)
+          if (scanner.word ().empty ())
+            scanner.fail ("the list '" + property.field.name + "' is shorter than its length");
+    }
+    if (!scanner.word ().empty ())
+      scanner.fail ("it has more values than there are properties");
+  }
+}
+
+/// As readAscii; returns the bytes that follow the element.
+std::string_view
+readBinary (std::string_view bytes, ByteOrder order, Element& element, bool keep)
+{
+  const auto take = [&bytes, &element] (std::size_t size, std::size_t row) {
+    if (bytes.size () < size)
+      failTruncated (element, row);
+    const char* taken = bytes.data ();
+    bytes.remove_prefix (size);
+    return taken;
+  };
+  for (std::size_t i = 0; i < element.count; ++i)
+    for (Property& property : element.properties)
+      visitType (property.field.type, [&] (auto tag) {
+        using T = decltype (tag);
+        if (property.is_list) {
+          const std::size_t length = visitType (property.length_type, [&] (auto length_tag) {
+            using L = decltype (length_tag);
+            return static_cast<std::size_t> (readNumber<L> (take (sizeof (L), i), order));
+          });
+          if (length > bytes.size () / sizeof (T))
+            failTruncated (element, i);
+          take (length * sizeof (T), i);
+        }
+        else {
+          const char* from = take (sizeof (T), i);
+          if (keep)
+            copyNumber<T> (property.field.bytes.data () + i * sizeof (T), from, order);
+        }
+      });
+  return bytes;
+}
+
+/// Rejects counts that the file cannot hold before anything is allocated or counted.
+void
+checkCount (const Element& element, bool is_ascii, std::size_t bytes)
+{
+  std::size_t fewest = 0;
+  for (const Property& property : element.properties)
+    fewest += is_ascii ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
+  // The last line of a text may end without a newline.
+  if (element.count > 0 && (fewest == 0 || element.count > (bytes + (is_ascii ? 1 : 0)) / fewest))
+    throw ReadError ("the header promises " + std::to_string (element.count) + " of element '" +
+                     element.name + "', more than the " + std::to_string (bytes) +
+                     " bytes of data can hold; the file is truncated or its header wrong");
+}
+
+} // namespace
+
+Cloud
+parsePly (std::string_view bytes)
+{
+  TextScanner scanner (bytes);
+  PlyHeader header = readHeader (scanner);
+  std::string_view rest = scanner.rest ();
+  for (Element& element : header.elements) {
+    const bool keep = element.name == "vertex";
+    checkCount (element, !header.byte_order,
+                header.byte_order ? rest.size () : scanner.rest ().size ());
+    if (keep)
+      for (Property& property : element.properties)
+        if (!property.is_list)
+          property.field.bytes.resize (element.count * property.field.pointBytes ());
+    if (header.byte_order)
+      rest = readBinary (rest, *header.byte_order, element, keep);
+    else
+      readAscii (scanner, element, keep);
+  }
+  Element& vertices = header.elements.back ();
+  std::vector<Field> fields;
+  std::vector<std::string> warnings;
+  for (Property& property : vertices.properties) {
+    if (property.is_list)
+      warnings.push_back ("the list '" + property.field.name + "' of the points was left out");
+    else
+      fields.push_back (std::move (property.field));
+  }
+  Cloud cloud = makeCloud (std::move (fields), vertices.count);
+  cloud.warnings = std::move (warnings);
+  return cloud;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words and numbers of a text, line by line.
+#pragma once
+
+#include "cloud.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace pcl
+{
+namespace floater
+{
+/// Parses the whole of a word as a number. Unlike the streams it knows nan and inf, does not depend
+/// on the locale, and takes numbers beyond the range of T as infinite or zero.
+/// \return false if the word is not a number, or not one that an integer type can hold
+template <typename T>
+bool
+parseNumber (std::string_view word, T& number)
+{
+  if (word.size () > 1 && word.front () == '+' && word[1] != '-')
+    word.remove_prefix (1);
+  const auto [rest, error] = std::from_chars (word.data (), word.data () + word.size (), number);
+  if (rest != word.data () + word.size ())
+    return false;
+  if (error == std::errc{})
+    return true;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (error == std::errc::result_out_of_range) {
+      const std::string copy (word);
+      if constexpr (std::is_same_v<T, float>)
+        number = std::strtof (copy.c_str (), nullptr);
+      else
+        number = std::strtod (copy.c_str (), nullptr);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Walks over a text. Lines end with \n or \r\n; words are separated by blanks and tabs.
+class TextScanner
+{
+public:
+  /// \param text must outlive the scanner
+  explicit TextScanner (std::string_view text) : text_ (text) {}
+
+  /// Goes to the next line; there is none at the end of the text.
+  bool nextLine ()
+  {
+    if (next_ >= text_.size ())
+      return false;
+    const std::size_t newline = text_.find ('\n', next_);
+    end_ = newline == std::string_view::npos ? text_.size () : newline;
+    at_ = next_;
+    next_ = newline == std::string_view::npos ? text_.size () : newline + 1;
+    ++line_;
+    return true;
+  }
+
+  /// Goes to the next line with a word in it.
+  bool nextFilledLine ()
+  {
+    while (nextLine ()) {
+      skipBlanks ();
+      if (at_ < end_)
+        return true;
+    }
+    return false;
+  }
+
+  /// Takes the next word of the line; empty at its end.
+  std::string_view word ()
+  {
+    skipBlanks ();
+    const std::size_t first = at_;
+    while (at_ < end_ && !isBlank (text_[at_]))
+      ++at_;
+    return text_.substr (first, at_ - first);
+  }
+
+  /// Takes what is left of the line.
+  std::string_view restOfLine ()
+  {
+    const std::size_t first = at_;
+    at_ = end_;
+    return text_.substr (first, end_ - first);
+  }
+
+  /// What follows the line.
+  std::string_view rest () const { return text_.substr (next_); }
+
+  /// Throws a ReadError that names the line.
+  [[noreturn]] void fail (const std::string& cause) const
+  {
+    throw ReadError ("line " + std::to_string (line_) + ": " + cause);
+  }
+
+  /// Takes a word that must be a number.
+  /// \throws ReadError if it is not one or the line has ended
+  template <typename T>
+  T number ()
+  {
+    T result;
+    const std::string_view text = word ();
+    if (!parseNumber (text, result))
+      failNumber (text);
+    return result;
+  }
+
+private:
+  static bool isBlank (char c)
+  {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  }
+
+  void skipBlanks ()
+  {
+    while (at_ < end_ && isBlank (text_[at_]))
+      ++at_;
+  }
+
+  [[noreturn]] void failNumber (std::string_view text) const
+  {
+    constexpr std::size_t LONGEST = 40;
+    if (text.empty ())
+      fail ("it has fewer values than there must be");
+    fail ("'" + std::string (text.substr (0, LONGEST)) + "' is not a number of the right type");
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;   // next character
+  std::size_t end_ = 0;  // end of the line
+  std::size_t next_ = 0; // begin of the next line
+  std::size_t line_ = 0; // number of the line, from 1
+};
+
+/// Parses `field.count` words as values of point `i`.
+inline void
+scanField (TextScanner& scanner, Field& field, std::size_t i)
+{
+  std::uint8_t* to = field.bytes.data () + i * field.pointBytes ();
+  visitType (field.type, [&] (auto tag) {
+    using T = decltype (tag);
+    for (std::size_t c = 0; c < field.count; ++c, to += sizeof (T)) {
+      const T number = scanner.number<T> ();
+      std::memcpy (to, &number, sizeof (T));
+    }
+  });
+}
+
+} // namespace floater
+} // namespace pcl

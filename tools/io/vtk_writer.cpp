@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Written here and not by VTK, whose libraries cost every start of the tool more than most clouds
+// take to reconstruct. The tests read the files back with VTK and PCL.
+#include "mesh_writer.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+const char*
+vtkTypeName (ScalarType type)
+{
+  switch (type) {
+  case ScalarType::INT8:
+    return "signed_char";
+  case ScalarType::UINT8:
+    return "unsigned_char";
+  case ScalarType::INT16:
+    return "short";
+  case ScalarType::UINT16:
+    return "unsigned_short";
+  case ScalarType::INT32:
+    return "int";
+  case ScalarType::UINT32:
+    return "unsigned_int";
+  case ScalarType::INT64:
+    return "vtktypeint64";
+  case ScalarType::UINT64:
+    return "vtktypeuint64";
+  case ScalarType::FLOAT32:
+    return "float";
+  case ScalarType::FLOAT64:
+    break;
+  }
+  return "double";
+}
+
+/// VTK decodes %xx in the names of arrays.
+std::string
+encodeName (const std::string& name)
+{
+  std::string encoded;
+  for (const char c : name) {
+    if (c > ' ' && c <= '~' && c != '%' && c != '"')
+      encoded += c;
+    else {
+      std::array<char, 4> code{};
+      std::snprintf (code.data (), code.size (), "%%%02X", static_cast<unsigned char> (c));
+      encoded += code.data ();
+    }
+  }
+  return encoded;
+}
+
+void
+writeTriple (AtomicFile& file, const FieldTriple& fields, std::size_t size)
+{
+  visitType (fields[0]->type, [&] (auto tag) {
+    using T = decltype (tag);
+    for (std::size_t i = 0; i < size; ++i)
+      for (const Field* field : fields)
+        file.writeNumber (field->value<T> (i), ByteOrder::BIG);
+  });
+  file.write ("\n");
+}
+
+void
+writeArray (AtomicFile& file, const Field& field, std::size_t size)
+{
+  file.write (encodeName (field.name) + " " + std::to_string (field.count) + " " +
+              std::to_string (size) + " " + vtkTypeName (field.type) + "\n");
+  visitType (field.type, [&] (auto tag) {
+    for (std::size_t i = 0; i < size * field.count; ++i)
+      file.writeNumber (field.value<decltype (tag)> (i), ByteOrder::BIG);
+  });
+  file.write ("\n");
+}
+
+} // namespace
+
+void
+writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  const std::string size = std::to_string (cloud.size ());
+  file.write (
+      "# vtk DataFile Version 3.0\nwritten by pcl_floater_reconstruct\nBINARY\nDATASET POLYDATA\n");
+  file.write ("POINTS " + size + (cloud.single_precision ? " float\n" : " double\n"));
+  for (const Eigen::Vector3d& p : cloud.positions)
+    for (const double coordinate : p) {
+      if (cloud.single_precision)
+        file.writeNumber (static_cast<float> (coordinate), ByteOrder::BIG);
+      else
+        file.writeNumber (coordinate, ByteOrder::BIG);
+    }
+  file.write ("\nPOLYGONS " + std::to_string (triangles.size ()) + " " +
+              std::to_string (4 * triangles.size ()) + "\n");
+  for (const auto& triangle : triangles) {
+    file.writeNumber (std::int32_t{3}, ByteOrder::BIG);
+    for (const std::uint32_t corner : triangle)
+      file.writeNumber (static_cast<std::int32_t> (corner), ByteOrder::BIG);
+  }
+  file.write ("\n");
+
+  const FieldTriple colors = colorFields (cloud);
+  const FieldTriple normals = normalFields (cloud);
+  std::vector<const Field*> others;
+  for (const Field& field : cloud.fields)
+    if (std::find (colors.begin (), colors.end (), &field) == colors.end () &&
+        std::find (normals.begin (), normals.end (), &field) == normals.end ())
+      others.push_back (&field);
+  if (!cloud.fields.empty ())
+    file.write ("POINT_DATA " + size + "\n");
+  if (colors[0]) {
+    file.write ("COLOR_SCALARS RGB 3\n");
+    writeTriple (file, colors, cloud.size ());
+  }
+  if (normals[0]) {
+    file.write (std::string ("NORMALS Normals ") + vtkTypeName (normals[0]->type) + "\n");
+    writeTriple (file, normals, cloud.size ());
+  }
+  if (!others.empty ()) {
+    file.write ("FIELD FieldData " + std::to_string (others.size ()) + "\n");
+    for (const Field* field : others)
+      writeArray (file, *field, cloud.size ());
+  }
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command_line.h"
+
+#include "atomic_file.h"
+#include "cloud_reader.h"
+#include "format.h"
+#include "mesh_writer.h"
+#include "text_scanner.h"
+#include "validation.h"
+
+#include <CLI/CLI.hpp>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+const char* const GENERAL = "General";
+
+const char* const DESCRIPTION =
+    "Reconstructs a surface from unorganized points (Floater's meshless parameterization).\n"
+    "The vertices of the mesh are the points of the cloud, in the same order and with all their\n"
+    "fields. The surface must be one piece with a boundary, like a scan from one side. Nothing\n"
+    "needs to be tuned.\n";
+
+const char* const FOOTER =
+    R"(Examples:
+  pcl_floater_reconstruct scan.pcd scan.vtk
+  pcl_floater_reconstruct --report scan.json --parameterization flat.ply scan.ply mesh.ply
+  pcl_floater_reconstruct --boundary two-segments --flips off --sheet-filter off scan.pcd paper.ply
+
+Notes:
+  Input formats: .pcd, .ply, .obj. Output formats: .vtk (pcl_viewer opens it), .ply, .obj, .stl.
+  Points with a coordinate that is not finite are left out of the output, and the vertices after
+  them move up; the report lists them. All other points are vertices, also if no triangle uses them.
+  An output appears when it is whole; a file that is there already is replaced. After a failure
+  there is no mesh, and what was there before is unchanged.
+
+Exit codes:
+  0  success
+  1  usage: an option is unknown, malformed or out of its range
+  2  the input cannot be read: missing, truncated, damaged, without x y z
+  3  the cloud cannot be reconstructed; the message and the report name the status
+  4  an output cannot be written
+  5  out of memory, or an internal error
+)";
+
+template <typename Enum, std::size_t N>
+void
+addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<Enum, N>& choices,
+           const std::string& description, const std::string& group)
+{
+  std::string words;
+  for (const auto& choice : choices)
+    words += (words.empty () ? "" : ", ") + std::string (choice.first);
+  const auto choose = [&value, choices, words, name] (const std::string& word) {
+    for (const auto& choice : choices)
+      if (word == choice.first) {
+        value = choice.second;
+        return;
+      }
+    throw CLI::ValidationError (name, "'" + word + "' is none of: " + words);
+  };
+  app.add_option_function<std::string> (name, choose, description + ":\n" + words)
+      ->option_text (std::string ("NAME (") + choiceName (choices, value) + ")")
+      ->group (group);
+}
+
+template <typename Number>
+void
+addNumber (CLI::App& app, const std::string& name, Number& value, const std::string& description,
+           const std::string& group)
+{
+  const auto parse = [&value, name] (const std::string& word) {
+    if (!parseNumber (word, value))
+      throw CLI::ValidationError (name,
+                                  "'" + word + "' is not a " +
+                                      (std::is_integral_v<Number> ? "whole number" : "number"));
+  };
+  std::ostringstream text;
+  text << (std::is_integral_v<Number> ? "N (" : "X (") << value << ")";
+  app.add_option_function<std::string> (name, parse, description)
+      ->option_text (text.str ())
+      ->group (group);
+}
+
+void
+addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
+         const std::string& description, const std::string& group)
+{
+  app.add_option_function<std::string> (
+         name, [&path] (const std::string& word) { path = word; }, description)
+      ->option_text ("FILE")
+      ->group (group);
+}
+
+void
+addOptions (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
+  addNumber (app, "-j,--threads", options.threads,
+             "threads, 0 for all cores; the result is the same", GENERAL);
+  app.add_flag ("--json", line.json, "print a summary as one line of JSON, the last")
+      ->group (GENERAL);
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only (and the line of --json)")
+      ->group (GENERAL);
+  const auto positional = [&app] (const std::string& name, std::filesystem::path& path,
+                                  const std::string& text) {
+    app.add_option_function<std::string> (
+           name, [&path] (const std::string& word) { path = word; }, text)
+        ->option_text (" ")
+        ->required ();
+  };
+  positional ("INPUT", line.input, "point cloud: .pcd, .ply or .obj");
+  positional ("OUTPUT", line.output, "mesh to write: .vtk, .ply, .obj or .stl");
+
+  const std::string neighborhoods = "Neighbourhoods";
+  addNumber (app, "-k,--neighbors", options.k, "nearest neighbours of each point, 6 to 200",
+             neighborhoods);
+  addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
+             "leave out neighbours on another sheet", neighborhoods);
+
+  const std::string boundary = "Boundary";
+  addChoice (app, "--boundary", options.boundary, BOUNDARY_CHOICES,
+             "how the boundary loop is found", boundary);
+  addPath (app, "--loop", line.loop,
+           "take the loop from this text file: indices of\npoints in order, from 0", boundary);
+  addNumber (app, "--opening-angle", options.opening_angle,
+             "degrees: a boundary point sees a wider sector\nwithout neighbours", boundary);
+  addNumber (app, "--cluster-tolerance", options.cluster_tolerance,
+             "two-segments: growing distance of clusters as\nfraction of the bounding box diagonal",
+             boundary);
+  addNumber (app, "--cluster-neighbors", options.cluster_k,
+             "two-segments: nearest boundary points appended\nin cluster growing", boundary);
+
+  const std::string parameterization = "Parameterization";
+  addChoice (app, "--domain", options.domain, DOMAIN_CHOICES,
+             "convex curve on which the loop is laid", parameterization);
+  addNumber (app, "--sides", options.polygon_sides, "sides of the polygon, 3 or more",
+             parameterization);
+  addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
+             "weights of a point in its neighbours", parameterization);
+  addChoice (app, "--ordering", options.ordering, ORDERING_CHOICES,
+             "order of the unknowns for the factorization", parameterization);
+
+  addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
+             "flip edges on the surface at the end", "Surface");
+
+  const std::string output = "More output";
+  addPath (app, "--report", line.report, "write all there is to say about the run as JSON", output);
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh in the plane z = 0, in any of the\nmesh formats", output);
+}
+
+/// The same file under whatever names; files need not exist.
+bool
+areSame (const std::filesystem::path& a, const std::filesystem::path& b)
+{
+  std::error_code error;
+  if (std::filesystem::equivalent (a, b, error) && !error)
+    return true;
+  return std::filesystem::weakly_canonical (a, error) ==
+         std::filesystem::weakly_canonical (b, error);
+}
+
+} // namespace
+
+std::optional<int>
+parseCommandLine (int argc, char** argv, CommandLine& command_line)
+{
+  CLI::App app (DESCRIPTION, "pcl_floater_reconstruct");
+  constexpr std::size_t NAME_COLUMN = 34;
+  app.get_formatter ()->column_width (NAME_COLUMN);
+  app.footer (FOOTER);
+  app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
+  app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,
+                        "print the version and exit")
+      ->group (GENERAL);
+  addOptions (app, command_line);
+  try {
+    app.parse (argc, argv);
+  }
+  catch (const CLI::ParseError& error) {
+    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
+      return app.exit (error);
+    throw UsageError (error.what ());
+  }
+  if (const Problem problem = checkOptions (command_line.options))
+    throw UsageError (problem.message);
+  return std::nullopt;
+}
+
+void
+checkPaths (const CommandLine& line)
+{
+  if (!isCloudFile (line.input))
+    throw ReadError ("its extension '" + lowerExtension (line.input) +
+                     "' is unknown; use .pcd, .ply or .obj");
+  struct Named
+  {
+    const char* name;
+    const std::filesystem::path* path;
+    bool is_output;
+  };
+  const std::array<Named, 5> all{{{"INPUT", &line.input, false},
+                                  {"--loop", &line.loop, false},
+                                  {"OUTPUT", &line.output, true},
+                                  {"--parameterization", &line.parameterization, true},
+                                  {"--report", &line.report, true}}};
+  for (std::size_t i = 0; i < all.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (all[i].is_output && !all[i].path->empty () && !all[j].path->empty () &&
+          areSame (*all[i].path, *all[j].path))
+        throw UsageError (std::string (all[j].name) + " and " + all[i].name +
+                          " are the same file, '" + all[i].path->string () +
+                          "'; give different ones");
+  for (const std::filesystem::path* path : {&line.output, &line.parameterization})
+    if (!path->empty () && !isMeshFile (*path))
+      throw WriteError ("cannot write '" + path->string () + "': its extension '" +
+                        lowerExtension (*path) + "' is unknown; use .vtk, .ply, .obj or .stl");
+  for (const Named& named : all)
+    if (named.is_output && !named.path->empty ())
+      requireWritable (*named.path);
+}
+
+std::vector<std::uint32_t>
+readLoop (const std::filesystem::path& path)
+{
+  std::string text = readFile (path);
+  std::replace (text.begin (), text.end (), ',', ' ');
+  std::vector<std::uint32_t> loop;
+  TextScanner scanner (text);
+  while (scanner.nextLine ())
+    for (std::string_view word = scanner.word (); !word.empty () && word.front () != '#';
+         word = scanner.word ())
+      if (!parseNumber (word, loop.emplace_back ()))
+        scanner.fail ("'" + std::string (word) + "' is not the index of a point");
+  if (loop.empty ())
+    throw ReadError ("it holds no indices of points");
+  return loop;
+}
+
+} // namespace floater
+} // namespace pcl

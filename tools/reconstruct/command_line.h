@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line of pcl_floater_reconstruct.
+#pragma once
+
+#include <pcl/surface/floater/options.h>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+/// Exit codes, as documented in --help.
+enum ExitCode
+{
+  EXIT_OK = 0,
+  EXIT_USAGE = 1,
+  EXIT_INPUT = 2,
+  EXIT_RECONSTRUCTION = 3,
+  EXIT_OUTPUT = 4,
+  EXIT_INTERNAL = 5
+};
+
+/// The command line asks for something that makes no sense.
+class UsageError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the user asked for. Paths that were not given are empty.
+struct CommandLine
+{
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::filesystem::path report;
+  std::filesystem::path parameterization;
+  std::filesystem::path loop;
+  Options options; ///< but for the loop, which is still in its file
+  bool quiet = false;
+  bool json = false;
+};
+
+/// Words for the values of an enumeration, on the command line and in reports.
+template <typename Enum, std::size_t N>
+using Choices = std::array<std::pair<const char*, Enum>, N>;
+
+constexpr Choices<BoundaryMethod, 2> BOUNDARY_CHOICES{
+    {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
+     {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
+constexpr Choices<Domain, 3> DOMAIN_CHOICES{
+    {{"circle", Domain::CIRCLE}, {"square", Domain::SQUARE}, {"polygon", Domain::POLYGON}}};
+constexpr Choices<Weighting, 4> WEIGHTING_CHOICES{
+    {{"uniform", Weighting::UNIFORM},
+     {"inverse-distance", Weighting::INVERSE_DISTANCE},
+     {"shape-preserving", Weighting::SHAPE_PRESERVING},
+     {"mean-value", Weighting::MEAN_VALUE}}};
+constexpr Choices<Ordering, 3> ORDERING_CHOICES{
+    {{"automatic", Ordering::AUTOMATIC}, {"amd", Ordering::AMD}, {"metis", Ordering::METIS}}};
+
+constexpr Choices<bool, 2> SWITCH_CHOICES{{{"on", true}, {"off", false}}};
+
+/// The word for a value.
+template <typename Enum, std::size_t N>
+const char*
+choiceName (const Choices<Enum, N>& choices, Enum value)
+{
+  for (const auto& choice : choices)
+    if (choice.second == value)
+      return choice.first;
+  return "unknown";
+}
+
+/// Parses the command line; prints help and version.
+/// \return the exit code if there is nothing more to do
+/// \throws UsageError
+std::optional<int>
+parseCommandLine (int argc, char** argv, CommandLine& command_line);
+
+/// Checks all paths against each other and the disk, so that nothing fails after the work is done.
+/// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
+/// ReadError if the extension of the input is unknown
+void
+checkPaths (const CommandLine& command_line);
+
+/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines; # begins
+/// a comment. \throws ReadError
+std::vector<std::uint32_t>
+readLoop (const std::filesystem::path& path);
+
+} // namespace floater
+} // namespace pcl

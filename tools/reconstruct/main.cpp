@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads a cloud, reconstructs its surface, writes the mesh. The core is called directly and not
+// through the PCL class, so that coordinates keep their double precision.
+#include "cloud_reader.h"
+#include "command_line.h"
+#include "mesh_writer.h"
+#include "progress.h"
+#include "report_json.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <numeric>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+double
+secondsSince (std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+}
+
+/// As a read error, but with the name of the file.
+template <typename Read>
+auto
+readNamed (const std::filesystem::path& path, Read&& read)
+{
+  try {
+    return read ();
+  }
+  catch (const ReadError& error) {
+    throw ReadError ("cannot read '" + path.string () + "': " + error.what ());
+  }
+}
+
+int
+exitCode (Status status)
+{
+  switch (status) {
+  case Status::OK:
+    return EXIT_OK;
+  case Status::INVALID_OPTION:
+    return EXIT_USAGE;
+  case Status::OUT_OF_MEMORY:
+  case Status::INTERNAL_ERROR:
+    return EXIT_INTERNAL;
+  default:
+    return EXIT_RECONSTRUCTION;
+  }
+}
+
+Result
+reconstructCloud (const Cloud& cloud, Options options, Progress& progress)
+{
+  Input input;
+  input.positions = cloud.positions;
+  input.cloud_size = cloud.size ();
+  input.cloud_index.resize (cloud.size ());
+  std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
+  options.progress = [&progress] (Stage stage) {
+    progress.show ("[" + std::to_string (static_cast<int> (stage) + 1) + "/" +
+                   std::to_string (static_cast<int> (Stage::COUNT)) + "] " + stageName (stage));
+  };
+  return reconstruct (std::move (input), options);
+}
+
+/// The mesh in the plane: points at their parameters, without normals, for those are of the
+/// surface.
+std::pair<Cloud, Triangles>
+flatMesh (const Cloud& cloud, const Result& result)
+{
+  Cloud flat;
+  flat.single_precision = false;
+  flat.positions.reserve (cloud.size ());
+  for (const Eigen::Vector2d& uv : result.report.parameters)
+    flat.positions.emplace_back (uv.x (), uv.y (), 0.0);
+  const FieldTriple normals = normalFields (cloud);
+  for (const Field& field : cloud.fields)
+    if (std::find (normals.begin (), normals.end (), &field) == normals.end ())
+      flat.fields.push_back (field);
+  Triangles triangles;
+  std::copy_if (result.triangles.begin (), result.triangles.end (), std::back_inserter (triangles),
+                [&flat] (const auto& triangle) {
+                  return std::all_of (
+                      triangle.begin (), triangle.end (),
+                      [&flat] (std::uint32_t p) { return flat.positions[p].allFinite (); });
+                });
+  removeNonFinitePoints (flat, triangles);
+  return {std::move (flat), std::move (triangles)};
+}
+
+using Files = std::vector<std::unique_ptr<AtomicFile>>;
+
+void
+stageReport (const CommandLine& line, const Report& report, const RunFigures& run, Files& files)
+{
+  if (line.report.empty ())
+    return;
+  AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (line.report));
+  file.write (reportText (line, report, run));
+  file.close ();
+}
+
+/// Writes all outputs under temporary names; none is visible yet.
+void
+stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
+{
+  const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
+                          const Triangles& triangles) {
+    AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (path));
+    for (std::string& loss : writeMesh (file, path, vertices, triangles))
+      result.report.warnings.push_back (std::move (loss));
+    file.close ();
+  };
+  if (!line.parameterization.empty ()) {
+    const auto [flat, triangles] = flatMesh (cloud, result);
+    stage (line.parameterization, flat, triangles);
+  }
+  if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
+    result.report.warnings.push_back (
+        std::to_string (removed) +
+        " points without finite coordinates were left out of the output; the vertices "
+        "after them moved up");
+  run.vertices = cloud.size ();
+  stage (line.output, cloud, result.triangles);
+  stageReport (line, result.report, run, files);
+}
+
+void
+publish (const Files& files)
+{
+  for (const std::unique_ptr<AtomicFile>& file : files)
+    file->publish ();
+}
+
+void
+printSummary (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const Statistics& statistics = report.statistics;
+  for (const std::string& warning : report.warnings)
+    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
+  constexpr double MEGABYTE = 1e6;
+  std::printf (
+      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %zu unused)\n",
+      run.input_points, statistics.used_points, statistics.duplicate_points,
+      statistics.non_finite_points, report.unused.size ());
+  std::printf ("triangles  %zu\n", statistics.triangles);
+  std::printf ("loop       %zu points\n", statistics.loop_points);
+  std::printf ("seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
+               run.read_seconds, run.reconstruct_seconds, run.write_seconds,
+               static_cast<double> (peakMemory ()) / MEGABYTE);
+  std::printf ("warnings   %zu\n", report.warnings.size ());
+  std::printf ("mesh       %s\n", line.output.c_str ());
+  if (!line.parameterization.empty ())
+    std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
+  if (!line.report.empty ())
+    std::printf ("report     %s\n", line.report.c_str ());
+}
+
+int
+run (CommandLine line)
+{
+  readNamed (line.input, [&] { checkPaths (line); });
+  Progress progress (!line.quiet);
+  progress.show ("reading");
+  auto start = std::chrono::steady_clock::now ();
+  if (!line.loop.empty ())
+    line.options.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
+  Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input); });
+  RunFigures figures;
+  figures.read_seconds = secondsSince (start);
+  figures.input_points = cloud.size ();
+  figures.single_precision = cloud.single_precision;
+  for (const Field& field : cloud.fields)
+    figures.input_fields.push_back (field.name);
+
+  start = std::chrono::steady_clock::now ();
+  Result result = reconstructCloud (cloud, line.options, progress);
+  figures.reconstruct_seconds = secondsSince (start);
+  Report& report = result.report;
+  report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+
+  progress.show ("writing");
+  start = std::chrono::steady_clock::now ();
+  Files files;
+  const bool is_ok = report.status == Status::OK;
+  if (is_ok)
+    stageOutputs (line, cloud, result, figures, files);
+  else
+    stageReport (line, report, figures, files);
+  publish (files);
+  figures.write_seconds = secondsSince (start);
+  progress.clear ();
+
+  if (!is_ok)
+    std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct '%s': %s (%s)\n",
+                  line.input.c_str (), report.message.c_str (), statusName (report.status));
+  else if (!line.quiet)
+    printSummary (line, report, figures);
+  if (line.json)
+    std::printf ("%s\n", summaryLine (line, report, figures).c_str ());
+  if (std::fflush (stdout) != 0)
+    throw WriteError ("cannot write to the standard output");
+  return exitCode (report.status);
+}
+
+int
+fail (int code, const char* message)
+{
+  std::fprintf (stderr, "pcl_floater_reconstruct: %s\n", message);
+  return code;
+}
+
+int
+runTool (int argc, char** argv)
+{
+  try {
+    handleSignals ();
+    CommandLine line;
+    if (const std::optional<int> done = parseCommandLine (argc, argv, line))
+      return *done;
+    return run (std::move (line));
+  }
+  catch (const UsageError& error) {
+    return fail (EXIT_USAGE, (std::string (error.what ()) + "\nTry --help.").c_str ());
+  }
+  catch (const ReadError& error) {
+    return fail (EXIT_INPUT, error.what ());
+  }
+  catch (const WriteError& error) {
+    return fail (EXIT_OUTPUT, error.what ());
+  }
+  catch (const std::bad_alloc&) {
+    return fail (EXIT_INTERNAL, "not enough memory; use fewer points, or a machine with more");
+  }
+  catch (const std::exception& error) {
+    return fail (EXIT_INTERNAL, (std::string ("unexpected error: ") + error.what ()).c_str ());
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
+
+int
+main (int argc, char** argv)
+{
+  return pcl::floater::runTool (argc, argv);
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One line on a terminal that tells what is being done.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// Shows steps on the standard error stream if that is a terminal. The line is wiped at the end.
+class Progress
+{
+public:
+  explicit Progress (bool wanted) : is_shown_ (wanted && ::isatty (STDERR_FILENO) == 1) {}
+  ~Progress () { clear (); }
+  Progress (const Progress&) = delete;
+  Progress& operator= (const Progress&) = delete;
+  Progress (Progress&&) = delete;
+  Progress& operator= (Progress&&) = delete;
+
+  void show (const std::string& step)
+  {
+    if (is_shown_) {
+      std::fprintf (stderr, "\r\033[K%s ...", step.c_str ());
+      std::fflush (stderr);
+    }
+  }
+
+  void clear ()
+  {
+    if (is_shown_) {
+      std::fputs ("\r\033[K", stderr);
+      std::fflush (stderr);
+    }
+  }
+
+private:
+  bool is_shown_;
+};
+
+} // namespace floater
+} // namespace pcl

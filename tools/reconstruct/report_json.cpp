@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json
+optionsJson (const Options& options)
+{
+  return {{"neighbors", options.k},
+          {"sheet_filter", options.filter_sheets},
+          {"boundary", choiceName (BOUNDARY_CHOICES, options.boundary)},
+          {"loop_given", !options.loop.empty ()},
+          {"opening_angle", options.opening_angle},
+          {"cluster_tolerance", options.cluster_tolerance},
+          {"cluster_neighbors", options.cluster_k},
+          {"domain", choiceName (DOMAIN_CHOICES, options.domain)},
+          {"sides", options.polygon_sides},
+          {"weights", choiceName (WEIGHTING_CHOICES, options.weighting)},
+          {"ordering", choiceName (ORDERING_CHOICES, options.ordering)},
+          {"flips", options.flip_edges},
+          {"threads", options.threads}};
+}
+
+Json
+statisticsJson (const Statistics& statistics)
+{
+  return {{"cloud_points", statistics.cloud_points},
+          {"selected_points", statistics.selected_points},
+          {"non_finite_points", statistics.non_finite_points},
+          {"duplicate_points", statistics.duplicate_points},
+          {"working_points", statistics.working_points},
+          {"used_points", statistics.used_points},
+          {"relinked_points", statistics.relinked_points},
+          {"boundary_candidates", statistics.boundary_candidates},
+          {"loop_points", statistics.loop_points},
+          {"triangles", statistics.triangles},
+          {"flips", statistics.flips},
+          {"folds", statistics.folds},
+          {"unknowns", statistics.unknowns},
+          {"nnz_matrix", statistics.nnz_matrix},
+          {"nnz_factors", statistics.nnz_factors},
+          {"fill_in", statistics.fill_in},
+          {"residual", statistics.residual},
+          {"reciprocal_condition", statistics.reciprocal_condition},
+          {"factorization_bytes", statistics.factorization_bytes}};
+}
+
+Json
+secondsJson (const Statistics& statistics, const RunFigures& run)
+{
+  Json seconds = {{"reading", run.read_seconds}};
+  for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage)
+    seconds[stageName (static_cast<Stage> (stage))] = statistics.seconds[stage];
+  seconds["reconstruction"] = run.reconstruct_seconds;
+  return seconds;
+}
+
+/// Names of files need not be UTF-8, JSON is.
+std::string
+dump (const Json& json)
+{
+  constexpr int ONE_LINE = -1;
+  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
+}
+
+Json
+fileName (const std::filesystem::path& path)
+{
+  return path.empty () ? Json () : Json (path.string ());
+}
+
+} // namespace
+
+std::size_t
+peakMemory ()
+{
+  constexpr std::size_t UNIT = 1024; // Linux counts in kB
+  rusage usage{};
+  return ::getrusage (RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t> (usage.ru_maxrss) * UNIT
+                                                : 0;
+}
+
+std::string
+reportText (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const bool is_ok = report.status == Status::OK;
+  const Json all = {{"tool", "pcl_floater_reconstruct"},
+                    {"version", PCL_FLOATER_VERSION},
+                    {"input",
+                     {{"file", fileName (line.input)},
+                      {"points", run.input_points},
+                      {"coordinates", run.single_precision ? "float" : "double"},
+                      {"fields", run.input_fields}}},
+                    {"output", is_ok ? Json{{"file", fileName (line.output)},
+                                            {"vertices", run.vertices},
+                                            {"triangles", report.statistics.triangles},
+                                            {"parameterization", fileName (line.parameterization)}}
+                                     : Json ()},
+                    {"options", optionsJson (line.options)},
+                    {"status", statusName (report.status)},
+                    {"message", report.message},
+                    {"warnings", report.warnings},
+                    {"statistics", statisticsJson (report.statistics)},
+                    {"seconds", secondsJson (report.statistics, run)},
+                    {"peak_memory_bytes", peakMemory ()},
+                    {"loop", report.loop},
+                    {"unused", report.unused},
+                    {"non_finite", report.non_finite},
+                    {"duplicates", report.duplicates}};
+  std::string text;
+  for (const auto& [key, value] : all.items ())
+    text += (text.empty () ? "{\n  " : ",\n  ") + dump (key) + ": " + dump (value);
+  return text + "\n}\n";
+}
+
+std::string
+summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  return dump ({{"status", statusName (report.status)},
+                {"message", report.message},
+                {"points", run.input_points},
+                {"used_points", report.statistics.used_points},
+                {"triangles", report.statistics.triangles},
+                {"loop_points", report.statistics.loop_points},
+                {"warnings", report.warnings.size ()},
+                {"recon_seconds", run.reconstruct_seconds},
+                {"read_seconds", run.read_seconds},
+                {"write_seconds", run.write_seconds},
+                {"peak_memory_bytes", peakMemory ()},
+                {"output", report.status == Status::OK ? fileName (line.output) : Json ()}});
+}
+
+} // namespace floater
+} // namespace pcl
