@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What goes into FloaterReconstruction and what comes out: clouds, indices, search methods, meshes.
+// What goes into FloaterReconstruction and what comes out: clouds, indices, meshes, failures.
 #include "mesh_check.h"
 
 #include <pcl/point_types.h>
-#include <pcl/search/brute_force.h>
-#include <pcl/search/kdtree.h>
-#include <pcl/search/octree.h>
 
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <stdexcept>
 
 namespace pcl
 {
@@ -21,7 +17,6 @@ namespace
 {
 using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-using Search = pcl::search::Search<pcl::PointXYZ>;
 
 constexpr float NOWHERE = std::numeric_limits<float>::quiet_NaN ();
 
@@ -269,6 +264,32 @@ TEST_F (FloaterClass, RefusesWhatIsNoDisc)
   expectFailure (floater, Status::TOO_FEW_POINTS);
 }
 
+TEST_F (FloaterClass, TellsOfPointsApart)
+{
+  const Cloud::Ptr cloud = heightField ();
+  pcl::Indices island;
+  for (int i = 0; i < 36; ++i) {
+    island.push_back (static_cast<pcl::index_t> (cloud->size ()));
+    cloud->push_back (
+        pcl::PointXYZ (100.0F + static_cast<float> (i % 6), static_cast<float> (i / 6), 50.0F));
+  }
+  Floater floater;
+  floater.setInputCloud (cloud);
+  pcl::PolygonMesh mesh;
+  testing::internal::CaptureStderr ();
+  floater.reconstruct (mesh);
+  const std::string told = testing::internal::GetCapturedStderr ();
+  ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  EXPECT_EQ (floater.getUnusedIndices (), island);
+  ASSERT_FALSE (floater.getReport ().warnings.empty ());
+  for (const std::string& warning : floater.getReport ().warnings)
+    EXPECT_NE (told.find ("[pcl::FloaterReconstruction::performReconstruction] " + warning),
+               std::string::npos);
+  EXPECT_EQ (static_cast<std::size_t> (std::count (told.begin (), told.end (), '\n')),
+             floater.getReport ().warnings.size ());
+  expectDisc (trianglesOf (mesh.polygons), allOf (500), floater.getBoundaryLoop ());
+}
+
 TEST_F (FloaterClass, AcceptsOrganizedClouds)
 {
   const Cloud::Ptr cloud = organizedSheet (30, 20);
@@ -320,77 +341,6 @@ TEST_F (FloaterClass, ServesOneCloudAfterAnother)
   EXPECT_EQ (alone (large) == of_large, false);
   floater.setInputCloud (large);
   EXPECT_EQ (runWell (floater), alone (large));
-}
-
-/// Counts what it is asked.
-class CountingSearch : public pcl::search::KdTree<pcl::PointXYZ>
-{
-public:
-  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
-
-  int nearestKSearch (const pcl::PointXYZ& point, int k, pcl::Indices& indices,
-                      std::vector<float>& sqr_distances) const override
-  {
-    ++queries;
-    return pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch (point, k, indices, sqr_distances);
-  }
-
-  mutable std::size_t queries = 0;
-};
-
-TEST_F (FloaterClass, AsksTheUsersSearchMethod)
-{
-  const Cloud::Ptr cloud = heightField ();
-  pcl::IndicesPtr indices (new pcl::Indices);
-  for (pcl::index_t i = static_cast<pcl::index_t> (cloud->size ()) - 1; i >= 0; --i)
-    if ((*cloud)[i].x < 18.0F)
-      indices->push_back (i);
-  ASSERT_GT (indices->size (), 300U);
-  ASSERT_LT (indices->size (), cloud->size ());
-  (*cloud)[indices->back ()].y = NOWHERE;
-
-  Floater floater;
-  floater.setInputCloud (cloud);
-  floater.setIndices (indices);
-  const Triangles expected = runWell (floater);
-  const pcl::shared_ptr<CountingSearch> counting (new CountingSearch);
-  const std::vector<Search::Ptr> methods{Search::Ptr (new pcl::search::KdTree<pcl::PointXYZ>),
-                                         Search::Ptr (new pcl::search::Octree<pcl::PointXYZ> (1.5)),
-                                         Search::Ptr (new pcl::search::BruteForce<pcl::PointXYZ>),
-                                         counting};
-  for (const Search::Ptr& method : methods) {
-    SCOPED_TRACE (method->getName ());
-    method->setInputCloud (organizedSheet (5, 5)); // of an earlier use
-    floater.setSearchMethod (method);
-    EXPECT_EQ (runWell (floater), expected);
-    EXPECT_EQ (floater.getSearchMethod (), method);
-    EXPECT_EQ (method->getInputCloud (), cloud);
-    ASSERT_NE (method->getIndices (), nullptr);
-    EXPECT_EQ (method->getIndices ()->size (), indices->size () - 1); // not the point with a NaN
-  }
-  EXPECT_EQ (counting->queries, indices->size () - 1);
-}
-
-class ThrowingSearch : public pcl::search::KdTree<pcl::PointXYZ>
-{
-public:
-  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
-
-  int nearestKSearch (const pcl::PointXYZ&, int, pcl::Indices&, std::vector<float>&) const override
-  {
-    throw std::runtime_error ("the disk is full");
-  }
-};
-
-TEST_F (FloaterClass, LetsNoExceptionOut)
-{
-  Floater floater;
-  floater.setInputCloud (heightField (100));
-  floater.setSearchMethod (Search::Ptr (new ThrowingSearch));
-  expectFailure (floater, Status::INTERNAL_ERROR);
-  EXPECT_NE (floater.getMessage ().find ("the disk is full"), std::string::npos);
-  floater.setSearchMethod (nullptr);
-  runWell (floater);
 }
 
 template <typename PointT>

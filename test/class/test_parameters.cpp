@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Setters and getters of FloaterReconstruction, and what the parameters do to a run.
+// Setters and getters of FloaterReconstruction, and what parameters and search methods do to a run.
 #include "mesh_check.h"
 
 #include <pcl/point_types.h>
+#include <pcl/search/brute_force.h>
+#include <pcl/search/kdtree.h>
+#include <pcl/search/octree.h>
 
 #include <functional>
 #include <limits>
@@ -17,6 +20,7 @@ namespace
 {
 using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+using Search = pcl::search::Search<pcl::PointXYZ>;
 
 Cloud::Ptr
 heightField (std::size_t points = 500)
@@ -70,7 +74,6 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndStays)
   const std::vector<Choice> choices{
       CHOICE (KNearest, 12),
       CHOICE (OpeningAngle, 150.0),
-      CHOICE (BoundaryMethod, BoundaryMethod::TWO_SEGMENTS),
       CHOICE (ClusterTolerance, 0.07),
       CHOICE (ClusterK, 12),
       CHOICE (Domain, Domain::SQUARE),
@@ -156,6 +159,40 @@ TEST_F (FloaterClass, ParametersChangeTheRun)
   EXPECT_LT (nearest, 0.6);
   for (const pcl::index_t i : floater.getBoundaryLoop ())
     EXPECT_NEAR (on_circle[static_cast<std::size_t> (i)].norm (), 1.0, 1e-12);
+}
+
+TEST_F (FloaterClass, TwoSegmentsFollowTheClusterParameters)
+{
+  // The border of 500 points is sparse: the distance that suits a real scan is too short for it.
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  floater.setBoundaryMethod (BoundaryMethod::TWO_SEGMENTS);
+  floater.setClusterTolerance (0.2);
+  runDisc (floater, allOf (500));
+  EXPECT_EQ (floater.getBoundaryMethod (), BoundaryMethod::TWO_SEGMENTS);
+  const std::size_t whole = floater.getBoundaryLoop ().size ();
+  EXPECT_EQ (floater.getStatistics ().boundary_candidates, whole);
+
+  floater.setOpeningAngle (140.0); // more points see a sector as wide as that
+  runDisc (floater, allOf (500));
+  EXPECT_GT (floater.getBoundaryLoop ().size (), whole);
+
+  // A cluster that may not grow as far holds a part of the border only, if that makes a loop.
+  const auto expect_less = [&floater, whole] {
+    Cloud points;
+    Polygons polygons;
+    testing::internal::CaptureStderr ();
+    floater.reconstruct (points, polygons);
+    testing::internal::GetCapturedStderr ();
+    EXPECT_LT (floater.getBoundaryLoop ().size (), whole);
+    EXPECT_EQ (floater.getStatistics ().boundary_candidates, whole);
+  };
+  floater.setOpeningAngle (160.0);
+  floater.setClusterTolerance (0.05);
+  expect_less ();
+  floater.setClusterTolerance (0.2);
+  floater.setClusterK (1);
+  expect_less ();
 }
 
 TEST_F (FloaterClass, ThreadsDoNotChangeTheResult)
@@ -244,6 +281,77 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
   floater.setIndices (indices);
   floater.setPrescribedLoop (loop);
   expectFailure (floater, Status::INVALID_LOOP);
+}
+
+/// Counts what it is asked.
+class CountingSearch : public pcl::search::KdTree<pcl::PointXYZ>
+{
+public:
+  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
+
+  int nearestKSearch (const pcl::PointXYZ& point, int k, pcl::Indices& indices,
+                      std::vector<float>& sqr_distances) const override
+  {
+    ++queries;
+    return pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch (point, k, indices, sqr_distances);
+  }
+
+  mutable std::size_t queries = 0;
+};
+
+TEST_F (FloaterClass, AsksTheUsersSearchMethod)
+{
+  const Cloud::Ptr cloud = heightField ();
+  pcl::IndicesPtr indices (new pcl::Indices);
+  for (pcl::index_t i = static_cast<pcl::index_t> (cloud->size ()) - 1; i >= 0; --i)
+    if ((*cloud)[i].x < 18.0F)
+      indices->push_back (i);
+  ASSERT_GT (indices->size (), 300U);
+  ASSERT_LT (indices->size (), cloud->size ());
+  (*cloud)[indices->back ()].y = std::numeric_limits<float>::quiet_NaN ();
+
+  Floater floater;
+  floater.setInputCloud (cloud);
+  floater.setIndices (indices);
+  const Triangles expected = runWell (floater);
+  const pcl::shared_ptr<CountingSearch> counting (new CountingSearch);
+  const std::vector<Search::Ptr> methods{Search::Ptr (new pcl::search::KdTree<pcl::PointXYZ>),
+                                         Search::Ptr (new pcl::search::Octree<pcl::PointXYZ> (1.5)),
+                                         Search::Ptr (new pcl::search::BruteForce<pcl::PointXYZ>),
+                                         counting};
+  for (const Search::Ptr& method : methods) {
+    SCOPED_TRACE (method->getName ());
+    method->setInputCloud (heightField (60)); // of an earlier use
+    floater.setSearchMethod (method);
+    EXPECT_EQ (runWell (floater), expected);
+    EXPECT_EQ (floater.getSearchMethod (), method);
+    EXPECT_EQ (method->getInputCloud (), cloud);
+    ASSERT_NE (method->getIndices (), nullptr);
+    EXPECT_EQ (method->getIndices ()->size (), indices->size () - 1); // not the point with a NaN
+  }
+  EXPECT_EQ (counting->queries, indices->size () - 1);
+}
+
+class ThrowingSearch : public pcl::search::KdTree<pcl::PointXYZ>
+{
+public:
+  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
+
+  int nearestKSearch (const pcl::PointXYZ&, int, pcl::Indices&, std::vector<float>&) const override
+  {
+    throw std::runtime_error ("the disk is full");
+  }
+};
+
+TEST_F (FloaterClass, LetsNoExceptionOut)
+{
+  Floater floater;
+  floater.setInputCloud (heightField (100));
+  floater.setSearchMethod (Search::Ptr (new ThrowingSearch));
+  expectFailure (floater, Status::INTERNAL_ERROR);
+  EXPECT_NE (floater.getMessage ().find ("the disk is full"), std::string::npos);
+  floater.setSearchMethod (nullptr);
+  runWell (floater);
 }
 
 TEST_F (FloaterClass, TellsItsProgress)
