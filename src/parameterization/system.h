@@ -38,7 +38,7 @@ struct LinearSystem
 LinearSystem
 assembleSystem (const FlatLists& neighbors, const std::vector<double>& weights,
                 const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
-                const std::vector<std::uint8_t>& reachable, int threads = 1);
+                const std::vector<std::uint8_t>& reachable, int threads);
 
 } // namespace floater
 } // namespace pcl

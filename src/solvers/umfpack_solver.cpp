@@ -30,23 +30,23 @@ constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
 struct IntInterface
 {
   using Int = int;
-  static constexpr auto defaults = &umfpack_di_defaults;
-  static constexpr auto symbolic = &umfpack_di_symbolic;
-  static constexpr auto numeric = &umfpack_di_numeric;
-  static constexpr auto solve = &umfpack_di_solve;
-  static constexpr auto freeSymbolic = &umfpack_di_free_symbolic;
-  static constexpr auto freeNumeric = &umfpack_di_free_numeric;
+  static constexpr auto DEFAULTS = &umfpack_di_defaults;
+  static constexpr auto SYMBOLIC = &umfpack_di_symbolic;
+  static constexpr auto NUMERIC = &umfpack_di_numeric;
+  static constexpr auto SOLVE = &umfpack_di_solve;
+  static constexpr auto FREE_SYMBOLIC = &umfpack_di_free_symbolic;
+  static constexpr auto FREE_NUMERIC = &umfpack_di_free_numeric;
 };
 
 struct LongInterface
 {
   using Int = SuiteSparse_long;
-  static constexpr auto defaults = &umfpack_dl_defaults;
-  static constexpr auto symbolic = &umfpack_dl_symbolic;
-  static constexpr auto numeric = &umfpack_dl_numeric;
-  static constexpr auto solve = &umfpack_dl_solve;
-  static constexpr auto freeSymbolic = &umfpack_dl_free_symbolic;
-  static constexpr auto freeNumeric = &umfpack_dl_free_numeric;
+  static constexpr auto DEFAULTS = &umfpack_dl_defaults;
+  static constexpr auto SYMBOLIC = &umfpack_dl_symbolic;
+  static constexpr auto NUMERIC = &umfpack_dl_numeric;
+  static constexpr auto SOLVE = &umfpack_dl_solve;
+  static constexpr auto FREE_SYMBOLIC = &umfpack_dl_free_symbolic;
+  static constexpr auto FREE_NUMERIC = &umfpack_dl_free_numeric;
 };
 
 // UMFPACK's handles are freed through a pointer to them.
@@ -126,7 +126,7 @@ solve (const LinearSystem& system, Ordering ordering, int threads)
   Solution solution;
   std::array<double, UMFPACK_CONTROL> control{};
   std::array<double, UMFPACK_INFO> info{};
-  Interface::defaults (control.data ());
+  Interface::DEFAULTS (control.data ());
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
   control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
   control[UMFPACK_IRSTEP] = 0;
@@ -134,18 +134,18 @@ solve (const LinearSystem& system, Ordering ordering, int threads)
       ordering == Ordering::METIS ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
 
   const auto n = static_cast<Int> (system.unknowns ());
-  Handle<Interface::freeNumeric> numeric;
+  Handle<Interface::FREE_NUMERIC> numeric;
   {
     // The pattern and the symbolic analysis are not needed after the factorization.
     const Pattern<Int> pattern (system);
     void* handle = nullptr;
-    Interface::symbolic (n, n, pattern.offsets.data (), pattern.columns.data (),
+    Interface::SYMBOLIC (n, n, pattern.offsets.data (), pattern.columns.data (),
                          system.values.data (), &handle, control.data (), info.data ());
-    const Handle<Interface::freeSymbolic> symbolic (handle);
+    const Handle<Interface::FREE_SYMBOLIC> symbolic (handle);
     if (!accept (info[UMFPACK_STATUS], "symbolic analysis", solution))
       return solution;
     handle = nullptr;
-    Interface::numeric (pattern.offsets.data (), pattern.columns.data (), system.values.data (),
+    Interface::NUMERIC (pattern.offsets.data (), pattern.columns.data (), system.values.data (),
                         symbolic.get (), &handle, control.data (), info.data ());
     numeric.reset (handle);
   }
@@ -173,7 +173,7 @@ solve (const LinearSystem& system, Ordering ordering, int threads)
   std::array<double, 2> status{};
   bothSides (threads, [&] (std::size_t side) {
     std::array<double, UMFPACK_INFO> solve_info{};
-    Interface::solve (UMFPACK_At, nullptr, nullptr, nullptr, unknowns[side].data (),
+    Interface::SOLVE (UMFPACK_At, nullptr, nullptr, nullptr, unknowns[side].data (),
                       rhs[side]->data (), numeric.get (), control.data (), solve_info.data ());
     status[side] = solve_info[UMFPACK_STATUS];
   });

@@ -217,9 +217,11 @@ TEST (Domain, LongLoopsAreStrictlyConvex)
 TEST (Domain, PointsThatNearlyCoincideKeepDistinctParameters)
 {
   for (const double gap : {0.0, 1e-16, 1e-14, 1e-12, 1e-9}) {
-    std::vector<double> turns; // a hundred groups of a hundred points
-    for (int i = 0; i < 10000; ++i)
-      turns.push_back (0.01 * (i / 100) + gap * (i % 100));
+    std::vector<double> turns (10000); // a hundred groups of a hundred points
+    for (std::size_t i = 0; i < turns.size (); ++i) {
+      const std::size_t group = i / 100;
+      turns[i] = 0.01 * static_cast<double> (group) + gap * static_cast<double> (i % 100);
+    }
     const Loop loop (turns);
     for (const Domain domain : ALL_DOMAINS)
       expectStrictlyConvex (loop.lay (domain));
@@ -228,9 +230,9 @@ TEST (Domain, PointsThatNearlyCoincideKeepDistinctParameters)
 
 TEST (Domain, OneLongStepAmongShortOnesIsStrictlyConvex)
 {
-  std::vector<double> turns;
-  for (int i = 0; i < 5000; ++i)
-    turns.push_back (1e-13 * i);
+  std::vector<double> turns (5000);
+  for (std::size_t i = 0; i < turns.size (); ++i)
+    turns[i] = 1e-13 * static_cast<double> (i);
   for (const Domain domain : ALL_DOMAINS)
     expectStrictlyConvex (Loop (turns).lay (domain));
 }

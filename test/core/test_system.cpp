@@ -49,8 +49,8 @@ TEST (System, OfASheetWithPointsLeftOut)
   for (auto& flag : reachable)
     flag = random.uniform () < 0.8 ? 1 : 0;
   std::vector<Eigen::Vector2d> loop_uv;
-  for (std::size_t i = 0; i < grid.loop.size (); ++i) {
-    reachable[grid.loop[i]] = 1;
+  for (const Index p : grid.loop) {
+    reachable[p] = 1;
     loop_uv.emplace_back (random.uniform (), random.uniform ());
   }
   const LinearSystem system =
