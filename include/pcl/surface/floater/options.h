@@ -39,7 +39,7 @@ enum class Weighting
 /// Column ordering before the factorization.
 enum class Ordering
 {
-  AUTOMATIC, ///< AMD up to 500,000 unknowns, METIS above
+  AUTOMATIC, ///< AMD up to a million unknowns, METIS above
   AMD,       ///< approximate minimum degree
   METIS      ///< nested dissection
 };
