@@ -29,6 +29,7 @@ enum class Status
   NO_BOUNDARY,     ///< no boundary loop found: closed, or not one disc
   INVALID_LOOP,    ///< the user's loop is too short, repeats a point or names an unusable one
   UNREACHABLE,     ///< most of the points do not connect to the boundary: several components
+  NOT_A_DISC,      ///< the surface cannot be laid out as one disc: closed, with handles, several parts
   SINGULAR,        ///< the linear system could not be solved
   OUT_OF_MEMORY,   ///< an allocation failed
   INTERNAL_ERROR   ///< the result did not pass its own check; please report it
