@@ -47,8 +47,9 @@ reconstructDisc (Input& input, const Options& options, Result& result)
 
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);
-  Stars stars = makeStars (set.positions, near, fitTangentPlanes (set.positions, near, options.threads),
-                           options.filter_sheets, options.threads);
+  Stars stars =
+      makeStars (set.positions, near, fitTangentPlanes (set.positions, near, options.threads),
+                 options.filter_sheets, options.threads);
 
   // Section 3: boundary points as one ordered loop.
   clock.start (Stage::BOUNDARY);
@@ -88,7 +89,8 @@ reconstruct (Input input, const Options& options)
     problem = reconstructDisc (input, options, result);
   }
   catch (const std::bad_alloc&) {
-    problem = {Status::OUT_OF_MEMORY, "not enough memory: use fewer points, or a machine with more"};
+    problem = {Status::OUT_OF_MEMORY,
+               "not enough memory: use fewer points, or a machine with more"};
   }
   catch (const std::exception& error) {
     problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};

@@ -58,14 +58,16 @@ bySearch (const WorkingSet& set, std::size_t k, NeighborSearch& search)
     search.nearest (set.cloud_index[p], static_cast<int> (k + 1), cloud_indices);
     found.clear ();
     for (Index cloud_index : cloud_indices)
-      if (cloud_index < point_of.size () && point_of[cloud_index] != NONE && point_of[cloud_index] != p) {
+      if (cloud_index < point_of.size () && point_of[cloud_index] != NONE &&
+          point_of[cloud_index] != p) {
         const Index q = point_of[cloud_index];
         found.push_back ({(set.positions[q] - set.positions[p]).squaredNorm (), q});
       }
     std::sort (found.begin (), found.end ());
-    found.erase (std::unique (found.begin (), found.end (),
-                              [] (const Neighbor& a, const Neighbor& b) { return a.point == b.point; }),
-                 found.end ());
+    found.erase (
+        std::unique (found.begin (), found.end (),
+                     [] (const Neighbor& a, const Neighbor& b) { return a.point == b.point; }),
+        found.end ());
     for (std::size_t i = 0; i < std::min (k, found.size ()); ++i)
       lists.ids.push_back (found[i].point);
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
@@ -81,7 +83,8 @@ findNearestNeighbors (const WorkingSet& set, int k, NeighborSearch* search, int 
   const std::size_t wanted =
       std::min (static_cast<std::size_t> (k), std::max<std::size_t> (1, set.positions.size ()) - 1);
   if (set.positions.size () * wanted >= NONE)
-    throw std::length_error ("points times neighbours exceed 32-bit indices: use fewer points or a smaller k");
+    throw std::length_error (
+        "points times neighbours exceed 32-bit indices: use fewer points or a smaller k");
   return search != nullptr ? bySearch (set, wanted, *search) : byKdTree (set, wanted, threads);
 }
 

@@ -43,8 +43,9 @@ spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return cross (a, b) <= COLLINEAR * a.norm () * b.norm ();
 }
 
-// True if b lies strictly outside the segment from a to c, walking anti-clockwise around the origin.
-// Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close neighbour.
+// True if b lies strictly outside the segment from a to c, walking anti-clockwise around the
+// origin. Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close
+// neighbour.
 bool
 isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
@@ -60,11 +61,12 @@ bool
 PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
 {
   constexpr double TWO_PI = 6.283185307179586;
-  std::sort (neighbors.begin (), neighbors.end (), [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
-    const double angle_a = pseudoAngle (a.offset);
-    const double angle_b = pseudoAngle (b.offset);
-    return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
-  });
+  std::sort (neighbors.begin (), neighbors.end (),
+             [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
+               const double angle_a = pseudoAngle (a.offset);
+               const double angle_b = pseudoAngle (b.offset);
+               return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
+             });
 
   // Of several neighbours in one direction only the nearest can be in the star.
   hull_.clear ();
@@ -104,7 +106,8 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
   else if (count == 0)
     opening_angle_ = TWO_PI;
   if (count > 0)
-    std::rotate (hull_.begin (), hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
+    std::rotate (hull_.begin (),
+                 hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
                  hull_.end ());
 
   // Graham scan in angular order. A closed star is scanned back to its first neighbour; the ends of
@@ -115,8 +118,10 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
   for (std::size_t i = 0; i < steps; ++i) {
     const bool closing = i == count;
     const Eigen::Vector2d next =
-        closing ? inverted_.front () : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
-    while (inverted_.size () >= 2 && !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
+        closing ? inverted_.front ()
+                : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
+    while (inverted_.size () >= 2 &&
+           !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
       inverted_.pop_back ();
       neighbors.pop_back ();
     }

@@ -65,10 +65,11 @@ stageName (Stage stage);
 /// All parameters of a run. The defaults need no tuning; a run never changes them.
 struct Options
 {
-  int k = 20;                      ///< 20: nearest neighbours of each point, 6 to 200
-  double opening_angle = 160.0;    ///< 160: degrees; a boundary point sees a wider empty sector
-  double cluster_tolerance = 0.05; ///< 0.05: growing distance, fraction of the bounding box diagonal
-  int cluster_k = 10;              ///< 10: nearest boundary points appended in cluster growing
+  int k = 20;                   ///< 20: nearest neighbours of each point, 6 to 200
+  double opening_angle = 160.0; ///< 160: degrees; a boundary point sees a wider empty sector
+  double cluster_tolerance =
+      0.05;           ///< 0.05: growing distance, fraction of the bounding box diagonal
+  int cluster_k = 10; ///< 10: nearest boundary points appended in cluster growing
   BoundaryMethod boundary = BoundaryMethod::SPANNING_TREE;
   Domain domain = Domain::CIRCLE;
   int polygon_sides = 6; ///< 6: sides of Domain::POLYGON, 3 or more
