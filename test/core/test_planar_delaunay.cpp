@@ -106,7 +106,9 @@ TEST (PlanarDelaunay, CocircularPointsOfAGrid)
 {
   Sites sites;
   const int side = 12;
-  const auto add = [&sites] (int x, int y) { sites.uv.emplace_back (x / 16.0, y / 16.0); };
+  const auto add = [&sites] (int x, int y) {
+    sites.uv.emplace_back ((x - 6) / 16.0, (y - 6) / 16.0);
+  };
   for (int i = 0; i < side; ++i)
     add (i, 0);
   for (int i = 0; i < side; ++i)
@@ -140,14 +142,14 @@ TEST (PlanarDelaunay, ASideThatIsNotExactlyStraightGetsNoSlivers)
 {
   // Decimal coordinates on slanted sides: by rounding some lie inside of the hull.
   Sites sites;
-  const Places corners = {{0.1, 0.0}, {1.0, 0.3}, {0.7, 1.0}, {-0.1, 0.8}};
+  const Places corners = {{-0.4, -0.5}, {0.5, -0.2}, {0.2, 0.5}, {-0.6, 0.3}};
   for (std::size_t c = 0; c < 4; ++c)
     for (int i = 0; i < 30; ++i)
       sites.uv.emplace_back (corners[c] + (corners[(c + 1) % 4] - corners[c]) * (i / 30.0));
   sites.loop = samples::indices (sites.uv.size ());
   RandomStream random (3);
   for (int i = 0; i < 200; ++i)
-    sites.uv.emplace_back (0.3 + 0.3 * random.uniform (), 0.35 + 0.3 * random.uniform ());
+    sites.uv.emplace_back (0.3 * random.uniform () - 0.2, 0.3 * random.uniform () - 0.15);
   const SurfaceMesh mesh = triangulatePlane (sites.uv, sites.loop);
   const samples::Topology topology = samples::topologyOf (mesh.triangles);
   EXPECT_TRUE (topology.manifold);
@@ -193,6 +195,21 @@ TEST (PlanarDelaunay, PointsWithoutParametersAreLeftOut)
   expectDelaunay (sites, mesh, 2);
   EXPECT_EQ (mesh.triangle_of[33], NONE);
   EXPECT_EQ (mesh.triangle_of[60], NONE);
+}
+
+TEST (PlanarDelaunay, PointsOnOrBeyondTheLoopAreLeftOut)
+{
+  Sites sites = inCircle (20, 50, 7);
+  const Eigen::Vector2d middle = 0.5 * (sites.uv[3] + sites.uv[4]);
+  sites.uv[30] = 1.001 * middle;
+  sites.uv[40] = 1.5 * sites.uv[7];
+  sites.uv[50] = {0.5 * (sites.uv[0].x () + sites.uv[10].x ()), 1.0};
+  const SurfaceMesh mesh = triangulatePlane (sites.uv, sites.loop);
+  for (const Index p : {30U, 40U, 50U})
+    EXPECT_EQ (mesh.triangle_of[p], NONE);
+  for (const std::size_t p : {30U, 40U, 50U})
+    sites.uv[p].setConstant (std::numeric_limits<double>::quiet_NaN ());
+  expectDelaunay (sites, mesh, 3);
 }
 
 TEST (PlanarDelaunay, NothingOnALine)
