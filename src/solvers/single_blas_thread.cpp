@@ -2,8 +2,11 @@
 #include "solvers/single_blas_thread.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
+#include <cstddef>
 #include <mutex>
+#include <new>
 
 namespace pcl
 {
@@ -35,11 +38,23 @@ openBlas ()
   return instance;
 }
 
+// OpenBLAS maps a work buffer at its first use, and tries for ever if there is no room for it.
+bool
+hasRoomForBuffer ()
+{
+  constexpr std::size_t BUFFER_BYTES = std::size_t{128} << 20; // of OpenBLAS 0.3 on x86-64
+  void* const room = mmap (nullptr, BUFFER_BYTES, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  return room != MAP_FAILED && munmap (room, BUFFER_BYTES) == 0;
+}
+
 } // namespace
 
 SingleBlasThread::SingleBlasThread ()
 {
   OpenBlas& blas = openBlas ();
+  if (blas.set != nullptr && !hasRoomForBuffer ())
+    throw std::bad_alloc ();
   const std::lock_guard<std::mutex> lock (blas.mutex);
   if (blas.users++ > 0)
     return;

@@ -12,6 +12,8 @@ namespace floater
 ///
 /// The number is one for the whole process, so instances that live at the same time, in any
 /// threads, share it: the first saves it, the last restores it.
+///
+/// Throws std::bad_alloc where OpenBLAS would find no room for its work buffer.
 class SingleBlasThread
 {
 public:
