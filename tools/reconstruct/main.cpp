@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <numeric>
@@ -253,5 +254,11 @@ runTool (int argc, char** argv)
 int
 main (int argc, char** argv)
 {
-  return pcl::floater::runTool (argc, argv);
+  const int code = pcl::floater::runTool (argc, argv);
+  if (code != pcl::floater::EXIT_INTERNAL)
+    return code;
+  // Where memory has run out, a worker thread of OpenBLAS may wait for some for ever; leaving in
+  // the usual way would wait for that thread.
+  std::fflush (nullptr);
+  std::_Exit (code);
 }
