@@ -19,12 +19,41 @@ enum class BoundaryMethod
   TWO_SEGMENTS   ///< TW 385, section 3: largest cluster, two segments, 1D parameterization
 };
 
+/// Which points a point is a convex combination of (TW 385, section 2.1 and Figure 1(b)).
+enum class Neighborhood
+{
+  NEAREST_DELAUNAY, ///< Delaunay star among the k nearest
+  NEAREST,          ///< the k nearest
+  BALL_DELAUNAY,    ///< Delaunay star among the points in a ball (section 6)
+  BALL              ///< the points in a ball whose radius follows the local density (section 6)
+};
+
+/// How the loop's points share the curve that they are laid on.
+enum class LoopSpacing
+{
+  CHORD_LENGTH, ///< by distance
+  CENTRIPETAL,  ///< by the square root of distance
+  UNIFORM       ///< alike
+};
+
+/// What solves the linear system (TW 385, section 4.2).
+enum class Solver
+{
+  UMFPACK,             ///< direct, symmetric strategy
+  UMFPACK_UNSYMMETRIC, ///< direct, unsymmetric strategy
+  SUPERLU,             ///< direct; only if built with SuperLU
+  EIGEN_SPARSE_LU,     ///< direct
+  BICGSTAB_ILUT,       ///< iterative, preconditioned by an incomplete factorization
+  GAUSS_SEIDEL         ///< iterative; stalls on large clouds
+};
+
 /// Convex curve on which the boundary loop is laid (TW 385, section 2.1).
 enum class Domain
 {
   CIRCLE, ///< unit circle
   SQUARE, ///< square inscribed in the unit circle
-  POLYGON ///< regular polygon with Options::polygon_sides sides, inscribed in the unit circle
+  POLYGON, ///< regular polygon with Options::polygon_sides sides, inscribed in the unit circle
+  OWN_SHAPE ///< convex hull of the loop projected on its least-squares plane
 };
 
 /// Weights lambda_ij of a point in its neighbours (TW 385, section 4.1).
@@ -39,9 +68,12 @@ enum class Weighting
 /// Column ordering before the factorization.
 enum class Ordering
 {
-  AUTOMATIC, ///< AMD up to 500,000 unknowns, METIS above
+  AUTOMATIC, ///< AMD up to a million unknowns, METIS above; COLAMD for unsymmetric strategies
   AMD,       ///< approximate minimum degree
-  METIS      ///< nested dissection
+  METIS,     ///< nested dissection
+  COLAMD,    ///< column approximate minimum degree
+  REVERSE_CUTHILL_MCKEE, ///< small bandwidth
+  NATURAL    ///< as the points come: along the space-filling curve
 };
 
 /// The stages of a run, in order; a name for each is given by stageName().
