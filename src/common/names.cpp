@@ -37,6 +37,8 @@ statusName (Status status)
   case Status::INVALID_LOOP: return "INVALID_LOOP";
   case Status::UNREACHABLE: return "UNREACHABLE";
   case Status::SINGULAR: return "SINGULAR";
+  case Status::NOT_CONVERGED: return "NOT_CONVERGED";
+  case Status::SOLVER_UNAVAILABLE: return "SOLVER_UNAVAILABLE";
   case Status::OUT_OF_MEMORY: return "OUT_OF_MEMORY";
   case Status::INTERNAL_ERROR: return "INTERNAL_ERROR";
   }

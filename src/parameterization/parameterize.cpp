@@ -17,26 +17,22 @@ namespace
 {
 // Below this share of points on the loop's side the cloud is taken for several components.
 constexpr double ENOUGH_REACHED = 0.5;
-// UMFPACK_RCOND below which the factorization is not trusted: an island that escaped the search.
-constexpr double SINGULAR_RCOND = 1e-14;
 
-// Adds each link as one more neighbour, with the weight of an average neighbour.
+// Adds each link (ascending) as one more neighbour, with the weight of an average neighbour.
 void
 addLinks (const std::vector<std::array<Index, 2>>& links, FlatLists& neighbors, std::vector<double>& weights)
 {
   if (links.empty ())
     return;
-  std::vector<std::array<Index, 2>> sorted = links;
-  std::sort (sorted.begin (), sorted.end ());
   FlatLists wider;
   std::vector<double> wider_weights;
   wider.offsets.push_back (0);
-  auto link = sorted.begin ();
+  auto link = links.begin ();
   for (Index p = 0; p < neighbors.rows (); ++p) {
     const Index first = neighbors.offsets[p], last = neighbors.offsets[p + 1];
     wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first, neighbors.ids.begin () + last);
     wider_weights.insert (wider_weights.end (), weights.begin () + first, weights.begin () + last);
-    for (; link != sorted.end () && (*link)[0] == p; ++link) {
+    for (; link != links.end () && (*link)[0] == p; ++link) {
       wider.ids.push_back ((*link)[1]);
       wider_weights.push_back (1.0 / std::max<double> (1.0, last - first));
     }
@@ -50,11 +46,7 @@ Problem
 describeOutcome (const Solution& solution)
 {
   switch (solution.outcome) {
-  case Solution::Outcome::OK:
-    if (solution.reciprocal_condition < SINGULAR_RCOND)
-      return {Status::SINGULAR, "the linear system is singular to working precision: some points hang together "
-                                "with the boundary by too few neighbours; use a larger k"};
-    return {};
+  case Solution::Outcome::OK: return {};
   case Solution::Outcome::SINGULAR:
     return {Status::SINGULAR, "the linear system is singular (" + solution.message + "); use a larger k"};
   case Solution::Outcome::OUT_OF_MEMORY:
@@ -79,7 +71,7 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
 
   const Reachability reach = reachLoop (neighbors, near, positions, loop);
   addLinks (reach.links, neighbors, weights);
-  result.relinked = reach.links.size ();
+  result.relinked = reach.linked_points;
   result.unreachable = static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
   const double reached = static_cast<double> (positions.size () - result.unreachable);
   if (reached < ENOUGH_REACHED * static_cast<double> (positions.size ())) {
