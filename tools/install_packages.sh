@@ -15,6 +15,7 @@ END
 # libopenblas0-pthread makes the factorization 2.5 times faster than the reference BLAS does.
 # libgl1-mesa-dri, xvfb and xauth draw pictures without a screen.
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
+          libsuperlu-dev libboost-dev
           libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
           libgl1-mesa-dri xvfb xauth)
 for argument in "$@"; do

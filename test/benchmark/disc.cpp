@@ -33,10 +33,9 @@ makeDisc (const std::string& name, const Cloud& cloud, const Options& options)
   clock.start (Stage::NEIGHBORS);
   disc.near = findNearestNeighbors (disc.set, options.k, nullptr, options.threads);
   clock.start (Stage::STARS);
-  Stars stars =
-      makeStars (disc.set.positions, disc.near,
-                 fitTangentPlanes (disc.set.positions, disc.near, options.threads), options.filter_sheets,
-                 options.threads);
+  Stars stars = makeStars (disc.set.positions, disc.near,
+                           fitTangentPlanes (disc.set.positions, disc.near, options.threads),
+                           options.filter_sheets, options.threads);
   clock.start (Stage::BOUNDARY);
   disc.boundary = findBoundary (disc.set, disc.near, stars, options);
   if (disc.boundary.problem)
@@ -51,7 +50,8 @@ makeDisc (const std::string& name, const Cloud& cloud, const Options& options)
       reachLoop (stars.neighbors, no_links, disc.set.positions, disc.boundary.loop);
   disc.left_out = static_cast<std::size_t> (
       std::count (reach.reachable.begin (), reach.reachable.end (), std::uint8_t{0}));
-  disc.loop_uv = layLoop (disc.set.positions, disc.boundary.loop, options.domain, options.polygon_sides);
+  disc.loop_uv =
+      layLoop (disc.set.positions, disc.boundary.loop, options.domain, options.polygon_sides);
   disc.system = assembleSystem (stars.neighbors, weights, disc.boundary.loop, disc.loop_uv,
                                 reach.reachable, options.threads);
   clock.stop ();
@@ -72,47 +72,16 @@ parametersOf (const Disc& disc, const std::vector<Eigen::Vector2d>& solution)
   return uv;
 }
 
-LinearSystem
-reorder (const LinearSystem& system, const std::vector<Index>& order)
-{
-  std::vector<Index> place (order.size ());
-  for (Index i = 0; i < order.size (); ++i)
-    place[order[i]] = i;
-  LinearSystem result;
-  result.unknown_of_point.assign (system.unknown_of_point.size (), NONE);
-  result.row_offsets.push_back (0);
-  std::vector<std::pair<int, double>> row;
-  for (Index i = 0; i < order.size (); ++i) {
-    const Index from = order[i];
-    result.point_of_unknown.push_back (system.point_of_unknown[from]);
-    result.unknown_of_point[system.point_of_unknown[from]] = i;
-    row.clear ();
-    for (int entry = system.row_offsets[from]; entry < system.row_offsets[from + 1]; ++entry) {
-      const auto e = static_cast<std::size_t> (entry);
-      row.emplace_back (static_cast<int> (place[static_cast<std::size_t> (system.columns[e])]),
-                        system.values[e]);
-    }
-    std::sort (row.begin (), row.end ());
-    for (const auto& [column, value] : row) {
-      result.columns.push_back (column);
-      result.values.push_back (value);
-    }
-    result.row_offsets.push_back (static_cast<int> (result.columns.size ()));
-    result.rhs_u.push_back (system.rhs_u[from]);
-    result.rhs_v.push_back (system.rhs_v[from]);
-  }
-  return result;
-}
-
-std::vector<Index>
+std::vector<int>
 fileOrder (const Disc& disc)
 {
-  std::vector<Index> order (disc.system.unknowns ());
-  std::iota (order.begin (), order.end (), Index{0});
-  std::sort (order.begin (), order.end (), [&disc] (Index a, Index b) {
-    return disc.set.cloud_index[disc.system.point_of_unknown[a]] <
-           disc.set.cloud_index[disc.system.point_of_unknown[b]];
-  });
+  const auto placeInFile = [&disc] (int unknown) {
+    return disc.set.cloud_index[disc.system.point_of_unknown[static_cast<std::size_t> (unknown)]];
+  };
+  std::vector<int> order (disc.system.unknowns ());
+  std::iota (order.begin (), order.end (), 0);
+  std::sort (order.begin (), order.end (),
+             [&] (int a, int b) { return placeInFile (a) < placeInFile (b); });
   return order;
 }
 

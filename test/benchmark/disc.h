@@ -40,13 +40,8 @@ makeDisc (const std::string& name, const Cloud& cloud, const Options& options);
 std::vector<Eigen::Vector2d>
 parametersOf (const Disc& disc, const std::vector<Eigen::Vector2d>& solution);
 
-/// Rows and columns in another order.
-/// \param order unknown that comes first, second, ...
-LinearSystem
-reorder (const LinearSystem& system, const std::vector<Index>& order);
-
-/// The unknowns in the order of the cloud's file, in which the report has its matrices.
-std::vector<Index>
+/// The unknowns in the order of the cloud's file, the one that comes i-th, for every i.
+std::vector<int>
 fileOrder (const Disc& disc);
 
 } // namespace floater

@@ -5,14 +5,17 @@
 
 #include <gmm/gmm.h>
 
-#include <cmath>
 #include <algorithm>
 
 namespace pcl
 {
 namespace floater
 {
+namespace
+{
 using Matrix = gmm::csr_matrix<double>;
+using Ilut = gmm::ilut_precond<Matrix>;
+} // namespace
 
 struct GmmBicgstab::Implementation
 {
@@ -26,23 +29,22 @@ struct GmmBicgstab::Implementation
       }
     gmm::copy (rows, matrix);
     const Stopwatch stopwatch;
-    preconditioner = gmm::ilut_precond<Matrix> (static_cast<std::size_t> (fill), threshold);
-    preconditioner.build_with (matrix);
+    preconditioner = std::make_unique<Ilut> (matrix, fill, threshold);
     setup_seconds = stopwatch.seconds ();
   }
 
   const LinearSystem& system;
   Matrix matrix;
-  gmm::ilut_precond<Matrix> preconditioner;
+  std::unique_ptr<Ilut> preconditioner;
   double setup_seconds = 0.0;
 };
 
 GmmBicgstab::GmmBicgstab (const LinearSystem& system, int fill, double threshold)
-: implementation_ (new Implementation (system, fill, threshold))
+    : implementation_ (std::make_unique<Implementation> (system, fill, threshold))
 {
 }
 
-GmmBicgstab::~GmmBicgstab () { delete implementation_; }
+GmmBicgstab::~GmmBicgstab () = default;
 
 IterativeSolution
 GmmBicgstab::solve (double tolerance, std::size_t most_iterations) const
@@ -57,7 +59,7 @@ GmmBicgstab::solve (double tolerance, std::size_t most_iterations) const
     std::vector<double> x (system.unknowns (), 0.0);
     gmm::iteration iteration (tolerance, 0, most_iterations);
     const Stopwatch stopwatch;
-    gmm::bicgstab (implementation_->matrix, x, rhs, implementation_->preconditioner, iteration);
+    gmm::bicgstab (implementation_->matrix, x, rhs, *implementation_->preconditioner, iteration);
     result.seconds[side] = stopwatch.seconds ();
     result.iterations[side] = iteration.get_iteration ();
     result.converged = result.converged && iteration.converged ();

@@ -5,6 +5,7 @@
 #include "parameterization/system.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace pcl
@@ -22,8 +23,8 @@ struct IterativeSolution
   double setup_seconds = 0.0;              ///< of the preconditioner
   std::array<double, 2> seconds{};         ///< of the iterations, per right-hand side
   std::array<std::size_t, 2> iterations{}; ///< per right-hand side
-  bool converged = false;                  ///< both, by the residual that the method itself carries on
-  double residual = 0.0;                   ///< max over both of |b - A u| / |b|, computed anew
+  bool converged = false; ///< both, by the residual that the method itself carries on
+  double residual = 0.0;  ///< max over both of |b - A u| / |b|, computed anew
 
   double totalSeconds () const { return setup_seconds + seconds[0] + seconds[1]; }
 };
@@ -39,12 +40,11 @@ public:
 
   /// From zero until the residual is `tolerance` times |b| in the 2-norm, as GMM++ measures, or for
   /// `most_iterations`.
-  IterativeSolution
-  solve (double tolerance, std::size_t most_iterations) const;
+  IterativeSolution solve (double tolerance, std::size_t most_iterations) const;
 
 private:
   struct Implementation;
-  Implementation* implementation_;
+  std::unique_ptr<const Implementation> implementation_;
 };
 
 } // namespace floater

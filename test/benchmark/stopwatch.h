@@ -12,8 +12,7 @@ namespace floater
 class Stopwatch
 {
 public:
-  double
-  seconds () const
+  double seconds () const
   {
     return std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ();
   }
