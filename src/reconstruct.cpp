@@ -87,8 +87,10 @@ reconstructDisc (Input& input, const Options& options, Result& result)
 
   // Beyond the report: points that coincide in the plane come back, edges are flipped in space.
   clock.start (Stage::FLIPS);
-  finishSurface (mesh, set.positions, near, stars.normals, options, statistics);
-  result.triangles = reportMesh (set, mesh, report);
+  const SurfaceFinish finish = finishSurface (mesh, set.positions, near, stars.normals, options);
+  if (finish.problem)
+    return finish.problem;
+  result.triangles = reportMesh (set, mesh, finish, report);
   return checkDisc (mesh.triangles, set.positions.size (), boundary.loop);
 }
 

@@ -63,7 +63,7 @@ reportParameterization (const WorkingSet& set, const Parameterization& parameter
 }
 
 std::vector<Triangle>
-reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, Report& report)
+reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish, Report& report)
 {
   std::vector<Triangle> triangles = mesh.triangles;
   for (Triangle& triangle : triangles)
@@ -77,9 +77,15 @@ reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, Report& report)
     report.warnings.push_back (std::to_string (report.unused.size ()) +
                                " points are in no triangle, point " + std::to_string (report.unused.front ()) +
                                " among them: they do not connect to the rest of the surface");
+  report.statistics.flips = finish.flips;
+  report.statistics.folds = finish.folds.size ();
+  if (!finish.folds.empty ())
+    report.warnings.push_back (std::to_string (finish.folds.size ()) +
+                               " edges are folded by more than 120 degrees, one of them at " +
+                               place (set, mesh.from (finish.folds.front ())) +
+                               ": sheets of the surface come close there, or a feature is thinly sampled");
   report.statistics.used_points = set.positions.size () - report.unused.size ();
   report.statistics.triangles = triangles.size ();
-  report.status = Status::OK;
   return triangles;
 }
 

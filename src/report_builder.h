@@ -5,7 +5,7 @@
 #include "boundary/boundary_loop.h"
 #include "common/types.h"
 #include "parameterization/parameterize.h"
-#include "triangulation/surface_mesh.h"
+#include "triangulation/surface_finish.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -25,9 +25,9 @@ reportBoundary (const WorkingSet& set, const Boundary& boundary, Report& report)
 void
 reportParameterization (const WorkingSet& set, const Parameterization& parameterization, Report& report);
 
-/// Triangles in cloud indices, unused points and counts.
+/// Triangles in cloud indices, unused points and counts; warnings on unused points and folds.
 std::vector<Triangle>
-reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, Report& report);
+reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish, Report& report);
 
 } // namespace floater
 } // namespace pcl

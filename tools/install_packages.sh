@@ -13,14 +13,14 @@ END
 }
 
 # libopenblas0-pthread makes the factorization 2.5 times faster than the reference BLAS does.
-# libgl1-mesa-dri, xvfb and xauth draw pictures without a screen.
+# libgl1-mesa-dri and xvfb draw pictures without a screen.
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
           libsuperlu-dev libboost-dev
           libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
-          libgl1-mesa-dri xvfb xauth)
+          libgl1-mesa-dri xvfb)
 for argument in "$@"; do
   case "$argument" in
-    --tests) packages+=(libgtest-dev pcl-tools python3) ;;
+    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools python3) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;

@@ -16,6 +16,9 @@ namespace floater
 namespace
 {
 constexpr double DEGREE = 0.017453292519943295; // radians
+// A loop this short in a cloud of more than a few points is a gap in the sampling of a closed surface.
+constexpr std::size_t SHORTEST_LOOP = 10;
+constexpr std::size_t FEW_POINTS = 100;
 
 // Cloud indices to points; a duplicate means the point that stands for it.
 Boundary
@@ -94,7 +97,9 @@ findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars, 
     boundary.loop = std::move (found.points);
     boundary.candidates = found.candidates;
   }
-  if (boundary.loop.size () < 3) {
+  const bool a_mere_gap =
+      options.loop.empty () && boundary.loop.size () < SHORTEST_LOOP && set.positions.size () > FEW_POINTS;
+  if (boundary.loop.size () < 3 || a_mere_gap) {
     boundary.loop.clear ();
     boundary.problem = {Status::NO_BOUNDARY,
                         "no boundary loop found among " + std::to_string (boundary.candidates) +

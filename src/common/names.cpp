@@ -36,6 +36,7 @@ statusName (Status status)
   case Status::NO_BOUNDARY: return "NO_BOUNDARY";
   case Status::INVALID_LOOP: return "INVALID_LOOP";
   case Status::UNREACHABLE: return "UNREACHABLE";
+  case Status::NOT_A_DISC: return "NOT_A_DISC";
   case Status::SINGULAR: return "SINGULAR";
   case Status::NOT_CONVERGED: return "NOT_CONVERGED";
   case Status::SOLVER_UNAVAILABLE: return "SOLVER_UNAVAILABLE";

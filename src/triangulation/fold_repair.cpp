@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace pcl
 {
@@ -229,29 +231,36 @@ findFolds (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& position
   return folds;
 }
 
-std::size_t
+std::vector<MeshEdge>
 repairFolds (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<Eigen::Vector3f>& normals)
+             const std::vector<Eigen::Vector3f>& normals, std::vector<MeshEdge> folds)
 {
-  std::vector<MeshEdge> folds = findFolds (mesh, positions);
-  for (int pass = 0; pass < PASSES && !folds.empty (); ++pass) {
+  std::set<std::pair<Index, Index>> hopeless; // edges whose patch did not get better
+  for (int pass = 0; pass < PASSES; ++pass) {
     bool better = false;
     for (const MeshEdge& fold : folds) {
       // The edge may have gone with the repair of another fold; its place is still worth a look.
       const Index t = fold.triangle;
       const Index u = mesh.neighbors[t][fold.side];
-      Patch patch = cutPatch (mesh, positions, normals, u == NONE ? std::vector<Index>{t} : std::vector<Index>{t, u},
-                              RINGS);
-      if (findFolds (patch.mesh, patch.positions).empty () || !PatchRepair (patch, mesh).run ())
+      const std::pair<Index, Index> edge = std::minmax ({mesh.from (fold), mesh.to (fold)});
+      if (u == NONE || hopeless.count (edge) != 0)
         continue;
-      pastePatch (patch, mesh);
-      better = true;
+      Patch patch = cutPatch (mesh, positions, normals, {t, u}, RINGS);
+      if (findFolds (patch.mesh, patch.positions).empty ())
+        continue;
+      if (PatchRepair (patch, mesh).run ()) {
+        pastePatch (patch, mesh);
+        better = true;
+      }
+      else {
+        hopeless.insert (edge);
+      }
     }
-    folds = findFolds (mesh, positions);
     if (!better)
       break;
+    folds = findFolds (mesh, positions);
   }
-  return folds.size ();
+  return folds;
 }
 
 } // namespace floater

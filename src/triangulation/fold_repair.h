@@ -20,10 +20,11 @@ findFolds (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& position
 /// least, followed by flips. A change is kept if it lowers the cost of the patch, in which folded
 /// edges count. The boundary stays. O(folds).
 /// \param normals oriented like the mesh (see orientNormals)
-/// \return number of folds left
-std::size_t
+/// \param folds  as by findFolds ()
+/// \return folds left
+std::vector<MeshEdge>
 repairFolds (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<Eigen::Vector3f>& normals);
+             const std::vector<Eigen::Vector3f>& normals, std::vector<MeshEdge> folds);
 
 } // namespace floater
 } // namespace pcl

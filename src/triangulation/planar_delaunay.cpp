@@ -6,6 +6,10 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace pcl
 {
 namespace floater
@@ -17,6 +21,44 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
 using Delaunay =
     CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+// Marks points that are not strictly inside the loop, which is a convex polygon around the origin,
+// anti-clockwise. Rounding may put a point between two loop points beyond the edge that joins them.
+std::vector<std::uint8_t>
+outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
+{
+  const std::size_t h = loop.size ();
+  // Inside the circle that touches the nearest edge there is nothing to check.
+  double sqr_safe = std::numeric_limits<double>::infinity ();
+  std::vector<std::pair<double, std::size_t>> corners; // direction, place in the loop; ascending
+  for (std::size_t i = 0; i < h; ++i) {
+    const Eigen::Vector2d& a = uv[loop[i]];
+    const Eigen::Vector2d edge = uv[loop[(i + 1) % h]] - a;
+    const double twice_area = a.x () * edge.y () - a.y () * edge.x ();
+    sqr_safe = std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
+    corners.emplace_back (std::atan2 (a.y (), a.x ()), i);
+  }
+  std::sort (corners.begin (), corners.end ());
+  std::vector<std::uint8_t> outside (uv.size (), 0);
+  const auto point = [&] (Index p) { return Kernel::Point_2 (uv[p].x (), uv[p].y ()); };
+  for (Index p = 0; p < uv.size (); ++p) {
+    if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
+      continue;
+    // The edges at the corners around p's direction; one more on each side for rounding.
+    const auto after = static_cast<std::size_t> (
+        std::upper_bound (corners.begin (), corners.end (),
+                          std::make_pair (std::atan2 (uv[p].y (), uv[p].x ()), h)) -
+        corners.begin ());
+    for (std::size_t step = 0; step < 4; ++step) {
+      const std::size_t i = corners[(after + h + step - 2) % h].second;
+      if (CGAL::orientation (point (loop[i]), point (loop[(i + 1) % h]), point (p)) != CGAL::LEFT_TURN)
+        outside[p] = 1;
+    }
+  }
+  for (Index p : loop)
+    outside[p] = 0;
+  return outside;
+}
 
 // Numbers the faces inside the loop: a triangle behind a hull edge that is no loop edge is outside,
 // and so on inward.
@@ -62,8 +104,9 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
 {
   std::vector<std::pair<Kernel::Point_2, Index>> sites;
   sites.reserve (uv.size ());
+  const std::vector<std::uint8_t> outside = outsideLoop (uv, loop);
   for (Index p = 0; p < uv.size (); ++p)
-    if (uv[p].allFinite ())
+    if (uv[p].allFinite () && outside[p] == 0)
       sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
   Delaunay delaunay;
   delaunay.insert (sites.begin (), sites.end ());

@@ -2,9 +2,10 @@
 // From the lifted triangulation to the final surface.
 #pragma once
 
+#include "common/problem.h"
 #include "triangulation/surface_mesh.h"
 
-#include <pcl/surface/floater/report.h>
+#include <pcl/surface/floater/options.h>
 
 #include <vector>
 
@@ -12,11 +13,20 @@ namespace pcl
 {
 namespace floater
 {
+/// What the last stage did, and why it gave up if it did.
+struct SurfaceFinish
+{
+  std::size_t flips = 0;
+  std::vector<MeshEdge> folds; ///< edges left more than 120 degrees apart
+  Problem problem;             ///< NOT_A_DISC
+};
+
 /// Inserts points that have no triangle, flips edges where the options ask for it, and repairs the
-/// folds that are left. Books flips and folds.
-void
+/// folds that are left. Where flips leave more than 3 % of all edges folded, the surface has been
+/// pressed into a disc that it is not, and nothing can mend it.
+SurfaceFinish
 finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-               std::vector<Eigen::Vector3f>& normals, const Options& options, Statistics& statistics);
+               std::vector<Eigen::Vector3f>& normals, const Options& options);
 
 } // namespace floater
 } // namespace pcl

@@ -60,6 +60,21 @@ makePolyData (const std::vector<Eigen::Vector3d>& positions, const std::vector<T
   return mesh;
 }
 
+// Turns all triangles if the surface, seen from its middle, faces inwards.
+void
+faceOutwards (std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions)
+{
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : positions)
+    middle += p / static_cast<double> (positions.size ());
+  double volume = 0.0;
+  for (const auto& [a, b, c] : triangles)
+    volume += (positions[a] - middle).dot ((positions[b] - middle).cross (positions[c] - middle));
+  if (volume < 0.0)
+    for (Triangle& t : triangles)
+      std::swap (t[1], t[2]);
+}
+
 // Points around the one whose nearest points in the plane are nearest; 1 for those.
 std::vector<std::uint8_t>
 densestPoints (const std::vector<Eigen::Vector3d>& flat)
@@ -89,6 +104,7 @@ public:
     std::vector<Eigen::Vector3f> normals = disc.normals;
     Statistics statistics;
     finishSurface (mesh, disc.set.positions, disc.near, normals, {}, statistics);
+    faceOutwards (mesh.triangles, disc.set.positions);
 
     // Points that the system leaves out are in no triangle of the plane; far away they do not
     // disturb.

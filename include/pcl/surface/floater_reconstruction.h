@@ -44,6 +44,8 @@ namespace pcl
  *   by one thread; like for all of PCL's classes its input cloud is then set by each run.
  * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after
  *   another cloud or option has been set. A run changes no parameter.
+ * - \b Types: the library holds the class for all of PCL_XYZ_POINT_TYPES. For a type of your own
+ *   define PCL_NO_PRECOMPILE before the first header of PCL, and link FLANN::FLANN, too.
  *
  * An object may be used for one cloud after another, but by one thread at a time.
  * \ingroup surface

@@ -29,6 +29,7 @@ enum class Status
   NO_BOUNDARY,     ///< no boundary loop found: closed, or not one disc
   INVALID_LOOP,    ///< the user's loop is too short, repeats a point or names an unusable one
   UNREACHABLE,     ///< most of the points do not connect to the boundary: several components
+  NOT_A_DISC,      ///< the surface cannot be laid out as one disc: closed, with handles, several parts
   SINGULAR,        ///< the linear system has no unique solution
   NOT_CONVERGED,   ///< an iterative solver did not reach its tolerance
   SOLVER_UNAVAILABLE, ///< this build is without the library of the solver

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sheets with a known border, and an independent look at triangles, for the tests of the stages.
+#pragma once
+
+#include "common/types.h"
+#include "neighborhoods/nearest_neighbors.h"
+#include "neighborhoods/stars.h"
+#include "neighborhoods/tangent_planes.h"
+#include "neighborhoods/working_set.h"
+#include "random_stream.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+namespace samples
+{
+using Positions = std::vector<Eigen::Vector3d>;
+using Outline = std::vector<Eigen::Vector2d>;
+
+constexpr double PI = 3.14159265358979323846;
+
+inline std::vector<Index>
+indices (std::size_t count)
+{
+  std::vector<Index> all (count);
+  std::iota (all.begin (), all.end (), Index{0});
+  return all;
+}
+
+/// A random order of 0 to count.
+inline std::vector<Index>
+permutation (std::size_t count, std::uint64_t seed)
+{
+  std::vector<Index> order = indices (count);
+  RandomStream random (seed);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap (order[i - 1], order[random.below (i)]);
+  return order;
+}
+
+inline Positions
+randomPoints (std::size_t count, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  Positions points (count);
+  for (Eigen::Vector3d& p : points)
+    p = {random.uniform (), random.uniform (), random.uniform ()};
+  return points;
+}
+
+/// Points; the first ones are those of the outer border, in order.
+struct Sheet
+{
+  Positions positions;
+  std::size_t border = 0;
+};
+
+/// A closed polygon as points about `step` apart, its corners among them.
+inline Outline
+resample (const Outline& corners, double step)
+{
+  Outline outline;
+  for (std::size_t i = 0; i < corners.size (); ++i) {
+    const Eigen::Vector2d side = corners[(i + 1) % corners.size ()] - corners[i];
+    const int steps = std::max (1, static_cast<int> (std::lround (side.norm () / step)));
+    for (int s = 0; s < steps; ++s)
+      outline.emplace_back (corners[i] + side * s / steps);
+  }
+  return outline;
+}
+
+inline Outline
+circle (double radius, double step)
+{
+  const int count = static_cast<int> (std::lround (2.0 * PI * radius / step));
+  Outline outline;
+  for (int i = 0; i < count; ++i)
+    outline.emplace_back (radius * std::cos (2.0 * PI * i / count),
+                          radius * std::sin (2.0 * PI * i / count));
+  return outline;
+}
+
+inline bool
+isInside (const Outline& outline, const Eigen::Vector2d& p)
+{
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size (); ++i) {
+    const Eigen::Vector2d& a = outline[i];
+    const Eigen::Vector2d& b = outline[(i + 1) % outline.size ()];
+    if ((a.y () > p.y ()) != (b.y () > p.y ()) &&
+        p.x () < a.x () + (p.y () - a.y ()) / (b.y () - a.y ()) * (b.x () - a.x ()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+/// A flat sheet in z = 0: the points of the outlines (the first is the outer border), and between
+/// them a grid of cells of side `step` with one point in each, moved at random by up to `jitter` of
+/// the side. No point of the grid is nearer to the border than 0.6 of the side.
+inline Sheet
+fillOutlines (const std::vector<Outline>& outlines, double step, double jitter, std::uint64_t seed)
+{
+  Sheet sheet;
+  sheet.border = outlines.front ().size ();
+  Eigen::AlignedBox2d box;
+  Outline border;
+  for (const Outline& outline : outlines)
+    border.insert (border.end (), outline.begin (), outline.end ());
+  for (const Eigen::Vector2d& p : border) {
+    box.extend (p);
+    sheet.positions.emplace_back (p.x (), p.y (), 0.0);
+  }
+  RandomStream random (seed);
+  for (double y = box.min ().y (); y < box.max ().y (); y += step)
+    for (double x = box.min ().x (); x < box.max ().x (); x += step) {
+      const Eigen::Vector2d p (x + step * (0.5 + jitter * (2.0 * random.uniform () - 1.0)),
+                               y + step * (0.5 + jitter * (2.0 * random.uniform () - 1.0)));
+      bool within = isInside (outlines.front (), p);
+      for (std::size_t hole = 1; hole < outlines.size (); ++hole)
+        within = within && !isInside (outlines[hole], p);
+      for (std::size_t i = 0; within && i < border.size (); ++i)
+        within = (border[i] - p).squaredNorm () > 0.36 * step * step;
+      if (within)
+        sheet.positions.emplace_back (p.x (), p.y (), 0.0);
+    }
+  return sheet;
+}
+
+/// A round sheet of radius 1 with points about `step` apart.
+inline Sheet
+disc (double step, std::uint64_t seed)
+{
+  return fillOutlines ({circle (1.0, step)}, step, 0.35, seed);
+}
+
+/// The stages up to the stars.
+struct Neighborhoods
+{
+  WorkingSet set;
+  FlatLists near;
+  Stars stars;
+  std::vector<float> spacing;
+};
+
+inline Neighborhoods
+makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int threads = 1)
+{
+  Neighborhoods made;
+  made.set = makeWorkingSet (positions, indices (positions.size ()), threads);
+  made.near = findNearestNeighbors (made.set, 20, nullptr, threads);
+  made.stars =
+      makeStars (made.set.positions, made.near,
+                 fitTangentPlanes (made.set.positions, made.near, threads), filter_sheets, threads);
+  made.spacing = localSpacing (made.set.positions, made.near, threads);
+  return made;
+}
+
+/// A cycle from its smallest member on, towards the smaller of that one's two neighbours.
+inline std::vector<Index>
+canonicalCycle (std::vector<Index> cycle)
+{
+  if (cycle.size () < 3)
+    return cycle;
+  std::rotate (cycle.begin (), std::min_element (cycle.begin (), cycle.end ()), cycle.end ());
+  if (cycle.back () < cycle[1])
+    std::reverse (cycle.begin () + 1, cycle.end ());
+  return cycle;
+}
+
+/// Triangles as a set that does not depend on their order and orientation.
+inline std::set<Triangle>
+unordered (const std::vector<Triangle>& triangles)
+{
+  std::set<Triangle> sorted;
+  for (Triangle t : triangles) {
+    std::sort (t.begin (), t.end ());
+    sorted.insert (t);
+  }
+  return sorted;
+}
+
+/// What triangles are, counted from their edges; shares no code with the library.
+struct Topology
+{
+  bool manifold = true; ///< edges with one or two oppositely directed triangles, one fan per vertex
+  std::size_t vertices = 0;
+  std::size_t components = 0;
+  long euler = 0;
+  std::vector<std::vector<Index>> loops;
+};
+
+inline Topology
+topologyOf (const std::vector<Triangle>& triangles)
+{
+  Topology topology;
+  std::map<std::pair<Index, Index>, std::size_t> directed;
+  std::map<Index, Index> parent;                       // of components
+  std::map<Index, std::map<Index, Index>> next_in_fan; // by vertex: edge to edge, anti-clockwise
+  const auto root = [&parent] (Index p) {
+    while (parent[p] != p)
+      p = parent[p] = parent[parent[p]];
+    return p;
+  };
+  for (const Triangle& t : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Index a = t[static_cast<std::size_t> (i)];
+      const Index b = t[static_cast<std::size_t> ((i + 1) % 3)];
+      const Index c = t[static_cast<std::size_t> ((i + 2) % 3)];
+      topology.manifold = topology.manifold && a != b && ++directed[{a, b}] == 1;
+      parent.emplace (a, a);
+      parent.emplace (b, b);
+      parent[root (a)] = root (b);
+      next_in_fan[a][b] = c;
+    }
+  topology.vertices = parent.size ();
+  std::size_t undirected = 0;
+  std::map<Index, Index> successor;
+  for (const auto& [edge, count] : directed) {
+    const bool at_boundary = directed.count ({edge.second, edge.first}) == 0;
+    undirected += at_boundary || edge.first < edge.second ? 1 : 0;
+    if (at_boundary)
+      topology.manifold = topology.manifold && successor.emplace (edge).second;
+  }
+  for (auto& [p, fan] : next_in_fan) {
+    // The fan begins at an edge that is the end of no triangle; in a closed fan anywhere.
+    std::set<Index> ends;
+    for (const auto& [from, to] : fan)
+      ends.insert (to);
+    Index start = fan.begin ()->first;
+    for (const auto& [from, to] : fan)
+      if (ends.count (from) == 0)
+        start = from;
+    std::size_t length = 0;
+    for (Index at = start; length <= fan.size () && fan.count (at) != 0; at = fan[at]) {
+      if (length > 0 && at == start)
+        break;
+      ++length;
+    }
+    topology.manifold = topology.manifold && length == fan.size ();
+  }
+  for (const auto& [p, unused] : parent)
+    topology.components += root (p) == p ? 1 : 0;
+  topology.euler = static_cast<long> (topology.vertices) - static_cast<long> (undirected) +
+                   static_cast<long> (triangles.size ());
+  while (!successor.empty ()) {
+    std::vector<Index> loop;
+    for (auto at = successor.begin (); at != successor.end ();) {
+      loop.push_back (at->first);
+      const Index next = at->second;
+      successor.erase (at);
+      at = successor.find (next);
+    }
+    topology.loops.push_back (std::move (loop));
+  }
+  return topology;
+}
+
+/// Input of the core without indices.
+inline Input
+asInput (const Positions& positions, NeighborSearch* search = nullptr)
+{
+  return {positions, indices (positions.size ()), positions.size (), search};
+}
+
+} // namespace samples
+} // namespace floater
+} // namespace pcl

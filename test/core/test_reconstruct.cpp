@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole method on known surfaces.
+#include <pcl/surface/floater/reconstruct.h>
+
+#include "samples.h"
+#include "surfaces.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::asInput;
+using samples::Positions;
+using samples::unordered;
+
+Positions
+surface (SurfaceKind kind, std::size_t points, std::uint64_t seed)
+{
+  SurfaceSpec spec;
+  spec.kind = kind;
+  spec.points = points;
+  spec.seed = seed;
+  return generateSurface (spec);
+}
+
+// One disc of all points in the loop of the report, whose figures agree with it.
+void
+expectDisc (const Result& result, std::size_t points)
+{
+  const Report& report = result.report;
+  ASSERT_EQ (report.status, Status::OK) << report.message;
+  EXPECT_TRUE (report.message.empty ());
+  const samples::Topology topology = samples::topologyOf (result.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.components, 1U);
+  EXPECT_EQ (topology.euler, 1);
+  EXPECT_EQ (topology.vertices, points);
+  ASSERT_EQ (topology.loops.size (), 1U);
+  EXPECT_EQ (samples::canonicalCycle (topology.loops.front ()),
+             samples::canonicalCycle (report.loop));
+  EXPECT_TRUE (report.unused.empty ());
+  EXPECT_EQ (report.statistics.used_points, points);
+  EXPECT_EQ (report.statistics.working_points, points);
+  EXPECT_EQ (report.statistics.loop_points, report.loop.size ());
+  EXPECT_EQ (report.statistics.unknowns, points - report.loop.size ());
+  EXPECT_EQ (report.statistics.triangles, result.triangles.size ());
+  EXPECT_EQ (result.triangles.size (), 2 * points - 2 - report.loop.size ());
+  EXPECT_LT (report.statistics.residual, 1e-12);
+  for (const Triangle& t : result.triangles)
+    for (const Index p : t)
+      EXPECT_LE (report.parameters[p].norm (), 1.0 + 1e-12);
+}
+
+// Share of the triangles of a that are not in b.
+double
+difference (const std::set<Triangle>& a, const std::set<Triangle>& b)
+{
+  std::size_t missing = 0;
+  for (const Triangle& t : a)
+    missing += b.count (t) == 0 ? 1 : 0;
+  return static_cast<double> (missing) / static_cast<double> (a.size ());
+}
+
+TEST (Reconstruct, KnownDiscs)
+{
+  for (const SurfaceKind kind : {SurfaceKind::HEIGHT_FIELD, SurfaceKind::HEMISPHERE,
+                                 SurfaceKind::FINGER, SurfaceKind::FOLDED_SHEET})
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+      SCOPED_TRACE (surfaceName (kind));
+      const Positions cloud = surface (kind, 3000, seed);
+      const Result result = reconstruct (asInput (cloud), {});
+      expectDisc (result, cloud.size ());
+      EXPECT_EQ (result.report.statistics.folds, 0U);
+      // One point for each unit of area; of rolling terrain, in plan view.
+      double area = 0.0;
+      for (const Triangle& t : result.triangles)
+        area += 0.5 * (cloud[t[1]] - cloud[t[0]]).cross (cloud[t[2]] - cloud[t[0]]).norm ();
+      EXPECT_GT (area / 3000.0, 0.95);
+      EXPECT_LT (area / 3000.0, kind == SurfaceKind::HEIGHT_FIELD ? 1.2 : 1.02);
+    }
+}
+
+TEST (Reconstruct, EveryChoiceMakesADisc)
+{
+  const Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 1000, 3);
+  const auto expectOk = [&cloud] (const Options& options) {
+    expectDisc (reconstruct (asInput (cloud), options), cloud.size ());
+  };
+  for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON}) {
+    Options options;
+    options.domain = domain;
+    expectOk (options);
+  }
+  for (const Weighting weighting : {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
+                                    Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE}) {
+    Options options;
+    options.weighting = weighting;
+    expectOk (options);
+  }
+  for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS}) {
+    Options options;
+    options.ordering = ordering;
+    expectOk (options);
+  }
+  for (const int k : {8, 12, 40}) {
+    Options options;
+    options.k = k;
+    expectOk (options);
+  }
+  Options options;
+  options.filter_sheets = false;
+  expectOk (options);
+}
+
+TEST (Reconstruct, TheReportsLoopMakesADisc)
+{
+  const Positions cloud = samples::disc (0.07, 4).positions;
+  Options options;
+  options.boundary = BoundaryMethod::TWO_SEGMENTS;
+  expectDisc (reconstruct (asInput (cloud), options), cloud.size ());
+}
+
+TEST (Reconstruct, TheUsersLoopIsTheBoundary)
+{
+  samples::Sheet sheet = samples::disc (0.07, 5);
+  Options options;
+  options.loop = samples::indices (sheet.border);
+  std::rotate (options.loop.begin (), options.loop.begin () + 11, options.loop.end ());
+  const Result result = reconstruct (asInput (sheet.positions), options);
+  expectDisc (result, sheet.positions.size ());
+  EXPECT_EQ (result.report.loop, options.loop);
+}
+
+TEST (Reconstruct, ThreadsAndRunsChangeNothing)
+{
+  const Positions cloud = surface (SurfaceKind::FINGER, 3000, 6);
+  Options options;
+  options.threads = 1;
+  const Result expected = reconstruct (asInput (cloud), options);
+  expectDisc (expected, cloud.size ());
+  for (const int threads : {1, 2, 0}) {
+    options.threads = threads;
+    const Result result = reconstruct (asInput (cloud), options);
+    EXPECT_EQ (result.triangles, expected.triangles);
+    EXPECT_EQ (result.report.loop, expected.report.loop);
+    EXPECT_EQ (result.report.parameters, expected.report.parameters);
+  }
+}
+
+TEST (Reconstruct, PermutationChangesLabelsOnly)
+{
+  const Positions cloud = surface (SurfaceKind::HEMISPHERE, 2000, 7);
+  const Result expected = reconstruct (asInput (cloud), {});
+  const std::vector<Index> order = samples::permutation (cloud.size (), 8);
+  Positions permuted;
+  for (const Index p : order)
+    permuted.push_back (cloud[p]);
+  Result result = reconstruct (asInput (permuted), {});
+  for (Triangle& t : result.triangles)
+    for (Index& p : t)
+      p = order[p];
+  EXPECT_EQ (result.triangles, expected.triangles);
+  for (std::size_t p = 0; p < cloud.size (); ++p)
+    ASSERT_EQ (result.report.parameters[p], expected.report.parameters[order[p]]);
+}
+
+TEST (Reconstruct, RigidMotionAndScalingChangeNothing)
+{
+  const Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 2000, 9);
+  const std::set<Triangle> expected = unordered (reconstruct (asInput (cloud), {}).triangles);
+  const auto expectSame = [&] (const Eigen::Affine3d& motion, double tolerance) {
+    Positions moved;
+    for (const Eigen::Vector3d& p : cloud)
+      moved.push_back (motion * p);
+    const Result result = reconstruct (asInput (moved), {});
+    expectDisc (result, cloud.size ());
+    EXPECT_LE (difference (unordered (result.triangles), expected), tolerance);
+  };
+  expectSame (Eigen::Affine3d (Eigen::Scaling (1024.0)), 0.0);
+  expectSame (Eigen::Affine3d (Eigen::Scaling (1e-30)), 0.002);
+  expectSame (Eigen::Affine3d (Eigen::Scaling (1e30)), 0.002);
+  expectSame (Eigen::Affine3d (Eigen::Translation3d (1e5, -2e5, 300.0)), 0.002);
+  for (const double angle : {0.3, 1.9})
+    expectSame (
+        Eigen::Affine3d (Eigen::AngleAxisd (angle, Eigen::Vector3d (1, 2, -1).normalized ())),
+        0.002);
+}
+
+TEST (Reconstruct, WithoutFlipsItIsTheDelaunayTriangulationOfTheParameters)
+{
+  const Positions cloud = surface (SurfaceKind::HEMISPHERE, 600, 10);
+  Options options;
+  options.flip_edges = false;
+  const Result result = reconstruct (asInput (cloud), options);
+  expectDisc (result, cloud.size ());
+  EXPECT_EQ (result.report.statistics.flips, 0U);
+  const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
+  double area = 0.0;
+  for (const Triangle& t : result.triangles) {
+    const Eigen::Vector2d a = uv[t[1]] - uv[t[0]], b = uv[t[2]] - uv[t[0]];
+    const double cross = a.x () * b.y () - a.y () * b.x ();
+    EXPECT_GT (cross, 0.0);
+    area += 0.5 * cross;
+    const Eigen::Vector2d centre =
+        uv[t[0]] + Eigen::Vector2d (b.y () * a.squaredNorm () - a.y () * b.squaredNorm (),
+                                    a.x () * b.squaredNorm () - b.x () * a.squaredNorm ()) /
+                       (2.0 * cross);
+    const double radius = (centre - uv[t[0]]).norm ();
+    for (const Eigen::Vector2d& p : uv)
+      ASSERT_GT ((p - centre).norm (), radius * (1.0 - 1e-9) - 1e-12);
+  }
+  EXPECT_NEAR (area, samples::PI, 0.02); // the whole disc, but for the segments beside the loop
+  EXPECT_NE (unordered (reconstruct (asInput (cloud), {}).triangles), unordered (result.triangles));
+}
+
+TEST (Reconstruct, DuplicatesAndNonFinitePointsAreReported)
+{
+  Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 800, 11);
+  const auto count = static_cast<Index> (cloud.size ());
+  const Result expected = reconstruct (asInput (cloud), {});
+  cloud.push_back (cloud[17]);
+  cloud.push_back (cloud[3]);
+  cloud.emplace_back (0.0, std::numeric_limits<double>::quiet_NaN (), 0.0);
+  const Result result = reconstruct (asInput (cloud), {});
+  expectDisc (result, count);
+  EXPECT_EQ (result.triangles, expected.triangles);
+  const std::vector<std::array<Index, 2>> duplicates = {{count, 17}, {count + 1, 3}};
+  EXPECT_EQ (result.report.duplicates, duplicates);
+  EXPECT_EQ (result.report.non_finite, (std::vector<Index>{count + 2}));
+  EXPECT_EQ (result.report.statistics.duplicate_points, 2U);
+  EXPECT_EQ (result.report.statistics.non_finite_points, 1U);
+  EXPECT_EQ (result.report.statistics.selected_points, count + 3U);
+  ASSERT_EQ (result.report.parameters.size (), count + 3U);
+  EXPECT_EQ (result.report.parameters[count], result.report.parameters[17]);
+  EXPECT_TRUE (result.report.parameters[count + 2].hasNaN ());
+}
+
+TEST (Reconstruct, ASelectionOfALargerCloud)
+{
+  const Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 1200, 12);
+  const Result expected = reconstruct (asInput (cloud), {});
+  Input input = asInput (cloud);
+  input.cloud_size = 3 * cloud.size () + 1;
+  for (Index& p : input.cloud_index)
+    p = 3 * p + 1;
+  Result result = reconstruct (input, {});
+  ASSERT_EQ (result.report.status, Status::OK);
+  EXPECT_EQ (result.report.statistics.cloud_points, input.cloud_size);
+  EXPECT_EQ (result.report.statistics.selected_points, cloud.size ());
+  ASSERT_EQ (result.report.parameters.size (), input.cloud_size);
+  for (std::size_t p = 0; p < input.cloud_size; ++p)
+    EXPECT_EQ (result.report.parameters[p].allFinite (), p % 3 == 1);
+  for (Triangle& t : result.triangles)
+    for (Index& p : t)
+      p = (p - 1) / 3;
+  EXPECT_EQ (result.triangles, expected.triangles);
+}
+
+TEST (Reconstruct, FewestPoints)
+{
+  const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}};
+  expectDisc (reconstruct (asInput (square), {}), 4);
+  Options options;
+  options.loop = {0, 1, 2, 3};
+  expectDisc (reconstruct (asInput (square), options), 4);
+  Positions with_middle = square;
+  with_middle.emplace_back (0.4, 0.6, 0.1);
+  expectDisc (reconstruct (asInput (with_middle), options), 5);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

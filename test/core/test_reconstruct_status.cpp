@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run says when it fails, and while it goes on.
+#include <pcl/surface/floater/reconstruct.h>
+
+#include "samples.h"
+#include "surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::asInput;
+using samples::Positions;
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
+
+void
+expectFailure (const Result& result, Status status, const std::string& why)
+{
+  EXPECT_EQ (result.report.status, status) << result.report.message;
+  EXPECT_NE (result.report.message.find (why), std::string::npos) << result.report.message;
+  EXPECT_TRUE (result.triangles.empty ());
+}
+
+Positions
+discAt (const Eigen::Vector3d& place, double radius, std::uint64_t seed)
+{
+  Positions points = samples::disc (0.1, seed).positions;
+  for (Eigen::Vector3d& p : points)
+    p = place + radius * p;
+  return points;
+}
+
+TEST (Status, TooFewPoints)
+{
+  expectFailure (reconstruct ({}, {}), Status::TOO_FEW_POINTS, "0 distinct finite points");
+  const Positions three = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  expectFailure (reconstruct (asInput (three), {}), Status::TOO_FEW_POINTS, "3 distinct");
+  Positions equal (50, Eigen::Vector3d (1, 2, 3));
+  const Result one = reconstruct (asInput (equal), {});
+  expectFailure (one, Status::TOO_FEW_POINTS, "1 distinct");
+  EXPECT_EQ (one.report.duplicates.size (), 49U);
+  const Positions nowhere (20, Eigen::Vector3d::Constant (NOT_A_NUMBER));
+  const Result none = reconstruct (asInput (nowhere), {});
+  expectFailure (none, Status::TOO_FEW_POINTS, "0 distinct");
+  EXPECT_EQ (none.report.non_finite.size (), 20U);
+}
+
+TEST (Status, Degenerate)
+{
+  Positions line;
+  for (int i = 0; i < 100; ++i)
+    line.emplace_back (0.1F * static_cast<float> (i), 0.7F * static_cast<float> (i), 3.0);
+  expectFailure (reconstruct (asInput (line), {}), Status::DEGENERATE, "one line");
+}
+
+TEST (Status, NoBoundary)
+{
+  for (const SurfaceKind kind : {SurfaceKind::SPHERE, SurfaceKind::TORUS}) {
+    SurfaceSpec spec;
+    spec.kind = kind;
+    spec.points = 3000;
+    const Result result = reconstruct (asInput (generateSurface (spec)), {});
+    expectFailure (result, Status::NO_BOUNDARY, "closed");
+    EXPECT_TRUE (result.report.loop.empty ());
+  }
+}
+
+TEST (Status, Unreachable)
+{
+  Positions three;
+  for (std::uint64_t i = 0; i < 3; ++i)
+    for (const Eigen::Vector3d& p : discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1))
+      three.push_back (p);
+  expectFailure (reconstruct (asInput (three), {}), Status::UNREACHABLE, "do not connect");
+}
+
+TEST (Status, ASmallSecondComponentIsLeftOutAndNamed)
+{
+  Positions cloud = samples::disc (0.05, 1).positions;
+  const std::size_t large = cloud.size ();
+  for (const Eigen::Vector3d& p : discAt ({10, 0, 0}, 0.5, 2))
+    cloud.push_back (p);
+  const Result result = reconstruct (asInput (cloud), {});
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_EQ (result.report.unused.size (), cloud.size () - large);
+  EXPECT_EQ (result.report.unused.front (), large);
+  EXPECT_EQ (result.report.statistics.used_points, large);
+  ASSERT_FALSE (result.report.warnings.empty ());
+  EXPECT_NE (result.report.warnings.back ().find (std::to_string (cloud.size () - large)),
+             std::string::npos);
+  EXPECT_TRUE (result.report.parameters.back ().hasNaN ());
+  const samples::Topology topology = samples::topologyOf (result.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.vertices, large);
+  EXPECT_EQ (topology.euler, 1);
+}
+
+TEST (Status, InvalidLoop)
+{
+  const Positions cloud = samples::disc (0.1, 3).positions;
+  Options options;
+  options.loop = {0, 10};
+  expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "fewer than 3");
+  options.loop = {0, 10, 20, 10};
+  expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "point 10");
+  options.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
+  expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP,
+                 std::to_string (cloud.size ()));
+}
+
+TEST (Status, InvalidOption)
+{
+  const Positions cloud = samples::disc (0.1, 4).positions;
+  Options options;
+  options.k = 5;
+  const Result result = reconstruct (asInput (cloud), options);
+  expectFailure (result, Status::INVALID_OPTION, "k must be from 6 to 200");
+  EXPECT_EQ (options.k, 5);
+}
+
+// Throws what it was made with.
+template <typename Exception>
+class BrokenSearch : public NeighborSearch
+{
+public:
+  explicit BrokenSearch (Exception exception) : exception_ (std::move (exception)) {}
+  void build (const std::vector<std::uint32_t>&) override {}
+  void nearest (std::uint32_t, int, std::vector<std::uint32_t>&) override { throw exception_; }
+
+private:
+  Exception exception_;
+};
+
+TEST (Status, ExceptionsBecomeStatuses)
+{
+  const Positions cloud = samples::disc (0.1, 5).positions;
+  BrokenSearch<std::bad_alloc> no_memory{std::bad_alloc ()};
+  expectFailure (reconstruct (asInput (cloud, &no_memory), {}), Status::OUT_OF_MEMORY, "memory");
+  BrokenSearch<std::runtime_error> broken{std::runtime_error ("the tree fell over")};
+  expectFailure (reconstruct (asInput (cloud, &broken), {}), Status::INTERNAL_ERROR,
+                 "the tree fell over");
+}
+
+TEST (Progress, StagesComeInOrder)
+{
+  const Positions cloud = samples::disc (0.1, 6).positions;
+  Options options;
+  std::vector<Stage> stages;
+  options.progress = [&stages] (Stage stage) { stages.push_back (stage); };
+  const Result result = reconstruct (asInput (cloud), options);
+  EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
+                                         Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE,
+                                         Stage::DELAUNAY, Stage::FLIPS}));
+  ASSERT_EQ (stages.size (), static_cast<std::size_t> (Stage::COUNT));
+  const Statistics& statistics = result.report.statistics;
+  double sum = 0.0;
+  for (const double seconds : statistics.seconds) {
+    EXPECT_GT (seconds, 0.0);
+    sum += seconds;
+  }
+  EXPECT_NEAR (statistics.total_seconds, sum, 1e-9);
+}
+
+TEST (Progress, StopsAtTheStageThatFails)
+{
+  Options options;
+  std::vector<Stage> stages;
+  options.progress = [&stages] (Stage stage) { stages.push_back (stage); };
+  reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);
+  EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET}));
+  stages.clear ();
+  options.k = 0;
+  const Result result = reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);
+  EXPECT_TRUE (stages.empty ());
+  EXPECT_EQ (result.report.statistics.total_seconds, 0.0);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sample clouds that other tests rely on: on their surface, even, as many as asked for.
+#include "surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double PI = 3.14159265358979323846;
+constexpr double TOLERANCE = 1e-9; // of coordinates of up to about 100
+
+SurfaceSpec
+specOf (SurfaceKind kind, std::size_t points = 1500)
+{
+  SurfaceSpec spec;
+  spec.kind = kind;
+  spec.points = points;
+  return spec;
+}
+
+// Distance from each point to its nearest other point.
+std::vector<double>
+nearestDistances (const Points& points)
+{
+  std::vector<double> nearest (points.size (), std::numeric_limits<double>::infinity ());
+  for (std::size_t i = 0; i < points.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = (points[i] - points[j]).norm ();
+      nearest[i] = std::min (nearest[i], distance);
+      nearest[j] = std::min (nearest[j], distance);
+    }
+  return nearest;
+}
+
+class EverySurface : public testing::TestWithParam<SurfaceKind>
+{
+};
+
+TEST_P (EverySurface, HasAsManyPointsAsAskedFor)
+{
+  for (const std::size_t points : {1000U, 1001U, 1499U})
+    EXPECT_EQ (generateSurface (specOf (GetParam (), points)).size (), points);
+}
+
+TEST_P (EverySurface, IsTheSameForTheSameSeedOnly)
+{
+  SurfaceSpec spec = specOf (GetParam ());
+  spec.noise = 0.1;
+  const Points first = generateSurface (spec);
+  EXPECT_EQ (generateSurface (spec), first);
+  spec.seed = 2;
+  EXPECT_NE (generateSurface (spec), first);
+}
+
+TEST_P (EverySurface, IsEvenlySampledWithUnitSpacing)
+{
+  const std::vector<double> nearest = nearestDistances (generateSurface (specOf (GetParam ())));
+  EXPECT_GT (*std::min_element (nearest.begin (), nearest.end ()), 0.25);
+  EXPECT_LT (*std::max_element (nearest.begin (), nearest.end ()), 1.6);
+}
+
+TEST_P (EverySurface, IsAsUnevenAsAskedFor)
+{
+  SurfaceSpec spec = specOf (GetParam ());
+  spec.density_ratio = 25.0;
+  std::vector<double> nearest = nearestDistances (generateSurface (spec));
+  std::sort (nearest.begin (), nearest.end ());
+  const double dense = nearest[nearest.size () / 20];
+  const double sparse = nearest[nearest.size () - 1 - nearest.size () / 200];
+  EXPECT_GT (dense, 0.2);
+  EXPECT_GT (sparse / dense, 3.0); // the spacings' ratio is 5 from end to end
+}
+
+TEST_P (EverySurface, MovesEachPointByTheNoise)
+{
+  SurfaceSpec spec = specOf (GetParam ());
+  const Points exact = generateSurface (spec);
+  spec.noise = 0.3;
+  const Points noisy = generateSurface (spec);
+  // The order differs, for the noise takes random numbers first: compare moments.
+  double sum_exact = 0.0, sum_noisy = 0.0;
+  for (std::size_t i = 0; i < exact.size (); ++i) {
+    sum_exact += exact[i].squaredNorm ();
+    sum_noisy += noisy[i].squaredNorm ();
+  }
+  const double count = static_cast<double> (exact.size ());
+  const double radius = std::sqrt (sum_exact / count);
+  const double deviation = 2.0 * 0.3 * radius / std::sqrt (count);
+  EXPECT_NEAR ((sum_noisy - sum_exact) / count, 3.0 * 0.3 * 0.3, 5.0 * deviation);
+  EXPECT_NE (sum_noisy, sum_exact);
+}
+
+INSTANTIATE_TEST_SUITE_P (Kinds, EverySurface, testing::ValuesIn (surfaceKinds ()),
+                          [] (const auto& kind) {
+                            std::string name = surfaceName (kind.param);
+                            std::replace (name.begin (), name.end (), '-', '_');
+                            return name;
+                          });
+
+TEST (Surfaces, SphereLiesOnASphereOfOneUnitOfAreaPerPoint)
+{
+  const double radius = std::sqrt (1500.0 / (4.0 * PI));
+  for (const Eigen::Vector3d& p : generateSurface (specOf (SurfaceKind::SPHERE)))
+    EXPECT_NEAR (p.norm (), radius, TOLERANCE);
+}
+
+TEST (Surfaces, HemisphereIsTheUpperHalf)
+{
+  const double radius = std::sqrt (1500.0 / (2.0 * PI));
+  for (const Eigen::Vector3d& p : generateSurface (specOf (SurfaceKind::HEMISPHERE))) {
+    EXPECT_NEAR (p.norm (), radius, TOLERANCE);
+    EXPECT_GT (p.z (), -0.5);
+  }
+}
+
+TEST (Surfaces, FingerIsACylinderUnderAHemisphere)
+{
+  SurfaceSpec spec = specOf (SurfaceKind::FINGER);
+  spec.length = 6.0;
+  const double radius = std::sqrt (1500.0 / (2.0 * PI * (1.0 + spec.length)));
+  for (const Eigen::Vector3d& p : generateSurface (spec)) {
+    const double above = std::max (0.0, p.z () - spec.length * radius);
+    EXPECT_NEAR (std::hypot (p.x (), p.y (), above), radius, TOLERANCE);
+    EXPECT_GT (p.z (), -0.5);
+  }
+}
+
+TEST (Surfaces, TorusLiesOnATorus)
+{
+  const double small = std::sqrt (1500.0 / (10.0 * PI * PI));
+  for (const Eigen::Vector3d& p : generateSurface (specOf (SurfaceKind::TORUS)))
+    EXPECT_NEAR (std::hypot (std::hypot (p.x (), p.y ()) - 2.5 * small, p.z ()), small, TOLERANCE);
+}
+
+TEST (Surfaces, FoldedSheetHasItsGap)
+{
+  SurfaceSpec spec = specOf (SurfaceKind::FOLDED_SHEET);
+  spec.gap = 3.0;
+  std::size_t lower = 0, upper = 0;
+  for (const Eigen::Vector3d& p : generateSurface (spec)) {
+    EXPECT_TRUE (p.z () >= -TOLERANCE && p.z () <= 3.0 + TOLERANCE);
+    lower += std::abs (p.z ()) < TOLERANCE ? 1 : 0;
+    upper += std::abs (p.z () - 3.0) < TOLERANCE ? 1 : 0;
+  }
+  EXPECT_GT (lower, 600U);
+  EXPECT_GT (upper, 600U);
+}
+
+TEST (Surfaces, CutOutSheetIsEmptyInItsHoles)
+{
+  // One hole in the middle, with a radius of 0.3 of the side.
+  SurfaceSpec spec = specOf (SurfaceKind::CUT_OUT);
+  spec.holes = 1;
+  const double side = std::sqrt (1500.0 / (1.0 - PI * 0.3 * 0.3));
+  double nearest = side, farthest = 0.0;
+  for (const Eigen::Vector3d& p : generateSurface (spec)) {
+    const double distance = std::hypot (p.x () - 0.5 * side, p.y () - 0.5 * side);
+    nearest = std::min (nearest, distance);
+    farthest = std::max ({farthest, p.x (), p.y ()});
+  }
+  EXPECT_GT (nearest, 0.3 * side - TOLERANCE);
+  EXPECT_LT (nearest, 0.3 * side + 1.0);
+  EXPECT_NEAR (farthest, side, 0.02 * side);
+}
+
+TEST (Surfaces, KnowTheirTopology)
+{
+  EXPECT_EQ (eulerCharacteristic (specOf (SurfaceKind::SPHERE)), 2);
+  EXPECT_EQ (eulerCharacteristic (specOf (SurfaceKind::TORUS)), 0);
+  EXPECT_EQ (eulerCharacteristic (specOf (SurfaceKind::FINGER)), 1);
+  SurfaceSpec spec = specOf (SurfaceKind::CUT_OUT);
+  spec.holes = 4;
+  EXPECT_EQ (boundaryLoops (spec), 5);
+  EXPECT_EQ (eulerCharacteristic (spec), -3);
+}
+
+TEST (Surfaces, RefuseWhatMakesNoSense)
+{
+  const auto refuses = [] (SurfaceKind kind, auto change) {
+    SurfaceSpec spec = specOf (kind);
+    EXPECT_TRUE (surfaceSpecError (spec).empty ());
+    change (spec);
+    EXPECT_FALSE (surfaceSpecError (spec).empty ());
+    EXPECT_THROW (generateSurface (spec), std::invalid_argument);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN ();
+  using Spec = SurfaceSpec;
+  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.points = MIN_SURFACE_POINTS - 1; });
+  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.density_ratio = 0.9; });
+  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.density_ratio = 101.0; });
+  refuses (SurfaceKind::SPHERE, [nan] (Spec& spec) { spec.density_ratio = nan; });
+  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.noise = -0.1; });
+  refuses (SurfaceKind::SPHERE, [nan] (Spec& spec) { spec.noise = nan; });
+  refuses (SurfaceKind::FINGER, [] (Spec& spec) { spec.length = -1.0; });
+  refuses (SurfaceKind::FINGER, [] (Spec& spec) { spec.length = 1000.0; });
+  refuses (SurfaceKind::FOLDED_SHEET, [] (Spec& spec) { spec.gap = 0.0; });
+  refuses (SurfaceKind::FOLDED_SHEET, [] (Spec& spec) { spec.gap = 100.0; });
+  refuses (SurfaceKind::CUT_OUT, [] (Spec& spec) { spec.holes = -1; });
+  refuses (SurfaceKind::CUT_OUT, [] (Spec& spec) { spec.holes = 200; });
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
