@@ -69,7 +69,7 @@ reconstructDisc (Input& input, const Options& options, Result& result)
 
   // Section 2.1: weights for all neighbours, if so wished; boundaries are told by Delaunay stars.
   if (options.neighborhood == Neighborhood::NEAREST || options.neighborhood == Neighborhood::BALL) {
-    clock.start (Stage::STARS);
+    clock.start (Stage::WEIGHTS);
     stars = makeStars (set.positions, near, std::move (stars.normals), options.filter_sheets, options.threads,
                        StarKind::ALL);
   }

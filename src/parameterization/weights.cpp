@@ -144,9 +144,11 @@ shapePreserving (const LocalStar& star, double* weights)
   const std::size_t count = star.size ();
   std::fill (weights, weights + count, 0.0);
   const auto behind = [&] (std::size_t i, std::size_t j) {
-    // True if j is not yet across the line through i and the centre.
+    // True if j is not yet across the line through i and the centre; in the direction of i
+    // it is not.
     const double sine = LocalStar::cross (star.directions[i], star.directions[j]);
-    return sine > 0.0 || (sine == 0.0 && star.directions[i].dot (star.directions[j]) > 0.0);
+    return sine > 0.0 ||
+           (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);
   };
   // The opposite edge ends this many neighbours after i. Never at the next one: where that is
   // exactly opposite, the triangle with the one after it gives the same coordinates and has an

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What iterative solvers have in common: they cannot tell by themselves when they are wrong.
+// What solvers have in common that cannot tell by themselves when they are wrong.
 #pragma once
 
 #include "solvers/residual.h"

@@ -36,7 +36,7 @@ struct Solution
   std::size_t peak_bytes = 0;                ///< direct: memory of the factorization, as used
 };
 
-/// Reciprocal condition below which a system counts as singular. An island of unknowns leaves a
+/// Reciprocal condition, with pivots on the diagonal, below which a system counts as singular. An island of unknowns leaves a
 /// pivot of rounding errors, seldom exactly 0 (up to 3e-14 with 5000 unknowns); unknowns that hang
 /// on the loop by the smallest weights (see weights.h) stay above.
 constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-12;

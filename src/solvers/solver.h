@@ -22,8 +22,8 @@ Problem
 checkSolver (Solver solver, Ordering ordering);
 
 /// Solves for both coordinates with options.solver in the order options.ordering. An empty system is
-/// OK. A singular system is refused by every solver: the direct ones see a pivot of rounding errors,
-/// the iterative ones look for islands first. An iterative solver that does not reach
+/// OK. A singular system is refused by every solver: those with pivots on the diagonal see one of
+/// rounding errors, the others look for islands first. An iterative solver that does not reach
 /// options.tolerance, as measured (see Residual::isWithin), returns NOT_CONVERGED and no solution.
 /// May throw std::bad_alloc. The result does not depend on options.threads.
 Solution

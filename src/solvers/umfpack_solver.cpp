@@ -2,7 +2,7 @@
 #include "solvers/umfpack_solver.h"
 
 #include "solvers/both_sides.h"
-#include "solvers/residual.h"
+#include "solvers/iterative.h"
 #include "solvers/single_blas_thread.h"
 
 #include <umfpack.h>
@@ -111,36 +111,41 @@ solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, 
                                   ? UMFPACK_STRATEGY_SYMMETRIC
                                   : UMFPACK_STRATEGY_UNSYMMETRIC;
   control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
-  control[UMFPACK_IRSTEP] = 0;
+  // Sparse pivots off the diagonal cost digits, which refinement brings back.
+  constexpr double REFINEMENT_STEPS = 2.0;
+  const bool refine = strategy == UmfpackStrategy::UNSYMMETRIC;
+  control[UMFPACK_IRSTEP] = refine ? REFINEMENT_STEPS : 0.0;
   // UMFPACK_ORDERING_AMD is COLAMD with the unsymmetric strategy.
   control[UMFPACK_ORDERING] =
       ordering == Ordering::METIS ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
 
   const auto n = static_cast<Int> (system.unknowns ());
   Handle<Interface::FREE_NUMERIC> numeric;
+  auto pattern = std::make_unique<const Pattern<Int>> (system);
   {
-    // The pattern and the symbolic analysis are not needed after the factorization.
-    const Pattern<Int> pattern (system);
     void* handle = nullptr;
     if (ordering == Ordering::NATURAL) {
       std::vector<Int> identity (system.unknowns ());
       std::iota (identity.begin (), identity.end (), Int{0});
       control[UMFPACK_FIXQ] = 1.0;
-      Interface::QSYMBOLIC (n, n, pattern.offsets.data (), pattern.columns.data (),
+      Interface::QSYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
                             system.values.data (), identity.data (), &handle, control.data (),
                             info.data ());
     }
     else
-      Interface::SYMBOLIC (n, n, pattern.offsets.data (), pattern.columns.data (),
+      Interface::SYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
                            system.values.data (), &handle, control.data (), info.data ());
     const Handle<Interface::FREE_SYMBOLIC> symbolic (handle);
     if (!accept (info[UMFPACK_STATUS], "symbolic analysis", solution))
       return solution;
     handle = nullptr;
-    Interface::NUMERIC (pattern.offsets.data (), pattern.columns.data (), system.values.data (),
+    Interface::NUMERIC (pattern->offsets.data (), pattern->columns.data (), system.values.data (),
                         symbolic.get (), &handle, control.data (), info.data ());
     numeric.reset (handle);
   }
+  // Only refinement needs the matrix after the factorization.
+  if (!refine)
+    pattern.reset ();
   // Figures that UMFPACK did not get to are -1.
   const auto figure = [&] (int entry) { return std::max (0.0, info[entry]); };
   solution.peak_bytes =
@@ -150,14 +155,14 @@ solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, 
     return solution;
   solution.nnz_factors =
       static_cast<std::size_t> (info[UMFPACK_LNZ] + info[UMFPACK_UNZ]) - system.unknowns ();
-  if (!(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
+  if (strategy == UmfpackStrategy::SYMMETRIC &&
+      !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
     solution.outcome = Solution::Outcome::SINGULAR;
     solution.message = "factorization: a pivot is nothing but rounding errors";
     return solution;
   }
 
-  // The factors are only read, so both right-hand sides can go at once. Without refinement the
-  // matrix is not needed.
+  // The factors are only read, so both right-hand sides can go at once.
   const std::array<const std::vector<double>*, 2> rhs{&system.rhs_u, &system.rhs_v};
   std::array<std::vector<double>, 2> unknowns;
   for (auto& one : unknowns)
@@ -165,7 +170,9 @@ solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, 
   std::array<double, 2> status{};
   bothSides (threads, [&] (std::size_t side) {
     std::array<double, UMFPACK_INFO> solve_info{};
-    Interface::SOLVE (UMFPACK_At, nullptr, nullptr, nullptr, unknowns[side].data (),
+    Interface::SOLVE (UMFPACK_At, pattern ? pattern->offsets.data () : nullptr,
+                      pattern ? pattern->columns.data () : nullptr,
+                      pattern ? system.values.data () : nullptr, unknowns[side].data (),
                       rhs[side]->data (), numeric.get (), control.data (), solve_info.data ());
     status[side] = solve_info[UMFPACK_STATUS];
   });
@@ -193,6 +200,9 @@ solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads,
     solution.reciprocal_condition = 1.0;
     return solution;
   }
+  // With pivots off the diagonal, small ones do not tell of an island.
+  if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseIslands (system, solution))
+    return solution;
   if (ordering == Ordering::AUTOMATIC && strategy == UmfpackStrategy::SYMMETRIC)
     ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
   const SingleBlasThread single_blas_thread;

@@ -19,8 +19,9 @@ enum class UmfpackStrategy
 };
 
 /// One factorization, two right-hand sides. UMFPACK takes columns, so the rows are passed as the
-/// transpose and solved with UMFPACK_At. No scaling, no refinement, one BLAS thread (of OpenBLAS;
-/// restored afterwards). Above a million unknowns, the automatic ordering of the symmetric strategy
+/// transpose and solved with UMFPACK_At. No scaling, one BLAS thread (of OpenBLAS; restored
+/// afterwards). The symmetric strategy needs no refinement and knows islands by their pivots; the
+/// unsymmetric one is refined in two steps, and islands are looked for before. Above a million unknowns, the automatic ordering of the symmetric strategy
 /// is METIS, and indices have 64 bits. An empty system is OK. May throw std::bad_alloc; UMFPACK's own
 /// failures are outcomes.
 /// \param ordering SYMMETRIC: AUTOMATIC, AMD, METIS or NATURAL; UNSYMMETRIC: AUTOMATIC, COLAMD, METIS
