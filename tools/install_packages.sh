@@ -5,10 +5,11 @@ set -euo pipefail
 
 usage () {
   cat <<'END'
-Usage: install_packages.sh [--tests] [--lint]
+Usage: install_packages.sh [--tests] [--benchmarks] [--lint]
 Installs the Debian packages that the library and its tools need.
-  --tests  also those of the tests
-  --lint   also those that check the source code
+  --tests       also those of the tests
+  --benchmarks  also those of the benchmarks
+  --lint        also those that check the source code
 END
 }
 
@@ -21,6 +22,7 @@ packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitespa
 for argument in "$@"; do
   case "$argument" in
     --tests) packages+=(libgtest-dev libgmock-dev pcl-tools python3) ;;
+    --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;

@@ -51,13 +51,11 @@ public:
   {
     report.heading ("Table 2: fill-in");
     report.paragraph (
-        "Nonzeros in millions, those of the factors as UMFPACK made them (AMD, symmetric strategy; "
-        "the unit diagonal of L is not counted); gamma = nnz (L + U) / nnz (A). To the right of "
-        "it, "
-        "gamma by order of the unknowns, as it follows from the pattern of A + A^T alone: "
-        "approximate "
-        "minimum degree, nested dissection by METIS, reverse Cuthill-McKee, and the order of our "
-        "points along a space-filling curve.");
+        "Nonzeros in millions, those of the factors as UMFPACK made them (AMD, symmetric "
+        "strategy; the unit diagonal of L is not counted); gamma = nnz (L + U) / nnz (A). To "
+        "the right of it, gamma by order of the unknowns, as it follows from the pattern of A "
+        "+ A^T alone: approximate minimum degree, nested dissection by METIS, reverse "
+        "Cuthill-McKee, and the order of our points along a space-filling curve.");
     report.table ("table2_fill", table_);
     report.paragraph ("As printed in TW 385:");
     report.table ("table2_report", report_);

@@ -122,9 +122,8 @@ run (const CommandLine& line)
       "TW 385: *Efficient Triangulation of Point Clouds Using Floater Parameterization*, January "
       "2004. Clouds: " +
       clouds +
-      ". Neighbourhoods are Delaunay stars among the 20 nearest, with mean value weights, the loop "
-      "is on a "
-      "circle, unless a table says otherwise." +
+      ". Neighbourhoods are Delaunay stars among the 20 nearest, weights are mean values, the loop "
+      "is on a circle, unless a table says otherwise." +
       (processor.empty () ? "" : " Processor: " + processor + "."));
   for (const NamedSection& one : sections)
     one.section->write (report);

@@ -80,17 +80,14 @@ public:
   void write (ReportFolder& report) const override
   {
     report.heading ("Table 1: bytes per point");
-    report.paragraph ("Measured, and by the report's formula (218 + 84 gamma) N with our gamma. "
-                      "The search structure "
-                      "is a kd-tree here (what the allocator handed out for it), an octree in the "
-                      "report. The matrix "
-                      "has both right-hand sides and the numbering with it. Factors and "
-                      "permutations as UMFPACK counts "
-                      "them after the factorization: its L and U share patterns within supernodes, "
-                      "so that they need "
-                      "less than the formula's 12 bytes per nonzero. The last column is the peak "
-                      "while it factorizes, "
-                      "which the report does not count.");
+    report.paragraph ("Measured, and by the report's formula (218 + 84 gamma) N with our "
+                      "gamma. The search structure is a kd-tree here (what the allocator "
+                      "handed out for it), an octree in the report. The matrix has both "
+                      "right-hand sides and the numbering with it. Factors and permutations as "
+                      "UMFPACK counts them after the factorization: its L and U share patterns "
+                      "within supernodes, so that they need less than the formula's 12 bytes "
+                      "per nonzero. The last column is the peak while it factorizes, which the "
+                      "report does not count.");
     report.table ("table1_memory", table_);
   }
 

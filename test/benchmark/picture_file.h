@@ -18,9 +18,9 @@ toPng (vtkImageData* image);
 /// Grey values, row by row from the top.
 struct GreyImage
 {
-  GreyImage (int width_, int height_, std::uint8_t grey)
-      : width (width_), height (height_),
-        pixels (static_cast<std::size_t> (width_) * static_cast<std::size_t> (height_), grey)
+  GreyImage (int columns, int rows, std::uint8_t grey)
+      : width (columns), height (rows),
+        pixels (static_cast<std::size_t> (columns) * static_cast<std::size_t> (rows), grey)
   {
   }
 

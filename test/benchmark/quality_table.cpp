@@ -102,12 +102,10 @@ public:
   void write (ReportFolder& report) const override
   {
     report.heading ("Neighbourhoods and weights");
-    report.paragraph ("Recall: edges of the ground truth (NAME.gt.ply beside the cloud) that the "
-                      "mesh has. Turned: "
-                      "triangles that face away from the ground truth. Each as the triangulation "
-                      "of the plane gives "
-                      "it, and after the flips on the surface. Smallest distance: of two "
-                      "parameters, in a circle of "
+    report.paragraph ("Recall: edges of the ground truth (NAME.gt.ply beside the cloud) that "
+                      "the mesh has. Turned: triangles that face away from the ground truth. "
+                      "Each as the triangulation of the plane gives it, and after the flips on "
+                      "the surface. Smallest distance: of two parameters, in a circle of "
                       "radius 1. A row with a word instead of figures failed with that status.");
     report.table ("neighbourhoods_and_weights", table_);
   }

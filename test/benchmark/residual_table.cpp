@@ -76,13 +76,10 @@ public:
     report.heading ("Residual and mesh");
     report.paragraph (
         "BiCGSTAB + ILUT(15, 1e-2) by GMM++, stopped at the residual asked for. Largest error: "
-        "distance "
-        "of a parameter from that of the direct solution, in a circle of radius 1. Edges off: "
-        "edges of "
-        "the direct solution's mesh that this one has not, before and after the flips on the "
-        "surface. "
-        "Where points are close together in the plane, a small error changes which of them are "
-        "neighbours.");
+        "distance of a parameter from that of the direct solution, in a circle of radius 1. "
+        "Edges off: edges of the direct solution's mesh that this one has not, before and "
+        "after the flips on the surface. Where points are close together in the plane, a small "
+        "error changes which of them are neighbours.");
     report.table ("residual_and_mesh", table_);
   }
 

@@ -111,9 +111,9 @@ public:
     figures_.push_back (
         {sample.disc.name, toPng (image),
          sample.disc.name + ", " + grouped (system.unknowns ()) + " unknowns, " + fixed (share, 3) +
-             " % nonzeros. Above: A in the order of the file, in our order along a space-filling "
-             "curve, after reverse Cuthill-McKee. Below: A after AMD, its L + U, and L + U after "
-             "reverse Cuthill-McKee"});
+             " % nonzeros. Above: A in the order of the file, in our order along a "
+             "space-filling curve, after reverse Cuthill-McKee. Below: A after AMD, its L + U, "
+             "and L + U after reverse Cuthill-McKee"});
   }
 
   void write (ReportFolder& report) const override

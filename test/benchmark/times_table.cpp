@@ -144,20 +144,20 @@ public:
         "Wall time, shortest of " + std::to_string (settings_.repeats) + " runs with " +
         std::to_string (settings_.threads) + (settings_.threads == 1 ? " thread. " : " threads. ") +
         "Neighbours: working set and the 20 nearest, which serve boundary and weights alike. "
-        "Weights: tangent planes, Delaunay stars, mean value weights, assembly. "
-        "UMFPACK, SuperLU: ordering, factorization, both right-hand sides. "
-        "BiCGSTAB: GMM++ with ILUT(15, 1e-2), preconditioner and both right-hand sides, "
-        "until the residual that it carries on is 1e-15 of |b|; its iterations for u and v. "
-        "Total: up to the parameters with UMFPACK, as in the report. "
-        "Delaunay and flips (with the repair of folds) make the mesh of them.");
+        "Weights: tangent planes, Delaunay stars, mean value weights, assembly. UMFPACK, "
+        "SuperLU: ordering, factorization, both right-hand sides. BiCGSTAB: GMM++ with "
+        "ILUT(15, 1e-2), preconditioner and both right-hand sides, until the residual that it "
+        "carries on is 1e-15 of |b|; its iterations for u and v. Total: up to the parameters "
+        "with UMFPACK, as in the report. Delaunay and flips (with the repair of folds) make "
+        "the mesh of them.");
     report.table ("table3_times", table_);
     report.paragraph ("As printed in TW 385, on a Pentium 4 with 2.4 GHz. BUNNY is the same scan "
                       "as bunny with 101 points more; the other models are not ours.");
     report.table ("table3_report", reportTable ());
-    report.paragraph ("Residuals |b - A u| / |b| computed from the solutions, the larger of both "
-                      "sides. BiCGSTAB's own one goes on to 1e-15 where this cannot follow. Its "
-                      "iterations depend on the order of the unknowns: ours is along a "
-                      "space-filling curve, that of the file may be any.");
+    report.paragraph ("Residuals |b - A u| / |b| computed from the solutions, the larger of "
+                      "both sides. BiCGSTAB's own one goes on to 1e-15 where this cannot "
+                      "follow. Its iterations depend on the order of the unknowns: ours is "
+                      "along a space-filling curve, that of the file may be any.");
     report.table ("table3_residuals", accuracy_);
     writeFigure (report);
   }
@@ -237,9 +237,9 @@ private:
       seconds.rows.push_back (row);
     }
     report.heading ("Figure 5: time against points");
-    report.paragraph ("The times of Table 3; lines are power laws fitted to their logarithms. The "
-                      "clouds differ in more than size: the time of the boundary goes with its "
-                      "length, that of the flips with the folds that they find.");
+    report.paragraph ("The times of Table 3; lines are power laws fitted to their logarithms. "
+                      "The clouds differ in more than size: the time of the boundary goes with "
+                      "its length, that of the flips with the folds that they find.");
     report.picture ("figure5_times", drawTimes (points, series),
                     "Seconds against points, by stage and solver");
     report.table ("figure5_power_laws", laws);
