@@ -36,22 +36,19 @@ class OwnSearch
 public:
   explicit OwnSearch (const WorkingSet& set) : set_ (set), tree_ (set.positions) {}
 
-  void
-  nearest (Index p, std::size_t k, std::vector<Neighbor>& found) const
+  void nearest (Index p, std::size_t k, std::vector<Neighbor>& found) const
   {
     tree_.nearest (set_.positions[p], k + 1, found);
     drop (p, found);
   }
-  void
-  within (Index p, double radius, std::vector<Neighbor>& found) const
+  void within (Index p, double radius, std::vector<Neighbor>& found) const
   {
     tree_.within (set_.positions[p], radius, found);
     drop (p, found);
   }
 
 private:
-  static void
-  drop (Index p, std::vector<Neighbor>& found)
+  static void drop (Index p, std::vector<Neighbor>& found)
   {
     found.erase (std::find_if (found.begin (), found.end (),
                                [p] (const Neighbor& neighbor) { return neighbor.point == p; }));
@@ -86,7 +83,8 @@ searchBalls (std::size_t points, double radius, Search& search, int threads)
   for (const std::vector<Index>& range : ranges)
     entries += range.size ();
   if (entries >= NONE)
-    throw std::length_error ("the balls hold more than 32-bit indices can count: use fewer points or a smaller radius");
+    throw std::length_error (
+        "the balls hold more than 32-bit indices can count: use fewer points or a smaller radius");
   for (std::size_t p = 0; p < points; ++p)
     lists.offsets[p + 1] += lists.offsets[p];
   lists.ids.reserve (entries);

@@ -17,9 +17,9 @@ constexpr std::size_t MOST_IN_BALL = 200;
 
 /// All other points in a ball around every point, nearest first, ties by index; its radius is
 /// `radius` times the mean distance of the point's SPACING_NEIGHBORS nearest. At least as many as
-/// these, at most MOST_IN_BALL nearest. By the core's kd-tree in parallel, or by the caller's search
-/// structure in one thread. O(n (log n + neighbours)).
-/// \throw std::length_error if there are 2^32 entries or more
+/// these, at most MOST_IN_BALL nearest. By the core's kd-tree in parallel, or by the caller's
+/// search structure in one thread. O(n (log n + neighbours)). \throw std::length_error if there are
+/// 2^32 entries or more
 FlatLists
 findBallNeighbors (const WorkingSet& set, double radius, NeighborSearch* search, int threads);
 

@@ -8,7 +8,7 @@ namespace pcl
 namespace floater
 {
 CallerSearch::CallerSearch (const WorkingSet& set, NeighborSearch& search)
-: set_ (set), search_ (search)
+    : set_ (set), search_ (search)
 {
   std::vector<Index> sorted = set.cloud_index;
   std::sort (sorted.begin (), sorted.end ());
@@ -23,14 +23,16 @@ CallerSearch::translate (Index p, std::vector<Neighbor>& found) const
 {
   found.clear ();
   for (const Index cloud_index : cloud_indices_)
-    if (cloud_index < point_of_.size () && point_of_[cloud_index] != NONE && point_of_[cloud_index] != p) {
+    if (cloud_index < point_of_.size () && point_of_[cloud_index] != NONE &&
+        point_of_[cloud_index] != p) {
       const Index q = point_of_[cloud_index];
       found.push_back ({(set_.positions[q] - set_.positions[p]).squaredNorm (), q});
     }
   std::sort (found.begin (), found.end ());
-  found.erase (std::unique (found.begin (), found.end (),
-                            [] (const Neighbor& a, const Neighbor& b) { return a.point == b.point; }),
-               found.end ());
+  found.erase (
+      std::unique (found.begin (), found.end (),
+                   [] (const Neighbor& a, const Neighbor& b) { return a.point == b.point; }),
+      found.end ());
 }
 
 void
@@ -53,7 +55,7 @@ CallerSearch::within (Index p, double radius, std::vector<Neighbor>& found)
   if (search_.within (set_.cloud_index[p], MORE * set_.scale * radius, cloud_indices_))
     translate (p, found);
   else
-    for (std::size_t k = 32; ; k *= 2) {
+    for (std::size_t k = 32;; k *= 2) {
       nearest (p, std::min (k, set_.positions.size ()), found);
       if (found.size () < k || is_outside (found.back ()))
         break;

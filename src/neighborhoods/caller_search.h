@@ -29,7 +29,7 @@ private:
 
   const WorkingSet& set_;
   NeighborSearch& search_;
-  std::vector<Index> point_of_;       // by cloud index
+  std::vector<Index> point_of_;      // by cloud index
   std::vector<Index> cloud_indices_; // scratch: the search's answer
 };
 

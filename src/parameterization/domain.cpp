@@ -128,9 +128,12 @@ double
 stepLength (double distance, LoopSpacing spacing)
 {
   switch (spacing) {
-  case LoopSpacing::CHORD_LENGTH: break;
-  case LoopSpacing::CENTRIPETAL: return std::sqrt (distance);
-  case LoopSpacing::UNIFORM: return 1.0;
+  case LoopSpacing::CHORD_LENGTH:
+    break;
+  case LoopSpacing::CENTRIPETAL:
+    return std::sqrt (distance);
+  case LoopSpacing::UNIFORM:
+    return 1.0;
   }
   return distance;
 }

@@ -12,12 +12,12 @@ namespace pcl
 {
 namespace floater
 {
-/// Lays a closed loop on a convex curve, anti-clockwise, by the spacing rule: steps along the circle
-/// or the sides of a polygon are as the lengths of the loop's steps, as their square roots, or
-/// equal. The first loop point is at angle 0 of the circle, or at the
-/// left end of the polygon's bottom side. Regular polygon corners get the loop point nearest to them by these
-/// steps, each another one, so that no corner is cut off; a loop with fewer points than the
-/// polygon has corners gets a polygon with as many corners as points.
+/// Lays a closed loop on a convex curve, anti-clockwise, by the spacing rule: steps along the
+/// circle or the sides of a polygon are as the lengths of the loop's steps, as their square roots,
+/// or equal. The first loop point is at angle 0 of the circle, or at the left end of the polygon's
+/// bottom side. Regular polygon corners get the loop point nearest to them by these steps, each
+/// another one, so that no corner is cut off; a loop with fewer points than the polygon has corners
+/// gets a polygon with as many corners as points.
 ///
 /// OWN_SHAPE has the corners of the loop's own convex hull, in its least-squares plane (see
 /// own_shape.h), and what is between two corners on the side between them. A loop without such a

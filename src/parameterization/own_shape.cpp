@@ -72,8 +72,9 @@ hullOf (const Outline& outline)
   });
   std::vector<std::size_t> hull;
   const auto append = [&] (std::size_t p, std::size_t begin) {
-    while (hull.size () >= begin + 2 && !(cross (outline[hull.back ()] - outline[hull[hull.size () - 2]],
-                                                 outline[p] - outline[hull.back ()]) > 0.0))
+    while (hull.size () >= begin + 2 &&
+           !(cross (outline[hull.back ()] - outline[hull[hull.size () - 2]],
+                    outline[p] - outline[hull.back ()]) > 0.0))
       hull.pop_back ();
     hull.push_back (p);
   };
@@ -97,8 +98,9 @@ inLoopOrder (std::vector<std::size_t> hull)
   // Longest increasing subsequence: ends[l] is the vertex that ends the best one of length l + 1.
   std::vector<std::size_t> ends, before (hull.size (), 0);
   for (std::size_t i = 0; i < hull.size (); ++i) {
-    const auto at = std::lower_bound (ends.begin (), ends.end (), hull[i],
-                                      [&hull] (std::size_t end, std::size_t p) { return hull[end] < p; });
+    const auto at =
+        std::lower_bound (ends.begin (), ends.end (), hull[i],
+                          [&hull] (std::size_t end, std::size_t p) { return hull[end] < p; });
     if (at != ends.begin ())
       before[i] = *(at - 1);
     if (at == ends.end ())
@@ -116,7 +118,8 @@ inLoopOrder (std::vector<std::size_t> hull)
 double
 firstStep (double side, std::size_t steps, const SideLimits& limits)
 {
-  return steps == 1 ? side : std::min (limits.shortest_step, 0.5 * side / static_cast<double> (steps));
+  return steps == 1 ? side
+                    : std::min (limits.shortest_step, 0.5 * side / static_cast<double> (steps));
 }
 
 // Whether b is fit to be a corner between a and c, with steps of the loop between them.

@@ -144,8 +144,7 @@ shapePreserving (const LocalStar& star, double* weights)
   const std::size_t count = star.size ();
   std::fill (weights, weights + count, 0.0);
   const auto behind = [&] (std::size_t i, std::size_t j) {
-    // True if j is not yet across the line through i and the centre; in the direction of i
-    // it is not.
+    // True if j is not yet across the line through i and the centre.
     const double sine = LocalStar::cross (star.directions[i], star.directions[j]);
     return sine > 0.0 ||
            (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);

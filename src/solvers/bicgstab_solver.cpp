@@ -65,7 +65,8 @@ private:
 
 // |b| and what is least of a residual: see Residual::isWithin.
 double
-leastResidual (const Matrix& magnitudes, const Vector& rhs, const Vector& solution, double tolerance)
+leastResidual (const Matrix& magnitudes, const Vector& rhs, const Vector& solution,
+               double tolerance)
 {
   constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon ();
   const Vector terms = magnitudes * solution.cwiseAbs () + rhs.cwiseAbs ();

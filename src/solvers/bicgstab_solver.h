@@ -18,8 +18,8 @@ namespace floater
 ///
 /// Takes tolerance, max_iterations (of all rounds; Eigen may overrun it by once as much when it
 /// restarts by itself), ilut_fill, ilut_drop and threads of the options. Eigen counts fill in
-/// multiples of the matrix's mean row, so ilut_fill is rounded up to such. Iterations are counted by
-/// the applications of the preconditioner, two for each. Outcomes OK, SINGULAR, NOT_CONVERGED,
+/// multiples of the matrix's mean row, so ilut_fill is rounded up to such. Iterations are counted
+/// by the applications of the preconditioner, two for each. Outcomes OK, SINGULAR, NOT_CONVERGED,
 /// FAILED; may throw std::bad_alloc.
 Solution
 solveWithBicgstab (const LinearSystem& system, const Options& options);

@@ -43,9 +43,8 @@ orderByUmfpack (const LinearSystem& system, int ordering)
   control[UMFPACK_ORDERING] = ordering;
   control[UMFPACK_SINGLETONS] = 0.0; // would come first, columns and rows in different orders
   void* handle = nullptr;
-  const int status =
-      umfpack_di_symbolic (n, n, system.row_offsets.data (), system.columns.data (), nullptr,
-                           &handle, control.data (), nullptr);
+  const int status = umfpack_di_symbolic (n, n, system.row_offsets.data (), system.columns.data (),
+                                          nullptr, &handle, control.data (), nullptr);
   const std::unique_ptr<void, FreeSymbolic> symbolic (handle);
   accept (status, "symbolic analysis");
 
@@ -57,9 +56,9 @@ orderByUmfpack (const LinearSystem& system, int ordering)
     one.resize (size);
   accept (umfpack_di_get_symbolic (&rows, &columns, &singletons, &nonzeros, &fronts, &chains,
                                    row_order.data (), order.data (), of_fronts[0].data (),
-                                   of_fronts[1].data (), of_fronts[2].data (),
-                                   of_fronts[3].data (), of_fronts[4].data (),
-                                   of_fronts[5].data (), of_fronts[6].data (), handle),
+                                   of_fronts[1].data (), of_fronts[2].data (), of_fronts[3].data (),
+                                   of_fronts[4].data (), of_fronts[5].data (), of_fronts[6].data (),
+                                   handle),
           "ordering");
   order.pop_back ();
   return order;
@@ -76,11 +75,15 @@ orderUnknowns (const LinearSystem& system, Ordering ordering)
     std::iota (order.begin (), order.end (), 0);
     return order;
   }
-  case Ordering::REVERSE_CUTHILL_MCKEE: return reverseCuthillMckee (system);
-  case Ordering::AMD: return orderByUmfpack (system, UMFPACK_ORDERING_AMD);
-  case Ordering::METIS: return orderByUmfpack (system, UMFPACK_ORDERING_METIS);
+  case Ordering::REVERSE_CUTHILL_MCKEE:
+    return reverseCuthillMckee (system);
+  case Ordering::AMD:
+    return orderByUmfpack (system, UMFPACK_ORDERING_AMD);
+  case Ordering::METIS:
+    return orderByUmfpack (system, UMFPACK_ORDERING_METIS);
   case Ordering::AUTOMATIC:
-  case Ordering::COLAMD: break;
+  case Ordering::COLAMD:
+    break;
   }
   throw std::invalid_argument ("not a symmetric ordering");
 }

@@ -12,9 +12,9 @@ namespace floater
 /// b - A u, computed from the matrix itself: not what an iterative solver believes it to be.
 struct Residual
 {
-  double largest = 0.0;            ///< max |b - A u| over rows and both right-hand sides; NaN if any
-  std::array<double, 2> norm{};    ///< |b - A u|
-  std::array<double, 2> rhs{};     ///< |b|
+  double largest = 0.0;         ///< max |b - A u| over rows and both right-hand sides; NaN if any
+  std::array<double, 2> norm{}; ///< |b - A u|
+  std::array<double, 2> rhs{};  ///< |b|
   std::array<double, 2> rounding{}; ///< what rounding makes of it: 4 eps | |A| |u| + |b| |
 
   /// |b - A u| / |b|, or 0 if both are.

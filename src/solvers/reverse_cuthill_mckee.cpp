@@ -12,10 +12,10 @@ namespace floater
 std::vector<int>
 reverseCuthillMckee (const LinearSystem& system)
 {
-  using Graph = boost::adjacency_list<
-      boost::vecS, boost::vecS, boost::undirectedS,
-      boost::property<boost::vertex_color_t, boost::default_color_type,
-                      boost::property<boost::vertex_degree_t, int>>>;
+  using Graph =
+      boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS,
+                            boost::property<boost::vertex_color_t, boost::default_color_type,
+                                            boost::property<boost::vertex_degree_t, int>>>;
   const std::size_t n = system.unknowns ();
   Graph graph (n);
   const auto has = [&system] (std::size_t i, int column) {

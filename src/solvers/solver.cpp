@@ -22,12 +22,18 @@ const char*
 solverName (Solver solver)
 {
   switch (solver) {
-  case Solver::UMFPACK: return "UMFPACK with its symmetric strategy";
-  case Solver::UMFPACK_UNSYMMETRIC: return "UMFPACK with its unsymmetric strategy";
-  case Solver::SUPERLU: return "SuperLU";
-  case Solver::EIGEN_SPARSE_LU: return "Eigen's SparseLU";
-  case Solver::BICGSTAB_ILUT: return "BiCGSTAB";
-  case Solver::GAUSS_SEIDEL: return "Gauss-Seidel";
+  case Solver::UMFPACK:
+    return "UMFPACK with its symmetric strategy";
+  case Solver::UMFPACK_UNSYMMETRIC:
+    return "UMFPACK with its unsymmetric strategy";
+  case Solver::SUPERLU:
+    return "SuperLU";
+  case Solver::EIGEN_SPARSE_LU:
+    return "Eigen's SparseLU";
+  case Solver::BICGSTAB_ILUT:
+    return "BiCGSTAB";
+  case Solver::GAUSS_SEIDEL:
+    return "Gauss-Seidel";
   }
   return "unknown";
 }
@@ -39,10 +45,14 @@ ordersItself (Solver solver, Ordering ordering)
   switch (ordering) {
   case Ordering::AUTOMATIC:
   case Ordering::COLAMD:
-  case Ordering::NATURAL: return true;
-  case Ordering::AMD: return solver == Solver::UMFPACK;
-  case Ordering::METIS: return solver == Solver::UMFPACK || solver == Solver::UMFPACK_UNSYMMETRIC;
-  case Ordering::REVERSE_CUTHILL_MCKEE: break;
+  case Ordering::NATURAL:
+    return true;
+  case Ordering::AMD:
+    return solver == Solver::UMFPACK;
+  case Ordering::METIS:
+    return solver == Solver::UMFPACK || solver == Solver::UMFPACK_UNSYMMETRIC;
+  case Ordering::REVERSE_CUTHILL_MCKEE:
+    break;
   }
   return false;
 }
@@ -51,7 +61,8 @@ Solution
 solveAsItIs (const LinearSystem& system, Ordering ordering, const Options& options)
 {
   switch (options.solver) {
-  case Solver::UMFPACK: return solveWithUmfpack (system, ordering, options.threads);
+  case Solver::UMFPACK:
+    return solveWithUmfpack (system, ordering, options.threads);
   case Solver::UMFPACK_UNSYMMETRIC:
     return solveWithUmfpack (system, ordering, options.threads, UmfpackStrategy::UNSYMMETRIC);
   case Solver::SUPERLU:
@@ -60,8 +71,10 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const Options& optio
 #else
     break; // refused before
 #endif
-  case Solver::EIGEN_SPARSE_LU: return solveWithEigenSparseLu (system, ordering, options.threads);
-  case Solver::BICGSTAB_ILUT: return solveWithBicgstab (system, options);
+  case Solver::EIGEN_SPARSE_LU:
+    return solveWithEigenSparseLu (system, ordering, options.threads);
+  case Solver::BICGSTAB_ILUT:
+    return solveWithBicgstab (system, options);
   case Solver::GAUSS_SEIDEL:
     return solveWithGaussSeidel (system, options.tolerance, options.max_iterations);
   }

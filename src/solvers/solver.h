@@ -21,9 +21,9 @@ isAvailable (Solver solver);
 Problem
 checkSolver (Solver solver, Ordering ordering);
 
-/// Solves for both coordinates with options.solver in the order options.ordering. An empty system is
-/// OK. A singular system is refused by every solver: those with pivots on the diagonal see one of
-/// rounding errors, the others look for islands first. An iterative solver that does not reach
+/// Solves for both coordinates with options.solver in the order options.ordering. An empty system
+/// is OK. A singular system is refused by every solver: those with pivots on the diagonal see one
+/// of rounding errors, the others look for islands first. An iterative solver that does not reach
 /// options.tolerance, as measured (see Residual::isWithin), returns NOT_CONVERGED and no solution.
 /// May throw std::bad_alloc. The result does not depend on options.threads.
 Solution

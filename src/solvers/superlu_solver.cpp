@@ -91,14 +91,14 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering)
   Counters counters;
   int info = 0;
   constexpr int PANEL_SIZE = 1, RELAX = 2; // questions to sp_ienv
-  dgstrf (&control, &ordered.matrix, sp_ienv (RELAX), sp_ienv (PANEL_SIZE), tree.data (), nullptr, 0,
-          column_order.data (), row_order.data (), &lower.matrix, &upper.matrix, &working,
+  dgstrf (&control, &ordered.matrix, sp_ienv (RELAX), sp_ienv (PANEL_SIZE), tree.data (), nullptr,
+          0, column_order.data (), row_order.data (), &lower.matrix, &upper.matrix, &working,
           &counters.stat, &info);
   if (info > n) { // nothing was made
     lower.matrix.Store = upper.matrix.Store = nullptr;
     solution.outcome = Solution::Outcome::OUT_OF_MEMORY;
-    solution.message = "factorization: SuperLU got no more than " + std::to_string (info - n) +
-                       " bytes";
+    solution.message =
+        "factorization: SuperLU got no more than " + std::to_string (info - n) + " bytes";
     return solution;
   }
   if (info < 0) {

@@ -107,9 +107,8 @@ solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, 
   std::array<double, UMFPACK_CONTROL> control{};
   std::array<double, UMFPACK_INFO> info{};
   Interface::DEFAULTS (control.data ());
-  control[UMFPACK_STRATEGY] = strategy == UmfpackStrategy::SYMMETRIC
-                                  ? UMFPACK_STRATEGY_SYMMETRIC
-                                  : UMFPACK_STRATEGY_UNSYMMETRIC;
+  control[UMFPACK_STRATEGY] = strategy == UmfpackStrategy::SYMMETRIC ? UMFPACK_STRATEGY_SYMMETRIC
+                                                                     : UMFPACK_STRATEGY_UNSYMMETRIC;
   control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
   // Sparse pivots off the diagonal cost digits, which refinement brings back.
   constexpr double REFINEMENT_STEPS = 2.0;

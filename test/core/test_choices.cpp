@@ -22,9 +22,9 @@ constexpr Neighborhood ALL_NEIGHBORHOODS[] = {Neighborhood::NEAREST_DELAUNAY, Ne
                                               Neighborhood::BALL_DELAUNAY, Neighborhood::BALL};
 constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
                                         Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE};
-constexpr Solver ALL_SOLVERS[] = {Solver::UMFPACK,         Solver::UMFPACK_UNSYMMETRIC,
-                                  Solver::SUPERLU,         Solver::EIGEN_SPARSE_LU,
-                                  Solver::BICGSTAB_ILUT,   Solver::GAUSS_SEIDEL};
+constexpr Solver ALL_SOLVERS[] = {Solver::UMFPACK,       Solver::UMFPACK_UNSYMMETRIC,
+                                  Solver::SUPERLU,       Solver::EIGEN_SPARSE_LU,
+                                  Solver::BICGSTAB_ILUT, Solver::GAUSS_SEIDEL};
 constexpr Ordering ALL_ORDERINGS[] = {Ordering::AUTOMATIC, Ordering::AMD,
                                       Ordering::METIS,     Ordering::COLAMD,
                                       Ordering::NATURAL,   Ordering::REVERSE_CUTHILL_MCKEE};
@@ -130,10 +130,11 @@ TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
       double worst = 0.0;
       for (std::size_t i = 0; i < uv.size (); ++i)
         for (const std::size_t corner : {0, 9, 20})
-          worst = std::max (worst, std::abs ((uv[i] - uv[corner]).norm () -
-                                             (input.positions[i] - input.positions[corner]).norm ()));
-      EXPECT_LT (worst, 1e-7) << "neighborhood " << static_cast<int> (neighborhood)
-                              << " weighting " << static_cast<int> (weighting);
+          worst =
+              std::max (worst, std::abs ((uv[i] - uv[corner]).norm () -
+                                         (input.positions[i] - input.positions[corner]).norm ()));
+      EXPECT_LT (worst, 1e-7) << "neighborhood " << static_cast<int> (neighborhood) << " weighting "
+                              << static_cast<int> (weighting);
     }
 }
 
@@ -182,7 +183,8 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
     return static_cast<double> (statistics.nnz_matrix) / static_cast<double> (statistics.unknowns);
   };
   const double ball = nonzeros (Neighborhood::BALL, 2.5);
-  EXPECT_GT (nonzeros (Neighborhood::NEAREST, 2.5), 2.0 * nonzeros (Neighborhood::NEAREST_DELAUNAY, 2.5));
+  EXPECT_GT (nonzeros (Neighborhood::NEAREST, 2.5),
+             2.0 * nonzeros (Neighborhood::NEAREST_DELAUNAY, 2.5));
   EXPECT_GT (ball, 2.0 * nonzeros (Neighborhood::BALL_DELAUNAY, 2.5));
   EXPECT_GT (nonzeros (Neighborhood::BALL, 3.5), 1.2 * ball);
 }

@@ -17,7 +17,7 @@ namespace
 {
 constexpr double PI = 3.14159265358979323846;
 constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
-                                   Domain::OWN_SHAPE};
+                                  Domain::OWN_SHAPE};
 constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
                                         LoopSpacing::UNIFORM};
 constexpr double LARGEST_BULGE = 2.6e-4; // of the square, the largest of those tested here
@@ -332,7 +332,8 @@ TEST (Domain, OwnShapeDoesNotDependOnWhereTheLoopBeginsNorOnItsSense)
     for (const std::size_t other : {0, 5, 13}) {
       const double expected = (uv[(i + 7) % count] - uv[(other + 7) % count]).norm ();
       EXPECT_NEAR ((turned[i] - turned[other]).norm (), expected, 1e-12);
-      EXPECT_NEAR ((reversed[count - 1 - i] - reversed[count - 1 - other]).norm (), expected, 1e-12);
+      EXPECT_NEAR ((reversed[count - 1 - i] - reversed[count - 1 - other]).norm (), expected,
+                   1e-12);
     }
   expectStrictlyConvex (reversed);
 }

@@ -23,9 +23,9 @@ namespace
 {
 using Outcome = Solution::Outcome;
 
-constexpr Solver ALL_SOLVERS[] = {Solver::UMFPACK,         Solver::UMFPACK_UNSYMMETRIC,
-                                  Solver::SUPERLU,         Solver::EIGEN_SPARSE_LU,
-                                  Solver::BICGSTAB_ILUT,   Solver::GAUSS_SEIDEL};
+constexpr Solver ALL_SOLVERS[] = {Solver::UMFPACK,       Solver::UMFPACK_UNSYMMETRIC,
+                                  Solver::SUPERLU,       Solver::EIGEN_SPARSE_LU,
+                                  Solver::BICGSTAB_ILUT, Solver::GAUSS_SEIDEL};
 constexpr Ordering ALL_ORDERINGS[] = {Ordering::AUTOMATIC, Ordering::AMD,
                                       Ordering::METIS,     Ordering::COLAMD,
                                       Ordering::NATURAL,   Ordering::REVERSE_CUTHILL_MCKEE};
@@ -52,8 +52,8 @@ LinearSystem
 systemOf (const TriangulatedGrid& grid, Weighting weighting)
 {
   return assembleSystem (grid.stars.neighbors, computeWeights (grid.stars, weighting, 1), grid.loop,
-                         grid.loopInPlace (),
-                         std::vector<std::uint8_t> (grid.positions.size (), 1), 1);
+                         grid.loopInPlace (), std::vector<std::uint8_t> (grid.positions.size (), 1),
+                         1);
 }
 
 // All of it but the ties of the last unknowns to the rest and to the loop.
@@ -85,8 +85,8 @@ bandwidth (const LinearSystem& system)
   int widest = 0;
   for (std::size_t i = 0; i < system.unknowns (); ++i)
     for (int at = system.row_offsets[i]; at < system.row_offsets[i + 1]; ++at)
-      widest = std::max (widest, std::abs (static_cast<int> (i) -
-                                           system.columns[static_cast<std::size_t> (at)]));
+      widest = std::max (
+          widest, std::abs (static_cast<int> (i) - system.columns[static_cast<std::size_t> (at)]));
   return widest;
 }
 
@@ -141,8 +141,7 @@ TEST (Solvers, TakeTheOrderTheyAreGiven)
 {
   const TriangulatedGrid grid (30, 0.12, 2);
   const LinearSystem grid_system = systemOf (grid, Weighting::MEAN_VALUE);
-  const LinearSystem system =
-      permuteSystem (grid_system, randomOrder (grid_system.unknowns (), 5));
+  const LinearSystem system = permuteSystem (grid_system, randomOrder (grid_system.unknowns (), 5));
   for (const Solver solver : ALL_SOLVERS) {
     if (!isAvailable (solver) || isIterative (solver))
       continue;

@@ -79,7 +79,7 @@ public:
   void setNeighborhood (floater::Neighborhood neighborhood) { options_.neighborhood = neighborhood; }
   floater::Neighborhood getNeighborhood () const { return options_.neighborhood; }
 
-  /** \brief Radius of balls in mean distances of a point to its 6 nearest, 1 to 10; default 2.5,
+  /** \brief Radius of balls in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
    * about 20 neighbours. */
   void setBallRadius (double spacings) { options_.ball_radius = spacings; }
   double getBallRadius () const { return options_.ball_radius; }
