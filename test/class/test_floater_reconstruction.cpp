@@ -48,6 +48,7 @@ TEST_F (FloaterClass, MakesADiscOfAHeightField)
   const Cloud::Ptr cloud = heightField ();
   floater.setInputCloud (cloud);
   const Triangles triangles = runDisc (floater, allOf (cloud->size ()));
+  EXPECT_TRUE (floater.getReport ().warnings.empty ());
   EXPECT_TRUE (floater.getUnusedIndices ().empty ());
   EXPECT_TRUE (floater.getNonFiniteIndices ().empty ());
   EXPECT_TRUE (floater.getDuplicates ().empty ());
@@ -269,25 +270,16 @@ TEST_F (FloaterClass, TellsOfPointsApart)
   const Cloud::Ptr cloud = heightField ();
   pcl::Indices island;
   for (int i = 0; i < 36; ++i) {
+    const int row = i / 6;
     island.push_back (static_cast<pcl::index_t> (cloud->size ()));
     cloud->push_back (
-        pcl::PointXYZ (100.0F + static_cast<float> (i % 6), static_cast<float> (i / 6), 50.0F));
+        pcl::PointXYZ (100.0F + static_cast<float> (i % 6), static_cast<float> (row), 50.0F));
   }
   Floater floater;
   floater.setInputCloud (cloud);
-  pcl::PolygonMesh mesh;
-  testing::internal::CaptureStderr ();
-  floater.reconstruct (mesh);
-  const std::string told = testing::internal::GetCapturedStderr ();
-  ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  runDisc (floater, allOf (500)); // which looks for the warnings on the console
   EXPECT_EQ (floater.getUnusedIndices (), island);
-  ASSERT_FALSE (floater.getReport ().warnings.empty ());
-  for (const std::string& warning : floater.getReport ().warnings)
-    EXPECT_NE (told.find ("[pcl::FloaterReconstruction::performReconstruction] " + warning),
-               std::string::npos);
-  EXPECT_EQ (static_cast<std::size_t> (std::count (told.begin (), told.end (), '\n')),
-             floater.getReport ().warnings.size ());
-  expectDisc (trianglesOf (mesh.polygons), allOf (500), floater.getBoundaryLoop ());
+  EXPECT_FALSE (floater.getReport ().warnings.empty ());
 }
 
 TEST_F (FloaterClass, AcceptsOrganizedClouds)
@@ -350,7 +342,7 @@ class FloaterClassOf : public FloaterClass
 
 using OtherTypes = testing::Types<pcl::PointXYZI, pcl::PointXYZRGB, pcl::PointXYZRGBA,
                                   pcl::PointNormal, pcl::PointXYZINormal, pcl::PointWithRange>;
-TYPED_TEST_SUITE (FloaterClassOf, OtherTypes);
+TYPED_TEST_SUITE (FloaterClassOf, OtherTypes, );
 
 TYPED_TEST (FloaterClassOf, IsInstantiated)
 {

@@ -70,7 +70,8 @@ std::filesystem::path
 resolve (const std::filesystem::path& path)
 {
   std::error_code error;
-  const std::filesystem::path resolved = std::filesystem::weakly_canonical (path, error);
+  const std::filesystem::path resolved =
+      std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
   return error ? path : resolved;
 }
 

@@ -219,7 +219,9 @@ readBinary (std::string_view bytes, PcdHeader& header)
     }
     offset += size;
   }
-  return bytes.size () - header.points * stride >= stride;
+  // PCL's own writer fills the last block of the disk with zeros.
+  const std::string_view rest = bytes.substr (header.points * stride);
+  return rest.find_first_not_of ('\0') != std::string_view::npos;
 }
 
 /// Two 32-bit sizes, compressed and not, then all values field by field, compressed with LZF.

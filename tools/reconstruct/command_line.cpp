@@ -180,8 +180,11 @@ areSame (const std::filesystem::path& a, const std::filesystem::path& b)
   std::error_code error;
   if (std::filesystem::equivalent (a, b, error) && !error)
     return true;
-  return std::filesystem::weakly_canonical (a, error) ==
-         std::filesystem::weakly_canonical (b, error);
+  // Made absolute first: a relative path of which nothing exists would stay as it stands.
+  const auto full = [&error] (const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
+  };
+  return full (a) == full (b);
 }
 
 } // namespace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads meshes back with the libraries that users would use, PCL and VTK.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// What a file holds.
+struct MeshContent
+{
+  bool is_double = false;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  std::vector<Eigen::Vector3f> normals;
+  std::map<std::string, std::vector<double>> fields; ///< all others
+};
+
+/// VTK's reader of legacy polydata.
+MeshContent
+readVtk (const std::string& path);
+
+/// What pcl_viewer and PCL programs get of a VTK file: pcl::io::loadPolygonFileVTK.
+MeshContent
+readVtkWithPcl (const std::string& path);
+
+/// PCL's PLY reader.
+MeshContent
+readPly (const std::string& path);
+
+/// VTK's STL reader, without merging points.
+MeshContent
+readStl (const std::string& path);
+
+/// Line by line, for no library reads doubles from OBJ.
+MeshContent
+readObj (const std::string& path);
+
+/// Reads a file by the reader for its extension.
+MeshContent
+readMesh (const std::string& path);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A small cloud with colours, normals and intensities, and files of it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Points of a rolling square in mixed order.
+struct Sample
+{
+  bool is_double = false;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<float> intensities;
+
+  std::size_t size () const { return points.size (); }
+};
+
+/// side * side points. In single precision every coordinate is a float; in double precision they
+/// are centimetres apart at map coordinates of a million metres, where floats would fall on each
+/// other.
+Sample
+makeSample (bool is_double, int side = 12);
+
+enum class PcdKind
+{
+  ASCII,
+  BINARY,
+  COMPRESSED
+};
+
+/// Writes a PCD file with PCL's own writer: x y z, rgb, normals, intensity.
+void
+writePcd (const std::string& path, const Sample& sample, PcdKind kind);
+
+enum class PlyKind
+{
+  ASCII,
+  LITTLE,
+  BIG
+};
+
+/// A PLY file: x y z, red green blue, nx ny nz, intensity, with an element before the vertices, a
+/// list among their properties, and a face.
+std::string
+plyText (const Sample& sample, PlyKind kind);
+
+/// An OBJ file: points with colours, normals, a face.
+std::string
+objText (const Sample& sample);
+
+/// A PCD file of ASCII numbers: x y z only.
+std::string
+pcdText (const std::vector<Eigen::Vector3d>& points);
+
+} // namespace floater
+} // namespace pcl

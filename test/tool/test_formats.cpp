@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every kind of input gives the same mesh, and every kind of output holds it to the last bit.
+#include "mesh_files.h"
+#include "sample.h"
+#include "tool_runner.h"
+
+#include <gmock/gmock.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+struct InputCase
+{
+  std::string name;
+  bool is_double;
+  std::string file; ///< tells the format
+  int kind;         ///< PcdKind or PlyKind
+};
+
+std::ostream&
+operator<< (std::ostream& stream, const InputCase& value)
+{
+  return stream << value.name;
+}
+
+std::vector<InputCase>
+inputCases ()
+{
+  std::vector<InputCase> cases;
+  for (const bool is_double : {false, true}) {
+    const std::string suffix = is_double ? "Double" : "Float";
+    cases.push_back ({"PcdAscii" + suffix, is_double, "in.pcd", static_cast<int> (PcdKind::ASCII)});
+    cases.push_back (
+        {"PcdBinary" + suffix, is_double, "in.pcd", static_cast<int> (PcdKind::BINARY)});
+    cases.push_back (
+        {"PcdCompressed" + suffix, is_double, "in.pcd", static_cast<int> (PcdKind::COMPRESSED)});
+    cases.push_back ({"PlyAscii" + suffix, is_double, "in.ply", static_cast<int> (PlyKind::ASCII)});
+    cases.push_back (
+        {"PlyLittle" + suffix, is_double, "in.ply", static_cast<int> (PlyKind::LITTLE)});
+    cases.push_back ({"PlyBig" + suffix, is_double, "in.ply", static_cast<int> (PlyKind::BIG)});
+  }
+  cases.push_back ({"Obj", true, "in.obj", 0});
+  return cases;
+}
+
+std::vector<double>
+asDoubles (const std::vector<float>& values)
+{
+  return {values.begin (), values.end ()};
+}
+
+/// Two triangles for each point but for the boundary, no index beyond the points, all points used.
+void
+expectDisc (const MeshContent& mesh, std::size_t size)
+{
+  EXPECT_GT (mesh.triangles.size (), size);
+  EXPECT_LT (mesh.triangles.size (), 2 * size);
+  std::set<std::size_t> used;
+  for (const auto& triangle : mesh.triangles)
+    used.insert (triangle.begin (), triangle.end ());
+  EXPECT_EQ (used.size (), size);
+  EXPECT_EQ (*used.rbegin (), size - 1);
+}
+
+class InputFormats : public ToolTestWith<InputCase>
+{
+};
+
+TEST_P (InputFormats, PointsAndFieldsComeBack)
+{
+  const InputCase& input = GetParam ();
+  const Sample sample = makeSample (input.is_double);
+  if (input.file == "in.pcd")
+    writePcd (path (input.file), sample, static_cast<PcdKind> (input.kind));
+  else
+    writeFile (input.file, input.file == "in.ply"
+                               ? plyText (sample, static_cast<PlyKind> (input.kind))
+                               : objText (sample));
+  const Outcome outcome = run ({input.file, "out.ply"});
+  ASSERT_EQ (outcome.code, 0) << outcome.err;
+  const MeshContent mesh = readPly (path ("out.ply"));
+  EXPECT_EQ (mesh.is_double, input.is_double);
+  EXPECT_EQ (mesh.points, sample.points);
+  EXPECT_EQ (mesh.colors, sample.colors);
+  EXPECT_EQ (mesh.normals, sample.normals);
+  if (input.file == "in.obj")
+    EXPECT_THAT (mesh.fields, testing::IsEmpty ());
+  else
+    EXPECT_EQ (mesh.fields.at ("intensity"), asDoubles (sample.intensities));
+  expectDisc (mesh, sample.size ());
+  const bool has_list = input.file == "in.ply";
+  EXPECT_EQ (outcome.err, has_list ? "warning: the list 'marks' of the points was left out\n" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P (All, InputFormats, testing::ValuesIn (inputCases ()),
+                          [] (const auto& instance) { return instance.param.name; });
+
+class OutputFormats : public ToolTestWith<bool>
+{
+protected:
+  OutputFormats () : sample_ (makeSample (GetParam ()))
+  {
+    writePcd (path ("in.pcd"), sample_, PcdKind::BINARY);
+  }
+
+  MeshContent reconstructTo (const std::string& name) const
+  {
+    const Outcome outcome = run ({"in.pcd", name});
+    EXPECT_EQ (outcome.code, 0) << outcome.err;
+    return readMesh (path (name));
+  }
+
+  Sample sample_;
+};
+
+TEST_P (OutputFormats, VtkHoldsEverything)
+{
+  const MeshContent mesh = reconstructTo ("out.vtk");
+  EXPECT_EQ (mesh.is_double, sample_.is_double);
+  EXPECT_EQ (mesh.points, sample_.points);
+  EXPECT_EQ (mesh.colors, sample_.colors);
+  EXPECT_EQ (mesh.normals, sample_.normals);
+  EXPECT_EQ (mesh.fields.at ("intensity"), asDoubles (sample_.intensities));
+  EXPECT_EQ (mesh.fields.size (), 1U);
+  expectDisc (mesh, sample_.size ());
+}
+
+TEST_P (OutputFormats, PclReadsVtkWithColors)
+{
+  const MeshContent mesh = reconstructTo ("out.vtk");
+  const MeshContent pcl_mesh = readVtkWithPcl (path ("out.vtk"));
+  EXPECT_EQ (pcl_mesh.triangles, mesh.triangles);
+  EXPECT_EQ (pcl_mesh.colors, sample_.colors);
+  ASSERT_EQ (pcl_mesh.points.size (), sample_.size ());
+  for (std::size_t i = 0; i < sample_.size (); ++i)
+    EXPECT_EQ (pcl_mesh.points[i].cast<float> (), sample_.points[i].cast<float> ());
+}
+
+TEST_P (OutputFormats, TrianglesAreThoseOfVtk)
+{
+  const MeshContent vtk = reconstructTo ("out.vtk");
+  EXPECT_EQ (reconstructTo ("out.ply").triangles, vtk.triangles);
+  EXPECT_EQ (reconstructTo ("out.obj").triangles, vtk.triangles);
+  const MeshContent stl = reconstructTo ("out.stl");
+  ASSERT_EQ (stl.triangles.size (), vtk.triangles.size ());
+  for (std::size_t t = 0; t < vtk.triangles.size (); ++t)
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_EQ (stl.points.at (stl.triangles[t][c]).cast<float> (),
+                 sample_.points[vtk.triangles[t][c]].cast<float> ());
+}
+
+TEST_P (OutputFormats, ObjHoldsPositionsColorsAndNormals)
+{
+  const MeshContent mesh = reconstructTo ("out.obj");
+  ASSERT_EQ (mesh.points.size (), sample_.size ());
+  for (std::size_t i = 0; i < sample_.size (); ++i) {
+    if (sample_.is_double)
+      EXPECT_EQ (mesh.points[i], sample_.points[i]);
+    else
+      EXPECT_EQ (mesh.points[i].cast<float> (), sample_.points[i].cast<float> ());
+  }
+  EXPECT_EQ (mesh.colors, sample_.colors);
+  EXPECT_EQ (mesh.normals, sample_.normals);
+}
+
+TEST_P (OutputFormats, StlSaysWhenItRounds)
+{
+  const Outcome outcome = run ({"in.pcd", "out.stl"});
+  EXPECT_EQ (outcome.err.find ("STL holds single precision") != std::string::npos,
+             sample_.is_double);
+}
+
+TEST_P (OutputFormats, ParameterizationIsTheMeshInThePlane)
+{
+  for (const std::string extension : {"vtk", "ply", "obj", "stl"}) {
+    const std::string flat_name = "flat." + extension;
+    ASSERT_EQ (run ({"in.pcd", "out.vtk", "--quiet", "--parameterization", flat_name}).code, 0);
+    const MeshContent flat = readMesh (path (flat_name));
+    EXPECT_EQ (flat.triangles.size (), readMesh (path ("out.vtk")).triangles.size ());
+    for (const Eigen::Vector3d& p : flat.points) {
+      EXPECT_EQ (p.z (), 0.0);
+      EXPECT_LE (p.head<2> ().norm (), 1.0 + 1e-6);
+    }
+    if (extension != "stl") {
+      EXPECT_EQ (flat.triangles, readMesh (path ("out.vtk")).triangles);
+      EXPECT_EQ (flat.colors, sample_.colors);
+      EXPECT_TRUE (flat.normals.empty ());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P (All, OutputFormats, testing::Bool (), [] (const auto& instance) {
+  return instance.param ? "Double" : "Float";
+});
+
+using Formats = ToolTest;
+
+TEST_F (Formats, OutputCanBeInput)
+{
+  const Sample sample = makeSample (true);
+  writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
+  ASSERT_EQ (run ({"in.pcd", "a.ply"}).code, 0);
+  ASSERT_EQ (run ({"a.ply", "b.ply"}).code, 0);
+  EXPECT_EQ (readFile ("a.ply"), readFile ("b.ply"));
+}
+
+TEST_F (Formats, FieldsOfEveryTypeAreKept)
+{
+  const Sample sample = makeSample (false);
+  std::string text =
+      "VERSION 0.7\r\nFIELDS a b x y z c d e f _ g h rgba\r\nSIZE 1 1 4 4 4 2 2 4 4 4 8 8 4\r\n"
+      "TYPE I U F F F I U I U F I F U\r\nCOUNT 1 1 1 1 1 1 1 1 1 2 1 3 1\r\nWIDTH ";
+  text += std::to_string (sample.size ()) + "\r\nHEIGHT 1\r\nDATA ascii\r\n";
+  for (std::size_t i = 0; i < sample.size (); ++i) {
+    text += "-128 255 ";
+    for (const double coordinate : sample.points[i])
+      text += testing::PrintToString (static_cast<float> (coordinate)) + " ";
+    text += "-32768 65535 -2147483648 4294967295 nan nan 1234567890123 0.1 nan -1e400 " +
+            std::to_string (0x07C86400U + i) + "\r\n";
+  }
+  writeFile ("in.pcd", text);
+  const std::map<std::string, double> expected{
+      {"a", -128},          {"b", 255},          {"c", -32768},          {"d", 65535},
+      {"e", -2147483648.0}, {"f", 4294967295.0}, {"g", 1234567890123.0}, {"alpha", 7}};
+  ASSERT_EQ (run ({"in.pcd", "out.vtk"}).code, 0);
+  const MeshContent vtk = readVtk (path ("out.vtk"));
+  for (const auto& [name, value] : expected)
+    EXPECT_THAT (vtk.fields.at (name),
+                 testing::AllOf (testing::SizeIs (sample.size ()), testing::Each (value)))
+        << name;
+  EXPECT_EQ (vtk.fields.at ("h").size (), 3 * sample.size ());
+  EXPECT_EQ (vtk.fields.at ("h")[0], 0.1);
+  EXPECT_TRUE (std::isnan (vtk.fields.at ("h")[1]));
+  EXPECT_EQ (vtk.fields.at ("h")[2], -std::numeric_limits<double>::infinity ());
+  EXPECT_EQ (vtk.colors.at (5), (std::array<std::uint8_t, 3>{200, 100, 5}));
+
+  const Outcome outcome = run ({"in.pcd", "out.ply"});
+  ASSERT_EQ (outcome.code, 0);
+  EXPECT_NE (outcome.err.find ("the field 'g' was written as double"), std::string::npos)
+      << outcome.err;
+  const MeshContent ply = readPly (path ("out.ply"));
+  EXPECT_EQ (ply.fields.at ("g").at (7), 1234567890123.0);
+  EXPECT_EQ (ply.fields.at ("h_0").at (7), 0.1);
+  EXPECT_EQ (ply.fields.at ("d").at (7), 65535);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tool_runner.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+std::string
+readWhole (const std::filesystem::path& path)
+{
+  std::ifstream file (path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf ();
+  return bytes.str ();
+}
+
+std::filesystem::path
+makeFolder ()
+{
+  std::string name =
+      (std::filesystem::temp_directory_path () / "pcl_floater_test.XXXXXX").string ();
+  if (!::mkdtemp (name.data ()))
+    throw std::runtime_error ("cannot make a temporary folder");
+  return name;
+}
+
+/// In the child: never returns.
+[[noreturn]] void
+become (const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+        const std::filesystem::path& logs, std::optional<std::size_t> file_limit)
+{
+  std::vector<char*> argv;
+  std::string tool = RECONSTRUCT_TOOL;
+  argv.push_back (tool.data ());
+  std::vector<std::string> copies = arguments;
+  for (std::string& copy : copies)
+    argv.push_back (copy.data ());
+  argv.push_back (nullptr);
+  const auto redirect = [&logs] (const char* name, int to) {
+    const int file = ::open ((logs / name).c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    return file >= 0 && ::dup2 (file, to) >= 0;
+  };
+  constexpr int NOT_STARTED = 127;
+  if (!redirect ("out", STDOUT_FILENO) || !redirect ("err", STDERR_FILENO) ||
+      ::chdir (folder.c_str ()) != 0)
+    ::_exit (NOT_STARTED);
+  if (file_limit) {
+    const rlimit limit{*file_limit, *file_limit};
+    ::setrlimit (RLIMIT_FSIZE, &limit);
+  }
+  ::execv (tool.c_str (), argv.data ());
+  ::_exit (NOT_STARTED);
+}
+
+} // namespace
+
+ToolTest::ToolTest () : folder_ (makeFolder ()), logs_ (makeFolder ()) {}
+
+ToolTest::~ToolTest ()
+{
+  std::error_code ignored;
+  std::filesystem::remove_all (folder_, ignored);
+  std::filesystem::remove_all (logs_, ignored);
+}
+
+void
+ToolTest::writeFile (const std::string& name, const std::string& bytes) const
+{
+  std::ofstream file (folder_ / name, std::ios::binary);
+  file << bytes;
+  ASSERT_TRUE (file.flush ()) << name;
+}
+
+std::string
+ToolTest::readFile (const std::string& name) const
+{
+  return readWhole (folder_ / name);
+}
+
+std::set<std::string>
+ToolTest::names () const
+{
+  std::set<std::string> result;
+  for (const auto& entry : std::filesystem::directory_iterator (folder_))
+    result.insert (entry.path ().filename ().string ());
+  return result;
+}
+
+Outcome
+ToolTest::run (const std::vector<std::string>& arguments,
+               std::optional<std::size_t> file_limit) const
+{
+  const pid_t child = ::fork ();
+  if (child == 0)
+    become (arguments, folder_, logs_, file_limit);
+  int status = 0;
+  Outcome outcome;
+  if (child > 0 && ::waitpid (child, &status, 0) == child && WIFEXITED (status))
+    outcome.code = WEXITSTATUS (status);
+  outcome.out = readWhole (logs_ / "out");
+  outcome.err = readWhole (logs_ / "err");
+  return outcome;
+}
+
+void
+ToolTest::expectFailure (const std::vector<std::string>& arguments, int code,
+                         const std::string& cause, std::optional<std::size_t> file_limit) const
+{
+  const std::set<std::string> before = names ();
+  const Outcome outcome = run (arguments, file_limit);
+  EXPECT_EQ (outcome.code, code) << outcome.err;
+  EXPECT_NE (outcome.err.find (cause), std::string::npos)
+      << "no '" << cause << "' in: " << outcome.err;
+  EXPECT_EQ (outcome.err.rfind ("pcl_floater_reconstruct: ", 0), 0U) << outcome.err;
+  EXPECT_EQ (outcome.out, "");
+  EXPECT_EQ (names (), before);
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs the real tool in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// How a run ended and what it printed.
+struct Outcome
+{
+  int code = -1; ///< exit code; -1 if a signal ended it
+  std::string out;
+  std::string err;
+};
+
+/// A test with a folder that is empty at its begin and removed at its end.
+class ToolTest : public testing::Test
+{
+protected:
+  ToolTest ();
+  ~ToolTest () override;
+
+  /// Path of a file in the folder.
+  std::string path (const std::string& name) const { return (folder_ / name).string (); }
+
+  void writeFile (const std::string& name, const std::string& bytes) const;
+
+  std::string readFile (const std::string& name) const;
+
+  /// Names of everything in the folder, hidden files too.
+  std::set<std::string> names () const;
+
+  /// Runs the tool in the folder.
+  /// \param file_limit bytes that a file may have at most (RLIMIT_FSIZE)
+  Outcome run (const std::vector<std::string>& arguments,
+               std::optional<std::size_t> file_limit = std::nullopt) const;
+
+  /// Runs the tool, which must end with `code`, name `cause` on the standard error stream, print
+  /// nothing else, and leave the folder as it was.
+  void expectFailure (const std::vector<std::string>& arguments, int code, const std::string& cause,
+                      std::optional<std::size_t> file_limit = std::nullopt) const;
+
+private:
+  std::filesystem::path folder_;
+  std::filesystem::path logs_; // beside the folder, so that names () does not see them
+};
+
+/// The same for tests that run once for each of some values.
+template <typename T>
+class ToolTestWith : public ToolTest, public testing::WithParamInterface<T>
+{
+};
+
+} // namespace floater
+} // namespace pcl
