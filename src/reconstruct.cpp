@@ -26,7 +26,8 @@ namespace
 FlatLists
 findNeighbors (const WorkingSet& set, const Options& options, NeighborSearch* search)
 {
-  if (options.neighborhood == Neighborhood::BALL || options.neighborhood == Neighborhood::BALL_DELAUNAY)
+  if (options.neighborhood == Neighborhood::BALL ||
+      options.neighborhood == Neighborhood::BALL_DELAUNAY)
     return findBallNeighbors (set, options.ball_radius, search, options.threads);
   return findNearestNeighbors (set, options.k, search, options.threads);
 }
@@ -57,8 +58,9 @@ reconstructDisc (Input& input, const Options& options, Result& result)
 
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);
-  Stars stars = makeStars (set.positions, near, fitTangentPlanes (set.positions, near, options.threads),
-                           options.filter_sheets, options.threads);
+  Stars stars =
+      makeStars (set.positions, near, fitTangentPlanes (set.positions, near, options.threads),
+                 options.filter_sheets, options.threads);
 
   // Section 3: boundary points as one ordered loop.
   clock.start (Stage::BOUNDARY);
@@ -70,8 +72,8 @@ reconstructDisc (Input& input, const Options& options, Result& result)
   // Section 2.1: weights for all neighbours, if so wished; boundaries are told by Delaunay stars.
   if (options.neighborhood == Neighborhood::NEAREST || options.neighborhood == Neighborhood::BALL) {
     clock.start (Stage::WEIGHTS);
-    stars = makeStars (set.positions, near, std::move (stars.normals), options.filter_sheets, options.threads,
-                       StarKind::ALL);
+    stars = makeStars (set.positions, near, std::move (stars.normals), options.filter_sheets,
+                       options.threads, StarKind::ALL);
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
@@ -105,7 +107,8 @@ reconstruct (Input input, const Options& options)
     problem = reconstructDisc (input, options, result);
   }
   catch (const std::bad_alloc&) {
-    problem = {Status::OUT_OF_MEMORY, "not enough memory: use fewer points, or a machine with more"};
+    problem = {Status::OUT_OF_MEMORY,
+               "not enough memory: use fewer points, or a machine with more"};
   }
   catch (const std::exception& error) {
     problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};

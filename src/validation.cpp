@@ -53,7 +53,8 @@ checkWorkingSet (const WorkingSet& set)
   constexpr std::size_t FEWEST = 4;
   const std::size_t n = set.positions.size ();
   if (n < FEWEST)
-    return {Status::TOO_FEW_POINTS, "only " + std::to_string (n) + " distinct finite points; at least " +
+    return {Status::TOO_FEW_POINTS, "only " + std::to_string (n) +
+                                        " distinct finite points; at least " +
                                         std::to_string (FEWEST) + " are needed"};
   Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
   for (const Eigen::Vector3d& p : set.positions)
@@ -66,15 +67,18 @@ checkWorkingSet (const WorkingSet& set)
   const Eigen::Vector3d spread = solver.eigenvalues ().cwiseMax (0.0).cwiseSqrt ();
   // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
   if (spread[1] < 1e-6 * spread[2])
-    return {Status::DEGENERATE, "all points lie on one line; a surface needs points in two directions"};
+    return {Status::DEGENERATE,
+            "all points lie on one line; a surface needs points in two directions"};
   return {};
 }
 
 Problem
-checkDisc (const std::vector<Triangle>& triangles, std::size_t points, const std::vector<Index>& loop)
+checkDisc (const std::vector<Triangle>& triangles, std::size_t points,
+           const std::vector<Index>& loop)
 {
-  const Problem broken{Status::INTERNAL_ERROR, "the result is not one manifold disc within the boundary loop; "
-                                               "please report this with the cloud"};
+  const Problem broken{Status::INTERNAL_ERROR,
+                       "the result is not one manifold disc within the boundary loop; "
+                       "please report this with the cloud"};
   SurfaceMesh mesh;
   mesh.triangles = triangles;
   if (triangles.empty () || !mesh.connect (points))
@@ -91,7 +95,8 @@ checkDisc (const std::vector<Triangle>& triangles, std::size_t points, const std
   }
   // With one loop and manifold fans, Euler characteristic 1 and one component go together.
   const auto vertices = static_cast<std::int64_t> (
-      points - static_cast<std::size_t> (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE)));
+      points - static_cast<std::size_t> (
+                   std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE)));
   const auto faces = static_cast<std::int64_t> (triangles.size ());
   const std::int64_t edges = (3 * faces + static_cast<std::int64_t> (loop.size ())) / 2;
   return vertices - edges + faces == 1 ? Problem{} : broken;

@@ -16,16 +16,14 @@ class StageClock
 {
 public:
   StageClock (Statistics& statistics, const std::function<void (Stage)>& progress)
-  : statistics_ (statistics), progress_ (progress)
+      : statistics_ (statistics), progress_ (progress)
   {
   }
   StageClock (const StageClock&) = delete;
-  StageClock&
-  operator= (const StageClock&) = delete;
+  StageClock& operator= (const StageClock&) = delete;
   ~StageClock () { stop (); }
 
-  void
-  start (Stage stage)
+  void start (Stage stage)
   {
     if (stage == stage_)
       return; // goes on
@@ -36,8 +34,7 @@ public:
     begin_ = Clock::now ();
   }
 
-  void
-  stop ()
+  void stop ()
   {
     if (stage_ == Stage::COUNT)
       return;

@@ -64,7 +64,8 @@ findNearestNeighbors (const WorkingSet& set, int k, NeighborSearch* search, int 
   const std::size_t wanted =
       std::min (static_cast<std::size_t> (k), std::max<std::size_t> (1, set.positions.size ()) - 1);
   if (set.positions.size () * wanted >= NONE)
-    throw std::length_error ("points times neighbours exceed 32-bit indices: use fewer points or a smaller k");
+    throw std::length_error (
+        "points times neighbours exceed 32-bit indices: use fewer points or a smaller k");
   return search != nullptr ? bySearch (set, wanted, *search) : byKdTree (set, wanted, threads);
 }
 

@@ -43,8 +43,9 @@ spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return cross (a, b) <= COLLINEAR * a.norm () * b.norm ();
 }
 
-// True if b lies strictly outside the segment from a to c, walking anti-clockwise around the origin.
-// Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close neighbour.
+// True if b lies strictly outside the segment from a to c, walking anti-clockwise around the
+// origin. Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close
+// neighbour.
 bool
 isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
@@ -57,11 +58,12 @@ isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
 void
 sortByAngle (std::vector<PlanarNeighbor>& neighbors)
 {
-  std::sort (neighbors.begin (), neighbors.end (), [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
-    const double angle_a = pseudoAngle (a.offset);
-    const double angle_b = pseudoAngle (b.offset);
-    return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
-  });
+  std::sort (neighbors.begin (), neighbors.end (),
+             [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
+               const double angle_a = pseudoAngle (a.offset);
+               const double angle_b = pseudoAngle (b.offset);
+               return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
+             });
 }
 
 } // namespace
@@ -109,7 +111,8 @@ PlanarStar::beginAfterGap ()
   else if (count == 0)
     opening_angle_ = TWO_PI;
   if (count > 0)
-    std::rotate (hull_.begin (), hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
+    std::rotate (hull_.begin (),
+                 hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
                  hull_.end ());
   return open;
 }
@@ -134,8 +137,10 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
   for (std::size_t i = 0; i < steps; ++i) {
     const bool closing = i == count;
     const Eigen::Vector2d next =
-        closing ? inverted_.front () : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
-    while (inverted_.size () >= 2 && !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
+        closing ? inverted_.front ()
+                : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
+    while (inverted_.size () >= 2 &&
+           !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
       inverted_.pop_back ();
       neighbors.pop_back ();
     }

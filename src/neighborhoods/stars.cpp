@@ -29,13 +29,12 @@ class StarMaker
 public:
   StarMaker (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
              const std::vector<Eigen::Vector3f>& normals, StarKind kind)
-  : positions_ (positions), near_ (near), normals_ (normals), kind_ (kind)
+      : positions_ (positions), near_ (near), normals_ (normals), kind_ (kind)
   {
   }
 
   /// Returns true if the star is open.
-  bool
-  make (Index p, bool filter_sheets)
+  bool make (Index p, bool filter_sheets)
   {
     const TangentFrame frame (normals_[p].cast<double> ());
     if (!filter_sheets)
@@ -53,8 +52,7 @@ public:
   const std::vector<PlanarNeighbor>& star () const { return star_; }
 
 private:
-  bool
-  select (Index p, const TangentFrame& frame, Tier tier, std::vector<PlanarNeighbor>& star)
+  bool select (Index p, const TangentFrame& frame, Tier tier, std::vector<PlanarNeighbor>& star)
   {
     star.clear ();
     for (Index q : near_.row (p)) {
@@ -65,7 +63,8 @@ private:
         const bool leaves_own = std::abs (frame.normal.dot (offset)) > LEAVES_PLANE * length;
         const bool leaves_other = std::abs (other_normal.dot (offset)) > LEAVES_PLANE * length;
         const bool turned = std::abs (frame.normal.dot (other_normal)) < SAME_SIDE;
-        if (tier == Tier::EITHER_PLANE ? leaves_own || leaves_other || turned : leaves_own && leaves_other)
+        if (tier == Tier::EITHER_PLANE ? leaves_own || leaves_other || turned
+                                       : leaves_own && leaves_other)
           continue;
       }
       // Unrolled into the plane: the direction of the projection, the length in space.
@@ -89,8 +88,7 @@ private:
 
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads,
-           StarKind kind)
+           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads, StarKind kind)
 {
   const std::size_t n = positions.size ();
   Stars stars;
@@ -136,7 +134,8 @@ localSpacing (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
       double sum = 0.0;
       for (std::size_t i = 0; i < count; ++i)
         sum += (positions[row[i]] - positions[p]).norm ();
-      spacing[p] = static_cast<float> (sum / static_cast<double> (std::max<std::size_t> (1, count)));
+      spacing[p] =
+          static_cast<float> (sum / static_cast<double> (std::max<std::size_t> (1, count)));
     }
   });
   return spacing;

@@ -20,7 +20,8 @@ constexpr double ENOUGH_REACHED = 0.5;
 
 // Adds each link (ascending) as one more neighbour, with the weight of an average neighbour.
 void
-addLinks (const std::vector<std::array<Index, 2>>& links, FlatLists& neighbors, std::vector<double>& weights)
+addLinks (const std::vector<std::array<Index, 2>>& links, FlatLists& neighbors,
+          std::vector<double>& weights)
 {
   if (links.empty ())
     return;
@@ -30,7 +31,8 @@ addLinks (const std::vector<std::array<Index, 2>>& links, FlatLists& neighbors, 
   auto link = links.begin ();
   for (Index p = 0; p < neighbors.rows (); ++p) {
     const Index first = neighbors.offsets[p], last = neighbors.offsets[p + 1];
-    wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first, neighbors.ids.begin () + last);
+    wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first,
+                      neighbors.ids.begin () + last);
     wider_weights.insert (wider_weights.end (), weights.begin () + first, weights.begin () + last);
     for (; link != links.end () && (*link)[0] == p; ++link) {
       wider.ids.push_back ((*link)[1]);
@@ -46,16 +48,21 @@ Problem
 describeOutcome (const Solution& solution)
 {
   switch (solution.outcome) {
-  case Solution::Outcome::OK: return {};
+  case Solution::Outcome::OK:
+    return {};
   case Solution::Outcome::SINGULAR:
-    return {Status::SINGULAR, "the linear system is singular (" + solution.message + "); use a larger k"};
+    return {Status::SINGULAR,
+            "the linear system is singular (" + solution.message + "); use a larger k"};
   case Solution::Outcome::NOT_CONVERGED:
-    return {Status::NOT_CONVERGED, solution.message + "; allow more iterations, or use a direct solver"};
-  case Solution::Outcome::UNAVAILABLE: return {Status::SOLVER_UNAVAILABLE, solution.message};
+    return {Status::NOT_CONVERGED,
+            solution.message + "; allow more iterations, or use a direct solver"};
+  case Solution::Outcome::UNAVAILABLE:
+    return {Status::SOLVER_UNAVAILABLE, solution.message};
   case Solution::Outcome::OUT_OF_MEMORY:
     return {Status::OUT_OF_MEMORY, "not enough memory for the factorization (" + solution.message +
                                        "): use fewer points, or a machine with more memory"};
-  case Solution::Outcome::FAILED: break;
+  case Solution::Outcome::FAILED:
+    break;
   }
   return {Status::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
 }
@@ -64,7 +71,8 @@ describeOutcome (const Solution& solution)
 
 Parameterization
 parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, Stars& stars,
-              const std::vector<Index>& loop, const Options& options, StageClock& clock, Statistics& statistics)
+              const std::vector<Index>& loop, const Options& options, StageClock& clock,
+              Statistics& statistics)
 {
   Parameterization result;
   clock.start (Stage::WEIGHTS);
@@ -75,17 +83,22 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
   const Reachability reach = reachLoop (neighbors, near, positions, loop);
   addLinks (reach.links, neighbors, weights);
   result.relinked = reach.linked_points;
-  result.unreachable = static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
+  result.unreachable =
+      static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
   const double reached = static_cast<double> (positions.size () - result.unreachable);
   if (reached < ENOUGH_REACHED * static_cast<double> (positions.size ())) {
-    result.problem = {Status::UNREACHABLE,
-                      std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
-                          " points do not connect to the boundary loop: the cloud has several components, or gaps "
-                          "wider than its spacing; reconstruct its parts one by one, or use a larger k"};
+    result.problem = {
+        Status::UNREACHABLE,
+        std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
+            " points do not connect to the boundary loop: the cloud has several components, or "
+            "gaps "
+            "wider than its spacing; reconstruct its parts one by one, or use a larger k"};
     return result;
   }
-  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, options.domain, options.polygon_sides, options.loop_spacing);
-  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable, options.threads);
+  const std::vector<Eigen::Vector2d> loop_uv =
+      layLoop (positions, loop, options.domain, options.polygon_sides, options.loop_spacing);
+  LinearSystem system =
+      assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable, options.threads);
   neighbors = {};
   std::vector<double> ().swap (weights);
   statistics.unknowns = system.unknowns ();
@@ -94,9 +107,9 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
   clock.start (Stage::SOLVE);
   const Solution solution = solve (system, options);
   statistics.nnz_factors = solution.nnz_factors;
-  statistics.fill_in = system.nonzeros () == 0
-                           ? 0.0
-                           : static_cast<double> (solution.nnz_factors) / static_cast<double> (system.nonzeros ());
+  statistics.fill_in = system.nonzeros () == 0 ? 0.0
+                                               : static_cast<double> (solution.nnz_factors) /
+                                                     static_cast<double> (system.nonzeros ());
   statistics.residual = solution.residual;
   statistics.relative_residual = solution.relative_residual;
   statistics.iterations_u = solution.iterations[0];
@@ -107,7 +120,8 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
   if (result.problem)
     return result;
 
-  result.uv.assign (positions.size (), Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+  result.uv.assign (positions.size (),
+                    Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
   for (std::size_t i = 0; i < loop.size (); ++i)
     result.uv[loop[i]] = loop_uv[i];
   for (std::size_t i = 0; i < system.unknowns (); ++i)

@@ -28,7 +28,8 @@ struct Parameterization
 /// \param stars consumed but for the normals
 Parameterization
 parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, Stars& stars,
-              const std::vector<Index>& loop, const Options& options, StageClock& clock, Statistics& statistics);
+              const std::vector<Index>& loop, const Options& options, StageClock& clock,
+              Statistics& statistics);
 
 } // namespace floater
 } // namespace pcl

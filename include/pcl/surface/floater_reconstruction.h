@@ -40,8 +40,9 @@ namespace pcl
  * - \b Failure: an empty cloud, no polygons, one line by PCL_ERROR, and the cause in getStatus()
  *   and getMessage(). What is odd about a mesh, getReport().warnings, is also given by PCL_WARN.
  *   No exception leaves reconstruct().
- * - \b Search: its own kd-tree, in parallel; for balls, PCL's octree. A method given to setSearchMethod() is asked instead,
- *   by one thread; like for all of PCL's classes its input cloud is then set by each run.
+ * - \b Search: its own kd-tree, in parallel; for balls, PCL's octree. A method given to
+ * setSearchMethod() is asked instead, by one thread; like for all of PCL's classes its input cloud
+ * is then set by each run.
  * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after
  *   another cloud or option has been set. A run changes no parameter.
  * - \b Types: the library holds the class for all of PCL_XYZ_POINT_TYPES. For a type of your own
@@ -76,7 +77,10 @@ public:
 
   /** \brief Which points a point is a convex combination of; default NEAREST_DELAUNAY. Balls, of a
    * radius that follows the local density, replace the k nearest everywhere. */
-  void setNeighborhood (floater::Neighborhood neighborhood) { options_.neighborhood = neighborhood; }
+  void setNeighborhood (floater::Neighborhood neighborhood)
+  {
+    options_.neighborhood = neighborhood;
+  }
   floater::Neighborhood getNeighborhood () const { return options_.neighborhood; }
 
   /** \brief Radius of balls in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
@@ -143,7 +147,8 @@ public:
   void setMaxIterations (int iterations) { options_.max_iterations = iterations; }
   int getMaxIterations () const { return options_.max_iterations; }
 
-  /** \brief Entries kept in a row of each factor of Solver::BICGSTAB_ILUT, 1 or more; default 15. */
+  /** \brief Entries kept in a row of each factor of Solver::BICGSTAB_ILUT, 1 or more; default 15.
+   */
   void setIlutFill (int entries) { options_.ilut_fill = entries; }
   int getIlutFill () const { return options_.ilut_fill; }
 

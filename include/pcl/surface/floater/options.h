@@ -101,10 +101,11 @@ struct Options
 {
   int k = 20; ///< 20: nearest neighbours of each point, 6 to 200; not for balls
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
-  double ball_radius = 2.25; ///< 2.25: of balls, in mean distances to the 6 nearest; 1 to 10
+  double ball_radius = 2.25;    ///< 2.25: of balls, in mean distances to the 6 nearest; 1 to 10
   double opening_angle = 160.0; ///< 160: degrees; a boundary point sees a wider empty sector
-  double cluster_tolerance = 0.05; ///< 0.05: growing distance, fraction of the bounding box diagonal
-  int cluster_k = 10;              ///< 10: nearest boundary points appended in cluster growing
+  double cluster_tolerance =
+      0.05;           ///< 0.05: growing distance, fraction of the bounding box diagonal
+  int cluster_k = 10; ///< 10: nearest boundary points appended in cluster growing
   BoundaryMethod boundary = BoundaryMethod::SPANNING_TREE;
   Domain domain = Domain::CIRCLE;
   int polygon_sides = 6; ///< 6: sides of Domain::POLYGON, 3 or more

@@ -23,20 +23,19 @@ public:
   virtual ~NeighborSearch () = default;
 
   /// Prepares for queries among these points only (cloud indices, ascending).
-  virtual void
-  build (const std::vector<std::uint32_t>& cloud_indices) = 0;
+  virtual void build (const std::vector<std::uint32_t>& cloud_indices) = 0;
 
   /// The k points nearest to a given one (the point itself may be among them), as cloud indices.
   /// Any order; fewer than k only if there are no more.
-  virtual void
-  nearest (std::uint32_t cloud_index, int k, std::vector<std::uint32_t>& cloud_indices) = 0;
+  virtual void nearest (std::uint32_t cloud_index, int k,
+                        std::vector<std::uint32_t>& cloud_indices) = 0;
 
   /// The points within a distance of a given one, in units of the cloud, as cloud indices. Any
   /// order; a few points too many or twice do no harm. Asked for Neighborhood::BALL and
   /// BALL_DELAUNAY only.
   /// \return false if that cannot be answered: then nearest () is asked, for more and more points
-  virtual bool
-  within (std::uint32_t /*cloud_index*/, double /*radius*/, std::vector<std::uint32_t>& /*cloud_indices*/)
+  virtual bool within (std::uint32_t /*cloud_index*/, double /*radius*/,
+                       std::vector<std::uint32_t>& /*cloud_indices*/)
   {
     return false;
   }
@@ -45,10 +44,10 @@ public:
 /// Points to reconstruct.
 struct Input
 {
-  std::vector<Eigen::Vector3d> positions;  ///< may hold non-finite coordinates and duplicates
-  std::vector<std::uint32_t> cloud_index;  ///< of each position; distinct
-  std::size_t cloud_size = 0;              ///< points of the whole cloud; every index is below it
-  NeighborSearch* search = nullptr;        ///< nullptr: the core's own kd-tree, in parallel
+  std::vector<Eigen::Vector3d> positions; ///< may hold non-finite coordinates and duplicates
+  std::vector<std::uint32_t> cloud_index; ///< of each position; distinct
+  std::size_t cloud_size = 0;             ///< points of the whole cloud; every index is below it
+  NeighborSearch* search = nullptr;       ///< nullptr: the core's own kd-tree, in parallel
 };
 
 /// A mesh over the cloud and what there is to say about it.
