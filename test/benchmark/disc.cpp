@@ -50,8 +50,8 @@ makeDisc (const std::string& name, const Cloud& cloud, const Options& options)
       reachLoop (stars.neighbors, no_links, disc.set.positions, disc.boundary.loop);
   disc.left_out = static_cast<std::size_t> (
       std::count (reach.reachable.begin (), reach.reachable.end (), std::uint8_t{0}));
-  disc.loop_uv =
-      layLoop (disc.set.positions, disc.boundary.loop, options.domain, options.polygon_sides);
+  disc.loop_uv = layLoop (disc.set.positions, disc.boundary.loop, options.domain,
+                          options.polygon_sides, options.loop_spacing);
   disc.system = assembleSystem (stars.neighbors, weights, disc.boundary.loop, disc.loop_uv,
                                 reach.reachable, options.threads);
   clock.stop ();

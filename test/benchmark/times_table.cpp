@@ -121,8 +121,7 @@ public:
       times.time ("Delaunay", [&] { mesh = triangulatePlane (sample.direct, disc.boundary.loop); });
       times.time ("flips", [&] {
         std::vector<Eigen::Vector3f> normals = disc.normals;
-        Statistics statistics;
-        finishSurface (mesh, disc.set.positions, disc.near, normals, options, statistics);
+        finishSurface (mesh, disc.set.positions, disc.near, normals, options);
       });
     }
     addTimes (disc, times, mesh.triangles.size (), bicgstab);
