@@ -11,7 +11,7 @@ namespace floater
 {
 /// Sweeps over the rows in their order, each unknown becoming the mean of its neighbours, until the
 /// measured residual is within the tolerance. The error shrinks by a factor of 1 - O(1/n) a sweep,
-/// so that the sweeps needed grow with the number of unknowns: 3e4 of them need about 1e5.
+/// so that the sweeps needed grow with the number of unknowns.
 /// Outcomes OK, SINGULAR, NOT_CONVERGED, FAILED. \param max_iterations sweeps, for u and v together
 Solution
 solveWithGaussSeidel (const LinearSystem& system, double tolerance, int max_iterations);

@@ -23,9 +23,10 @@ enum class UmfpackStrategy
 /// afterwards). The symmetric strategy needs no refinement and knows islands by their pivots; the
 /// unsymmetric one is refined in two steps, and islands are looked for before. Above a million
 /// unknowns, the automatic ordering of the symmetric strategy is METIS, and indices have 64 bits.
-/// An empty system is OK. May throw std::bad_alloc; UMFPACK's own failures are outcomes. \param
-/// ordering SYMMETRIC: AUTOMATIC, AMD, METIS or NATURAL; UNSYMMETRIC: AUTOMATIC, COLAMD, METIS
-///        (of A^T A) or NATURAL
+/// An empty system is OK. May throw std::bad_alloc; UMFPACK's own failures are outcomes.
+///
+/// \param ordering SYMMETRIC: AUTOMATIC, AMD, METIS or NATURAL; UNSYMMETRIC: AUTOMATIC, COLAMD,
+///        METIS (of A^T A) or NATURAL
 /// \param threads 2 or more: the two right-hand sides are solved at the same time; same result
 Solution
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads = 1,
