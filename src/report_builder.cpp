@@ -39,22 +39,26 @@ reportBoundary (const WorkingSet& set, const Boundary& boundary, Report& report)
   report.statistics.boundary_candidates = boundary.candidates;
   report.statistics.loop_points = boundary.loop.size ();
   if (boundary.largest_step > LONG_STEP)
-    report.warnings.push_back ("the boundary loop has a step of " + std::to_string (boundary.largest_step) +
-                               " local spacings at " + place (set, boundary.longest_from) +
+    report.warnings.push_back ("the boundary loop has a step of " +
+                               std::to_string (boundary.largest_step) + " local spacings at " +
+                               place (set, boundary.longest_from) +
                                ": it may cut across the surface there");
 }
 
 void
-reportParameterization (const WorkingSet& set, const Parameterization& parameterization, Report& report)
+reportParameterization (const WorkingSet& set, const Parameterization& parameterization,
+                        Report& report)
 {
   report.statistics.relinked_points = parameterization.relinked;
   if (parameterization.relinked > 0)
-    report.warnings.push_back (std::to_string (parameterization.relinked) +
-                               " points hung together with the boundary in no direction and were linked to their "
-                               "nearest neighbours");
+    report.warnings.push_back (
+        std::to_string (parameterization.relinked) +
+        " points hung together with the boundary in no direction and were linked to their "
+        "nearest neighbours");
   if (parameterization.uv.empty ())
     return;
-  const Eigen::Vector2d nowhere = Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
+  const Eigen::Vector2d nowhere =
+      Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
   report.parameters.assign (report.statistics.cloud_points, nowhere);
   for (Index p = 0; p < set.cloud_index.size (); ++p)
     report.parameters[set.cloud_index[p]] = parameterization.uv[p];
@@ -63,7 +67,8 @@ reportParameterization (const WorkingSet& set, const Parameterization& parameter
 }
 
 std::vector<Triangle>
-reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish, Report& report)
+reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
+            Report& report)
 {
   std::vector<Triangle> triangles = mesh.triangles;
   for (Triangle& triangle : triangles)
@@ -75,15 +80,17 @@ reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish&
   std::sort (report.unused.begin (), report.unused.end ());
   if (!report.unused.empty ())
     report.warnings.push_back (std::to_string (report.unused.size ()) +
-                               " points are in no triangle, point " + std::to_string (report.unused.front ()) +
+                               " points are in no triangle, point " +
+                               std::to_string (report.unused.front ()) +
                                " among them: they do not connect to the rest of the surface");
   report.statistics.flips = finish.flips;
   report.statistics.folds = finish.folds.size ();
   if (!finish.folds.empty ())
-    report.warnings.push_back (std::to_string (finish.folds.size ()) +
-                               " edges are folded by more than 120 degrees, one of them at " +
-                               place (set, mesh.from (finish.folds.front ())) +
-                               ": sheets of the surface come close there, or a feature is thinly sampled");
+    report.warnings.push_back (
+        std::to_string (finish.folds.size ()) +
+        " edges are folded by more than 120 degrees, one of them at " +
+        place (set, mesh.from (finish.folds.front ())) +
+        ": sheets of the surface come close there, or a feature is thinly sampled");
   report.statistics.used_points = set.positions.size () - report.unused.size ();
   report.statistics.triangles = triangles.size ();
   return triangles;

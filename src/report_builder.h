@@ -23,11 +23,13 @@ reportBoundary (const WorkingSet& set, const Boundary& boundary, Report& report)
 
 /// Parameter of every cloud point: a duplicate has that of its stand-in. Warnings on linked points.
 void
-reportParameterization (const WorkingSet& set, const Parameterization& parameterization, Report& report);
+reportParameterization (const WorkingSet& set, const Parameterization& parameterization,
+                        Report& report);
 
 /// Triangles in cloud indices, unused points and counts; warnings on unused points and folds.
 std::vector<Triangle>
-reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish, Report& report);
+reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
+            Report& report);
 
 } // namespace floater
 } // namespace pcl

@@ -23,7 +23,8 @@ checkWorkingSet (const WorkingSet& set);
 /// An oriented manifold disc whose boundary is the loop, each vertex with one fan. Reads the
 /// triangles only, not the neighbours that the stages kept.
 Problem
-checkDisc (const std::vector<Triangle>& triangles, std::size_t points, const std::vector<Index>& loop);
+checkDisc (const std::vector<Triangle>& triangles, std::size_t points,
+           const std::vector<Index>& loop);
 
 } // namespace floater
 } // namespace pcl

@@ -16,7 +16,8 @@ namespace floater
 namespace
 {
 constexpr double DEGREE = 0.017453292519943295; // radians
-// A loop this short in a cloud of more than a few points is a gap in the sampling of a closed surface.
+// A loop this short in a cloud of more than a few points is a gap in the sampling of a closed
+// surface.
 constexpr std::size_t SHORTEST_LOOP = 10;
 constexpr std::size_t FEW_POINTS = 100;
 
@@ -36,7 +37,8 @@ fromUser (const WorkingSet& set, const std::vector<Index>& user_loop)
     point_of.emplace_back (set.cloud_index[p], p);
   std::sort (point_of.begin (), point_of.end ());
   const auto find = [&] (Index cloud_index) {
-    const auto at = std::lower_bound (point_of.begin (), point_of.end (), std::make_pair (cloud_index, Index{0}));
+    const auto at = std::lower_bound (point_of.begin (), point_of.end (),
+                                      std::make_pair (cloud_index, Index{0}));
     return at != point_of.end () && at->first == cloud_index ? at->second : NONE;
   };
   std::vector<std::uint8_t> seen (set.positions.size (), 0);
@@ -63,11 +65,12 @@ fromUser (const WorkingSet& set, const std::vector<Index>& user_loop)
 }
 
 Boundary
-byTwoSegments (const WorkingSet& set, const FlatLists& near, const Stars& stars, const Options& options)
+byTwoSegments (const WorkingSet& set, const FlatLists& near, const Stars& stars,
+               const Options& options)
 {
   Boundary boundary;
-  const std::vector<Index> points = openingAnglePoints (set.positions, near, stars.normals,
-                                                         options.opening_angle * DEGREE, options.threads);
+  const std::vector<Index> points = openingAnglePoints (
+      set.positions, near, stars.normals, options.opening_angle * DEGREE, options.threads);
   boundary.candidates = points.size ();
   // The bounding box of the working set has diagonal 1, so xi D is xi.
   const std::vector<std::vector<Index>> clusters =
@@ -80,7 +83,8 @@ byTwoSegments (const WorkingSet& set, const FlatLists& near, const Stars& stars,
 } // namespace
 
 Boundary
-findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars, const Options& options)
+findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars,
+              const Options& options)
 {
   const std::vector<float> spacing = localSpacing (set.positions, near, options.threads);
   Boundary boundary;
@@ -97,20 +101,22 @@ findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars, 
     boundary.loop = std::move (found.points);
     boundary.candidates = found.candidates;
   }
-  const bool a_mere_gap =
-      options.loop.empty () && boundary.loop.size () < SHORTEST_LOOP && set.positions.size () > FEW_POINTS;
+  const bool a_mere_gap = options.loop.empty () && boundary.loop.size () < SHORTEST_LOOP &&
+                          set.positions.size () > FEW_POINTS;
   if (boundary.loop.size () < 3 || a_mere_gap) {
     boundary.loop.clear ();
-    boundary.problem = {Status::NO_BOUNDARY,
-                        "no boundary loop found among " + std::to_string (boundary.candidates) +
-                            " boundary points: the surface seems closed or is not one disc; cut it open, "
-                            "or give the loop"};
+    boundary.problem = {
+        Status::NO_BOUNDARY,
+        "no boundary loop found among " + std::to_string (boundary.candidates) +
+            " boundary points: the surface seems closed or is not one disc; cut it open, "
+            "or give the loop"};
     return boundary;
   }
   for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
     const Index p = boundary.loop[i];
     const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
-    const double step = (set.positions[p] - set.positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
+    const double step =
+        (set.positions[p] - set.positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
     if (step > boundary.largest_step) {
       boundary.largest_step = step;
       boundary.longest_from = p;

@@ -25,7 +25,8 @@ struct Boundary
 
 /// The user's loop if there is one, else by the method of the options.
 Boundary
-findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars, const Options& options);
+findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars,
+              const Options& options);
 
 } // namespace floater
 } // namespace pcl

@@ -16,7 +16,8 @@ double
 circumradius (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
   const double area4 = 2.0 * std::abs (a.x () * b.y () - a.y () * b.x ());
-  return a.norm () * b.norm () * (a - b).norm () / std::max (area4, std::numeric_limits<double>::min ());
+  return a.norm () * b.norm () * (a - b).norm () /
+         std::max (area4, std::numeric_limits<double>::min ());
 }
 
 } // namespace

@@ -15,9 +15,9 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t WINDOW = 30;   // 2-opt: farthest edges along the loop that are exchanged
-constexpr double DETOUR = 3.0;       // spacings: longest detour for a point beyond the loop
-constexpr double ON_EDGE = 0.1;      // of an edge's length: nearer to it counts as beyond
+constexpr std::size_t WINDOW = 30; // 2-opt: farthest edges along the loop that are exchanged
+constexpr double DETOUR = 3.0;     // spacings: longest detour for a point beyond the loop
+constexpr double ON_EDGE = 0.1;    // of an edge's length: nearer to it counts as beyond
 constexpr std::size_t NEAR_LOOP_POINTS = 4;
 
 double
@@ -41,8 +41,10 @@ untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loo
         // Edges (i, i + 1) and (j, j + 1) become (i, j) and (i + 1, j + 1).
         if ((j + 1) % n == i)
           continue;
-        const double now = distance (positions, at (i), at (i + 1)) + distance (positions, at (j), at (j + 1));
-        const double then = distance (positions, at (i), at (j)) + distance (positions, at (i + 1), at (j + 1));
+        const double now =
+            distance (positions, at (i), at (i + 1)) + distance (positions, at (j), at (j + 1));
+        const double then =
+            distance (positions, at (i), at (j)) + distance (positions, at (i + 1), at (j + 1));
         if (then < now * (1.0 - 1e-9)) {
           for (std::size_t a = i + 1, b = j; a < b; ++a, --b)
             std::swap (at (a), at (b));
@@ -57,8 +59,9 @@ untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loo
 class LoopSides
 {
 public:
-  LoopSides (const std::vector<Eigen::Vector3d>& positions, const Stars& stars, const std::vector<Index>& loop)
-  : positions_ (positions)
+  LoopSides (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+             const std::vector<Index>& loop)
+      : positions_ (positions)
   {
     Eigen::Vector3d previous = stars.normals[loop.front ()].cast<double> ();
     double vote = 0.0;
@@ -83,10 +86,12 @@ public:
 
   /// Distance of c from the line through a and b, positive on the surface's side; `at` is a's place
   /// in the loop that this was made for.
-  double
-  inside (std::size_t at, Index a, Index b, Index c) const
+  double inside (std::size_t at, Index a, Index b, Index c) const
   {
-    return normals_[at].cross (positions_[b] - positions_[a]).normalized ().dot (positions_[c] - positions_[a]);
+    return normals_[at]
+        .cross (positions_[b] - positions_[a])
+        .normalized ()
+        .dot (positions_[c] - positions_[a]);
   }
 
 private:
@@ -96,8 +101,9 @@ private:
 
 // Inserts candidates that lie on or beyond an edge of the loop. Returns how many.
 std::size_t
-insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars, const std::vector<float>& spacing,
-              const std::vector<Index>& candidates, std::vector<Index>& loop)
+insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+              const std::vector<float>& spacing, const std::vector<Index>& candidates,
+              std::vector<Index>& loop)
 {
   const LoopSides sides (positions, stars, loop);
   std::vector<std::uint8_t> on_loop (positions.size (), 0);
@@ -122,7 +128,8 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
     double smallest = DETOUR * spacing[c];
     Insertion best{0, 0.0, NONE};
     for (const Neighbor& neighbor : found)
-      for (const std::size_t i : {std::size_t{neighbor.point}, (neighbor.point + loop.size () - 1) % loop.size ()}) {
+      for (const std::size_t i :
+           {std::size_t{neighbor.point}, (neighbor.point + loop.size () - 1) % loop.size ()}) {
         const Index a = loop[i], b = loop[(i + 1) % loop.size ()];
         const double edge = distance (positions, a, b);
         const double detour = distance (positions, a, c) + distance (positions, c, b) - edge;
@@ -130,7 +137,8 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
           continue;
         smallest = detour;
         const bool beyond = sides.inside (i, a, b, c) < ON_EDGE * edge;
-        best = {i, (positions[c] - positions[a]).dot (positions[b] - positions[a]), beyond ? c : NONE};
+        best = {i, (positions[c] - positions[a]).dot (positions[b] - positions[a]),
+                beyond ? c : NONE};
       }
     if (best.point != NONE)
       insertions.push_back (best);
@@ -152,11 +160,13 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
 } // namespace
 
 void
-refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars, const std::vector<float>& spacing,
-            const std::vector<Index>& candidates, std::vector<Index>& loop)
+refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+            const std::vector<float>& spacing, const std::vector<Index>& candidates,
+            std::vector<Index>& loop)
 {
   untangle (positions, loop);
-  for (int pass = 0; pass < 4 && insertBeyond (positions, stars, spacing, candidates, loop) > 0; ++pass)
+  for (int pass = 0; pass < 4 && insertBeyond (positions, stars, spacing, candidates, loop) > 0;
+       ++pass)
     untangle (positions, loop);
 }
 

@@ -17,8 +17,8 @@ namespace floater
 namespace
 {
 constexpr double ALPHAS[] = {1.5, 2.0, 2.5};
-constexpr double LARGEST_STEP = 6.0;     // spacings: longer edges are not tried
-constexpr double ACCEPTED_STEP = 4.0;    // spacings: a loop without a longer edge is trusted
+constexpr double LARGEST_STEP = 6.0;  // spacings: longer edges are not tried
+constexpr double ACCEPTED_STEP = 4.0; // spacings: a loop without a longer edge is trusted
 constexpr std::size_t NEAR_CANDIDATES = 8;
 constexpr double MUTUAL_COST = 0.05; // relative to an edge between candidates that are merely near
 constexpr double ONE_SIDED_COST = 0.4;
@@ -61,8 +61,9 @@ joinCandidates (const std::vector<Eigen::Vector3d>& positions, const std::vector
                       static_cast<float> (relative_cost * length)});
   };
   const auto sees = [&] (Index p, Index q) { // gaps are ordered by point
-    const auto first = std::lower_bound (gaps.begin (), gaps.end (), p,
-                                         [] (const Gap& gap, Index point) { return gap.point < point; });
+    const auto first =
+        std::lower_bound (gaps.begin (), gaps.end (), p,
+                          [] (const Gap& gap, Index point) { return gap.point < point; });
     for (auto gap = first; gap != gaps.end () && gap->point == p; ++gap)
       if (gap->first == q || gap->last == q)
         return true;
@@ -104,8 +105,9 @@ class SpanningForest
 {
 public:
   // Kruskal's algorithm; `edges` by cost. Edges left outside the forest are moved to `outside`.
-  SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges, std::vector<CandidateEdge>& outside)
-  : root_distance_ (nodes, 0.0), depth_ (nodes, 0), tree_ (nodes, NONE)
+  SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges,
+                  std::vector<CandidateEdge>& outside)
+      : root_distance_ (nodes, 0.0), depth_ (nodes, 0), tree_ (nodes, NONE)
   {
     std::vector<Index> set (nodes);
     std::iota (set.begin (), set.end (), Index{0});
@@ -157,15 +159,13 @@ public:
     }
   }
 
-  double
-  pathLength (Index a, Index b) const
+  double pathLength (Index a, Index b) const
   {
     return root_distance_[a] + root_distance_[b] - 2.0 * root_distance_[meeting (a, b)];
   }
 
   // Nodes of the path from a to b, both included.
-  std::vector<Index>
-  path (Index a, Index b) const
+  std::vector<Index> path (Index a, Index b) const
   {
     const Index top = meeting (a, b);
     std::vector<Index> up, down;
@@ -179,8 +179,7 @@ public:
   }
 
 private:
-  Index
-  meeting (Index a, Index b) const
+  Index meeting (Index a, Index b) const
   {
     if (depth_[a] < depth_[b])
       std::swap (a, b);
@@ -201,7 +200,8 @@ private:
 };
 
 void
-measure (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing)
+measure (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
+         const std::vector<float>& spacing)
 {
   loop.length = 0.0;
   loop.largest_step = 0.0;
@@ -223,8 +223,8 @@ loopForAlpha (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
   const Candidates candidates (gaps, positions.size ());
   loop.candidates = candidates.points.size ();
   std::vector<CandidateEdge> outside;
-  const SpanningForest forest (candidates.points.size (), joinCandidates (positions, spacing, gaps, candidates),
-                               outside);
+  const SpanningForest forest (candidates.points.size (),
+                               joinCandidates (positions, spacing, gaps, candidates), outside);
   const CandidateEdge* closing = nullptr;
   double longest = 0.0;
   for (const CandidateEdge& edge : outside) {

@@ -18,7 +18,8 @@ namespace floater
 inline int
 resolveThreads (int threads)
 {
-  return threads > 0 ? threads : std::max (1, static_cast<int> (std::thread::hardware_concurrency ()));
+  return threads > 0 ? threads
+                     : std::max (1, static_cast<int> (std::thread::hardware_concurrency ()));
 }
 
 /// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
@@ -48,7 +49,8 @@ parallelRanges (std::size_t count, int threads, Body&& body)
     }
   };
   std::vector<std::thread> helpers;
-  const std::size_t wanted = std::min<std::size_t> (static_cast<std::size_t> (resolveThreads (threads)), chunks);
+  const std::size_t wanted =
+      std::min<std::size_t> (static_cast<std::size_t> (resolveThreads (threads)), chunks);
   try {
     for (std::size_t t = 1; t < wanted; ++t)
       helpers.emplace_back (work);

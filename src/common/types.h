@@ -32,7 +32,8 @@ struct Row
   Index operator[] (std::size_t i) const { return first[i]; }
 };
 
-/// Lists of points, one for each point, in one array: row p is ids[offsets[p]] to ids[offsets[p + 1]].
+/// Lists of points, one for each point, in one array: row p is ids[offsets[p]] to ids[offsets[p +
+/// 1]].
 struct FlatLists
 {
   std::vector<Index> offsets; ///< one more than there are rows
@@ -46,23 +47,25 @@ struct FlatLists
 /// memory. The order depends on the coordinates only, not on the order of the cloud.
 struct WorkingSet
 {
-  std::vector<Eigen::Vector3d> positions; ///< centred, diagonal of the bounding box 1
-  std::vector<Index> cloud_index;         ///< of each point; for duplicates the smallest
+  std::vector<Eigen::Vector3d> positions;            ///< centred, diagonal of the bounding box 1
+  std::vector<Index> cloud_index;                    ///< of each point; for duplicates the smallest
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
-  std::vector<Index> non_finite;                   ///< cloud indices, ascending
-  std::vector<std::array<Index, 2>> duplicates;    ///< cloud indices (point, its stand-in), ascending
+  std::vector<Index> non_finite;                ///< cloud indices, ascending
+  std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, its stand-in), ascending
 };
 
-/// Stars of the points in their tangent planes: neighbours joined to the centre. Neighbours are in anti-clockwise order seen
-/// along the normal; in an open star the sector from the last neighbour to the first has no triangle.
-/// Normals are unit vectors of arbitrary sign: stars of neighbours may run opposite ways round.
+/// Stars of the points in their tangent planes: neighbours joined to the centre. Neighbours are in
+/// anti-clockwise order seen along the normal; in an open star the sector from the last neighbour
+/// to the first has no triangle. Normals are unit vectors of arbitrary sign: stars of neighbours
+/// may run opposite ways round.
 struct Stars
 {
   FlatLists neighbors;
-  std::vector<Eigen::Vector2d> offsets_in_plane; ///< parallel to neighbors.ids: position in the plane
-                                                 ///< relative to the centre, length as in space
-  std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
+  std::vector<Eigen::Vector2d>
+      offsets_in_plane;           ///< parallel to neighbors.ids: position in the plane
+                                  ///< relative to the centre, length as in space
+  std::vector<std::uint8_t> open; ///< 1 if the star does not surround its centre
   std::vector<Eigen::Vector3f> normals;
 };
 

@@ -40,8 +40,9 @@ KdTree::build (Index first, Index last)
   const Index middle = first + (last - first) / 2;
   std::nth_element (items_.begin () + first, items_.begin () + middle, items_.begin () + last,
                     [axis] (const Item& a, const Item& b) {
-                      return a.position[axis] != b.position[axis] ? a.position[axis] < b.position[axis]
-                                                                  : a.point < b.point;
+                      return a.position[axis] != b.position[axis]
+                                 ? a.position[axis] < b.position[axis]
+                                 : a.point < b.point;
                     });
   nodes_[self].split = items_[middle].position[axis];
   nodes_[self].axis = static_cast<std::uint8_t> (axis);
@@ -87,13 +88,12 @@ KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighb
     std::vector<Neighbor>& found;
     std::size_t k;
 
-    double
-    reach () const
+    double reach () const
     {
-      return found.size () < k ? std::numeric_limits<double>::infinity () : found.back ().sqr_distance;
+      return found.size () < k ? std::numeric_limits<double>::infinity ()
+                               : found.back ().sqr_distance;
     }
-    void
-    point (const Neighbor& candidate)
+    void point (const Neighbor& candidate)
     {
       if (found.size () == k) {
         if (!(candidate < found.back ()))
@@ -124,8 +124,7 @@ KdTree::within (const Eigen::Vector3d& query, double radius, std::vector<Neighbo
     double sqr_radius;
 
     double reach () const { return sqr_radius; }
-    void
-    point (const Neighbor& candidate)
+    void point (const Neighbor& candidate)
     {
       if (candidate.sqr_distance <= sqr_radius)
         found.push_back (candidate);

@@ -16,15 +16,15 @@ struct Neighbor
   double sqr_distance;
   Index point;
 
-  bool
-  operator< (const Neighbor& other) const
+  bool operator<(const Neighbor& other) const
   {
-    return sqr_distance != other.sqr_distance ? sqr_distance < other.sqr_distance : point < other.point;
+    return sqr_distance != other.sqr_distance ? sqr_distance < other.sqr_distance
+                                              : point < other.point;
   }
 };
 
-/// kd-tree with buckets at its leaves. Built by medians: O(n log n), 40 bytes per point. Queries are
-/// exact, ties in distance are broken by index, and any number of threads may query at once.
+/// kd-tree with buckets at its leaves. Built by medians: O(n log n), 40 bytes per point. Queries
+/// are exact, ties in distance are broken by index, and any number of threads may query at once.
 class KdTree
 {
 public:
@@ -32,20 +32,18 @@ public:
 
   /// The k nearest points to `query`, nearest first; fewer if the tree holds fewer. The result is
   /// overwritten. O(k + log n) on clouds of bounded density.
-  void
-  nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
+  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
 
   /// All points within `radius` of `query` (that distance included), nearest first.
-  void
-  within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
+  void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
 private:
   struct Node
   {
-    double split;    // coordinate of the plane between the children
-    Index first;     // of the points below this node
-    Index last;      // one past
-    Index right;     // the left child is the next node; NONE at a leaf
+    double split; // coordinate of the plane between the children
+    Index first;  // of the points below this node
+    Index last;   // one past
+    Index right;  // the left child is the next node; NONE at a leaf
     std::uint8_t axis;
   };
   struct Item
@@ -54,11 +52,9 @@ private:
     Index point;
   };
   template <typename Visit>
-  void
-  search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_offsets, double sqr_box_distance,
-          Visit& visit) const;
-  void
-  build (Index first, Index last);
+  void search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_offsets,
+               double sqr_box_distance, Visit& visit) const;
+  void build (Index first, Index last);
 
   std::vector<Item> items_; // in the order of the leaves
   std::vector<Node> nodes_;

@@ -12,11 +12,14 @@ namespace floater
 struct TangentFrame
 {
   explicit TangentFrame (const Eigen::Vector3d& unit_normal)
-  : normal (unit_normal), x (unit_normal.unitOrthogonal ()), y (unit_normal.cross (x))
+      : normal (unit_normal), x (unit_normal.unitOrthogonal ()), y (unit_normal.cross (x))
   {
   }
 
-  Eigen::Vector2d project (const Eigen::Vector3d& offset) const { return {x.dot (offset), y.dot (offset)}; }
+  Eigen::Vector2d project (const Eigen::Vector3d& offset) const
+  {
+    return {x.dot (offset), y.dot (offset)};
+  }
 
   Eigen::Vector3d normal, x, y;
 };

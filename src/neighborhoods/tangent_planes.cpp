@@ -13,15 +13,14 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t CORE = 8;         // nearest points of the first plane
-constexpr double NEAR_PLANE = 0.5;      // refit: largest sine between a neighbour and the first plane
+constexpr std::size_t CORE = 8;    // nearest points of the first plane
+constexpr double NEAR_PLANE = 0.5; // refit: largest sine between a neighbour and the first plane
 
 // Sums for the covariance of offsets from a centre point, which itself counts as one offset (zero).
 class Covariance
 {
 public:
-  void
-  add (const Eigen::Vector3d& offset)
+  void add (const Eigen::Vector3d& offset)
   {
     sum_ += offset;
     products_.noalias () += offset * offset.transpose ();
@@ -30,8 +29,7 @@ public:
 
   std::size_t count () const { return count_; }
 
-  Eigen::Vector3d
-  smallestAxis () const
+  Eigen::Vector3d smallestAxis () const
   {
     const double n = static_cast<double> (count_);
     const Eigen::Matrix3d covariance = products_ - sum_ * sum_.transpose () / n;

@@ -10,11 +10,12 @@ namespace pcl
 {
 namespace floater
 {
-/// Unit normals, of arbitrary sign: the plane through the 8 nearest points, then refitted to those of
-/// all k neighbours that lie near that plane, so that a second sheet within reach does not tilt it.
-/// \param near nearest neighbours, nearest first
+/// Unit normals, of arbitrary sign: the plane through the 8 nearest points, then refitted to those
+/// of all k neighbours that lie near that plane, so that a second sheet within reach does not tilt
+/// it. \param near nearest neighbours, nearest first
 std::vector<Eigen::Vector3f>
-fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads);
+fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+                  int threads);
 
 } // namespace floater
 } // namespace pcl

@@ -57,8 +57,8 @@ struct Entry
 } // namespace
 
 WorkingSet
-makeWorkingSet (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
-                int threads)
+makeWorkingSet (const std::vector<Eigen::Vector3d>& positions,
+                const std::vector<Index>& cloud_index, int threads)
 {
   WorkingSet set;
   std::vector<Entry> entries;

@@ -12,16 +12,18 @@ namespace floater
 {
 namespace
 {
-constexpr double TURNED = 0.4;   // cosine to the corners' normals below which a triangle is penalized
+constexpr double TURNED = 0.4; // cosine to the corners' normals below which a triangle is penalized
 constexpr double PENALTY = 1000.0; // per unit of that cosine; a right isosceles triangle costs 2
-constexpr double IMPROVES = 1e-9; // relative gain below which the diagonals of a quad count as equal
+constexpr double IMPROVES =
+    1e-9; // relative gain below which the diagonals of a quad count as equal
 
 // Flips from a stack of edges; the mesh stays a manifold throughout.
 class Flipper
 {
 public:
-  Flipper (SurfaceMesh& mesh, const TriangleCost& cost, const std::function<bool (Index, Index)>& allowed)
-  : mesh_ (mesh), cost_ (cost), allowed_ (allowed)
+  Flipper (SurfaceMesh& mesh, const TriangleCost& cost,
+           const std::function<bool (Index, Index)>& allowed)
+      : mesh_ (mesh), cost_ (cost), allowed_ (allowed)
   {
     for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
       for (std::uint8_t side = 0; side < 3; ++side)
@@ -29,8 +31,7 @@ public:
           stack_.push_back ({t, side});
   }
 
-  std::size_t
-  run ()
+  std::size_t run ()
   {
     std::size_t flips = 0;
     while (!stack_.empty ()) {
@@ -50,8 +51,7 @@ public:
   }
 
 private:
-  bool
-  improves (MeshEdge e) const
+  bool improves (MeshEdge e) const
   {
     const MeshEdge m = mesh_.mate (e);
     if (m.triangle == NONE)
@@ -59,7 +59,8 @@ private:
     const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
     const double now = cost_ (c, a, b) + cost_ (d, b, a);
     const double then = cost_ (c, a, d) + cost_ (d, b, c);
-    return then < now - IMPROVES * std::abs (now) && !mesh_.hasEdge (c, d) && (!allowed_ || allowed_ (c, d));
+    return then < now - IMPROVES * std::abs (now) && !mesh_.hasEdge (c, d) &&
+           (!allowed_ || allowed_ (c, d));
   }
 
   SurfaceMesh& mesh_;
@@ -79,7 +80,8 @@ TriangleCost::operator() (Index a, Index b, Index c) const
   const Eigen::Vector3d area_vector = ab.cross (ac);
   const double double_area = area_vector.norm ();
   const double sqr_lengths = ab.squaredNorm () + ac.squaredNorm () + bc.squaredNorm ();
-  // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area); bounded, so that costs of needles compare.
+  // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area); bounded, so that costs of needles
+  // compare.
   const double cotangents = sqr_lengths / (2.0 * std::max (double_area, 1e-9 * sqr_lengths));
   const Eigen::Vector3f normal = normals_[a] + normals_[b] + normals_[c];
   const double length = normal.norm () * double_area;
@@ -93,8 +95,9 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 {
   std::vector<Eigen::Vector3f> area (normals.size (), Eigen::Vector3f::Zero ());
   for (const Triangle& t : mesh.triangles) {
-    const Eigen::Vector3f area_vector =
-        (positions[t[1]] - positions[t[0]]).cross (positions[t[2]] - positions[t[0]]).cast<float> ();
+    const Eigen::Vector3f area_vector = (positions[t[1]] - positions[t[0]])
+                                            .cross (positions[t[2]] - positions[t[0]])
+                                            .cast<float> ();
     for (Index p : t)
       area[p] += area_vector;
   }
@@ -110,7 +113,8 @@ flipEdges (SurfaceMesh& mesh, const TriangleCost& cost)
 }
 
 std::size_t
-flipEdges (SurfaceMesh& mesh, const TriangleCost& cost, const std::function<bool (Index, Index)>& allowed)
+flipEdges (SurfaceMesh& mesh, const TriangleCost& cost,
+           const std::function<bool (Index, Index)>& allowed)
 {
   return Flipper (mesh, cost, allowed).run ();
 }

@@ -19,11 +19,11 @@ namespace floater
 namespace
 {
 constexpr double FOLD_COSINE = -0.5; // 120 degrees between the normals of neighbours
-constexpr double FOLD_COST = 200.0;   // of an edge, per unit of negative cosine between its triangles
-constexpr int RINGS = 2;             // of triangles around a fold that may change
+constexpr double FOLD_COST = 200.0; // of an edge, per unit of negative cosine between its triangles
+constexpr int RINGS = 2;            // of triangles around a fold that may change
 constexpr int PASSES = 6;
-constexpr std::size_t LARGEST_FAN = 14;  // vertices of more triangles are not moved
-constexpr std::size_t PLACES = 4;        // cheapest triangles into which a vertex is tried
+constexpr std::size_t LARGEST_FAN = 14; // vertices of more triangles are not moved
+constexpr std::size_t PLACES = 4;       // cheapest triangles into which a vertex is tried
 constexpr double IMPROVES = 1e-6;
 
 Eigen::Vector3d
@@ -44,8 +44,8 @@ class PolygonFilling
 public:
   /// Least-cost triangles of a closed polygon, anti-clockwise; empty if there is no way.
   template <typename Allowed>
-  std::vector<Triangle>
-  fill (const std::vector<Index>& polygon, const TriangleCost& cost, Allowed&& allowed)
+  std::vector<Triangle> fill (const std::vector<Index>& polygon, const TriangleCost& cost,
+                              Allowed&& allowed)
   {
     const std::size_t m = polygon.size ();
     best_.assign (m * m, {0.0, 0});
@@ -76,8 +76,8 @@ private:
     std::size_t apex;
   };
 
-  void
-  collect (const std::vector<Index>& polygon, std::size_t i, std::size_t j, std::vector<Triangle>& triangles) const
+  void collect (const std::vector<Index>& polygon, std::size_t i, std::size_t j,
+                std::vector<Triangle>& triangles) const
   {
     if (j - i < 2)
       return;
@@ -95,13 +95,13 @@ class PatchRepair
 {
 public:
   PatchRepair (Patch& patch, const SurfaceMesh& whole)
-  : patch_ (patch), whole_ (whole), cost_ (patch.positions, patch.normals), energy_ (energy (patch.mesh))
+      : patch_ (patch), whole_ (whole), cost_ (patch.positions, patch.normals),
+        energy_ (energy (patch.mesh))
   {
   }
 
   /// Returns true if anything got better.
-  bool
-  run ()
+  bool run ()
   {
     bool better = false;
     for (int pass = 0; pass < PASSES; ++pass) {
@@ -117,8 +117,7 @@ public:
   }
 
 private:
-  double
-  energy (const SurfaceMesh& mesh) const
+  double energy (const SurfaceMesh& mesh) const
   {
     std::vector<Eigen::Vector3d> units;
     units.reserve (mesh.triangles.size ());
@@ -141,24 +140,25 @@ private:
   }
 
   // Corners of the triangles at folds.
-  std::vector<Index>
-  foldedVertices () const
+  std::vector<Index> foldedVertices () const
   {
     std::vector<Index> vertices;
     for (const MeshEdge& fold : findFolds (patch_.mesh, patch_.positions))
       for (const Index t : {fold.triangle, patch_.mesh.neighbors[fold.triangle][fold.side]})
-        vertices.insert (vertices.end (), patch_.mesh.triangles[t].begin (), patch_.mesh.triangles[t].end ());
+        vertices.insert (vertices.end (), patch_.mesh.triangles[t].begin (),
+                         patch_.mesh.triangles[t].end ());
     std::sort (vertices.begin (), vertices.end ());
     vertices.erase (std::unique (vertices.begin (), vertices.end ()), vertices.end ());
     return vertices;
   }
 
-  bool
-  relocate (Index v)
+  bool relocate (Index v)
   {
     const SurfaceMesh& mesh = patch_.mesh;
     mesh.fan (v, fan_);
-    const bool closed = mesh.neighbors[fan_.back ()][SurfaceMesh::next (mesh.sideOf (fan_.back (), v))] == fan_.front ();
+    const bool closed =
+        mesh.neighbors[fan_.back ()][SurfaceMesh::next (mesh.sideOf (fan_.back (), v))] ==
+        fan_.front ();
     if (!closed || fan_.size () < 3 || fan_.size () > LARGEST_FAN)
       return false;
     std::vector<Index> polygon;
@@ -179,10 +179,12 @@ private:
     std::vector<std::pair<double, std::size_t>> places;
     for (std::size_t t = 0; t < without.size (); ++t) {
       const Triangle& c = without[t];
-      places.emplace_back (cost_ (v, c[1], c[2]) + cost_ (v, c[2], c[0]) + cost_ (v, c[0], c[1]) - cost_ (c), t);
+      places.emplace_back (
+          cost_ (v, c[1], c[2]) + cost_ (v, c[2], c[0]) + cost_ (v, c[0], c[1]) - cost_ (c), t);
     }
     const std::size_t tried = std::min (PLACES, places.size ());
-    std::partial_sort (places.begin (), places.begin () + static_cast<std::ptrdiff_t> (tried), places.end ());
+    std::partial_sort (places.begin (), places.begin () + static_cast<std::ptrdiff_t> (tried),
+                       places.end ());
     bool improved = false;
     SurfaceMesh best;
     for (std::size_t i = 0; i < tried; ++i) {
@@ -191,7 +193,8 @@ private:
       if (!trial.connect (patch_.points.size ()))
         continue;
       trial.split (static_cast<Index> (places[i].second), v);
-      flipEdges (trial, cost_, [&] (Index p, Index q) { return !joinedOutside (patch_, whole_, p, q); });
+      flipEdges (trial, cost_,
+                 [&] (Index p, Index q) { return !joinedOutside (patch_, whole_, p, q); });
       const double reached = energy (trial);
       if (reached < energy_ - IMPROVES * std::abs (energy_)) {
         energy_ = reached;

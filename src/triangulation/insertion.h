@@ -10,8 +10,8 @@ namespace pcl
 namespace floater
 {
 /// Inserts every point that is not a vertex but has vertices among its nearest neighbours: the
-/// triangle around those whose split costs least is split at the point. Points come nearest-first by
-/// index; repeated until nothing changes, so that a row of points finds its way in. O(missing).
+/// triangle around those whose split costs least is split at the point. Points come nearest-first
+/// by index; repeated until nothing changes, so that a row of points finds its way in. O(missing).
 /// \return number of points inserted
 std::size_t
 insertMissingPoints (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost);

@@ -30,10 +30,11 @@ placeOf (const std::vector<Index>& sorted, Index element)
 const Patch::RimEdge*
 rimEdge (const Patch& patch, Index from, Index to)
 {
-  const auto at = std::lower_bound (patch.rim.begin (), patch.rim.end (), std::make_pair (from, to),
-                                    [] (const Patch::RimEdge& edge, const std::pair<Index, Index>& ends) {
-                                      return std::tie (edge.from, edge.to) < std::tie (ends.first, ends.second);
-                                    });
+  const auto at =
+      std::lower_bound (patch.rim.begin (), patch.rim.end (), std::make_pair (from, to),
+                        [] (const Patch::RimEdge& edge, const std::pair<Index, Index>& ends) {
+                          return std::tie (edge.from, edge.to) < std::tie (ends.first, ends.second);
+                        });
   return at != patch.rim.end () && at->from == from && at->to == to ? &*at : nullptr;
 }
 
@@ -41,7 +42,8 @@ rimEdge (const Patch& patch, Index from, Index to)
 
 Patch
 cutPatch (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& triangles, int rings)
+          const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& triangles,
+          int rings)
 {
   Patch patch;
   patch.slots = triangles;
@@ -82,16 +84,18 @@ cutPatch (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions
         continue;
       const Triangle& corners = mesh.triangles[outside.triangle];
       const Eigen::Vector3d area_vector =
-          (positions[corners[1]] - positions[corners[0]]).cross (positions[corners[2]] - positions[corners[0]]);
-      patch.rim.push_back ({local[SurfaceMesh::next (side)], local[SurfaceMesh::previous (side)], outside,
-                            area_vector.normalized ()});
+          (positions[corners[1]] - positions[corners[0]])
+              .cross (positions[corners[2]] - positions[corners[0]]);
+      patch.rim.push_back ({local[SurfaceMesh::next (side)], local[SurfaceMesh::previous (side)],
+                            outside, area_vector.normalized ()});
     }
     patch.mesh.triangles.push_back (local);
     patch.mesh.neighbors.push_back (neighbors);
   }
-  std::sort (patch.rim.begin (), patch.rim.end (), [] (const Patch::RimEdge& a, const Patch::RimEdge& b) {
-    return std::tie (a.from, a.to) < std::tie (b.from, b.to);
-  });
+  std::sort (patch.rim.begin (), patch.rim.end (),
+             [] (const Patch::RimEdge& a, const Patch::RimEdge& b) {
+               return std::tie (a.from, a.to) < std::tie (b.from, b.to);
+             });
   return patch;
 }
 
@@ -107,7 +111,8 @@ pastePatch (const Patch& patch, SurfaceMesh& mesh)
       mesh.neighbors[t][side] = inner == NONE ? NONE : patch.slots[inner];
       if (inner != NONE)
         continue;
-      const Patch::RimEdge* edge = rimEdge (patch, patch.mesh.from ({slot, side}), patch.mesh.to ({slot, side}));
+      const Patch::RimEdge* edge =
+          rimEdge (patch, patch.mesh.from ({slot, side}), patch.mesh.to ({slot, side}));
       if (edge == nullptr)
         continue;
       mesh.neighbors[t][side] = edge->outside.triangle;

@@ -17,15 +17,15 @@ struct Patch
   /// An edge of the rim with the triangle behind it.
   struct RimEdge
   {
-    Index from, to;        // of the patch, the patch on the left
-    MeshEdge outside;      // the edge of the mesh as seen from outside
+    Index from, to;         // of the patch, the patch on the left
+    MeshEdge outside;       // the edge of the mesh as seen from outside
     Eigen::Vector3d normal; // of the outside triangle, unit length
   };
 
-  SurfaceMesh mesh;                     ///< over the patch's own points
-  std::vector<Index> points;            ///< of the whole mesh, by patch point; ascending
-  std::vector<Index> slots;             ///< triangles of the whole mesh that the patch stands for
-  std::vector<RimEdge> rim;             ///< ordered by (from, to)
+  SurfaceMesh mesh;          ///< over the patch's own points
+  std::vector<Index> points; ///< of the whole mesh, by patch point; ascending
+  std::vector<Index> slots;  ///< triangles of the whole mesh that the patch stands for
+  std::vector<RimEdge> rim;  ///< ordered by (from, to)
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Vector3f> normals; ///< oriented like the mesh
 };
@@ -33,7 +33,8 @@ struct Patch
 /// Cuts out the triangles within `rings` vertex rings of some triangles.
 Patch
 cutPatch (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& triangles, int rings);
+          const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& triangles,
+          int rings);
 
 /// Puts a patch, triangulated anew with as many triangles and the same rim, back in its place.
 void

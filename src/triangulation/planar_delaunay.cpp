@@ -20,7 +20,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
 using Delaunay =
-    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+    CGAL::Delaunay_triangulation_2<Kernel,
+                                   CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
 // Marks points that are not strictly inside the loop, which is a convex polygon around the origin,
 // anti-clockwise. Rounding may put a point between two loop points beyond the edge that joins them.
@@ -35,7 +36,8 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
     const Eigen::Vector2d& a = uv[loop[i]];
     const Eigen::Vector2d edge = uv[loop[(i + 1) % h]] - a;
     const double twice_area = a.x () * edge.y () - a.y () * edge.x ();
-    sqr_safe = std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
+    sqr_safe =
+        std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
     corners.emplace_back (std::atan2 (a.y (), a.x ()), i);
   }
   std::sort (corners.begin (), corners.end ());
@@ -51,7 +53,8 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
         corners.begin ());
     for (std::size_t step = 0; step < 4; ++step) {
       const std::size_t i = corners[(after + h + step - 2) % h].second;
-      if (CGAL::orientation (point (loop[i]), point (loop[(i + 1) % h]), point (p)) != CGAL::LEFT_TURN)
+      if (CGAL::orientation (point (loop[i]), point (loop[(i + 1) % h]), point (p)) !=
+          CGAL::LEFT_TURN)
         outside[p] = 1;
     }
   }

@@ -10,9 +10,9 @@ namespace pcl
 {
 namespace floater
 {
-/// Exact Delaunay triangulation of points in the plane whose hull is the loop. Of points on the very
-/// same place only one is a vertex; the others stay without a triangle, and so do points that rounding
-/// has put on or beyond the loop. Slivers outside the loop are taken away. O(n log n).
+/// Exact Delaunay triangulation of points in the plane whose hull is the loop. Of points on the
+/// very same place only one is a vertex; the others stay without a triangle, and so do points that
+/// rounding has put on or beyond the loop. Slivers outside the loop are taken away. O(n log n).
 /// \param uv   per point; those that are not finite are left out
 /// \param loop points of the hull in order
 /// \return triangles anti-clockwise in the plane; no triangle if all points are on one line

@@ -11,12 +11,13 @@ namespace floater
 {
 namespace
 {
-constexpr double TOO_MANY_FOLDS = 0.03; // of all edges; discs have up to 1 %, closed surfaces from 4 %
+constexpr double TOO_MANY_FOLDS =
+    0.03; // of all edges; discs have up to 1 %, closed surfaces from 4 %
 }
 
 SurfaceFinish
-finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-               std::vector<Eigen::Vector3f>& normals, const Options& options)
+finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const FlatLists& near, std::vector<Eigen::Vector3f>& normals, const Options& options)
 {
   SurfaceFinish finish;
   orientNormals (mesh, positions, normals);
@@ -30,11 +31,13 @@ finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   finish.folds = findFolds (mesh, positions);
   const double edges = 1.5 * static_cast<double> (mesh.triangles.size ());
   if (static_cast<double> (finish.folds.size ()) > TOO_MANY_FOLDS * edges) {
-    finish.problem = {Status::NOT_A_DISC,
-                      std::to_string (finish.folds.size ()) + " of " +
-                          std::to_string (static_cast<std::size_t> (edges)) +
-                          " edges are folded: the surface is not one disc with one boundary (it may be closed, have "
-                          "handles, several parts, or be too thinly sampled); reconstruct a part of it"};
+    finish.problem = {
+        Status::NOT_A_DISC,
+        std::to_string (finish.folds.size ()) + " of " +
+            std::to_string (static_cast<std::size_t> (edges)) +
+            " edges are folded: the surface is not one disc with one boundary (it may be closed, "
+            "have "
+            "handles, several parts, or be too thinly sampled); reconstruct a part of it"};
     return finish;
   }
   // Flips have turned triangles round, so that some normals may have the wrong sign.

@@ -25,8 +25,9 @@ struct SurfaceFinish
 /// folds that are left. Where flips leave more than 3 % of all edges folded, the surface has been
 /// pressed into a disc that it is not, and nothing can mend it.
 SurfaceFinish
-finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-               std::vector<Eigen::Vector3f>& normals, const Options& options);
+finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const FlatLists& near, std::vector<Eigen::Vector3f>& normals,
+               const Options& options);
 
 } // namespace floater
 } // namespace pcl

@@ -17,31 +17,35 @@ struct MeshEdge
   std::uint8_t side;
 };
 
-/// Oriented manifold with boundary. Triangle t has corners a, b, c anti-clockwise; its neighbour i is
-/// across the edge opposite to corner i, NONE at the boundary. Every vertex has a single fan.
+/// Oriented manifold with boundary. Triangle t has corners a, b, c anti-clockwise; its neighbour i
+/// is across the edge opposite to corner i, NONE at the boundary. Every vertex has a single fan.
 struct SurfaceMesh
 {
   std::vector<Triangle> triangles;
   std::vector<std::array<Index, 3>> neighbors;
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
 
-  static std::uint8_t next (std::uint8_t side) { return static_cast<std::uint8_t> (side == 2 ? 0 : side + 1); }
-  static std::uint8_t previous (std::uint8_t side) { return static_cast<std::uint8_t> (side == 0 ? 2 : side - 1); }
+  static std::uint8_t next (std::uint8_t side)
+  {
+    return static_cast<std::uint8_t> (side == 2 ? 0 : side + 1);
+  }
+  static std::uint8_t previous (std::uint8_t side)
+  {
+    return static_cast<std::uint8_t> (side == 0 ? 2 : side - 1);
+  }
 
   Index corner (MeshEdge e) const { return triangles[e.triangle][e.side]; }
   Index from (MeshEdge e) const { return triangles[e.triangle][next (e.side)]; }
   Index to (MeshEdge e) const { return triangles[e.triangle][previous (e.side)]; }
 
   /// Corner of triangle t that is point p.
-  std::uint8_t
-  sideOf (Index t, Index p) const
+  std::uint8_t sideOf (Index t, Index p) const
   {
     return static_cast<std::uint8_t> (triangles[t][0] == p ? 0 : triangles[t][1] == p ? 1 : 2);
   }
 
   /// The same edge seen from the neighbour; triangle NONE at the boundary.
-  MeshEdge
-  mate (MeshEdge e) const
+  MeshEdge mate (MeshEdge e) const
   {
     const Index other = neighbors[e.triangle][e.side];
     if (other == NONE)
@@ -51,34 +55,29 @@ struct SurfaceMesh
 
   /// Triangles around p, anti-clockwise; at the boundary from one boundary edge to the other.
   /// Empty if p is no vertex.
-  void
-  fan (Index p, std::vector<Index>& fan_triangles) const;
+  void fan (Index p, std::vector<Index>& fan_triangles) const;
 
   /// True if an edge joins p and q, which must be vertices.
-  bool
-  hasEdge (Index p, Index q) const;
+  bool hasEdge (Index p, Index q) const;
 
-  /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge and
-  /// the other diagonal must not be an edge yet. Afterwards the edge's triangle has corners (corner,
-  /// from, opposite) and the neighbour (opposite, to, corner).
-  void
-  flip (MeshEdge e);
+  /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge
+  /// and the other diagonal must not be an edge yet. Afterwards the edge's triangle has corners
+  /// (corner, from, opposite) and the neighbour (opposite, to, corner).
+  void flip (MeshEdge e);
 
   /// Splits triangle t in three at point p, which must not be a vertex.
-  void
-  split (Index t, Index p);
+  void split (Index t, Index p);
 
   /// Sets neighbours and triangle_of from the triangles. O(n).
   /// \return false if the triangles are no oriented manifold (the mesh is then unusable)
-  bool
-  connect (std::size_t points);
+  bool connect (std::size_t points);
 
 private:
-  void
-  link (Index t, std::uint8_t side, MeshEdge other);
+  void link (Index t, std::uint8_t side, MeshEdge other);
 };
 
-/// Boundary loops, each with the surface on its left, in order of their smallest point, starting at it.
+/// Boundary loops, each with the surface on its left, in order of their smallest point, starting at
+/// it.
 std::vector<std::vector<Index>>
 boundaryLoops (const SurfaceMesh& mesh);
 

@@ -261,7 +261,7 @@ TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
       loop[made.set.cloud_index[p]] = p;
   Places mixed = planView (made.set.positions);
   RandomStream random (10);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const std::size_t p = random.below (mixed.size ());
     const Index q = made.near.row (p)[5];
     if (made.set.cloud_index[p] >= sheet.border && made.set.cloud_index[q] >= sheet.border)
@@ -270,28 +270,51 @@ TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
   Options options;
   for (const bool flip : {false, true}) {
     options.flip_edges = flip;
-    Statistics statistics;
     std::vector<Eigen::Vector3f> normals = made.stars.normals;
     SurfaceMesh mesh = triangulatePlane (mixed, loop);
     const std::set<Triangle> before = unordered (mesh.triangles);
-    finishSurface (mesh, made.set.positions, made.near, normals, options, statistics);
-    EXPECT_EQ (statistics.folds, findFolds (mesh, made.set.positions).size ());
+    const SurfaceFinish finish =
+        finishSurface (mesh, made.set.positions, made.near, normals, options);
+    EXPECT_FALSE (finish.problem);
+    EXPECT_EQ (finish.folds.size (), findFolds (mesh, made.set.positions).size ());
     const samples::Topology topology = samples::topologyOf (mesh.triangles);
     EXPECT_TRUE (topology.manifold);
     EXPECT_EQ (topology.euler, 1);
     EXPECT_EQ (topology.vertices, made.set.positions.size ());
     if (flip) {
-      EXPECT_EQ (statistics.folds, 0U);
-      EXPECT_GT (statistics.flips, 0U);
+      EXPECT_TRUE (finish.folds.empty ());
+      EXPECT_GT (finish.flips, 0U);
     }
     else {
-      EXPECT_GT (statistics.folds, 0U);
-      EXPECT_EQ (statistics.flips, 0U);
+      EXPECT_FALSE (finish.folds.empty ());
+      EXPECT_EQ (finish.flips, 0U);
       EXPECT_EQ (unordered (mesh.triangles), before);
     }
   }
 }
 
+TEST (SurfaceFinish, RefusesASurfaceFoldedAllOver)
+{
+  // Points of a flat sheet, joined at random: no flips can put that in order.
+  const samples::Neighborhoods made =
+      samples::makeNeighborhoods (samples::disc (0.07, 9).positions);
+  RandomStream random (11);
+  Places scattered;
+  for (Index p = 0; p < made.set.positions.size (); ++p) {
+    const double angle =
+        p < 3 ? 2.0 * samples::PI * p / 3.0 : 2.0 * samples::PI * random.uniform ();
+    const double radius = p < 3 ? 1.0 : 0.4 * random.uniform ();
+    scattered.emplace_back (radius * std::cos (angle), radius * std::sin (angle));
+  }
+  SurfaceMesh mesh = triangulatePlane (scattered, {0, 1, 2});
+  std::vector<Eigen::Vector3f> normals = made.stars.normals;
+  const SurfaceFinish finish =
+      finishSurface (mesh, made.set.positions, made.near, normals, Options{});
+  EXPECT_EQ (finish.problem.status, Status::NOT_A_DISC);
+  EXPECT_NE (finish.problem.message.find ("folded"), std::string::npos);
+}
+
 } // namespace
 } // namespace floater
+
 } // namespace pcl
