@@ -21,6 +21,7 @@ install (FILES "${PROJECT_BINARY_DIR}/pcl_floaterConfig.cmake"
                "${PROJECT_BINARY_DIR}/pcl_floaterConfigVersion.cmake"
          DESTINATION "${package_dir}")
 if (NOT BUILD_SHARED_LIBS)
-  install (FILES "${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake" DESTINATION "${package_dir}")
+  install (FILES "${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake"
+                 "${PROJECT_SOURCE_DIR}/cmake/FindSuperLU.cmake" DESTINATION "${package_dir}")
 endif ()
 install (FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/pcl_floater")

@@ -4,6 +4,7 @@
 
 #include "boundary/boundary_loop.h"
 #include "common/stage_clock.h"
+#include "neighborhoods/ball_neighbors.h"
 #include "neighborhoods/nearest_neighbors.h"
 #include "neighborhoods/stars.h"
 #include "neighborhoods/tangent_planes.h"
@@ -22,6 +23,15 @@ namespace floater
 {
 namespace
 {
+FlatLists
+findNeighbors (const WorkingSet& set, const Options& options, NeighborSearch* search)
+{
+  if (options.neighborhood == Neighborhood::BALL ||
+      options.neighborhood == Neighborhood::BALL_DELAUNAY)
+    return findBallNeighbors (set, options.ball_radius, search, options.threads);
+  return findNearestNeighbors (set, options.k, search, options.threads);
+}
+
 Problem
 reconstructDisc (Input& input, const Options& options, Result& result)
 {
@@ -41,9 +51,10 @@ reconstructDisc (Input& input, const Options& options, Result& result)
   if (Problem problem = checkWorkingSet (set))
     return problem;
 
-  // Section 5: the k nearest neighbours serve boundary and weights alike.
+  // Sections 5 and 6: the same neighbours, the k nearest or those in a ball, serve boundary and
+  // weights alike.
   clock.start (Stage::NEIGHBORS);
-  FlatLists near = findNearestNeighbors (set, options.k, input.search, options.threads);
+  FlatLists near = findNeighbors (set, options, input.search);
 
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);
@@ -57,6 +68,13 @@ reconstructDisc (Input& input, const Options& options, Result& result)
   reportBoundary (set, boundary, report);
   if (boundary.problem)
     return boundary.problem;
+
+  // Section 2.1: weights for all neighbours, if so wished; boundaries are told by Delaunay stars.
+  if (options.neighborhood == Neighborhood::NEAREST || options.neighborhood == Neighborhood::BALL) {
+    clock.start (Stage::WEIGHTS);
+    stars = makeStars (set.positions, near, std::move (stars.normals), options.filter_sheets,
+                       options.threads, StarKind::ALL);
+  }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
   const Parameterization parameterization =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation.h"
 
+#include "solvers/solver.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -18,6 +20,8 @@ checkOptions (const Options& options)
   };
   if (options.k < 6 || options.k > 200)
     return out_of_range ("k", "from 6 to 200");
+  if (!(options.ball_radius >= 1.0 && options.ball_radius <= 10.0))
+    return out_of_range ("the ball radius", "from 1 to 10 local spacings");
   if (!(options.opening_angle > 0.0 && options.opening_angle < 360.0))
     return out_of_range ("the opening angle", "above 0 and below 360 degrees");
   if (!(options.cluster_tolerance > 0.0 && options.cluster_tolerance <= 1.0))
@@ -26,6 +30,16 @@ checkOptions (const Options& options)
     return out_of_range ("cluster k", "1 or more");
   if (options.polygon_sides < 3)
     return out_of_range ("the number of polygon sides", "3 or more");
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
+    return out_of_range ("the tolerance", "above 0 and below 1");
+  if (options.max_iterations < 1)
+    return out_of_range ("the number of iterations", "1 or more");
+  if (options.ilut_fill < 1 || options.ilut_fill > 10000)
+    return out_of_range ("the fill of ILUT", "from 1 to 10000");
+  if (!(options.ilut_drop >= 0.0 && options.ilut_drop <= 1.0))
+    return out_of_range ("the drop tolerance of ILUT", "from 0 to 1");
+  if (Problem problem = checkSolver (options.solver, options.ordering))
+    return problem;
   if (options.threads < 0)
     return out_of_range ("the number of threads", "0 (all cores) or more");
   if (!options.loop.empty () && options.loop.size () < 3)

@@ -12,7 +12,7 @@ namespace pcl
 {
 namespace floater
 {
-/// Every option in its range.
+/// Every option in its range, and the solver there and fit for the ordering.
 Problem
 checkOptions (const Options& options);
 

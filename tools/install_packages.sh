@@ -5,21 +5,24 @@ set -euo pipefail
 
 usage () {
   cat <<'END'
-Usage: install_packages.sh [--tests] [--lint]
+Usage: install_packages.sh [--tests] [--benchmarks] [--lint]
 Installs the Debian packages that the library and its tools need.
-  --tests  also those of the tests
-  --lint   also those that check the source code
+  --tests       also those of the tests
+  --benchmarks  also those of the benchmarks
+  --lint        also those that check the source code
 END
 }
 
 # libopenblas0-pthread makes the factorization 2.5 times faster than the reference BLAS does.
 # libgl1-mesa-dri and xvfb draw pictures without a screen.
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
+          libsuperlu-dev libboost-dev
           libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
           libgl1-mesa-dri xvfb)
 for argument in "$@"; do
   case "$argument" in
     --tests) packages+=(libgtest-dev libgmock-dev pcl-tools python3) ;;
+    --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;

@@ -59,6 +59,10 @@ statusName (Status status)
     return "NOT_A_DISC";
   case Status::SINGULAR:
     return "SINGULAR";
+  case Status::NOT_CONVERGED:
+    return "NOT_CONVERGED";
+  case Status::SOLVER_UNAVAILABLE:
+    return "SOLVER_UNAVAILABLE";
   case Status::OUT_OF_MEMORY:
     return "OUT_OF_MEMORY";
   case Status::INTERNAL_ERROR:

@@ -25,6 +25,8 @@ public:
 
   void start (Stage stage)
   {
+    if (stage == stage_)
+      return; // goes on
     stop ();
     if (progress_)
       progress_ (stage);

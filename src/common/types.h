@@ -55,10 +55,10 @@ struct WorkingSet
   std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, its stand-in), ascending
 };
 
-/// Delaunay stars of the points in their tangent planes. Neighbours are in anti-clockwise order
-/// seen along the normal; in an open star the sector from the last neighbour to the first has no
-/// triangle. Normals are unit vectors of arbitrary sign: stars of neighbours may run opposite ways
-/// round.
+/// Stars of the points in their tangent planes: neighbours joined to the centre. Neighbours are in
+/// anti-clockwise order seen along the normal; in an open star the sector from the last neighbour
+/// to the first has no triangle. Normals are unit vectors of arbitrary sign: stars of neighbours
+/// may run opposite ways round.
 struct Stars
 {
   FlatLists neighbors;

@@ -2,7 +2,7 @@
 #include "neighborhoods/nearest_neighbors.h"
 
 #include "common/parallel.h"
-#include "neighborhoods/kd_tree.h"
+#include "neighborhoods/caller_search.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -41,35 +41,16 @@ FlatLists
 bySearch (const WorkingSet& set, std::size_t k, NeighborSearch& search)
 {
   const std::size_t n = set.positions.size ();
-  std::vector<Index> sorted = set.cloud_index;
-  std::sort (sorted.begin (), sorted.end ());
-  std::vector<Index> point_of (n == 0 ? 0 : sorted.back () + std::size_t{1}, NONE);
-  for (std::size_t p = 0; p < n; ++p)
-    point_of[set.cloud_index[p]] = static_cast<Index> (p);
-
-  search.build (sorted);
+  CallerSearch by_caller (set, search);
   FlatLists lists;
   lists.offsets.reserve (n + 1);
   lists.offsets.push_back (0);
   lists.ids.reserve (n * k);
-  std::vector<Index> cloud_indices;
   std::vector<Neighbor> found;
   for (std::size_t p = 0; p < n; ++p) {
-    search.nearest (set.cloud_index[p], static_cast<int> (k + 1), cloud_indices);
-    found.clear ();
-    for (Index cloud_index : cloud_indices)
-      if (cloud_index < point_of.size () && point_of[cloud_index] != NONE &&
-          point_of[cloud_index] != p) {
-        const Index q = point_of[cloud_index];
-        found.push_back ({(set.positions[q] - set.positions[p]).squaredNorm (), q});
-      }
-    std::sort (found.begin (), found.end ());
-    found.erase (
-        std::unique (found.begin (), found.end (),
-                     [] (const Neighbor& a, const Neighbor& b) { return a.point == b.point; }),
-        found.end ());
-    for (std::size_t i = 0; i < std::min (k, found.size ()); ++i)
-      lists.ids.push_back (found[i].point);
+    by_caller.nearest (static_cast<Index> (p), k, found);
+    for (const Neighbor& neighbor : found)
+      lists.ids.push_back (neighbor.point);
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }
   return lists;

@@ -55,22 +55,24 @@ isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
   return cross (ab, bc) > tolerance;
 }
 
-} // namespace
-
-bool
-PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
+void
+sortByAngle (std::vector<PlanarNeighbor>& neighbors)
 {
-  constexpr double TWO_PI = 6.283185307179586;
   std::sort (neighbors.begin (), neighbors.end (),
              [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
                const double angle_a = pseudoAngle (a.offset);
                const double angle_b = pseudoAngle (b.offset);
                return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
              });
+}
 
-  // Of several neighbours in one direction only the nearest can be in the star.
+} // namespace
+
+void
+PlanarStar::keepNearest (const std::vector<PlanarNeighbor>& sorted)
+{
   hull_.clear ();
-  for (const PlanarNeighbor& neighbor : neighbors) {
+  for (const PlanarNeighbor& neighbor : sorted) {
     if (hull_.empty () || !sameDirection (hull_.back ().offset, neighbor.offset))
       hull_.push_back (neighbor);
     else if (neighbor.offset.squaredNorm () < hull_.back ().offset.squaredNorm ())
@@ -81,9 +83,12 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
       hull_.front () = hull_.back ();
     hull_.pop_back ();
   }
+}
 
-  // Rotate so that an open star begins after its gap, a closed one at its nearest neighbour, which
-  // is farthest when inverted and so a hull vertex.
+bool
+PlanarStar::beginAfterGap ()
+{
+  constexpr double TWO_PI = 6.283185307179586;
   const std::size_t count = hull_.size ();
   std::size_t gap = count;
   std::size_t nearest = 0;
@@ -109,11 +114,25 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
     std::rotate (hull_.begin (),
                  hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
                  hull_.end ());
+  return open;
+}
+
+bool
+PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
+{
+  sortByAngle (neighbors);
+
+  // Of several neighbours in one direction only the nearest can be in the star.
+  keepNearest (neighbors);
+  // A closed star begins at its nearest neighbour, which is farthest when inverted and so a hull
+  // vertex.
+  const bool open = beginAfterGap ();
 
   // Graham scan in angular order. A closed star is scanned back to its first neighbour; the ends of
   // an open one are hull vertices.
   inverted_.clear ();
   neighbors.clear ();
+  const std::size_t count = hull_.size ();
   const std::size_t steps = open ? count : count + 1;
   for (std::size_t i = 0; i < steps; ++i) {
     const bool closing = i == count;
@@ -130,6 +149,26 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
       neighbors.push_back (hull_[i]);
     }
   }
+  return open;
+}
+
+bool
+PlanarStar::order (std::vector<PlanarNeighbor>& neighbors)
+{
+  sortByAngle (neighbors);
+  keepNearest (neighbors); // gaps are between directions
+  const bool open = beginAfterGap ();
+  // Those in the first direction may lie at both ends of the list: at angles of 0 and 2 pi.
+  const auto is_first = [this] (const PlanarNeighbor& neighbor) {
+    return sameDirection (hull_.front ().offset, neighbor.offset);
+  };
+  auto begin = std::find_if (neighbors.begin (), neighbors.end (), is_first);
+  if (begin == neighbors.begin ()) {
+    const auto last = std::find_if_not (neighbors.rbegin (), neighbors.rend (), is_first).base ();
+    if (last != neighbors.begin ())
+      begin = last;
+  }
+  std::rotate (neighbors.begin (), begin, neighbors.end ());
   return open;
 }
 

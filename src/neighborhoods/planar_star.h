@@ -31,10 +31,21 @@ public:
   ///         more, or there are fewer than three neighbours
   bool make (std::vector<PlanarNeighbor>& neighbors);
 
-  /// Widest sector, radians, without any of the neighbours given to make ().
+  /// Puts all neighbours in anti-clockwise order; an open star begins after its gap. O(k log k).
+  /// \return true if the star is open, as for make ()
+  bool order (std::vector<PlanarNeighbor>& neighbors);
+
+  /// Widest sector, radians, without any of the neighbours given to make () or order ().
   double openingAngle () const { return opening_angle_; }
 
 private:
+  // The nearest neighbour in each direction, in anti-clockwise order, into hull_.
+  void keepNearest (const std::vector<PlanarNeighbor>& sorted);
+
+  // Rotates hull_ to begin after the gap, or at the nearest if there is none; sets opening_angle_.
+  // Returns true if the star is open.
+  bool beginAfterGap ();
+
   std::vector<PlanarNeighbor> hull_;
   std::vector<Eigen::Vector2d> inverted_;
   double opening_angle_ = 0.0;

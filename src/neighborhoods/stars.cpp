@@ -28,8 +28,8 @@ class StarMaker
 {
 public:
   StarMaker (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-             const std::vector<Eigen::Vector3f>& normals)
-      : positions_ (positions), near_ (near), normals_ (normals)
+             const std::vector<Eigen::Vector3f>& normals, StarKind kind)
+      : positions_ (positions), near_ (near), normals_ (normals), kind_ (kind)
   {
   }
 
@@ -73,12 +73,13 @@ private:
       if (planar_length > 1e-6 * length)
         star.push_back ({projected * (length / planar_length), q});
     }
-    return planar_star_.make (star);
+    return kind_ == StarKind::DELAUNAY ? planar_star_.make (star) : planar_star_.order (star);
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
   const FlatLists& near_;
   const std::vector<Eigen::Vector3f>& normals_;
+  StarKind kind_;
   PlanarStar planar_star_;
   std::vector<PlanarNeighbor> star_, wider_;
 };
@@ -87,7 +88,7 @@ private:
 
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads)
+           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads, StarKind kind)
 {
   const std::size_t n = positions.size ();
   Stars stars;
@@ -97,7 +98,7 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
   // Each range collects its stars; then they are packed.
   std::vector<std::vector<PlanarNeighbor>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (n, threads, [&] (std::size_t first, std::size_t last) {
-    StarMaker maker (positions, near, normals);
+    StarMaker maker (positions, near, normals, kind);
     std::vector<PlanarNeighbor>& range = ranges[first / RANGE_LENGTH];
     range.reserve (8 * (last - first));
     for (std::size_t p = first; p < last; ++p) {

@@ -10,6 +10,13 @@ namespace pcl
 {
 namespace floater
 {
+/// Which of the neighbours are in a star.
+enum class StarKind
+{
+  DELAUNAY, ///< those of the centre in the Delaunay triangulation of its tangent plane
+  ALL       ///< all, in anti-clockwise order; several may lie in one direction
+};
+
 /// Stars of all points. With the sheet filter, a neighbour on another sheet of the surface is left
 /// out, in tiers:
 ///  1. drop a neighbour whose direction leaves either point's plane by more than 49 degrees (sine
@@ -19,7 +26,8 @@ namespace floater
 /// A star open in all three is that of tier 1. O(n k log k).
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads);
+           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads,
+           StarKind kind = StarKind::DELAUNAY);
 
 /// Distance scale of the sampling around each point: mean distance of its 6 nearest neighbours.
 std::vector<float>

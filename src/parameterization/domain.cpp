@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/domain.h"
 
+#include "parameterization/own_shape.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -70,21 +72,19 @@ layOnCircle (const std::vector<double>& chords)
   return uv;
 }
 
+// Corners in the order of the loop, each at the place given, and the points between two of them on
+// the side between their places. `places` goes anti-clockwise; the first corner is point 0.
 std::vector<Eigen::Vector2d>
-layOnPolygon (const std::vector<double>& chords, std::size_t corners)
+layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_points,
+            const std::vector<Eigen::Vector2d>& places)
 {
-  std::vector<std::size_t> corner_points = cornerPoints (chords, corners);
+  const std::size_t corners = corner_points.size ();
   corner_points.push_back (chords.size ());
-  const auto corner = [&] (std::size_t c) {
-    const double angle =
-        2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;
-    return Eigen::Vector2d (std::cos (angle), std::sin (angle));
-  };
   std::vector<Eigen::Vector2d> uv;
   uv.reserve (chords.size ());
   for (std::size_t c = 0; c < corners; ++c) {
-    const Eigen::Vector2d from = corner (c);
-    const Eigen::Vector2d side = corner (c + 1) - from;
+    const Eigen::Vector2d from = places[c];
+    const Eigen::Vector2d side = places[c + 1 == corners ? 0 : c + 1] - from;
     // A parabola through both corners; its slope stays far below the turn at the corners.
     const Eigen::Vector2d bulge =
         0.5 * SIDE_CURVATURE * side.norm () * Eigen::Vector2d (side.y (), -side.x ());
@@ -94,20 +94,70 @@ layOnPolygon (const std::vector<double>& chords, std::size_t corners)
   return uv;
 }
 
+std::vector<Eigen::Vector2d>
+layOnRegularPolygon (const std::vector<double>& chords, std::size_t corners)
+{
+  std::vector<Eigen::Vector2d> places;
+  for (std::size_t c = 0; c < corners; ++c) {
+    const double angle =
+        2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;
+    places.emplace_back (std::cos (angle), std::sin (angle));
+  }
+  return layOnSides (chords, cornerPoints (chords, corners), places);
+}
+
+// Empty if the loop has no shape of its own, or one that rounding would spoil.
+std::vector<Eigen::Vector2d>
+layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
+               std::vector<double> chords)
+{
+  OwnShape shape = findOwnShape (positions, loop, {SIDE_CURVATURE, SHORTEST_STEP});
+  if (shape.corners.empty ())
+    return {};
+  // Sides begin at the first corner, so turn the loop there, and back.
+  const auto turn = static_cast<std::ptrdiff_t> (shape.corners.front ());
+  for (std::size_t& corner : shape.corners)
+    corner -= static_cast<std::size_t> (turn);
+  std::rotate (chords.begin (), chords.begin () + turn, chords.end ());
+  std::vector<Eigen::Vector2d> uv = layOnSides (chords, shape.corners, shape.places);
+  std::rotate (uv.begin (), uv.end () - turn, uv.end ());
+  return isStrictlyConvex (uv) ? uv : std::vector<Eigen::Vector2d> ();
+}
+
+double
+stepLength (double distance, LoopSpacing spacing)
+{
+  switch (spacing) {
+  case LoopSpacing::CHORD_LENGTH:
+    break;
+  case LoopSpacing::CENTRIPETAL:
+    return std::sqrt (distance);
+  case LoopSpacing::UNIFORM:
+    return 1.0;
+  }
+  return distance;
+}
+
 } // namespace
 
 std::vector<Eigen::Vector2d>
 layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
-         Domain domain, int polygon_sides)
+         Domain domain, int polygon_sides, LoopSpacing spacing)
 {
   const std::size_t count = loop.size ();
   std::vector<double> chords (count);
   for (std::size_t i = 0; i < count; ++i)
-    chords[i] = (positions[loop[i + 1 == count ? 0 : i + 1]] - positions[loop[i]]).norm ();
-  if (domain == Domain::CIRCLE)
+    chords[i] = stepLength (
+        (positions[loop[i + 1 == count ? 0 : i + 1]] - positions[loop[i]]).norm (), spacing);
+  if (domain == Domain::OWN_SHAPE) {
+    std::vector<Eigen::Vector2d> uv = layOnOwnShape (positions, loop, chords);
+    if (!uv.empty ())
+      return uv;
+  }
+  if (domain == Domain::CIRCLE || domain == Domain::OWN_SHAPE)
     return layOnCircle (chords);
   const int sides = domain == Domain::SQUARE ? 4 : std::max (3, polygon_sides);
-  return layOnPolygon (chords, std::min (count, static_cast<std::size_t> (sides)));
+  return layOnRegularPolygon (chords, std::min (count, static_cast<std::size_t> (sides)));
 }
 
 } // namespace floater

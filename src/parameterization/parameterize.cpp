@@ -5,7 +5,7 @@
 #include "parameterization/reachability.h"
 #include "parameterization/system.h"
 #include "parameterization/weights.h"
-#include "solvers/umfpack_solver.h"
+#include "solvers/solver.h"
 
 #include <algorithm>
 
@@ -53,13 +53,18 @@ describeOutcome (const Solution& solution)
   case Solution::Outcome::SINGULAR:
     return {Status::SINGULAR,
             "the linear system is singular (" + solution.message + "); use a larger k"};
+  case Solution::Outcome::NOT_CONVERGED:
+    return {Status::NOT_CONVERGED,
+            solution.message + "; allow more iterations, or use a direct solver"};
+  case Solution::Outcome::UNAVAILABLE:
+    return {Status::SOLVER_UNAVAILABLE, solution.message};
   case Solution::Outcome::OUT_OF_MEMORY:
     return {Status::OUT_OF_MEMORY, "not enough memory for the factorization (" + solution.message +
                                        "): use fewer points, or a machine with more memory"};
   case Solution::Outcome::FAILED:
     break;
   }
-  return {Status::INTERNAL_ERROR, "the factorization failed (" + solution.message + ")"};
+  return {Status::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
 }
 
 } // namespace
@@ -91,7 +96,7 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
     return result;
   }
   const std::vector<Eigen::Vector2d> loop_uv =
-      layLoop (positions, loop, options.domain, options.polygon_sides);
+      layLoop (positions, loop, options.domain, options.polygon_sides, options.loop_spacing);
   LinearSystem system =
       assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable, options.threads);
   neighbors = {};
@@ -100,12 +105,15 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
   statistics.nnz_matrix = system.nonzeros ();
 
   clock.start (Stage::SOLVE);
-  const Solution solution = solveWithUmfpack (system, options.ordering, options.threads);
+  const Solution solution = solve (system, options);
   statistics.nnz_factors = solution.nnz_factors;
   statistics.fill_in = system.nonzeros () == 0 ? 0.0
                                                : static_cast<double> (solution.nnz_factors) /
                                                      static_cast<double> (system.nonzeros ());
   statistics.residual = solution.residual;
+  statistics.relative_residual = solution.relative_residual;
+  statistics.iterations_u = solution.iterations[0];
+  statistics.iterations_v = solution.iterations[1];
   statistics.reciprocal_condition = solution.reciprocal_condition;
   statistics.factorization_bytes = solution.peak_bytes;
   result.problem = describeOutcome (solution);

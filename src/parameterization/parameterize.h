@@ -20,7 +20,7 @@ struct Parameterization
   std::vector<Eigen::Vector2d> uv; ///< per point; NaN for points that do not reach the loop
   std::size_t relinked = 0;        ///< points that had to be linked back to the loop
   std::size_t unreachable = 0;     ///< points that do not reach the loop
-  Problem problem;                 ///< UNREACHABLE, SINGULAR or OUT_OF_MEMORY
+  Problem problem;                 ///< UNREACHABLE, SINGULAR, NOT_CONVERGED or OUT_OF_MEMORY
 };
 
 /// Weights, parameters of the loop, assembly and solution. Books stages WEIGHTS and SOLVE, and the

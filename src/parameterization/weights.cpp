@@ -19,6 +19,9 @@ namespace
 // reproduces the centre to its reciprocal; a larger one would uncouple the two from the rest.
 constexpr double LARGEST_TANGENT = 1e8;
 
+// Sine and half tangent below which two neighbours are in one direction, or in opposite ones.
+constexpr double SAME_DIRECTION = 1e-9;
+
 // One star, copied next to each other; capacity is kept from star to star.
 struct LocalStar
 {
@@ -80,20 +83,55 @@ inverseDistance (const LocalStar& star, double* weights)
     weights[i] = 1.0 / star.lengths[i];
 }
 
+// Gives the mean to each of several neighbours in one direction. Their sum is what reproduces the
+// centre; by rounding alone it would fall to some of them, and the others be cut off.
+void
+shareInDirections (const LocalStar& star, double* weights)
+{
+  const std::size_t count = star.size ();
+  const auto same = [&star] (std::size_t i, std::size_t j) {
+    return halfTangent (star.directions[i], star.directions[j]) < SAME_DIRECTION;
+  };
+  std::size_t start = 0; // the first of its direction
+  while (start < count && same (start == 0 ? count - 1 : start - 1, start))
+    ++start;
+  for (std::size_t step = 0; step < count;) {
+    const std::size_t first = start + step;
+    std::size_t length = 1;
+    double sum = weights[first % count];
+    while (step + length < count && same ((first + length - 1) % count, (first + length) % count))
+      sum += weights[(first + length++) % count];
+    for (std::size_t i = 0; i < length; ++i)
+      weights[(first + i) % count] = sum / static_cast<double> (length);
+    step += length;
+  }
+}
+
 // Equation (2).
 void
 meanValue (const LocalStar& star, double* weights)
 {
   const std::size_t count = star.size ();
   std::fill (weights, weights + count, 0.0);
+  bool shared_direction = false;
   for (std::size_t i = 0; i < (star.closed ? count : count - 1); ++i) {
     const std::size_t j = star.next (i);
     const double tangent = halfTangent (star.directions[i], star.directions[j]);
+    shared_direction = shared_direction || tangent < SAME_DIRECTION;
     weights[i] += tangent;
     weights[j] += tangent;
   }
+  if (shared_direction)
+    shareInDirections (star, weights);
   for (std::size_t i = 0; i < count; ++i)
     weights[i] /= star.lengths[i];
+}
+
+bool
+isOpposite (const LocalStar& star, std::size_t i, std::size_t j)
+{
+  return star.directions[i].dot (star.directions[j]) < 0.0 &&
+         std::abs (LocalStar::cross (star.directions[i], star.directions[j])) < SAME_DIRECTION;
 }
 
 // Floater 1997, section 6: the ray from each neighbour through the centre leaves the star by an
@@ -108,7 +146,8 @@ shapePreserving (const LocalStar& star, double* weights)
   const auto behind = [&] (std::size_t i, std::size_t j) {
     // True if j is not yet across the line through i and the centre.
     const double sine = LocalStar::cross (star.directions[i], star.directions[j]);
-    return sine > 0.0 || (sine == 0.0 && star.directions[i].dot (star.directions[j]) > 0.0);
+    return sine > 0.0 ||
+           (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);
   };
   // The opposite edge ends this many neighbours after i. Never at the next one: where that is
   // exactly opposite, the triangle with the one after it gives the same coordinates and has an
@@ -120,6 +159,15 @@ shapePreserving (const LocalStar& star, double* weights)
       ++steps;
     const std::size_t last = (i + steps) % count;
     const std::size_t first = last == 0 ? count - 1 : last - 1;
+    // Where an end of the edge is exactly opposite, that edge may have no extent seen from the
+    // centre: its ends are in one direction.
+    const std::size_t across = isOpposite (star, i, last) ? last : first;
+    if (across != i && isOpposite (star, i, across)) {
+      const double whole = star.lengths[i] + star.lengths[across];
+      weights[i] += star.lengths[across] / whole;
+      weights[across] += star.lengths[i] / whole;
+      continue;
+    }
     const double at_i = std::max (0.0, star.area (first, last));
     const double at_first = std::max (0.0, star.area (last, i));
     const double at_last = std::max (0.0, star.area (i, first));

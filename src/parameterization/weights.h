@@ -21,8 +21,9 @@ constexpr double SMALLEST_WEIGHT = 1e-10;
 /// weights of a closed star reproduce their centre: sum lambda_ij offset_ij = 0. In an open star (a
 /// boundary point that is not on the loop, or a gap in the sampling) the empty sector gives no term
 /// to mean value weights, so that they stay positive; shape preserving weights fall back to mean
-/// value there. Stars without extent get uniform weights. O(entries), no allocation per point, the
-/// same for every number of threads.
+/// value there. Several neighbours in one direction, as stars of all neighbours have them, get
+/// equal mean value weights times length. Stars without extent get uniform weights. O(entries), no
+/// allocation per point, the same for every number of threads.
 std::vector<double>
 computeWeights (const Stars& stars, Weighting weighting, int threads);
 

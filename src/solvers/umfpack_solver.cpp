@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solvers/umfpack_solver.h"
 
-#include "common/parallel.h"
+#include "solvers/both_sides.h"
+#include "solvers/iterative.h"
 #include "solvers/single_blas_thread.h"
 
 #include <umfpack.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
-#include <system_error>
-#include <thread>
+#include <numeric>
 
 namespace pcl
 {
@@ -32,6 +31,7 @@ struct IntInterface
   using Int = int;
   static constexpr auto DEFAULTS = &umfpack_di_defaults;
   static constexpr auto SYMBOLIC = &umfpack_di_symbolic;
+  static constexpr auto QSYMBOLIC = &umfpack_di_qsymbolic;
   static constexpr auto NUMERIC = &umfpack_di_numeric;
   static constexpr auto SOLVE = &umfpack_di_solve;
   static constexpr auto FREE_SYMBOLIC = &umfpack_di_free_symbolic;
@@ -43,6 +43,7 @@ struct LongInterface
   using Int = SuiteSparse_long;
   static constexpr auto DEFAULTS = &umfpack_dl_defaults;
   static constexpr auto SYMBOLIC = &umfpack_dl_symbolic;
+  static constexpr auto QSYMBOLIC = &umfpack_dl_qsymbolic;
   static constexpr auto NUMERIC = &umfpack_dl_numeric;
   static constexpr auto SOLVE = &umfpack_dl_solve;
   static constexpr auto FREE_SYMBOLIC = &umfpack_dl_free_symbolic;
@@ -97,58 +98,53 @@ struct Pattern<int>
   const std::vector<int>&offsets, &columns;
 };
 
-// Calls body (0) and body (1), which must not throw; at the same time where threads allow.
-template <typename Body>
-void
-bothSides (int threads, const Body& body)
-{
-  std::thread helper;
-  if (resolveThreads (threads) > 1) {
-    try {
-      helper = std::thread (body, 1);
-    }
-    catch (const std::system_error&) {
-      // No thread to be had: one after the other.
-    }
-  }
-  body (0);
-  if (helper.joinable ())
-    helper.join ();
-  else
-    body (1);
-}
-
 template <typename Interface>
 Solution
-solve (const LinearSystem& system, Ordering ordering, int threads)
+solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, int threads)
 {
   using Int = typename Interface::Int;
   Solution solution;
   std::array<double, UMFPACK_CONTROL> control{};
   std::array<double, UMFPACK_INFO> info{};
   Interface::DEFAULTS (control.data ());
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  control[UMFPACK_STRATEGY] = strategy == UmfpackStrategy::SYMMETRIC ? UMFPACK_STRATEGY_SYMMETRIC
+                                                                     : UMFPACK_STRATEGY_UNSYMMETRIC;
   control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
-  control[UMFPACK_IRSTEP] = 0;
+  // Sparse pivots off the diagonal cost digits, which refinement brings back.
+  constexpr double REFINEMENT_STEPS = 2.0;
+  const bool refine = strategy == UmfpackStrategy::UNSYMMETRIC;
+  control[UMFPACK_IRSTEP] = refine ? REFINEMENT_STEPS : 0.0;
+  // UMFPACK_ORDERING_AMD is COLAMD with the unsymmetric strategy.
   control[UMFPACK_ORDERING] =
       ordering == Ordering::METIS ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
 
   const auto n = static_cast<Int> (system.unknowns ());
   Handle<Interface::FREE_NUMERIC> numeric;
+  auto pattern = std::make_unique<const Pattern<Int>> (system);
   {
-    // The pattern and the symbolic analysis are not needed after the factorization.
-    const Pattern<Int> pattern (system);
     void* handle = nullptr;
-    Interface::SYMBOLIC (n, n, pattern.offsets.data (), pattern.columns.data (),
-                         system.values.data (), &handle, control.data (), info.data ());
+    if (ordering == Ordering::NATURAL) {
+      std::vector<Int> identity (system.unknowns ());
+      std::iota (identity.begin (), identity.end (), Int{0});
+      control[UMFPACK_FIXQ] = 1.0;
+      Interface::QSYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
+                            system.values.data (), identity.data (), &handle, control.data (),
+                            info.data ());
+    }
+    else
+      Interface::SYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
+                           system.values.data (), &handle, control.data (), info.data ());
     const Handle<Interface::FREE_SYMBOLIC> symbolic (handle);
     if (!accept (info[UMFPACK_STATUS], "symbolic analysis", solution))
       return solution;
     handle = nullptr;
-    Interface::NUMERIC (pattern.offsets.data (), pattern.columns.data (), system.values.data (),
+    Interface::NUMERIC (pattern->offsets.data (), pattern->columns.data (), system.values.data (),
                         symbolic.get (), &handle, control.data (), info.data ());
     numeric.reset (handle);
   }
+  // Only refinement needs the matrix after the factorization.
+  if (!refine)
+    pattern.reset ();
   // Figures that UMFPACK did not get to are -1.
   const auto figure = [&] (int entry) { return std::max (0.0, info[entry]); };
   solution.peak_bytes =
@@ -158,14 +154,14 @@ solve (const LinearSystem& system, Ordering ordering, int threads)
     return solution;
   solution.nnz_factors =
       static_cast<std::size_t> (info[UMFPACK_LNZ] + info[UMFPACK_UNZ]) - system.unknowns ();
-  if (!(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
+  if (strategy == UmfpackStrategy::SYMMETRIC &&
+      !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
     solution.outcome = Solution::Outcome::SINGULAR;
     solution.message = "factorization: a pivot is nothing but rounding errors";
     return solution;
   }
 
-  // The factors are only read, so both right-hand sides can go at once. Without refinement the
-  // matrix is not needed.
+  // The factors are only read, so both right-hand sides can go at once.
   const std::array<const std::vector<double>*, 2> rhs{&system.rhs_u, &system.rhs_v};
   std::array<std::vector<double>, 2> unknowns;
   for (auto& one : unknowns)
@@ -173,7 +169,9 @@ solve (const LinearSystem& system, Ordering ordering, int threads)
   std::array<double, 2> status{};
   bothSides (threads, [&] (std::size_t side) {
     std::array<double, UMFPACK_INFO> solve_info{};
-    Interface::SOLVE (UMFPACK_At, nullptr, nullptr, nullptr, unknowns[side].data (),
+    Interface::SOLVE (UMFPACK_At, pattern ? pattern->offsets.data () : nullptr,
+                      pattern ? pattern->columns.data () : nullptr,
+                      pattern ? system.values.data () : nullptr, unknowns[side].data (),
                       rhs[side]->data (), numeric.get (), control.data (), solve_info.data ());
     status[side] = solve_info[UMFPACK_STATUS];
   });
@@ -189,27 +187,11 @@ solve (const LinearSystem& system, Ordering ordering, int threads)
   return solution;
 }
 
-double
-largestResidual (const LinearSystem& system, const std::vector<Eigen::Vector2d>& uv)
-{
-  double largest = 0.0;
-  for (std::size_t i = 0; i < system.unknowns (); ++i) {
-    Eigen::Vector2d rest (system.rhs_u[i], system.rhs_v[i]);
-    const auto last = static_cast<std::size_t> (system.row_offsets[i + 1]);
-    for (auto entry = static_cast<std::size_t> (system.row_offsets[i]); entry < last; ++entry)
-      rest -= system.values[entry] * uv[static_cast<std::size_t> (system.columns[entry])];
-    const double of_row = rest.cwiseAbs ().maxCoeff<Eigen::PropagateNaN> ();
-    if (!std::isfinite (of_row))
-      return of_row;
-    largest = std::max (largest, of_row);
-  }
-  return largest;
-}
-
 } // namespace
 
 Solution
-solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads)
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads,
+                  UmfpackStrategy strategy)
 {
   Solution solution;
   if (system.unknowns () == 0) {
@@ -217,23 +199,21 @@ solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads)
     solution.reciprocal_condition = 1.0;
     return solution;
   }
-  if (ordering == Ordering::AUTOMATIC)
+  // With pivots off the diagonal, small ones do not tell of an island.
+  if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseIslands (system, solution))
+    return solution;
+  if (ordering == Ordering::AUTOMATIC && strategy == UmfpackStrategy::SYMMETRIC)
     ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
   const SingleBlasThread single_blas_thread;
   if (system.unknowns () <= LONG_INDEX_UNKNOWNS)
-    solution = solve<IntInterface> (system, ordering, threads);
+    solution = solve<IntInterface> (system, ordering, strategy, threads);
   // Running out of 32-bit indices is reported as running out of memory.
   if (system.unknowns () > LONG_INDEX_UNKNOWNS ||
       solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
-    solution = solve<LongInterface> (system, ordering, threads);
+    solution = solve<LongInterface> (system, ordering, strategy, threads);
   if (solution.outcome != Solution::Outcome::OK)
     return solution;
-  solution.residual = largestResidual (system, solution.uv);
-  if (!std::isfinite (solution.residual)) {
-    solution.outcome = Solution::Outcome::FAILED;
-    solution.message = "the solution is not finite";
-    solution.uv.clear ();
-  }
+  recordResidual (system, solution);
   return solution;
 }
 

@@ -55,7 +55,15 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getDomain (), defaults.domain);
   EXPECT_EQ (floater.getPolygonSides (), defaults.polygon_sides);
   EXPECT_EQ (floater.getWeighting (), defaults.weighting);
+  EXPECT_EQ (floater.getNeighborhood (), defaults.neighborhood);
+  EXPECT_EQ (floater.getBallRadius (), defaults.ball_radius);
+  EXPECT_EQ (floater.getLoopSpacing (), defaults.loop_spacing);
+  EXPECT_EQ (floater.getSolver (), defaults.solver);
   EXPECT_EQ (floater.getOrdering (), defaults.ordering);
+  EXPECT_EQ (floater.getTolerance (), defaults.tolerance);
+  EXPECT_EQ (floater.getMaxIterations (), defaults.max_iterations);
+  EXPECT_EQ (floater.getIlutFill (), defaults.ilut_fill);
+  EXPECT_EQ (floater.getIlutDropTolerance (), defaults.ilut_drop);
   EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
   EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
@@ -84,6 +92,22 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndStays)
       CHOICE (Weighting, Weighting::SHAPE_PRESERVING),
       CHOICE (Ordering, Ordering::AMD),
       CHOICE (Ordering, Ordering::METIS),
+      CHOICE (Ordering, Ordering::REVERSE_CUTHILL_MCKEE),
+      CHOICE (Ordering, Ordering::NATURAL),
+      CHOICE (Neighborhood, Neighborhood::NEAREST),
+      CHOICE (Neighborhood, Neighborhood::BALL_DELAUNAY),
+      CHOICE (Neighborhood, Neighborhood::BALL),
+      CHOICE (BallRadius, 3.0),
+      CHOICE (Domain, Domain::OWN_SHAPE),
+      CHOICE (LoopSpacing, LoopSpacing::CENTRIPETAL),
+      CHOICE (LoopSpacing, LoopSpacing::UNIFORM),
+      CHOICE (Solver, Solver::UMFPACK_UNSYMMETRIC),
+      CHOICE (Solver, Solver::EIGEN_SPARSE_LU),
+      CHOICE (Solver, Solver::BICGSTAB_ILUT),
+      CHOICE (Tolerance, 1e-12),
+      CHOICE (MaxIterations, 500),
+      CHOICE (IlutFill, 10),
+      CHOICE (IlutDropTolerance, 1e-3),
       CHOICE (FilterSheets, false),
       CHOICE (FlipEdges, false),
       CHOICE (NumberOfThreads, 1),
@@ -120,6 +144,14 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
       CHOICE (ClusterK, 0),
       CHOICE (PolygonSides, 2),
       CHOICE (NumberOfThreads, -1),
+      CHOICE (Ordering, Ordering::COLAMD), // not for the default solver
+      CHOICE (BallRadius, 0.5),
+      CHOICE (BallRadius, 11.0),
+      CHOICE (Tolerance, 0.0),
+      CHOICE (Tolerance, 1.0),
+      CHOICE (MaxIterations, 0),
+      CHOICE (IlutFill, 0),
+      CHOICE (IlutDropTolerance, 1.5),
   };
   const Cloud::Ptr cloud = heightField (100);
   for (const Choice& choice : choices) {
@@ -330,6 +362,45 @@ TEST_F (FloaterClass, AsksTheUsersSearchMethod)
     EXPECT_EQ (method->getIndices ()->size (), indices->size () - 1); // not the point with a NaN
   }
   EXPECT_EQ (counting->queries, indices->size () - 1);
+}
+
+// PCL's octree answers without being asked for by the user; the mesh is that of any other search.
+TEST_F (FloaterClass, TakesBallsByAnOctree)
+{
+  const Cloud::Ptr cloud = heightField ();
+  (*cloud)[123].x = std::numeric_limits<float>::quiet_NaN ();
+  for (const Neighborhood neighborhood : {Neighborhood::BALL, Neighborhood::BALL_DELAUNAY}) {
+    Floater floater;
+    floater.setInputCloud (cloud);
+    floater.setNeighborhood (neighborhood);
+    const Triangles expected = runWell (floater);
+    EXPECT_EQ (floater.getSearchMethod (), nullptr);
+    floater.setSearchMethod (Search::Ptr (new pcl::search::BruteForce<pcl::PointXYZ>));
+    EXPECT_EQ (runWell (floater), expected);
+    floater.setSearchMethod (nullptr);
+    floater.setBallRadius (4.0);
+    runWell (floater);
+    floater.setNeighborhood (Neighborhood::NEAREST_DELAUNAY);
+    const std::size_t nonzeros = floater.getStatistics ().nnz_matrix;
+    runWell (floater);
+    if (neighborhood == Neighborhood::BALL) {
+      EXPECT_GT (nonzeros, 2 * floater.getStatistics ().nnz_matrix);
+    }
+  }
+}
+
+TEST_F (FloaterClass, TellsOfASolverThatGaveUp)
+{
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  floater.setSolver (Solver::GAUSS_SEIDEL);
+  floater.setMaxIterations (20);
+  expectFailure (floater, Status::NOT_CONVERGED);
+  EXPECT_EQ (floater.getStatistics ().iterations_u, 20U);
+  floater.setSolver (Solver::BICGSTAB_ILUT);
+  runWell (floater);
+  EXPECT_GT (floater.getStatistics ().iterations_u, 0U);
+  EXPECT_LT (floater.getStatistics ().relative_residual, 1e-14);
 }
 
 class ThrowingSearch : public pcl::search::KdTree<pcl::PointXYZ>

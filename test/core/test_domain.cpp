@@ -16,7 +16,10 @@ namespace floater
 namespace
 {
 constexpr double PI = 3.14159265358979323846;
-constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON};
+constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
+                                  Domain::OWN_SHAPE};
+constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
+                                        LoopSpacing::UNIFORM};
 constexpr double LARGEST_BULGE = 2.6e-4; // of the square, the largest of those tested here
 constexpr int SIDES = 6;
 
@@ -243,6 +246,139 @@ TEST (Domain, ALoopWithoutLengthIsLaidEvenly)
   const std::vector<Index> points{0, 1, 2, 3, 4, 5, 6, 7};
   for (const Domain domain : ALL_DOMAINS)
     expectStrictlyConvex (layLoop (same, points, domain, SIDES));
+}
+
+// A loop in a slanted plane, through corners with `steps` equal steps between two of them.
+struct SlantedLoop
+{
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Index> points;
+
+  SlantedLoop (const std::vector<Eigen::Vector2d>& corners, int steps)
+  {
+    const Eigen::Vector3d x = Eigen::Vector3d (2.0, 1.0, -1.0).normalized ();
+    const Eigen::Vector3d y = Eigen::Vector3d (1.0, -1.0, 1.0).normalized ();
+    for (std::size_t c = 0; c < corners.size (); ++c)
+      for (int step = 0; step < steps; ++step) {
+        const Eigen::Vector2d p = corners[c] + (corners[(c + 1) % corners.size ()] - corners[c]) *
+                                                   step / static_cast<double> (steps);
+        positions.emplace_back (Eigen::Vector3d (5.0, 6.0, 7.0) + p.x () * x + p.y () * y);
+        points.push_back (static_cast<Index> (points.size ()));
+      }
+  }
+  std::vector<Eigen::Vector2d> lay (LoopSpacing spacing = LoopSpacing::CHORD_LENGTH) const
+  {
+    return layLoop (positions, points, Domain::OWN_SHAPE, 3, spacing);
+  }
+};
+
+TEST (Domain, SpacingsAreOfTheStepsTheirRootsOrEqual)
+{
+  const Loop loop = unevenLoop (50, 6);
+  for (const LoopSpacing spacing : ALL_SPACINGS) {
+    const auto step = [&] (std::size_t i) {
+      return spacing == LoopSpacing::UNIFORM       ? 1.0
+             : spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (loop.chord (i))
+                                                   : loop.chord (i);
+    };
+    double total = 0.0;
+    for (std::size_t i = 0; i < loop.size (); ++i)
+      total += step (i);
+    const std::vector<Eigen::Vector2d> uv =
+        layLoop (loop.positions, loop.points, Domain::CIRCLE, SIDES, spacing);
+    double length = 0.0;
+    for (std::size_t i = 0; i < loop.size (); ++i) {
+      const double angle = 2.0 * PI * length / total;
+      EXPECT_NEAR (uv[i].x (), std::cos (angle), 1e-13);
+      EXPECT_NEAR (uv[i].y (), std::sin (angle), 1e-13);
+      length += step (i);
+    }
+    for (const Domain domain : ALL_DOMAINS)
+      expectStrictlyConvex (layLoop (loop.positions, loop.points, domain, SIDES, spacing));
+  }
+}
+
+// A convex loop is its own shape: all distances stay, up to one scale and the bulge of the sides.
+TEST (Domain, OwnShapeOfAConvexLoopIsItself)
+{
+  const SlantedLoop loop ({{0, 0}, {4, 0}, {5, 2}, {3, 4}, {-1, 3}}, 8);
+  const std::vector<Eigen::Vector2d> uv = loop.lay ();
+  expectStrictlyConvex (uv);
+  double farthest = 0.0;
+  for (const Eigen::Vector2d& p : uv)
+    farthest = std::max (farthest, p.norm ());
+  EXPECT_NEAR (farthest, 1.0, 1e-14);
+  const auto distance = [&] (std::size_t i, std::size_t j) {
+    return (loop.positions[i] - loop.positions[j]).norm ();
+  };
+  const double scale = (uv[0] - uv[16]).norm () / distance (0, 16);
+  for (std::size_t i = 0; i < uv.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool corners = i % 8 == 0 && j % 8 == 0;
+      EXPECT_NEAR ((uv[i] - uv[j]).norm (), scale * distance (i, j), corners ? 1e-14 : 1e-3);
+    }
+}
+
+TEST (Domain, OwnShapeDoesNotDependOnWhereTheLoopBeginsNorOnItsSense)
+{
+  SlantedLoop loop ({{0, 0}, {4, 0}, {5, 2}, {2, 1.5}, {3, 4}, {-1, 3}}, 5);
+  const std::vector<Eigen::Vector2d> uv = loop.lay ();
+  std::rotate (loop.points.begin (), loop.points.begin () + 7, loop.points.end ());
+  const std::vector<Eigen::Vector2d> turned = loop.lay ();
+  std::reverse (loop.points.begin (), loop.points.end ());
+  const std::vector<Eigen::Vector2d> reversed = loop.lay ();
+  const std::size_t count = uv.size ();
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::size_t other : {0, 5, 13}) {
+      const double expected = (uv[(i + 7) % count] - uv[(other + 7) % count]).norm ();
+      EXPECT_NEAR ((turned[i] - turned[other]).norm (), expected, 1e-12);
+      EXPECT_NEAR ((reversed[count - 1 - i] - reversed[count - 1 - other]).norm (), expected,
+                   1e-12);
+    }
+  expectStrictlyConvex (reversed);
+}
+
+// What lies in a bay of the outline goes on the side that closes the bay, by the spacing rule.
+TEST (Domain, OwnShapeClosesBays)
+{
+  const SlantedLoop loop ({{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}, 4);
+  for (const LoopSpacing spacing : ALL_SPACINGS) {
+    const std::vector<Eigen::Vector2d> uv = loop.lay (spacing);
+    expectStrictlyConvex (uv);
+    const Eigen::Vector2d side = uv[16] - uv[8]; // from (4, 3) to (0, 3)
+    EXPECT_NEAR (side.norm () / (uv[4] - uv[0]).norm (), 1.0, 1e-13);
+    for (std::size_t i = 0; i <= 8; ++i) // eight equal steps
+      EXPECT_LT ((uv[8 + i] - uv[8] - side * static_cast<double> (i) / 8.0).norm (), 1e-3);
+  }
+}
+
+TEST (Domain, ALoopWithoutAShapeIsLaidOnTheCircle)
+{
+  const SlantedLoop line ({{0, 0}, {1, 0}, {3, 0}}, 5);
+  for (const Eigen::Vector2d& p : line.lay ())
+    EXPECT_NEAR (p.norm (), 1.0, 1e-14);
+  // A figure of eight still has a hull: whatever is made of it is convex.
+  const SlantedLoop eight ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10);
+  expectStrictlyConvex (eight.lay ());
+}
+
+TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
+{
+  RandomStream random (7);
+  for (int round = 0; round < 60; ++round) {
+    // Star-shaped outlines from nearly round to wild, with up to thousands of points.
+    const std::size_t count = 3 + random.below (round % 3 == 0 ? 3000 : 60);
+    const double roughness = std::pow (10.0, -8.0 * random.uniform ());
+    std::vector<Eigen::Vector2d> corners;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (count);
+      const double radius = 1.0 + roughness * (random.uniform () - 0.5);
+      corners.emplace_back (3.0 * radius * std::cos (angle), radius * std::sin (angle));
+    }
+    SCOPED_TRACE (testing::Message () << round << ": " << count << " points, " << roughness);
+    for (const LoopSpacing spacing : ALL_SPACINGS)
+      expectStrictlyConvex (SlantedLoop (corners, 1 + round % 4).lay (spacing));
+  }
 }
 
 } // namespace

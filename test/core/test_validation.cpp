@@ -46,6 +46,11 @@ TEST (Validation, OptionsHaveRanges)
   expectRange (&Options::cluster_tolerance, {1e-6, 0.05, 1.0}, {0.0, -0.1, 1.01, NOT_A_NUMBER});
   expectRange (&Options::cluster_k, {1, 10}, {0, -3});
   expectRange (&Options::polygon_sides, {3, 100}, {2, 0, -1});
+  expectRange (&Options::ball_radius, {1.0, 2.25, 10.0}, {0.99, 10.1, NOT_A_NUMBER, INF});
+  expectRange (&Options::tolerance, {1e-16, 1e-3}, {0.0, -1e-9, 1.0, NOT_A_NUMBER});
+  expectRange (&Options::max_iterations, {1, 1000000}, {0, -1});
+  expectRange (&Options::ilut_fill, {1, 15, 10000}, {0, -1, 10001});
+  expectRange (&Options::ilut_drop, {0.0, 1e-2, 1.0}, {-1e-9, 1.1, NOT_A_NUMBER});
   expectRange (&Options::threads, {0, 1, 64}, {-1});
 }
 

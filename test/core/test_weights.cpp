@@ -322,6 +322,60 @@ TEST (Weights, DoNotDependOnTheThreads)
   }
 }
 
+// All points of a grid around its centre: up to three in one direction, others exactly opposite,
+// turned so that rounding puts either first.
+TEST (Weights, OfAllNeighborsOfAGridReproduceTheCentre)
+{
+  RandomStream random (7);
+  for (int round = 0; round < 50; ++round) {
+    const Eigen::Rotation2Dd turn (round == 0 ? 0.0 : 2.0 * PI * random.uniform ());
+    Star star;
+    for (int x = -3; x <= 3; ++x)
+      for (int y = -3; y <= 3; ++y)
+        if (x != 0 || y != 0)
+          star.emplace_back (turn * Eigen::Vector2d (x, y));
+    std::sort (star.begin (), star.end (), [] (const auto& a, const auto& b) {
+      return std::atan2 (a.y (), a.x ()) < std::atan2 (b.y (), b.x ());
+    });
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      EXPECT_LT (centreError (star, weights), 1e-8) << round;
+      EXPECT_GT (*std::min_element (weights.begin (), weights.end ()), 1e-3) << round;
+    }
+    // (1, 0), (2, 0) and (3, 0): as one over their distances.
+    const std::vector<double> weights = weigh (star, Weighting::MEAN_VALUE);
+    const auto of = [&] (double x) {
+      for (std::size_t i = 0; i < star.size (); ++i)
+        if ((star[i] - turn * Eigen::Vector2d (x, 0.0)).norm () < 1e-9)
+          return weights[i];
+      return 0.0;
+    };
+    EXPECT_NEAR (of (1.0), 2.0 * of (2.0), 1e-8);
+    EXPECT_NEAR (of (1.0), 3.0 * of (3.0), 1e-8);
+    EXPECT_NEAR (of (1.0), of (-1.0), 1e-8);
+  }
+}
+
+TEST (Weights, OfManyNeighborsReproduceTheCentre)
+{
+  RandomStream random (8);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<double> angles (20 + random.below (100));
+    for (double& angle : angles)
+      angle = 2.0 * PI * random.uniform ();
+    std::sort (angles.begin (), angles.end ());
+    Star star;
+    for (const double angle : angles)
+      star.push_back ((0.05 + random.uniform ()) * direction (angle));
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      EXPECT_LT (centreError (star, weights), 1e-8) << round;
+    }
+  }
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

@@ -75,6 +75,15 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"--boundary", "none"}, "'none' is none of: spanning-tree"},
       {{"--weights", "0"}, "'0' is none of: uniform"},
       {{"--ordering", "AMD"}, "'AMD' is none of: automatic"},
+      {{"--ordering", "colamd"}, "cannot take the ordering COLAMD"},
+      {{"--neighborhood", "all"}, "'all' is none of: nearest-delaunay"},
+      {{"--ball-radius", "0"}, "from 1 to 10"},
+      {{"--spacing", "even"}, "'even' is none of: chord-length"},
+      {{"--solver", "gauss"}, "'gauss' is none of: umfpack"},
+      {{"--tolerance", "0"}, "above 0 and below 1"},
+      {{"--max-iterations", "0"}, "1 or more"},
+      {{"--ilut-fill", "0"}, "from 1 to"},
+      {{"--ilut-drop", "2"}, "from 0 to 1"},
       {{"--flips", "maybe"}, "'maybe' is none of: on, off"},
       {{"--sheet-filter", "maybe"}, "'maybe' is none of: on, off"},
       {{"third.ply"}, "third.ply"}};
@@ -249,6 +258,8 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
   const Json defaults = report ({}).at ("options");
   const std::vector<std::tuple<std::string, std::string, std::string, Json>> cases{
       {"--neighbors", "24", "neighbors", 24},
+      {"--neighborhood", "ball", "neighborhood", "ball"},
+      {"--ball-radius", "3", "ball_radius", 3.0},
       {"--sheet-filter", "off", "sheet_filter", false},
       {"--boundary", "two-segments", "boundary", "two-segments"},
       {"--opening-angle", "150.5", "opening_angle", 150.5},
@@ -256,7 +267,13 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--cluster-neighbors", "12", "cluster_neighbors", 12},
       {"--domain", "polygon", "domain", "polygon"},
       {"--sides", "5", "sides", 5},
+      {"--spacing", "centripetal", "spacing", "centripetal"},
       {"--weights", "uniform", "weights", "uniform"},
+      {"--solver", "bicgstab-ilut", "solver", "bicgstab-ilut"},
+      {"--tolerance", "1e-10", "tolerance", 1e-10},
+      {"--max-iterations", "100", "max_iterations", 100},
+      {"--ilut-fill", "20", "ilut_fill", 20},
+      {"--ilut-drop", "0.001", "ilut_drop", 0.001},
       {"--ordering", "metis", "ordering", "metis"},
       {"--flips", "off", "flips", false},
       {"--threads", "2", "threads", 2}};

@@ -118,6 +118,11 @@ addOptions (CLI::App& app, CommandLine& line)
   const std::string neighborhoods = "Neighbourhoods";
   addNumber (app, "-k,--neighbors", options.k, "nearest neighbours of each point, 6 to 200",
              neighborhoods);
+  addChoice (app, "--neighborhood", options.neighborhood, NEIGHBORHOOD_CHOICES,
+             "points that a point is a mean of", neighborhoods);
+  addNumber (app, "--ball-radius", options.ball_radius,
+             "ball, ball-delaunay: radius in mean distances\nto the 6 nearest, 1 to 10",
+             neighborhoods);
   addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
              "leave out neighbours on another sheet", neighborhoods);
 
@@ -139,10 +144,25 @@ addOptions (CLI::App& app, CommandLine& line)
              "convex curve on which the loop is laid", parameterization);
   addNumber (app, "--sides", options.polygon_sides, "sides of the polygon, 3 or more",
              parameterization);
+  addChoice (app, "--spacing", options.loop_spacing, SPACING_CHOICES,
+             "how the points of the loop share that curve", parameterization);
   addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
              "weights of a point in its neighbours", parameterization);
-  addChoice (app, "--ordering", options.ordering, ORDERING_CHOICES,
-             "order of the unknowns for the factorization", parameterization);
+
+  const std::string system = "Linear system";
+  addChoice (app, "--solver", options.solver, SOLVER_CHOICES, "what solves it", system);
+  addChoice (app, "--ordering", options.ordering, ORDERING_CHOICES, "order of the unknowns",
+             system);
+  addNumber (app, "--tolerance", options.tolerance,
+             "bicgstab-ilut, gauss-seidel: relative residual\nto reach, above 0 and below 1",
+             system);
+  addNumber (app, "--max-iterations", options.max_iterations,
+             "bicgstab-ilut, gauss-seidel: iterations to give\nup after, 1 or more", system);
+  addNumber (app, "--ilut-fill", options.ilut_fill,
+             "bicgstab-ilut: entries kept in a row of each\nfactor, 1 or more", system);
+  addNumber (app, "--ilut-drop", options.ilut_drop,
+             "bicgstab-ilut: entries dropped from the factors,\nas a share of their row, 0 to 1",
+             system);
 
   addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
              "flip edges on the surface at the end", "Surface");

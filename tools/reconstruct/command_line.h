@@ -52,15 +52,36 @@ using Choices = std::array<std::pair<const char*, Enum>, N>;
 constexpr Choices<BoundaryMethod, 2> BOUNDARY_CHOICES{
     {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
      {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
-constexpr Choices<Domain, 3> DOMAIN_CHOICES{
-    {{"circle", Domain::CIRCLE}, {"square", Domain::SQUARE}, {"polygon", Domain::POLYGON}}};
+constexpr Choices<Neighborhood, 4> NEIGHBORHOOD_CHOICES{
+    {{"nearest-delaunay", Neighborhood::NEAREST_DELAUNAY},
+     {"nearest", Neighborhood::NEAREST},
+     {"ball-delaunay", Neighborhood::BALL_DELAUNAY},
+     {"ball", Neighborhood::BALL}}};
+constexpr Choices<Domain, 4> DOMAIN_CHOICES{{{"circle", Domain::CIRCLE},
+                                             {"square", Domain::SQUARE},
+                                             {"polygon", Domain::POLYGON},
+                                             {"own-shape", Domain::OWN_SHAPE}}};
+constexpr Choices<LoopSpacing, 3> SPACING_CHOICES{{{"chord-length", LoopSpacing::CHORD_LENGTH},
+                                                   {"centripetal", LoopSpacing::CENTRIPETAL},
+                                                   {"uniform", LoopSpacing::UNIFORM}}};
 constexpr Choices<Weighting, 4> WEIGHTING_CHOICES{
     {{"uniform", Weighting::UNIFORM},
      {"inverse-distance", Weighting::INVERSE_DISTANCE},
      {"shape-preserving", Weighting::SHAPE_PRESERVING},
      {"mean-value", Weighting::MEAN_VALUE}}};
-constexpr Choices<Ordering, 3> ORDERING_CHOICES{
-    {{"automatic", Ordering::AUTOMATIC}, {"amd", Ordering::AMD}, {"metis", Ordering::METIS}}};
+constexpr Choices<Solver, 6> SOLVER_CHOICES{{{"umfpack", Solver::UMFPACK},
+                                             {"umfpack-unsymmetric", Solver::UMFPACK_UNSYMMETRIC},
+                                             {"superlu", Solver::SUPERLU},
+                                             {"eigen-sparse-lu", Solver::EIGEN_SPARSE_LU},
+                                             {"bicgstab-ilut", Solver::BICGSTAB_ILUT},
+                                             {"gauss-seidel", Solver::GAUSS_SEIDEL}}};
+constexpr Choices<Ordering, 6> ORDERING_CHOICES{
+    {{"automatic", Ordering::AUTOMATIC},
+     {"amd", Ordering::AMD},
+     {"metis", Ordering::METIS},
+     {"colamd", Ordering::COLAMD},
+     {"reverse-cuthill-mckee", Ordering::REVERSE_CUTHILL_MCKEE},
+     {"natural", Ordering::NATURAL}}};
 
 constexpr Choices<bool, 2> SWITCH_CHOICES{{{"on", true}, {"off", false}}};
 

@@ -17,6 +17,8 @@ Json
 optionsJson (const Options& options)
 {
   return {{"neighbors", options.k},
+          {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighborhood)},
+          {"ball_radius", options.ball_radius},
           {"sheet_filter", options.filter_sheets},
           {"boundary", choiceName (BOUNDARY_CHOICES, options.boundary)},
           {"loop_given", !options.loop.empty ()},
@@ -25,8 +27,14 @@ optionsJson (const Options& options)
           {"cluster_neighbors", options.cluster_k},
           {"domain", choiceName (DOMAIN_CHOICES, options.domain)},
           {"sides", options.polygon_sides},
+          {"spacing", choiceName (SPACING_CHOICES, options.loop_spacing)},
           {"weights", choiceName (WEIGHTING_CHOICES, options.weighting)},
+          {"solver", choiceName (SOLVER_CHOICES, options.solver)},
           {"ordering", choiceName (ORDERING_CHOICES, options.ordering)},
+          {"tolerance", options.tolerance},
+          {"max_iterations", options.max_iterations},
+          {"ilut_fill", options.ilut_fill},
+          {"ilut_drop", options.ilut_drop},
           {"flips", options.flip_edges},
           {"threads", options.threads}};
 }
@@ -51,6 +59,9 @@ statisticsJson (const Statistics& statistics)
           {"nnz_factors", statistics.nnz_factors},
           {"fill_in", statistics.fill_in},
           {"residual", statistics.residual},
+          {"relative_residual", statistics.relative_residual},
+          {"iterations_u", statistics.iterations_u},
+          {"iterations_v", statistics.iterations_v},
           {"reciprocal_condition", statistics.reciprocal_condition},
           {"factorization_bytes", statistics.factorization_bytes}};
 }

@@ -40,8 +40,9 @@ namespace pcl
  * - \b Failure: an empty cloud, no polygons, one line by PCL_ERROR, and the cause in getStatus()
  *   and getMessage(). What is odd about a mesh, getReport().warnings, is also given by PCL_WARN.
  *   No exception leaves reconstruct().
- * - \b Search: its own kd-tree, in parallel. A method given to setSearchMethod() is asked instead,
- *   by one thread; like for all of PCL's classes its input cloud is then set by each run.
+ * - \b Search: its own kd-tree, in parallel; for balls, PCL's octree. A method given to
+ * setSearchMethod() is asked instead, by one thread; like for all of PCL's classes its input cloud
+ * is then set by each run.
  * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after
  *   another cloud or option has been set. A run changes no parameter.
  * - \b Types: the library holds the class for all of PCL_XYZ_POINT_TYPES. For a type of your own
@@ -73,6 +74,19 @@ public:
   /** \brief Nearest neighbours of each point, 6 to 200; default 20. */
   void setKNearest (int k) { options_.k = k; }
   int getKNearest () const { return options_.k; }
+
+  /** \brief Which points a point is a convex combination of; default NEAREST_DELAUNAY. Balls, of a
+   * radius that follows the local density, replace the k nearest everywhere. */
+  void setNeighborhood (floater::Neighborhood neighborhood)
+  {
+    options_.neighborhood = neighborhood;
+  }
+  floater::Neighborhood getNeighborhood () const { return options_.neighborhood; }
+
+  /** \brief Radius of balls in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
+   * about 20 neighbours. */
+  void setBallRadius (double spacings) { options_.ball_radius = spacings; }
+  double getBallRadius () const { return options_.ball_radius; }
 
   /** \brief Above 0 and below 360 degrees, default 160: a point of the boundary sees a wider sector
    * without neighbours. */
@@ -106,13 +120,42 @@ public:
   void setPolygonSides (int sides) { options_.polygon_sides = sides; }
   int getPolygonSides () const { return options_.polygon_sides; }
 
+  /** \brief How the points of the loop share that curve; default CHORD_LENGTH. */
+  void setLoopSpacing (floater::LoopSpacing spacing) { options_.loop_spacing = spacing; }
+  floater::LoopSpacing getLoopSpacing () const { return options_.loop_spacing; }
+
   /** \brief Weights of a point in its neighbours; default MEAN_VALUE. */
   void setWeighting (floater::Weighting weighting) { options_.weighting = weighting; }
   floater::Weighting getWeighting () const { return options_.weighting; }
 
-  /** \brief Column ordering of the factorization; default AUTOMATIC. */
+  /** \brief What solves the linear system; default UMFPACK. Status::SOLVER_UNAVAILABLE if the
+   * library was built without it. */
+  void setSolver (floater::Solver solver) { options_.solver = solver; }
+  floater::Solver getSolver () const { return options_.solver; }
+
+  /** \brief Order of the unknowns; default AUTOMATIC. */
   void setOrdering (floater::Ordering ordering) { options_.ordering = ordering; }
   floater::Ordering getOrdering () const { return options_.ordering; }
+
+  /** \brief Relative residual |b - A u| / |b| at which iterative solvers stop, above 0 and below 1;
+   * default 1e-15. A residual as small as rounding lets it be will do. */
+  void setTolerance (double tolerance) { options_.tolerance = tolerance; }
+  double getTolerance () const { return options_.tolerance; }
+
+  /** \brief Iterations of an iterative solver, 1 or more, after which it gives up with
+   * Status::NOT_CONVERGED; default 1000. */
+  void setMaxIterations (int iterations) { options_.max_iterations = iterations; }
+  int getMaxIterations () const { return options_.max_iterations; }
+
+  /** \brief Entries kept in a row of each factor of Solver::BICGSTAB_ILUT, 1 or more; default 15.
+   */
+  void setIlutFill (int entries) { options_.ilut_fill = entries; }
+  int getIlutFill () const { return options_.ilut_fill; }
+
+  /** \brief Share of their row, 0 to 1, below which entries of these factors are dropped; default
+   * 1e-2. */
+  void setIlutDropTolerance (double share) { options_.ilut_drop = share; }
+  double getIlutDropTolerance () const { return options_.ilut_drop; }
 
   /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
   void setFilterSheets (bool filter_sheets) { options_.filter_sheets = filter_sheets; }

@@ -19,12 +19,30 @@ enum class BoundaryMethod
   TWO_SEGMENTS   ///< TW 385, section 3: largest cluster, two segments, 1D parameterization
 };
 
+/// Which points a point is a convex combination of (TW 385, section 2.1 and Figure 1(b)).
+enum class Neighborhood
+{
+  NEAREST_DELAUNAY, ///< Delaunay star among the k nearest
+  NEAREST,          ///< the k nearest
+  BALL_DELAUNAY,    ///< Delaunay star among the points in a ball
+  BALL              ///< the points in a ball whose radius follows the local density (section 6)
+};
+
 /// Convex curve on which the boundary loop is laid (TW 385, section 2.1).
 enum class Domain
 {
-  CIRCLE, ///< unit circle
-  SQUARE, ///< square inscribed in the unit circle
-  POLYGON ///< regular polygon with Options::polygon_sides sides, inscribed in the unit circle
+  CIRCLE,   ///< unit circle
+  SQUARE,   ///< square inscribed in the unit circle
+  POLYGON,  ///< regular polygon with Options::polygon_sides sides, inscribed in the unit circle
+  OWN_SHAPE ///< convex hull of the loop projected on its least-squares plane
+};
+
+/// How the points of the loop share the curve that they are laid on.
+enum class LoopSpacing
+{
+  CHORD_LENGTH, ///< steps as their lengths in space
+  CENTRIPETAL,  ///< steps as the square roots of these
+  UNIFORM       ///< equal steps
 };
 
 /// Weights lambda_ij of a point in its neighbours (TW 385, section 4.1).
@@ -36,12 +54,28 @@ enum class Weighting
   MEAN_VALUE        ///< Floater 2003, equation (2) of TW 385
 };
 
-/// Column ordering before the factorization.
+/// What solves the linear system (TW 385, section 4.2).
+enum class Solver
+{
+  UMFPACK,             ///< direct; symmetric strategy
+  UMFPACK_UNSYMMETRIC, ///< direct; unsymmetric strategy
+  SUPERLU,             ///< direct; only if built with SuperLU
+  EIGEN_SPARSE_LU,     ///< direct
+  BICGSTAB_ILUT,       ///< iterative, preconditioned by an incomplete factorization
+  GAUSS_SEIDEL         ///< iterative; stalls on all but small clouds
+};
+
+/// Order of the unknowns. Every solver takes every symmetric one, which keeps the diagonal where it
+/// is. COLAMD orders columns alone: only UMFPACK_UNSYMMETRIC, SUPERLU and EIGEN_SPARSE_LU take it.
 enum class Ordering
 {
-  AUTOMATIC, ///< AMD up to a million unknowns, METIS above
+  AUTOMATIC, ///< UMFPACK: AMD up to a million unknowns, METIS above; SUPERLU: minimum degree;
+             ///< UMFPACK_UNSYMMETRIC and EIGEN_SPARSE_LU: COLAMD; iterative solvers: NATURAL
   AMD,       ///< approximate minimum degree
-  METIS      ///< nested dissection
+  METIS,     ///< nested dissection
+  COLAMD,    ///< column approximate minimum degree
+  REVERSE_CUTHILL_MCKEE, ///< small bandwidth
+  NATURAL                ///< as the points are stored: along a space-filling curve
 };
 
 /// The stages of a run, in order; a name for each is given by stageName().
@@ -65,7 +99,9 @@ stageName (Stage stage);
 /// All parameters of a run. The defaults need no tuning; a run never changes them.
 struct Options
 {
-  int k = 20;                   ///< 20: nearest neighbours of each point, 6 to 200
+  int k = 20; ///< 20: nearest neighbours of each point, 6 to 200; not for balls
+  Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
+  double ball_radius = 2.25;    ///< 2.25: of balls, in mean distances to the 6 nearest; 1 to 10
   double opening_angle = 160.0; ///< 160: degrees; a boundary point sees a wider empty sector
   double cluster_tolerance =
       0.05;           ///< 0.05: growing distance, fraction of the bounding box diagonal
@@ -73,8 +109,14 @@ struct Options
   BoundaryMethod boundary = BoundaryMethod::SPANNING_TREE;
   Domain domain = Domain::CIRCLE;
   int polygon_sides = 6; ///< 6: sides of Domain::POLYGON, 3 or more
+  LoopSpacing loop_spacing = LoopSpacing::CHORD_LENGTH;
   Weighting weighting = Weighting::MEAN_VALUE;
+  Solver solver = Solver::UMFPACK;
   Ordering ordering = Ordering::AUTOMATIC;
+  double tolerance = 1e-15;  ///< 1e-15: iterative solvers stop at |b - A u| / |b|, above 0, below 1
+  int max_iterations = 1000; ///< 1000: of an iterative solver for each coordinate, 1 or more
+  int ilut_fill = 15;        ///< 15: BICGSTAB_ILUT: entries kept in a row of L and of U, 1 or more
+  double ilut_drop = 1e-2;   ///< 1e-2: BICGSTAB_ILUT: entries dropped, share of their row, 0 to 1
   bool filter_sheets = true; ///< true: drop neighbours that lie on another sheet of the surface
   bool flip_edges = true;    ///< true: Delaunay flips on the surface after lifting
   int threads = 0;           ///< 0: number of threads, 0 for all cores; does not change the result

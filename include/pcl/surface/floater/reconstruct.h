@@ -29,6 +29,16 @@ public:
   /// Any order; fewer than k only if there are no more.
   virtual void nearest (std::uint32_t cloud_index, int k,
                         std::vector<std::uint32_t>& cloud_indices) = 0;
+
+  /// The points within a distance of a given one, in units of the cloud, as cloud indices. Any
+  /// order; a few points too many or twice do no harm. Asked for Neighborhood::BALL and
+  /// BALL_DELAUNAY only.
+  /// \return false if that cannot be answered: then nearest () is asked, for more and more points
+  virtual bool within (std::uint32_t /*cloud_index*/, double /*radius*/,
+                       std::vector<std::uint32_t>& /*cloud_indices*/)
+  {
+    return false;
+  }
 };
 
 /// Points to reconstruct.

@@ -30,9 +30,11 @@ enum class Status
   INVALID_LOOP,    ///< the user's loop is too short, repeats a point or names an unusable one
   UNREACHABLE,     ///< most of the points do not connect to the boundary: several components
   NOT_A_DISC, ///< the surface cannot be laid out as one disc: closed, with handles, several parts
-  SINGULAR,   ///< the linear system could not be solved
-  OUT_OF_MEMORY, ///< an allocation failed
-  INTERNAL_ERROR ///< the result did not pass its own check; please report it
+  SINGULAR,   ///< the linear system has no unique solution
+  NOT_CONVERGED,      ///< an iterative solver did not reach its tolerance
+  SOLVER_UNAVAILABLE, ///< this build is without the library of the solver
+  OUT_OF_MEMORY,      ///< an allocation failed
+  INTERNAL_ERROR      ///< the result did not pass its own check; please report it
 };
 
 /// Short name of a status in upper case ("NO_BOUNDARY").
@@ -58,13 +60,16 @@ struct Statistics
   std::size_t flips = 0; ///< edges flipped after lifting
   std::size_t folds = 0; ///< neighbouring triangles left more than 120 degrees apart
 
-  std::size_t unknowns = 0;            ///< interior points m, rows of the system
-  std::size_t nnz_matrix = 0;          ///< nnz (A)
-  std::size_t nnz_factors = 0;         ///< nnz (L + U)
-  double fill_in = 0.0;                ///< gamma = nnz (L + U) / nnz (A), TW 385 section 4.3
-  double residual = 0.0;               ///< max |b - A u| over rows and both right-hand sides
-  double reciprocal_condition = 0.0;   ///< UMFPACK's cheap estimate min |U_kk| / max |U_kk|
-  std::size_t factorization_bytes = 0; ///< peak memory of the factorization
+  std::size_t unknowns = 0;       ///< interior points m, rows of the system
+  std::size_t nnz_matrix = 0;     ///< nnz (A)
+  std::size_t nnz_factors = 0;    ///< nnz (L + U); incomplete factors count too
+  double fill_in = 0.0;           ///< gamma = nnz (L + U) / nnz (A), TW 385 section 4.3
+  double residual = 0.0;          ///< max |b - A u| over rows and both right-hand sides
+  double relative_residual = 0.0; ///< measured |b - A u| / |b|, the larger of both coordinates
+  std::size_t iterations_u = 0;   ///< of an iterative solver
+  std::size_t iterations_v = 0;
+  double reciprocal_condition = 0.0;   ///< of direct solvers: min |U_kk| / max |U_kk|
+  std::size_t factorization_bytes = 0; ///< peak memory of the factorization; 0 if not known
 };
 
 /// Result of a run beside the mesh itself. All indices are cloud indices.

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <pcl/console/print.h>
+#include <pcl/search/octree.h>
 #include <pcl/search/search.h>
 #include <pcl/surface/floater_reconstruction.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -38,7 +42,21 @@ public:
                 std::vector<std::uint32_t>& cloud_indices) override
   {
     // By point: an index would count among the points given to build().
-    const int found = search_->nearestKSearch ((*cloud_)[cloud_index], k, found_, sqr_distances_);
+    hand (search_->nearestKSearch ((*cloud_)[cloud_index], k, found_, sqr_distances_),
+          cloud_indices);
+  }
+
+  bool within (std::uint32_t cloud_index, double radius,
+               std::vector<std::uint32_t>& cloud_indices) override
+  {
+    hand (search_->radiusSearch ((*cloud_)[cloud_index], radius, found_, sqr_distances_),
+          cloud_indices);
+    return true;
+  }
+
+private:
+  void hand (int found, std::vector<std::uint32_t>& cloud_indices) const
+  {
     const std::size_t count =
         std::min (static_cast<std::size_t> (std::max (found, 0)), found_.size ());
     cloud_indices.resize (count);
@@ -46,12 +64,25 @@ public:
       cloud_indices[i] = static_cast<std::uint32_t> (found_[i]);
   }
 
-private:
   typename pcl::search::Search<PointT>::Ptr search_;
   typename pcl::PointCloud<PointT>::ConstPtr cloud_;
   pcl::Indices found_;
   std::vector<float> sqr_distances_;
 };
+
+/// PCL's octree, with about ten points of a surface in a leaf.
+template <typename PointT>
+typename pcl::search::Search<PointT>::Ptr
+makeOctree (const Input& input)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : input.positions)
+    if (position.allFinite ())
+      box.extend (position);
+  const double diagonal = box.isEmpty () ? 0.0 : box.diagonal ().norm ();
+  const double leaf = 2.0 * diagonal / std::sqrt (static_cast<double> (input.positions.size ()));
+  return pcl::make_shared<pcl::search::Octree<PointT>> (leaf > 0.0 ? leaf : 1.0);
+}
 
 } // namespace floater
 
@@ -193,8 +224,11 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
   floater::Options options;
   if (!makeInput (input, options))
     return;
-  floater::SearchMethod<PointT> search (tree_, input_);
-  if (tree_)
+  const bool takes_balls = options.neighborhood == floater::Neighborhood::BALL ||
+                           options.neighborhood == floater::Neighborhood::BALL_DELAUNAY;
+  floater::SearchMethod<PointT> search (
+      tree_ || !takes_balls ? tree_ : floater::makeOctree<PointT> (input), input_);
+  if (tree_ || takes_balls)
     input.search = &search;
 
   floater::Result result = floater::reconstruct (std::move (input), options);

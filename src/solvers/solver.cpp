@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solvers/solver.h"
+
+#include "solvers/bicgstab_solver.h"
+#include "solvers/eigen_sparse_lu_solver.h"
+#include "solvers/gauss_seidel_solver.h"
+#include "solvers/ordering.h"
+#include "solvers/umfpack_solver.h"
+#ifdef PCL_FLOATER_HAS_SUPERLU
+#include "solvers/superlu_solver.h"
+#endif
+
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+const char*
+solverName (Solver solver)
+{
+  switch (solver) {
+  case Solver::UMFPACK:
+    return "UMFPACK with its symmetric strategy";
+  case Solver::UMFPACK_UNSYMMETRIC:
+    return "UMFPACK with its unsymmetric strategy";
+  case Solver::SUPERLU:
+    return "SuperLU";
+  case Solver::EIGEN_SPARSE_LU:
+    return "Eigen's SparseLU";
+  case Solver::BICGSTAB_ILUT:
+    return "BiCGSTAB";
+  case Solver::GAUSS_SEIDEL:
+    return "Gauss-Seidel";
+  }
+  return "unknown";
+}
+
+// Orderings that the solver makes itself, or that it can do without.
+bool
+ordersItself (Solver solver, Ordering ordering)
+{
+  switch (ordering) {
+  case Ordering::AUTOMATIC:
+  case Ordering::COLAMD:
+  case Ordering::NATURAL:
+    return true;
+  case Ordering::AMD:
+    return solver == Solver::UMFPACK;
+  case Ordering::METIS:
+    return solver == Solver::UMFPACK || solver == Solver::UMFPACK_UNSYMMETRIC;
+  case Ordering::REVERSE_CUTHILL_MCKEE:
+    break;
+  }
+  return false;
+}
+
+Solution
+solveAsItIs (const LinearSystem& system, Ordering ordering, const Options& options)
+{
+  switch (options.solver) {
+  case Solver::UMFPACK:
+    return solveWithUmfpack (system, ordering, options.threads);
+  case Solver::UMFPACK_UNSYMMETRIC:
+    return solveWithUmfpack (system, ordering, options.threads, UmfpackStrategy::UNSYMMETRIC);
+  case Solver::SUPERLU:
+#ifdef PCL_FLOATER_HAS_SUPERLU
+    return solveWithSuperlu (system, ordering);
+#else
+    break; // refused before
+#endif
+  case Solver::EIGEN_SPARSE_LU:
+    return solveWithEigenSparseLu (system, ordering, options.threads);
+  case Solver::BICGSTAB_ILUT:
+    return solveWithBicgstab (system, options);
+  case Solver::GAUSS_SEIDEL:
+    return solveWithGaussSeidel (system, options.tolerance, options.max_iterations);
+  }
+  return {};
+}
+
+} // namespace
+
+bool
+isAvailable (Solver solver)
+{
+#ifdef PCL_FLOATER_HAS_SUPERLU
+  static_cast<void> (solver);
+  return true;
+#else
+  return solver != Solver::SUPERLU;
+#endif
+}
+
+Problem
+checkSolver (Solver solver, Ordering ordering)
+{
+  const std::string name = solverName (solver);
+  if (ordering == Ordering::COLAMD && solver != Solver::UMFPACK_UNSYMMETRIC &&
+      solver != Solver::SUPERLU && solver != Solver::EIGEN_SPARSE_LU)
+    return {Status::INVALID_OPTION,
+            name + " cannot take the ordering COLAMD, which is for columns alone; choose another"};
+  if (!isAvailable (solver))
+    return {Status::SOLVER_UNAVAILABLE,
+            "this build of pcl_floater is without " + name +
+                "; choose another solver, or build it where the library is installed"};
+  return {};
+}
+
+Solution
+solve (const LinearSystem& system, const Options& options)
+{
+  Solution solution;
+  if (const Problem problem = checkSolver (options.solver, options.ordering)) {
+    if (problem.status == Status::SOLVER_UNAVAILABLE)
+      solution.outcome = Solution::Outcome::UNAVAILABLE;
+    solution.message = problem.message;
+    return solution;
+  }
+  if (system.unknowns () == 0) {
+    solution.outcome = Solution::Outcome::OK;
+    solution.reciprocal_condition = 1.0;
+    return solution;
+  }
+  if (ordersItself (options.solver, options.ordering))
+    return solveAsItIs (system, options.ordering, options);
+
+  // Rows and columns in the new order, then solved as they come; every solver can do that.
+  const std::vector<int> order = orderUnknowns (system, options.ordering);
+  solution = solveAsItIs (permuteSystem (system, order), Ordering::NATURAL, options);
+  std::vector<Eigen::Vector2d> uv (solution.uv.size ());
+  for (std::size_t i = 0; i < uv.size (); ++i)
+    uv[static_cast<std::size_t> (order[i])] = solution.uv[i];
+  solution.uv = std::move (uv);
+  return solution;
+}
+
+} // namespace floater
+} // namespace pcl

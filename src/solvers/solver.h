@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One interface to all solvers (TW 385, section 4.2).
+#pragma once
+
+#include "common/problem.h"
+#include "parameterization/system.h"
+#include "solvers/solution.h"
+
+#include <pcl/surface/floater/options.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// True if this build has the library of the solver.
+bool
+isAvailable (Solver solver);
+
+/// INVALID_OPTION if the solver cannot take the ordering, SOLVER_UNAVAILABLE if this build is
+/// without the solver.
+Problem
+checkSolver (Solver solver, Ordering ordering);
+
+/// Solves for both coordinates with options.solver in the order options.ordering. An empty system
+/// is OK. A singular system is refused by every solver: those with pivots on the diagonal see one
+/// of rounding errors, the others look for islands first. An iterative solver that does not reach
+/// options.tolerance, as measured (see Residual::isWithin), returns NOT_CONVERGED and no solution.
+/// May throw std::bad_alloc. The result does not depend on options.threads.
+Solution
+solve (const LinearSystem& system, const Options& options);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Figure 6 of TW 385: mesh, parameterization, and what it is like where it is densest.
+#include "mesh_measures.h"
+#include "mesh_picture.h"
+#include "neighborhoods/kd_tree.h"
+#include "section.h"
+#include "triangulation/planar_delaunay.h"
+#include "triangulation/surface_finish.h"
+
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr int HEIGHT = 600;           // pixels
+constexpr std::size_t CLOSE_UP = 500; // points of the close-up
+constexpr std::size_t DENSITY_K = 7;  // nearest points, the point itself among them
+
+// The triangles with the points that they use, centred and scaled to the size of 1 so that single
+// precision of the graphics will do even where points are 1e-12 apart.
+vtkSmartPointer<vtkPolyData>
+makePolyData (const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles)
+{
+  std::vector<Index> used;
+  for (const Triangle& t : triangles)
+    used.insert (used.end (), t.begin (), t.end ());
+  std::sort (used.begin (), used.end ());
+  used.erase (std::unique (used.begin (), used.end ()), used.end ());
+  Eigen::AlignedBox3d box;
+  for (const Index p : used)
+    box.extend (positions[p]);
+
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble ();
+  for (const Index p : used) {
+    const Eigen::Vector3d scaled = (positions[p] - box.center ()) / box.sizes ().maxCoeff ();
+    points->InsertNextPoint (scaled.data ());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const Triangle& t : triangles) {
+    std::array<vtkIdType, 3> corners{};
+    std::transform (t.begin (), t.end (), corners.begin (), [&used] (Index p) {
+      return std::lower_bound (used.begin (), used.end (), p) - used.begin ();
+    });
+    cells->InsertNextCell (3, corners.data ());
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New ();
+  mesh->SetPoints (points);
+  mesh->SetPolys (cells);
+  return mesh;
+}
+
+// Turns all triangles if the surface, seen from its middle, faces inwards.
+void
+faceOutwards (std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions)
+{
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : positions)
+    middle += p / static_cast<double> (positions.size ());
+  double volume = 0.0;
+  for (const auto& [a, b, c] : triangles)
+    volume += (positions[a] - middle).dot ((positions[b] - middle).cross (positions[c] - middle));
+  if (volume < 0.0)
+    for (Triangle& t : triangles)
+      std::swap (t[1], t[2]);
+}
+
+// Points around the one whose nearest points in the plane are nearest; 1 for those.
+std::vector<std::uint8_t>
+densestPoints (const std::vector<Eigen::Vector3d>& flat)
+{
+  const KdTree tree (flat);
+  std::vector<Neighbor> near;
+  std::pair<double, Index> densest{std::numeric_limits<double>::infinity (), 0};
+  for (Index p = 0; p < flat.size (); ++p) {
+    tree.nearest (flat[p], DENSITY_K, near);
+    densest = std::min (densest, {near.back ().sqr_distance, p});
+  }
+  tree.nearest (flat[densest.second], CLOSE_UP, near);
+  std::vector<std::uint8_t> chosen (flat.size (), 0);
+  for (const Neighbor& neighbor : near)
+    chosen[neighbor.point] = 1;
+  return chosen;
+}
+
+class MeshFigure : public Section
+{
+public:
+  void measure (const Sample& sample) override
+  {
+    const Disc& disc = sample.disc;
+    SurfaceMesh mesh = triangulatePlane (sample.direct, disc.boundary.loop);
+    const std::vector<Triangle> in_plane = mesh.triangles;
+    std::vector<Eigen::Vector3f> normals = disc.normals;
+    finishSurface (mesh, disc.set.positions, disc.near, normals, {});
+    faceOutwards (mesh.triangles, disc.set.positions);
+
+    // Points that the system leaves out are in no triangle of the plane; far away they do not
+    // disturb.
+    std::vector<Eigen::Vector3d> flat;
+    for (const Eigen::Vector2d& uv : sample.direct)
+      flat.emplace_back (
+          uv.allFinite ()
+              ? Eigen::Vector3d (uv.x (), uv.y (), 0.0)
+              : Eigen::Vector3d (FAR_AWAY * static_cast<double> (flat.size () + 2), 0.0, 0.0));
+    const std::vector<std::uint8_t> chosen = densestPoints (flat);
+    const auto closeUp = [&chosen] (const std::vector<Triangle>& triangles) {
+      std::vector<Triangle> inside;
+      std::copy_if (triangles.begin (), triangles.end (), std::back_inserter (inside),
+                    [&] (const Triangle& t) {
+                      return std::all_of (t.begin (), t.end (),
+                                          [&] (Index p) { return chosen[p] != 0; });
+                    });
+      return inside;
+    };
+    Eigen::AlignedBox3d window;
+    for (Index p = 0; p < flat.size (); ++p)
+      if (chosen[p] != 0)
+        window.extend (flat[p]);
+
+    const vtkSmartPointer<vtkPolyData> plane = makePolyData (flat, in_plane);
+    figures_.push_back (
+        {"figure6_mesh_" + disc.name,
+         drawMesh (makePolyData (disc.set.positions, mesh.triangles), plane, HEIGHT),
+         disc.name + ": mesh of " + grouped (mesh.triangles.size ()) +
+             " triangles, and its parameterization"});
+    figures_.push_back (
+        {"figure6_close_up_" + disc.name,
+         drawMesh (makePolyData (disc.set.positions, closeUp (mesh.triangles)),
+                   makePolyData (flat, closeUp (in_plane)), HEIGHT),
+         disc.name + ": the " + std::to_string (CLOSE_UP) +
+             " points where the plane is densest, on the surface and in the plane. The "
+             "window in the plane is " +
+             scientific (window.sizes ().maxCoeff ()) +
+             " wide in a circle of radius 1; the smallest distance of two points is " +
+             scientific (smallestDistance (sample.direct))});
+  }
+
+  void write (ReportFolder& report) const override
+  {
+    report.heading ("Figure 6: meshes and parameterizations");
+    for (const Figure& figure : figures_)
+      report.picture (figure.name, figure.png, figure.caption);
+  }
+
+private:
+  static constexpr double FAR_AWAY = 1e3;
+  struct Figure
+  {
+    std::string name;
+    std::vector<unsigned char> png;
+    std::string caption;
+  };
+  std::vector<Figure> figures_;
+};
+
+} // namespace
+
+std::unique_ptr<Section>
+makeMeshFigure ()
+{
+  return std::make_unique<MeshFigure> ();
+}
+
+} // namespace floater
+} // namespace pcl

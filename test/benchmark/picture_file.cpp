@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "picture_file.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+std::vector<unsigned char>
+toPng (vtkImageData* image)
+{
+  constexpr int STRONGEST = 9;
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData (image);
+  writer->WriteToMemoryOn ();
+  writer->SetCompressionLevel (STRONGEST);
+  writer->Write ();
+  vtkUnsignedCharArray* bytes = writer->GetResult ();
+  if (bytes == nullptr || bytes->GetNumberOfValues () == 0)
+    throw std::runtime_error ("VTK could not make a picture");
+  return {bytes->Begin (), bytes->End ()};
+}
+
+std::vector<unsigned char>
+toPng (const GreyImage& image)
+{
+  vtkNew<vtkImageData> data;
+  data->SetDimensions (image.width, image.height, 1);
+  data->AllocateScalars (VTK_UNSIGNED_CHAR, 1);
+  auto* to = static_cast<unsigned char*> (data->GetScalarPointer ());
+  // VTK's rows begin at the bottom.
+  for (int y = image.height - 1; y >= 0; --y, to += image.width)
+    std::copy_n (image.pixels.data () + static_cast<std::ptrdiff_t> (y) * image.width, image.width,
+                 to);
+  return toPng (data);
+}
+
+} // namespace floater
+} // namespace pcl
