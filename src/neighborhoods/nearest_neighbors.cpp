@@ -28,7 +28,7 @@ byKdTree (const WorkingSet& set, std::size_t k, int threads)
     found.reserve (k + 2);
     for (std::size_t p = first; p < last; ++p) {
       tree.nearest (set.positions[p], k + 1, found);
-      Index* row = &lists.ids[p * k];
+      Index* row = lists.ids.data () + p * k;
       for (const Neighbor& neighbor : found) // points are distinct: the point itself is among them
         if (neighbor.point != p)
           *row++ = neighbor.point;
