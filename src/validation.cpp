@@ -72,6 +72,26 @@ checkWorkingSet (const WorkingSet& set)
   return {};
 }
 
+namespace
+{
+// Number of triangles that hang together with one by edges.
+std::size_t
+reachedFrom (const SurfaceMesh& mesh, Index start)
+{
+  std::vector<std::uint8_t> seen (mesh.triangles.size (), 0);
+  std::vector<Index> reached{start};
+  seen[start] = 1;
+  for (std::size_t i = 0; i < reached.size (); ++i)
+    for (const Index t : mesh.neighbors[reached[i]])
+      if (t != NONE && seen[t] == 0) {
+        seen[t] = 1;
+        reached.push_back (t);
+      }
+  return reached.size ();
+}
+
+} // namespace
+
 Problem
 checkDisc (const std::vector<Triangle>& triangles, std::size_t points,
            const std::vector<Index>& loop)
@@ -93,7 +113,8 @@ checkDisc (const std::vector<Triangle>& triangles, std::size_t points,
     if (turned != loops.front ())
       return broken;
   }
-  // With one loop and manifold fans, Euler characteristic 1 and one component go together.
+  if (reachedFrom (mesh, 0) != triangles.size ())
+    return broken; // more than one component
   const auto vertices = static_cast<std::int64_t> (
       points - static_cast<std::size_t> (
                    std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE)));

@@ -29,7 +29,7 @@ findGaps (const Stars& stars, const std::vector<float>& spacing, double alpha)
   std::vector<std::uint8_t> missing; // per sector of a star: from neighbour i to the next
   for (Index p = 0; p < stars.neighbors.rows (); ++p) {
     const Row star = stars.neighbors.row (p);
-    const Eigen::Vector2d* offsets = &stars.offsets_in_plane[stars.neighbors.offsets[p]];
+    const Eigen::Vector2d* offsets = stars.offsets_in_plane.data () + stars.neighbors.offsets[p];
     const std::size_t count = star.size ();
     if (count == 0)
       continue;

@@ -256,6 +256,8 @@ spanningTreeLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& st
   BoundaryLoop best;
   for (const double alpha : ALPHAS) {
     BoundaryLoop loop = loopForAlpha (positions, stars, spacing, alpha);
+    if (loop.points.empty () && !best.points.empty ())
+      continue;
     const bool trusted = loop.largest_step <= ACCEPTED_STEP;
     const bool best_trusted = best.largest_step <= ACCEPTED_STEP;
     if (best.points.empty () || (trusted && !best_trusted) ||

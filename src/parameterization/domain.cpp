@@ -83,7 +83,7 @@ layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_p
   std::vector<Eigen::Vector2d> uv;
   uv.reserve (chords.size ());
   for (std::size_t c = 0; c < corners; ++c) {
-    const Eigen::Vector2d from = places[c];
+    const Eigen::Vector2d& from = places[c];
     const Eigen::Vector2d side = places[c + 1 == corners ? 0 : c + 1] - from;
     // A parabola through both corners; its slope stays far below the turn at the corners.
     const Eigen::Vector2d bulge =

@@ -74,6 +74,12 @@ private:
 double
 TriangleCost::operator() (Index a, Index b, Index c) const
 {
+  // The smallest point first, so that the cost of a triangle does not depend, not even by rounding,
+  // on where it begins: flips could go round in circles otherwise.
+  if (b < a && b < c)
+    return (*this) (b, c, a);
+  if (c < a && c < b)
+    return (*this) (c, a, b);
   const Eigen::Vector3d ab = positions_[b] - positions_[a];
   const Eigen::Vector3d ac = positions_[c] - positions_[a];
   const Eigen::Vector3d bc = positions_[c] - positions_[b];

@@ -251,6 +251,22 @@ TEST (Insertion, PointsWithoutVerticesNearbyStayOut)
   EXPECT_EQ (mesh.triangles.size (), 1U);
 }
 
+TEST (TriangleCost, DoesNotDependOnTheFirstCorner)
+{
+  RandomStream random (12);
+  for (int i = 0; i < 2000; ++i) {
+    const double flatness = i % 2 == 0 ? 1.0 : 1e-8; // every other triangle is a needle
+    Positions positions;
+    for (int corner = 0; corner < 3; ++corner)
+      positions.emplace_back (random.uniform (), flatness * random.uniform (), 0.0);
+    const std::vector<Eigen::Vector3f> normals = upward (3);
+    const TriangleCost cost (positions, normals);
+    EXPECT_EQ (cost (0, 1, 2), cost (1, 2, 0));
+    EXPECT_EQ (cost (0, 1, 2), cost (2, 0, 1));
+    EXPECT_EQ (cost (0, 2, 1), cost (2, 1, 0));
+  }
+}
+
 TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
 {
   const Sheet sheet = samples::disc (0.07, 9);

@@ -134,6 +134,15 @@ TEST (Validation, WhatIsNoDiscInItsLoop)
   expectBroken ("another loop", wheel (true), {7, 8, 9, 10, 11});
   expectBroken ("a loop inside", wheel (true), {1, 2, 3, 4, 5, 6});
   expectBroken ("another order", wheel (true), {7, 9, 8, 10, 11, 12});
+  // Euler characteristic and loops are those of a disc.
+  std::vector<Triangle> beside_a_torus = wheel (true);
+  const auto onTorus = [] (Index i, Index j) { return 13 + 3 * (i % 3) + j % 3; };
+  for (Index i = 0; i < 3; ++i)
+    for (Index j = 0; j < 3; ++j) {
+      beside_a_torus.push_back ({onTorus (i, j), onTorus (i + 1, j), onTorus (i + 1, j + 1)});
+      beside_a_torus.push_back ({onTorus (i, j), onTorus (i + 1, j + 1), onTorus (i, j + 1)});
+    }
+  expectBroken ("a torus beside it", beside_a_torus, RIM);
   std::vector<Triangle> changed = wheel (true);
   changed.push_back ({20, 21, 22});
   expectBroken ("two components", changed, RIM);
