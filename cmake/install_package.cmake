@@ -24,4 +24,5 @@ if (NOT BUILD_SHARED_LIBS)
   install (FILES "${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake"
                  "${PROJECT_SOURCE_DIR}/cmake/FindSuperLU.cmake" DESTINATION "${package_dir}")
 endif ()
+install (FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install (FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/pcl_floater")
