@@ -15,6 +15,8 @@ stageName (Stage stage)
     return "neighbors";
   case Stage::STARS:
     return "stars";
+  case Stage::COMPLEX:
+    return "complex";
   case Stage::BOUNDARY:
     return "boundary";
   case Stage::WEIGHTS:
@@ -23,8 +25,12 @@ stageName (Stage stage)
     return "solve";
   case Stage::DELAUNAY:
     return "delaunay";
+  case Stage::HOLES:
+    return "holes";
   case Stage::FLIPS:
     return "flips";
+  case Stage::CHECK:
+    return "check";
   case Stage::COUNT:
     break;
   }

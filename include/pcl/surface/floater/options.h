@@ -12,10 +12,29 @@ namespace pcl
 {
 namespace floater
 {
+/// What surface the points are taken for, and so which method makes the mesh.
+enum class Topology
+{
+  AUTO,   ///< as the points tell: one disc by whichever method does it better, else SURFACE
+  DISC,   ///< one piece with one boundary, closing all holes: the method of TW 385
+  SURFACE ///< any number of pieces, boundary loops and handles: triangles that stars agree on
+};
+
+/// Which holes of a surface stay open. A disc has one boundary loop and no holes.
+enum class HolePolicy
+{
+  AUTO,         ///< those where the sampling ends, as far as the points tell
+  CLOSE_ALL,    ///< none: every piece is closed
+  KEEP_LARGEST, ///< the largest loop of every piece, as its boundary
+  KEEP_COUNT,   ///< the Options::kept_loops largest loops of the whole surface
+  BY_SIZE       ///< those wider than Options::largest_hole or largest_hole_length
+};
+
 /// How the boundary points become one ordered loop.
 enum class BoundaryMethod
 {
   SPANNING_TREE, ///< longest path of a spanning tree over points whose star has a gap
+  COMPLEX,       ///< longest rim of the triangles that stars agree on
   TWO_SEGMENTS   ///< TW 385, section 3: largest cluster, two segments, 1D parameterization
 };
 
@@ -84,11 +103,14 @@ enum class Stage
   WORKING_SET,
   NEIGHBORS,
   STARS,
+  COMPLEX,
   BOUNDARY,
   WEIGHTS,
   SOLVE,
   DELAUNAY,
+  HOLES,
   FLIPS,
+  CHECK,
   COUNT ///< not a stage: how many there are
 };
 
@@ -99,7 +121,14 @@ stageName (Stage stage);
 /// All parameters of a run. The defaults need no tuning; a run never changes them.
 struct Options
 {
-  int k = 20; ///< 20: nearest neighbours of each point, 6 to 200; not for balls
+  Topology topology = Topology::AUTO;
+  HolePolicy holes = HolePolicy::AUTO; ///< not for Topology::DISC, which closes all
+  int kept_loops = 1;                  ///< 1: KEEP_COUNT: loops that stay, 0 or more
+  double largest_hole = 0.0; ///< 0: BY_SIZE: widest hole to close, in local spacings, 0 or more
+  double largest_hole_length = 0.0; ///< 0: BY_SIZE: widest hole to close, in units of the cloud
+  bool remove_outliers = true;      ///< true: leave out points that lie off any surface
+  bool denoise = true; ///< true: where noise is strong, connect points as they lie in local planes
+  int k = 20;          ///< 20: nearest neighbours of each point, 6 to 200; not for balls
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
   double ball_radius = 2.25;    ///< 2.25: of balls, in mean distances to the 6 nearest; 1 to 10
   double opening_angle = 160.0; ///< 160: degrees; a boundary point sees a wider empty sector

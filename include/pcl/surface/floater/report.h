@@ -41,17 +41,47 @@ enum class Status
 PCL_FLOATER_EXPORT const char*
 statusName (Status status);
 
+/// A boundary loop of the mesh.
+struct LoopSummary
+{
+  std::size_t points = 0;      ///< points of the loop, each once
+  double length = 0.0;         ///< sum of its edges, in units of the cloud
+  double width = 0.0;          ///< largest distance between two of its points, same unit
+  double width_spacings = 0.0; ///< the same in local spacings
+  std::uint32_t at = 0;        ///< its smallest point, as cloud index
+};
+
+/// What the last stage finds on the mesh itself, whatever method made it.
+struct MeshCheck
+{
+  bool done = false;                     ///< false if there was no mesh to check
+  std::size_t nonmanifold_edges = 0;     ///< edges of three or more triangles; always 0
+  std::size_t nonmanifold_vertices = 0;  ///< points with more than one fan of triangles; always 0
+  std::size_t orientation_conflicts = 0; ///< edges that both triangles run along alike; always 0
+  std::size_t components = 0;            ///< pieces that hang together by edges
+  std::int64_t euler_characteristic = 0; ///< vertices - edges + triangles
+  std::int64_t genus = 0;                ///< handles of all pieces together
+  std::size_t folds = 0;                 ///< neighbouring triangles more than 120 degrees apart
+  std::size_t degenerate_triangles = 0;  ///< no area in the precision of the coordinates
+  double longest_edge = 0.0;             ///< in local spacings
+  std::array<std::uint32_t, 2> longest_edge_at{}; ///< its ends, as cloud indices
+  std::vector<LoopSummary> loops;                 ///< longest first
+};
+
 /// Figures of a run. Zero where a stage was not reached.
 struct Statistics
 {
   std::array<double, static_cast<std::size_t> (Stage::COUNT)> seconds{}; ///< wall time by stage
   double total_seconds = 0.0;
 
-  std::size_t cloud_points = 0;        ///< points of the input cloud
-  std::size_t selected_points = 0;     ///< points chosen by the indices (all without)
-  std::size_t non_finite_points = 0;   ///< selected, but with a NaN or infinite coordinate
-  std::size_t duplicate_points = 0;    ///< selected, but equal to an earlier point
-  std::size_t working_points = 0;      ///< points that the stages worked on
+  std::size_t cloud_points = 0;      ///< points of the input cloud
+  std::size_t selected_points = 0;   ///< points chosen by the indices (all without)
+  std::size_t non_finite_points = 0; ///< selected, but with a NaN or infinite coordinate
+  std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
+  std::size_t working_points = 0;    ///< points that the stages worked on
+  std::size_t outlier_points = 0;    ///< points left out since they lie off any surface
+  double noise = 0.0; ///< median distance of points to the plane of their neighbours, in spacings
+  std::size_t holes_filled = 0;        ///< holes closed by the surface method
   std::size_t used_points = 0;         ///< points that are a vertex of the mesh
   std::size_t relinked_points = 0;     ///< points that had to be linked back to the loop
   std::size_t boundary_candidates = 0; ///< points that look like boundary
@@ -76,12 +106,18 @@ struct Statistics
 struct Report
 {
   Status status = Status::NOT_RUN;
-  std::string message;                     ///< one sentence: the cause and what to do; empty if OK
-  std::vector<std::string> warnings;       ///< one sentence each
-  std::vector<std::uint32_t> loop;         ///< boundary loop, in order, each point once
-  std::vector<Eigen::Vector2d> parameters; ///< per cloud point; NaN where it was not used
-  std::vector<std::uint32_t> unused;       ///< finite, not duplicate, but in no triangle; ascending
-  std::vector<std::uint32_t> non_finite;   ///< ascending
+  std::string message;                ///< one sentence: the cause and what to do; empty if OK
+  std::vector<std::string> warnings;  ///< one sentence each
+  Topology topology = Topology::AUTO; ///< method that made the mesh: DISC or SURFACE
+  std::string topology_reason;        ///< why that one, in a few words
+  MeshCheck check;
+  bool denoised = false;                   ///< connected as the points lie in their local planes
+  std::vector<std::uint32_t> loop;         ///< longest boundary loop, in order, each point once
+  std::vector<Eigen::Vector2d> parameters; ///< of a disc: per cloud point; NaN where it was not
+                                           ///< used; else empty
+  std::vector<std::uint32_t> unused;     ///< finite, not duplicate, but in no triangle; ascending
+  std::vector<std::uint32_t> outliers;   ///< left out of the mesh as outliers; ascending
+  std::vector<std::uint32_t> non_finite; ///< ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the point that stands for it)
   Statistics statistics;
 };
