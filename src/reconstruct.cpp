@@ -4,6 +4,7 @@
 
 #include "boundary/boundary_loop.h"
 #include "common/stage_clock.h"
+#include "complex/surface_method.h"
 #include "neighborhoods/ball_neighbors.h"
 #include "neighborhoods/nearest_neighbors.h"
 #include "neighborhoods/stars.h"
@@ -32,68 +33,121 @@ findNeighbors (const WorkingSet& set, const Options& options, NeighborSearch* se
   return findNearestNeighbors (set, options.k, search, options.threads);
 }
 
-Problem
-reconstructDisc (Input& input, const Options& options, Result& result)
+// What both methods work on.
+struct Samples
 {
-  Report& report = result.report;
-  Statistics& statistics = report.statistics;
-  statistics.cloud_points = input.cloud_size;
-  statistics.selected_points = input.positions.size ();
-  if (Problem problem = checkOptions (options))
-    return problem;
-  StageClock clock (statistics, options.progress);
+  WorkingSet set;
+  FlatLists near; // the nearest neighbours, or those in a ball
+  Stars stars;
+};
 
+// A disc as TW 385 makes it.
+struct Disc
+{
+  Boundary boundary;
+  SurfaceMesh mesh;
+  SurfaceFinish finish;
+  std::size_t relinked = 0;
+  Problem problem;
+};
+
+Problem
+prepare (Input& input, const Options& options, StageClock& clock, Samples& samples, Report& report)
+{
   // Section 2.1: N finite, distinct points.
   clock.start (Stage::WORKING_SET);
-  const WorkingSet set = makeWorkingSet (input.positions, input.cloud_index, options.threads);
+  samples.set = makeWorkingSet (input.positions, input.cloud_index, options.threads);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
-  reportWorkingSet (set, report);
-  if (Problem problem = checkWorkingSet (set))
+  reportWorkingSet (samples.set, report);
+  if (Problem problem = checkWorkingSet (samples.set))
     return problem;
 
   // Sections 5 and 6: the same neighbours, the k nearest or those in a ball, serve boundary and
   // weights alike.
   clock.start (Stage::NEIGHBORS);
-  FlatLists near = findNeighbors (set, options, input.search);
+  samples.near = findNeighbors (samples.set, options, input.search);
 
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);
-  Stars stars =
-      makeStars (set.positions, near, fitTangentPlanes (set.positions, near, options.threads),
-                 options.filter_sheets, options.threads);
+  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
+  samples.stars = makeStars (positions, samples.near,
+                             fitTangentPlanes (positions, samples.near, options.threads),
+                             options.filter_sheets, options.threads);
+  return {};
+}
+
+// The whole of TW 385 but for the flips. Consumes the stars, not their normals.
+Disc
+makeDisc (Samples& samples, const Options& options, StageClock& clock, Report& report)
+{
+  Disc disc;
+  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
 
   // Section 3: boundary points as one ordered loop.
   clock.start (Stage::BOUNDARY);
-  const Boundary boundary = findBoundary (set, near, stars, options);
-  reportBoundary (set, boundary, report);
-  if (boundary.problem)
-    return boundary.problem;
+  disc.boundary = findBoundary (samples.set, samples.near, samples.stars, options);
+  disc.problem = disc.boundary.problem;
+  if (disc.problem)
+    return disc;
 
   // Section 2.1: weights for all neighbours, if so wished; boundaries are told by Delaunay stars.
   if (options.neighborhood == Neighborhood::NEAREST || options.neighborhood == Neighborhood::BALL) {
     clock.start (Stage::WEIGHTS);
-    stars = makeStars (set.positions, near, std::move (stars.normals), options.filter_sheets,
-                       options.threads, StarKind::ALL);
+    samples.stars = makeStars (positions, samples.near, std::move (samples.stars.normals),
+                               options.filter_sheets, options.threads, StarKind::ALL);
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
   const Parameterization parameterization =
-      parameterize (set.positions, near, stars, boundary.loop, options, clock, statistics);
-  reportParameterization (set, parameterization, report);
-  if (parameterization.problem)
-    return parameterization.problem;
+      parameterize (positions, samples.near, samples.stars, disc.boundary.loop, options, clock,
+                    report.statistics);
+  reportParameterization (samples.set, parameterization, report);
+  disc.relinked = parameterization.relinked;
+  disc.problem = parameterization.problem;
+  if (disc.problem)
+    return disc;
 
   // Section 2: Delaunay triangulation of the parameters; the same triangles in space.
   clock.start (Stage::DELAUNAY);
-  SurfaceMesh mesh = triangulatePlane (parameterization.uv, boundary.loop);
+  disc.mesh = triangulatePlane (parameterization.uv, disc.boundary.loop);
 
   // Beyond the report: points that coincide in the plane come back, edges are flipped in space.
   clock.start (Stage::FLIPS);
-  const SurfaceFinish finish = finishSurface (mesh, set.positions, near, stars.normals, options);
-  if (finish.problem)
-    return finish.problem;
-  result.triangles = reportMesh (set, mesh, finish, report);
-  return checkDisc (mesh.triangles, set.positions.size (), boundary.loop);
+  disc.finish = finishDisc (disc.mesh, positions, samples.near, samples.stars.normals, options);
+  disc.problem = disc.finish.problem;
+  if (!disc.problem)
+    disc.problem = checkDisc (disc.mesh.triangles, positions.size (), disc.boundary.loop);
+  return disc;
+}
+
+Problem
+reconstructAny (Input& input, const Options& options, Result& result)
+{
+  Report& report = result.report;
+  report.statistics.cloud_points = input.cloud_size;
+  report.statistics.selected_points = input.positions.size ();
+  if (Problem problem = checkOptions (options))
+    return problem;
+  StageClock clock (report.statistics, options.progress);
+  Samples samples;
+  if (Problem problem = prepare (input, options, clock, samples, report))
+    return problem;
+
+  if (options.topology == Topology::DISC) {
+    report.topology = Topology::DISC;
+    report.topology_reason = "asked for";
+    const Disc disc = makeDisc (samples, options, clock, report);
+    reportBoundary (samples.set, disc.boundary, report);
+    if (disc.problem)
+      return disc.problem;
+    result.triangles = reportMesh (samples.set, disc.mesh, disc.finish, report);
+    return {};
+  }
+  report.topology = Topology::SURFACE;
+  Surface surface = makeSurface (samples.set.positions, samples.near, samples.stars,
+                                 1.0 / samples.set.scale, options, clock);
+  result.triangles = reportMesh (samples.set, surface.mesh, surface.finish, report);
+  return {};
 }
 
 } // namespace
@@ -104,7 +158,7 @@ reconstruct (Input input, const Options& options)
   Result result;
   Problem problem;
   try {
-    problem = reconstructDisc (input, options, result);
+    problem = reconstructAny (input, options, result);
   }
   catch (const std::bad_alloc&) {
     problem = {Status::OUT_OF_MEMORY,

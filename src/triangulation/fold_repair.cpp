@@ -3,12 +3,12 @@
 
 #include "triangulation/flips.h"
 #include "triangulation/patch.h"
+#include "triangulation/polygon_filling.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -37,58 +37,6 @@ foldCost (const Eigen::Vector3d& unit_a, const Eigen::Vector3d& unit_b)
 {
   return FOLD_COST * std::max (0.0, -unit_a.dot (unit_b));
 }
-
-// Triangulates the polygon around a vertex, by dynamic programming over its sub-polygons.
-class PolygonFilling
-{
-public:
-  /// Least-cost triangles of a closed polygon, anti-clockwise; empty if there is no way.
-  template <typename Allowed>
-  std::vector<Triangle> fill (const std::vector<Index>& polygon, const TriangleCost& cost,
-                              Allowed&& allowed)
-  {
-    const std::size_t m = polygon.size ();
-    best_.assign (m * m, {0.0, 0});
-    for (std::size_t span = 2; span < m; ++span)
-      for (std::size_t i = 0; i + span < m; ++i) {
-        const std::size_t j = i + span;
-        Choice& choice = best_[i * m + j];
-        choice = {std::numeric_limits<double>::infinity (), 0};
-        if (span < m - 1 && !allowed (polygon[i], polygon[j]))
-          continue;
-        for (std::size_t apex = i + 1; apex < j; ++apex) {
-          const double sum = best_[i * m + apex].cost + best_[apex * m + j].cost +
-                             cost (polygon[i], polygon[apex], polygon[j]);
-          if (sum < choice.cost)
-            choice = {sum, apex};
-        }
-      }
-    std::vector<Triangle> triangles;
-    if (m >= 3 && std::isfinite (best_[m - 1].cost))
-      collect (polygon, 0, m - 1, triangles);
-    return triangles;
-  }
-
-private:
-  struct Choice
-  {
-    double cost;
-    std::size_t apex;
-  };
-
-  void collect (const std::vector<Index>& polygon, std::size_t i, std::size_t j,
-                std::vector<Triangle>& triangles) const
-  {
-    if (j - i < 2)
-      return;
-    const std::size_t apex = best_[i * polygon.size () + j].apex;
-    triangles.push_back ({polygon[i], polygon[apex], polygon[j]});
-    collect (polygon, i, apex, triangles);
-    collect (polygon, apex, j, triangles);
-  }
-
-  std::vector<Choice> best_;
-};
 
 // Moves the vertices of one patch to where they fit.
 class PatchRepair

@@ -58,5 +58,21 @@ insertMissingPoints (SurfaceMesh& mesh, const FlatLists& near, const TriangleCos
   return inserted;
 }
 
+void
+orientMissingNormals (const SurfaceMesh& mesh, const FlatLists& near,
+                      std::vector<Eigen::Vector3f>& normals)
+{
+  for (Index p = 0; p < normals.size (); ++p) {
+    if (mesh.triangle_of[p] != NONE)
+      continue;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+    for (Index q : near.row (p))
+      if (mesh.triangle_of[q] != NONE)
+        sum += normals[q];
+    if (normals[p].dot (sum) < 0.0F)
+      normals[p] = -normals[p];
+  }
+}
+
 } // namespace floater
 } // namespace pcl

@@ -16,5 +16,11 @@ namespace floater
 std::size_t
 insertMissingPoints (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost);
 
+/// Gives the normal of every point that is no vertex the sign that most of its nearest neighbours
+/// have which are.
+void
+orientMissingNormals (const SurfaceMesh& mesh, const FlatLists& near,
+                      std::vector<Eigen::Vector3f>& normals);
+
 } // namespace floater
 } // namespace pcl

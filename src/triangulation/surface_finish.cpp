@@ -13,36 +13,61 @@ namespace
 {
 constexpr double TOO_MANY_FOLDS =
     0.03; // of all edges; discs have up to 1 %, closed surfaces from 4 %
+
+// Insertion and flips; true if there are folds to be repaired.
+bool
+flipSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             const FlatLists& near, std::vector<Eigen::Vector3f>& normals, const Options& options,
+             SurfaceFinish& finish)
+{
+  orientNormals (mesh, positions, normals);
+  const TriangleCost cost (positions, normals);
+  insertMissingPoints (mesh, near, cost);
+  if (options.flip_edges)
+    finish.flips = flipEdges (mesh, cost);
+  finish.folds = findFolds (mesh, positions);
+  return options.flip_edges && !finish.folds.empty ();
 }
+
+void
+repair (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+        std::vector<Eigen::Vector3f>& normals, SurfaceFinish& finish)
+{
+  // Flips have turned triangles round, so that some normals may have the wrong sign.
+  orientNormals (mesh, positions, normals);
+  finish.folds = repairFolds (mesh, positions, normals, std::move (finish.folds));
+}
+
+} // namespace
 
 SurfaceFinish
 finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const FlatLists& near, std::vector<Eigen::Vector3f>& normals, const Options& options)
 {
   SurfaceFinish finish;
-  orientNormals (mesh, positions, normals);
-  const TriangleCost cost (positions, normals);
-  insertMissingPoints (mesh, near, cost);
-  if (!options.flip_edges) {
-    finish.folds = findFolds (mesh, positions);
+  if (flipSurface (mesh, positions, near, normals, options, finish))
+    repair (mesh, positions, normals, finish);
+  return finish;
+}
+
+SurfaceFinish
+finishDisc (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+            std::vector<Eigen::Vector3f>& normals, const Options& options)
+{
+  SurfaceFinish finish;
+  if (!flipSurface (mesh, positions, near, normals, options, finish))
     return finish;
-  }
-  finish.flips = flipEdges (mesh, cost);
-  finish.folds = findFolds (mesh, positions);
   const double edges = 1.5 * static_cast<double> (mesh.triangles.size ());
-  if (static_cast<double> (finish.folds.size ()) > TOO_MANY_FOLDS * edges) {
+  if (static_cast<double> (finish.folds.size ()) > TOO_MANY_FOLDS * edges)
     finish.problem = {
         Status::NOT_A_DISC,
         std::to_string (finish.folds.size ()) + " of " +
             std::to_string (static_cast<std::size_t> (edges)) +
             " edges are folded: the surface is not one disc with one boundary (it may be closed, "
-            "have "
-            "handles, several parts, or be too thinly sampled); reconstruct a part of it"};
-    return finish;
-  }
-  // Flips have turned triangles round, so that some normals may have the wrong sign.
-  orientNormals (mesh, positions, normals);
-  finish.folds = repairFolds (mesh, positions, normals, std::move (finish.folds));
+            "have handles, several parts, or be too thinly sampled); let the topology be chosen "
+            "automatically, or reconstruct a part of it"};
+  else
+    repair (mesh, positions, normals, finish);
   return finish;
 }
 

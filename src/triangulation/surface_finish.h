@@ -22,12 +22,17 @@ struct SurfaceFinish
 };
 
 /// Inserts points that have no triangle, flips edges where the options ask for it, and repairs the
-/// folds that are left. Where flips leave more than 3 % of all edges folded, the surface has been
-/// pressed into a disc that it is not, and nothing can mend it.
+/// folds that are left. \param normals of points that are vertices get the side of the mesh
 SurfaceFinish
 finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const FlatLists& near, std::vector<Eigen::Vector3f>& normals,
                const Options& options);
+
+/// The same for a surface that was laid out as a disc. Where flips leave more than 3 % of all edges
+/// folded, it has been pressed into a disc that it is not, and nothing can mend it.
+SurfaceFinish
+finishDisc (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+            std::vector<Eigen::Vector3f>& normals, const Options& options);
 
 } // namespace floater
 } // namespace pcl

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "complex/manifold_part.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Triangles by corner, and which of them are left.
+class FanPruner
+{
+public:
+  FanPruner (const SurfaceComplex& complex, std::size_t points)
+      : triangles_ (complex.triangles), votes_ (complex.votes), kept_ (triangles_.size (), 1)
+  {
+    around_.offsets.assign (points + 1, 0);
+    for (const Triangle& corners : triangles_)
+      for (Index p : corners)
+        ++around_.offsets[p + 1];
+    for (std::size_t p = 0; p < points; ++p)
+      around_.offsets[p + 1] += around_.offsets[p];
+    around_.ids.resize (3 * triangles_.size ());
+    std::vector<Index> at (around_.offsets.begin (), around_.offsets.end () - 1);
+    for (Index t = 0; t < triangles_.size (); ++t)
+      for (Index p : triangles_[t])
+        around_.ids[at[p]++] = t;
+  }
+
+  std::vector<Triangle> run ()
+  {
+    // A triangle dropped at one point may split the fan of another: looked at again.
+    std::vector<Index> points (around_.rows ());
+    for (Index p = 0; p < points.size (); ++p)
+      points[p] = p;
+    while (!points.empty ()) {
+      touched_.clear ();
+      for (Index p : points)
+        keepLargestFan (p);
+      std::sort (touched_.begin (), touched_.end ());
+      touched_.erase (std::unique (touched_.begin (), touched_.end ()), touched_.end ());
+      points.swap (touched_);
+    }
+    std::vector<Triangle> left;
+    left.reserve (triangles_.size ());
+    for (Index t = 0; t < triangles_.size (); ++t)
+      if (kept_[t] != 0)
+        left.push_back (triangles_[t]);
+    return left;
+  }
+
+private:
+  void keepLargestFan (Index p)
+  {
+    ring_.clear ();
+    for (Index t : around_.row (p))
+      if (kept_[t] != 0)
+        ring_.push_back ({t, static_cast<Index> (ring_.size ())});
+    if (ring_.size () < 2)
+      return;
+    // Label spreading over shared neighbours; rings are short.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (Spoke& a : ring_)
+        for (Spoke& b : ring_)
+          if (b.fan < a.fan && shareEdge (p, a.triangle, b.triangle)) {
+            a.fan = b.fan;
+            changed = true;
+          }
+    }
+    Index best = 0, best_weight = 0;
+    for (Index fan = 0; fan < ring_.size (); ++fan) {
+      Index weight = 0;
+      for (const Spoke& spoke : ring_)
+        if (spoke.fan == fan)
+          weight += votes_[spoke.triangle];
+      if (weight > best_weight) {
+        best = fan;
+        best_weight = weight;
+      }
+    }
+    for (const Spoke& spoke : ring_) {
+      if (spoke.fan == best)
+        continue;
+      kept_[spoke.triangle] = 0;
+      for (Index q : triangles_[spoke.triangle])
+        touched_.push_back (q);
+    }
+  }
+
+  bool shareEdge (Index p, Index t, Index u) const
+  {
+    for (Index q : triangles_[t])
+      if (q != p)
+        for (Index r : triangles_[u])
+          if (q == r)
+            return true;
+    return false;
+  }
+
+  struct Spoke
+  {
+    Index triangle, fan;
+  };
+
+  const std::vector<Triangle>& triangles_;
+  const std::vector<std::uint8_t>& votes_;
+  std::vector<std::uint8_t> kept_;
+  FlatLists around_;
+  std::vector<Spoke> ring_;
+  std::vector<Index> touched_;
+};
+
+// Triangles of pieces that may stand alone.
+std::vector<Triangle>
+withoutIslands (const SurfaceMesh& mesh, const FlatLists& near)
+{
+  Index count = 0;
+  const std::vector<Index> piece = findPieces (mesh, count);
+  std::vector<std::size_t> size (count, 0);
+  std::vector<std::uint8_t> is_closed (count, 1), is_island (count, 0);
+  for (Index t = 0; t < piece.size (); ++t) {
+    ++size[piece[t]];
+    for (Index u : mesh.neighbors[t])
+      if (u == NONE)
+        is_closed[piece[t]] = 0;
+  }
+  for (Index t = 0; t < piece.size (); ++t) {
+    if (size[piece[t]] >= ISLAND || is_closed[piece[t]] != 0)
+      continue;
+    for (Index p : mesh.triangles[t])
+      for (Index q : near.row (p))
+        if (mesh.triangle_of[q] != NONE && size[piece[mesh.triangle_of[q]]] > size[piece[t]])
+          is_island[piece[t]] = 1;
+  }
+  std::vector<Triangle> left;
+  left.reserve (mesh.triangles.size ());
+  for (Index t = 0; t < piece.size (); ++t)
+    if (is_island[piece[t]] == 0)
+      left.push_back (mesh.triangles[t]);
+  return left;
+}
+
+} // namespace
+
+std::vector<Index>
+findPieces (const SurfaceMesh& mesh, Index& count)
+{
+  std::vector<Index> piece (mesh.triangles.size (), NONE);
+  std::vector<Index> front;
+  count = 0;
+  for (Index start = 0; start < piece.size (); ++start) {
+    if (piece[start] != NONE)
+      continue;
+    piece[start] = count;
+    front.assign (1, start);
+    while (!front.empty ()) {
+      const Index t = front.back ();
+      front.pop_back ();
+      for (Index u : mesh.neighbors[t])
+        if (u != NONE && piece[u] == NONE) {
+          piece[u] = count;
+          front.push_back (u);
+        }
+    }
+    ++count;
+  }
+  return piece;
+}
+
+SurfaceMesh
+manifoldPart (const SurfaceComplex& complex, const FlatLists& near)
+{
+  SurfaceMesh mesh;
+  mesh.triangles = FanPruner (complex, near.rows ()).run ();
+  mesh.connect (near.rows ());
+  std::vector<Triangle> left = withoutIslands (mesh, near);
+  if (left.size () < mesh.triangles.size ()) {
+    mesh.triangles.swap (left);
+    mesh.connect (near.rows ());
+  }
+  return mesh;
+}
+
+} // namespace floater
+} // namespace pcl

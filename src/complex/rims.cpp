@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "complex/rims.h"
+
+#include "neighborhoods/planar_star.h"
+#include "neighborhoods/tangent_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double OPEN = 0.5; // share of points with an empty sector at a true boundary
+constexpr double WIDE = 6.0; // steps of the rim; as wide as a regular polygon of 19 sides
+constexpr double LONG = 1.0; // points of the rim over the root of those of its piece
+constexpr std::size_t WIDTH_POINTS = 256; // at most, evenly taken, for the width
+constexpr double DEGREE = 3.14159265358979323846 / 180.0;
+
+bool
+isOpen (const Rim& rim)
+{
+  return rim.open_share >= OPEN;
+}
+
+double
+widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& positions)
+{
+  const std::size_t step = (points.size () + WIDTH_POINTS - 1) / WIDTH_POINTS;
+  double sqr_width = 0.0;
+  for (std::size_t i = 0; i < points.size (); i += step)
+    for (std::size_t j = 0; j < i; j += step)
+      sqr_width =
+          std::max (sqr_width, (positions[points[i]] - positions[points[j]]).squaredNorm ());
+  return std::sqrt (sqr_width);
+}
+
+// Largest first, those with empty sectors before all others.
+std::vector<Rim*>
+bySize (std::vector<Rim>& rims)
+{
+  std::vector<Rim*> sorted;
+  for (Rim& rim : rims)
+    sorted.push_back (&rim);
+  std::stable_sort (sorted.begin (), sorted.end (), [] (const Rim* a, const Rim* b) {
+    return std::make_tuple (isOpen (*b), b->length) < std::make_tuple (isOpen (*a), a->length);
+  });
+  return sorted;
+}
+
+} // namespace
+
+std::vector<Rim>
+findRims (const SurfaceMesh& mesh, const std::vector<Index>& pieces,
+          const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+          const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
+          double opening_angle)
+{
+  std::vector<Rim> rims;
+  PlanarStar star;
+  std::vector<PlanarNeighbor> neighbors;
+  for (std::vector<Index>& loop : boundaryLoops (mesh)) {
+    Rim rim{{}, pieces[mesh.triangle_of[loop.front ()]], 0.0, widthOf (loop, positions), 0.0, 0.0};
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < loop.size (); ++i) {
+      const Index p = loop[i];
+      rim.length += (positions[loop[(i + 1) % loop.size ()]] - positions[p]).norm ();
+      rim.spacing += spacing[p];
+      const TangentFrame frame (normals[p].cast<double> ());
+      neighbors.clear ();
+      for (Index q : near.row (p))
+        neighbors.push_back ({frame.project (positions[q] - positions[p]), q});
+      star.order (neighbors);
+      open += star.openingAngle () > opening_angle * DEGREE ? 1 : 0;
+    }
+    const auto count = static_cast<double> (loop.size ());
+    rim.spacing /= count;
+    rim.open_share = static_cast<double> (open) / count;
+    rim.points = std::move (loop);
+    rims.push_back (std::move (rim));
+  }
+  return rims;
+}
+
+void
+chooseRims (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points,
+            const Options& options, double unit)
+{
+  std::vector<Rim*> sorted = bySize (rims);
+  switch (options.holes) {
+  case HolePolicy::CLOSE_ALL:
+    return;
+  case HolePolicy::KEEP_LARGEST: {
+    std::vector<std::uint8_t> has_one (piece_points.size (), 0);
+    for (Rim* rim : sorted) {
+      rim->stays = has_one[rim->piece] == 0;
+      has_one[rim->piece] = 1;
+    }
+    return;
+  }
+  case HolePolicy::KEEP_COUNT:
+    for (std::size_t i = 0; i < sorted.size (); ++i)
+      sorted[i]->stays = i < static_cast<std::size_t> (options.kept_loops);
+    return;
+  case HolePolicy::BY_SIZE:
+    for (Rim& rim : rims)
+      rim.stays = rim.width >
+                  std::max (options.largest_hole * rim.spacing, options.largest_hole_length * unit);
+    return;
+  case HolePolicy::AUTO:
+    for (Rim& rim : rims) {
+      const auto count = static_cast<double> (rim.points.size ());
+      const bool is_wide = rim.width >= WIDE * rim.length / count;
+      const bool is_long =
+          count >= LONG * std::sqrt (static_cast<double> (piece_points[rim.piece]));
+      rim.stays = isOpen (rim) && (is_wide || is_long);
+    }
+    return;
+  }
+}
+
+} // namespace floater
+} // namespace pcl
