@@ -12,62 +12,10 @@ namespace floater
 {
 namespace
 {
-constexpr double TURNED = 0.4; // cosine to the corners' normals below which a triangle is penalized
+constexpr double TURNED = 0.2; // cosine to the corners' normals below which a triangle is penalized
 constexpr double PENALTY = 1000.0; // per unit of that cosine; a right isosceles triangle costs 2
 constexpr double IMPROVES =
     1e-9; // relative gain below which the diagonals of a quad count as equal
-
-// Flips from a stack of edges; the mesh stays a manifold throughout.
-class Flipper
-{
-public:
-  Flipper (SurfaceMesh& mesh, const TriangleCost& cost,
-           const std::function<bool (Index, Index)>& allowed)
-      : mesh_ (mesh), cost_ (cost), allowed_ (allowed)
-  {
-    for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
-          stack_.push_back ({t, side});
-  }
-
-  std::size_t run ()
-  {
-    std::size_t flips = 0;
-    while (!stack_.empty ()) {
-      const MeshEdge e = stack_.back ();
-      stack_.pop_back ();
-      if (!improves (e))
-        continue;
-      const MeshEdge m = mesh_.mate (e);
-      mesh_.flip (e);
-      ++flips;
-      for (const Index t : {e.triangle, m.triangle})
-        for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
-          if (mesh_.neighbors[t][side] != NONE)
-            stack_.push_back ({t, side});
-    }
-    return flips;
-  }
-
-private:
-  bool improves (MeshEdge e) const
-  {
-    const MeshEdge m = mesh_.mate (e);
-    if (m.triangle == NONE)
-      return false;
-    const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
-    const double now = cost_ (c, a, b) + cost_ (d, b, a);
-    const double then = cost_ (c, a, d) + cost_ (d, b, c);
-    return then < now - IMPROVES * std::abs (now) && !mesh_.hasEdge (c, d) &&
-           (!allowed_ || allowed_ (c, d));
-  }
-
-  SurfaceMesh& mesh_;
-  const TriangleCost& cost_;
-  const std::function<bool (Index, Index)>& allowed_;
-  std::vector<MeshEdge> stack_;
-};
 
 } // namespace
 
@@ -89,10 +37,33 @@ TriangleCost::operator() (Index a, Index b, Index c) const
   // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area); bounded, so that costs of needles
   // compare.
   const double cotangents = sqr_lengths / (2.0 * std::max (double_area, 1e-9 * sqr_lengths));
+  return cotangents + PENALTY * std::max (0.0, TURNED - agreement (a, b, c, area_vector));
+}
+
+double
+TriangleCost::agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector) const
+{
   const Eigen::Vector3f normal = normals_[a] + normals_[b] + normals_[c];
-  const double length = normal.norm () * double_area;
-  const double agreement = length > 0.0 ? normal.cast<double> ().dot (area_vector) / length : 0.0;
-  return cotangents + PENALTY * std::max (0.0, TURNED - agreement);
+  const double length = normal.norm () * area_vector.norm ();
+  return length > 0.0 ? normal.cast<double> ().dot (area_vector) / length : 0.0;
+}
+
+bool
+TriangleCost::isTurned (const Triangle& corners) const
+{
+  const auto [a, b, c] = corners;
+  return agreement (a, b, c,
+                    (positions_[b] - positions_[a]).cross (positions_[c] - positions_[a])) < TURNED;
+}
+
+Eigen::Vector3d
+TriangleCost::unitNormal (Index a, Index b, Index c) const
+{
+  if (b < a && b < c)
+    return unitNormal (b, c, a);
+  if (c < a && c < b)
+    return unitNormal (c, a, b);
+  return (positions_[b] - positions_[a]).cross (positions_[c] - positions_[a]).normalized ();
 }
 
 void
@@ -112,17 +83,67 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
       normals[p] = -normals[p];
 }
 
-std::size_t
-flipEdges (SurfaceMesh& mesh, const TriangleCost& cost)
+double
+EdgeFlipper::run ()
 {
-  return Flipper (mesh, cost, {}).run ();
+  double change = 0.0;
+  while (!stack_.empty ()) {
+    const MeshEdge e = stack_.back ();
+    stack_.pop_back ();
+    const double gained = gain (e);
+    if (gained >= 0.0)
+      continue;
+    const MeshEdge m = mesh_.mate (e);
+    mesh_.flip (e);
+    ++flips_;
+    change += gained;
+    for (const Index t : {e.triangle, m.triangle})
+      for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
+        if (mesh_.neighbors[t][side] != NONE)
+          stack_.push_back ({t, side});
+  }
+  return change;
+}
+
+double
+EdgeFlipper::gain (MeshEdge e) const
+{
+  const MeshEdge m = mesh_.mate (e);
+  if (m.triangle == NONE)
+    return 0.0;
+  const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
+  const double now = cost_ (c, a, b) + cost_ (d, b, a);
+  const double then = cost_ (c, a, d) + cost_ (d, b, c);
+  const Eigen::Vector3d now_cab = cost_.unitNormal (c, a, b), now_dba = cost_.unitNormal (d, b, a);
+  if (then >= now && now_cab.dot (now_dba) >= 0.0)
+    return 0.0;
+  const Eigen::Vector3d then_cad = cost_.unitNormal (c, a, d),
+                        then_dbc = cost_.unitNormal (d, b, c);
+  const MeshEdge bc{e.triangle, SurfaceMesh::next (e.side)},
+      ca{e.triangle, SurfaceMesh::previous (e.side)}, ad{m.triangle, SurfaceMesh::next (m.side)},
+      db{m.triangle, SurfaceMesh::previous (m.side)};
+  const auto edge = [this] (MeshEdge outer, const Eigen::Vector3d& normal) {
+    return edgeCost (mesh_, cost_, outer, normal);
+  };
+  const double total = now + TriangleCost::ofFold (now_cab, now_dba) + edge (bc, now_cab) +
+                       edge (ca, now_cab) + edge (ad, now_dba) + edge (db, now_dba);
+  const double total_then = then + TriangleCost::ofFold (then_cad, then_dbc) + edge (bc, then_dbc) +
+                            edge (ca, then_cad) + edge (ad, then_cad) + edge (db, then_dbc);
+  if (total_then >= total - IMPROVES * std::abs (total) || mesh_.hasEdge (c, d))
+    return 0.0;
+  return total_then - total;
 }
 
 std::size_t
-flipEdges (SurfaceMesh& mesh, const TriangleCost& cost,
-           const std::function<bool (Index, Index)>& allowed)
+flipEdges (SurfaceMesh& mesh, const TriangleCost& cost)
 {
-  return Flipper (mesh, cost, allowed).run ();
+  EdgeFlipper flipper (mesh, cost);
+  for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
+        flipper.push ({t, side});
+  flipper.run ();
+  return flipper.flips ();
 }
 
 } // namespace floater

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Folds that flips cannot undo.
+// Vertices that lie in the wrong triangles, which flips alone cannot mend.
 #pragma once
 
-#include "triangulation/surface_mesh.h"
+#include "triangulation/flips.h"
 
 #include <vector>
 
@@ -14,15 +14,16 @@ namespace floater
 std::vector<MeshEdge>
 findFolds (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions);
 
-/// Where the parameterization has laid a few points in the wrong order, no single flip helps.
-/// Around each fold a patch of some rings is cut out; in it one vertex after the other is taken
-/// out, its hole filled by the triangulation of least cost, and the vertex put back where its split
-/// costs least, followed by flips. A change is kept if it lowers the cost of the patch, in which
-/// folded edges count. The boundary stays. O(folds). \param normals oriented like the mesh (see
-/// orientNormals) \param folds  as by findFolds () \return folds left
-std::vector<MeshEdge>
-repairFolds (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<Eigen::Vector3f>& normals, std::vector<MeshEdge> folds);
+/// Where points were laid out in the wrong order, or attached to the wrong sheet, no single flip
+/// helps. Around every triangle that is turned away from its corners' normals, and every fold, one
+/// vertex after the other is taken out, its hole filled by the triangulation of least cost, and the
+/// vertex put back where that costs least among the triangles around its nearest neighbours, on
+/// whatever sheet, with flips from there. A move is kept if it lowers the cost of the mesh, so this
+/// ends; moved vertices' neighbours are looked at again. The boundary stays. O(bad vertices).
+/// \return number of vertices moved
+std::size_t
+moveVertices (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost,
+              const std::vector<Eigen::Vector3d>& positions);
 
 } // namespace floater
 } // namespace pcl

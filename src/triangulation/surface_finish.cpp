@@ -29,13 +29,14 @@ flipSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   return options.flip_edges && !finish.folds.empty ();
 }
 
+// Flips have turned triangles round, so that some normals may have the wrong sign.
 void
-repair (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+repair (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
         std::vector<Eigen::Vector3f>& normals, SurfaceFinish& finish)
 {
-  // Flips have turned triangles round, so that some normals may have the wrong sign.
   orientNormals (mesh, positions, normals);
-  finish.folds = repairFolds (mesh, positions, normals, std::move (finish.folds));
+  finish.moves = moveVertices (mesh, near, TriangleCost (positions, normals), positions);
+  finish.folds = findFolds (mesh, positions);
 }
 
 } // namespace
@@ -46,7 +47,7 @@ finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 {
   SurfaceFinish finish;
   if (flipSurface (mesh, positions, near, normals, options, finish))
-    repair (mesh, positions, normals, finish);
+    repair (mesh, positions, near, normals, finish);
   return finish;
 }
 
@@ -67,7 +68,7 @@ finishDisc (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, co
             "have handles, several parts, or be too thinly sampled); let the topology be chosen "
             "automatically, or reconstruct a part of it"};
   else
-    repair (mesh, positions, normals, finish);
+    repair (mesh, positions, near, normals, finish);
   return finish;
 }
 

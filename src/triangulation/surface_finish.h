@@ -17,6 +17,7 @@ namespace floater
 struct SurfaceFinish
 {
   std::size_t flips = 0;
+  std::size_t moves = 0;       ///< vertices taken out and put back elsewhere
   std::vector<MeshEdge> folds; ///< edges left more than 120 degrees apart
   Problem problem;             ///< NOT_A_DISC
 };

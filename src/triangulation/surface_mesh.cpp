@@ -50,11 +50,50 @@ SurfaceMesh::hasEdge (Index p, Index q) const
 }
 
 void
+SurfaceMesh::note (Index t)
+{
+  if (journal != nullptr)
+    journal->entries_.push_back ({t, triangles[t], neighbors[t]});
+}
+
+void
+SurfaceMesh::set (Index t, const Triangle& corners)
+{
+  note (t);
+  triangles[t] = corners;
+}
+
+void
+SurfaceMesh::setTriangleOf (Index p, Index t)
+{
+  if (journal != nullptr)
+    journal->entries_.push_back ({NONE, {}, {p, triangle_of[p], NONE}});
+  triangle_of[p] = t;
+}
+
+void
+SurfaceMesh::undo (std::size_t mark)
+{
+  std::vector<MeshJournal::Entry>& entries = journal->entries_;
+  for (; entries.size () > mark; entries.pop_back ()) {
+    const MeshJournal::Entry& entry = entries.back ();
+    if (entry.triangle == NONE) {
+      triangle_of[entry.neighbors[0]] = entry.neighbors[1];
+      continue;
+    }
+    triangles[entry.triangle] = entry.corners;
+    neighbors[entry.triangle] = entry.neighbors;
+  }
+}
+
+void
 SurfaceMesh::link (Index t, std::uint8_t side, MeshEdge other)
 {
   neighbors[t][side] = other.triangle;
-  if (other.triangle != NONE)
-    neighbors[other.triangle][other.side] = t;
+  if (other.triangle == NONE)
+    return;
+  note (other.triangle);
+  neighbors[other.triangle][other.side] = t;
 }
 
 void
@@ -67,38 +106,77 @@ SurfaceMesh::flip (MeshEdge e)
   const MeshEdge across_ca = mate ({t, previous (e.side)}); // opposite to b
   const MeshEdge across_ad = mate ({u, next (m.side)});     // opposite to b in the neighbour
   const MeshEdge across_db = mate ({u, previous (m.side)}); // opposite to a in the neighbour
-  triangles[t] = {c, a, d};
-  triangles[u] = {d, b, c};
+  set (t, {c, a, d});
+  set (u, {d, b, c});
   link (t, 0, across_ad);
   link (t, 2, across_ca);
   link (u, 0, across_bc);
   link (u, 2, across_db);
   neighbors[t][1] = u;
   neighbors[u][1] = t;
-  triangle_of[a] = t;
-  triangle_of[c] = t;
-  triangle_of[b] = u;
-  triangle_of[d] = u;
+  setTriangleOf (a, t);
+  setTriangleOf (c, t);
+  setTriangleOf (b, u);
+  setTriangleOf (d, u);
 }
 
 void
 SurfaceMesh::split (Index t, Index p)
 {
+  const auto u = static_cast<Index> (triangles.size ());
+  triangles.resize (u + 2U);
+  neighbors.resize (u + 2U, {NONE, NONE, NONE});
+  split (t, p, u, u + 1);
+}
+
+void
+SurfaceMesh::split (Index t, Index p, Index u, Index v)
+{
   const Triangle corners = triangles[t];
   const MeshEdge across_1 = mate ({t, 1}); // c a
   const MeshEdge across_2 = mate ({t, 2}); // a b
-  const auto u = static_cast<Index> (triangles.size ());
-  const Index v = u + 1;
-  triangles[t] = {p, corners[1], corners[2]};
-  triangles.push_back ({p, corners[2], corners[0]});
-  triangles.push_back ({p, corners[0], corners[1]});
-  neighbors[t] = {neighbors[t][0], u, v};
-  neighbors.push_back ({NONE, v, t});
-  neighbors.push_back ({NONE, t, u});
+  const Index across_0 = neighbors[t][0];
+  set (t, {p, corners[1], corners[2]});
+  set (u, {p, corners[2], corners[0]});
+  set (v, {p, corners[0], corners[1]});
+  neighbors[t] = {across_0, u, v};
+  neighbors[u] = {NONE, v, t};
+  neighbors[v] = {NONE, t, u};
   link (u, 0, across_1);
   link (v, 0, across_2);
-  triangle_of[p] = t;
-  triangle_of[corners[0]] = u;
+  setTriangleOf (p, t);
+  setTriangleOf (corners[0], u);
+}
+
+void
+SurfaceMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
+                         const std::vector<Triangle>& filling)
+{
+  // What is behind each edge of the polygon: from the first point of the edge to its mate.
+  std::vector<std::pair<Triangle, MeshEdge>> behind;
+  for (Index t : fan_triangles) {
+    const MeshEdge e{t, sideOf (t, p)};
+    behind.push_back ({{from (e), to (e), NONE}, mate (e)});
+  }
+  for (std::size_t i = 0; i < filling.size (); ++i)
+    set (fan_triangles[i], filling[i]);
+  for (std::size_t i = 0; i < filling.size (); ++i)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const MeshEdge e{fan_triangles[i], side};
+      const Index a = from (e), b = to (e);
+      setTriangleOf (a, e.triangle);
+      MeshEdge other{NONE, 0};
+      for (const auto& [edge, mate_of_edge] : behind)
+        if (edge[0] == a && edge[1] == b)
+          other = mate_of_edge;
+      for (std::size_t j = 0; j < filling.size () && other.triangle == NONE; ++j)
+        for (std::uint8_t other_side = 0; other_side < 3; ++other_side)
+          if (from ({fan_triangles[j], other_side}) == b &&
+              to ({fan_triangles[j], other_side}) == a)
+            other = {fan_triangles[j], other_side};
+      link (e.triangle, side, other);
+    }
+  setTriangleOf (p, NONE);
 }
 
 bool

@@ -17,6 +17,24 @@ struct MeshEdge
   std::uint8_t side;
 };
 
+/// What a mesh was before it was changed; see SurfaceMesh::journal.
+class MeshJournal
+{
+public:
+  std::size_t mark () const { return entries_.size (); }
+  void clear () { entries_.clear (); }
+
+private:
+  friend struct SurfaceMesh;
+  struct Entry
+  {
+    Index triangle; ///< NONE: of a point
+    Triangle corners;
+    std::array<Index, 3> neighbors; ///< of a point: (point, its triangle, -)
+  };
+  std::vector<Entry> entries_;
+};
+
 /// Oriented manifold with boundary. Triangle t has corners a, b, c anti-clockwise; its neighbour i
 /// is across the edge opposite to corner i, NONE at the boundary. Every vertex has a single fan.
 struct SurfaceMesh
@@ -24,6 +42,7 @@ struct SurfaceMesh
   std::vector<Triangle> triangles;
   std::vector<std::array<Index, 3>> neighbors;
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
+  MeshJournal* journal = nullptr; ///< where flip, split and replaceFan note what was, to be undone
 
   static std::uint8_t next (std::uint8_t side)
   {
@@ -68,12 +87,26 @@ struct SurfaceMesh
   /// Splits triangle t in three at point p, which must not be a vertex.
   void split (Index t, Index p);
 
+  /// The same; the second and third triangle go to slots u and v, which must not be in use.
+  void split (Index t, Index p, Index u, Index v);
+
+  /// Replaces the closed fan around p by triangles of the polygon around it, two fewer, which join
+  /// no points that an edge joins already. The last two slots of the fan are then not in use.
+  void replaceFan (Index p, const std::vector<Index>& fan_triangles,
+                   const std::vector<Triangle>& filling);
+
+  /// Undoes all changes noted after a mark, last first.
+  void undo (std::size_t mark);
+
   /// Sets neighbours and triangle_of from the triangles. O(n).
   /// \return false if the triangles are no oriented manifold (the mesh is then unusable)
   bool connect (std::size_t points);
 
 private:
   void link (Index t, std::uint8_t side, MeshEdge other);
+  void set (Index t, const Triangle& corners);
+  void setTriangleOf (Index p, Index t);
+  void note (Index t);
 };
 
 /// Boundary loops, each with the surface on its left, in order of their smallest point, starting at

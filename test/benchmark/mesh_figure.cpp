@@ -102,7 +102,7 @@ public:
     SurfaceMesh mesh = triangulatePlane (sample.direct, disc.boundary.loop);
     const std::vector<Triangle> in_plane = mesh.triangles;
     std::vector<Eigen::Vector3f> normals = disc.normals;
-    finishSurface (mesh, disc.set.positions, disc.near, normals, {});
+    finishDisc (mesh, disc.set.positions, disc.near, normals, {});
     faceOutwards (mesh.triangles, disc.set.positions);
 
     // Points that the system leaves out are in no triangle of the plane; far away they do not

@@ -29,7 +29,7 @@ meshOf (const Disc& disc, const std::vector<Eigen::Vector2d>& uv)
   SurfaceMesh mesh = triangulatePlane (uv, disc.boundary.loop);
   edges.in_plane = edgesOf (mesh.triangles);
   std::vector<Eigen::Vector3f> normals = disc.normals;
-  finishSurface (mesh, disc.set.positions, disc.near, normals, {});
+  finishDisc (mesh, disc.set.positions, disc.near, normals, {});
   edges.on_surface = edgesOf (mesh.triangles);
   return edges;
 }

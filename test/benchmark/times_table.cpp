@@ -121,7 +121,7 @@ public:
       times.time ("Delaunay", [&] { mesh = triangulatePlane (sample.direct, disc.boundary.loop); });
       times.time ("flips", [&] {
         std::vector<Eigen::Vector3f> normals = disc.normals;
-        finishSurface (mesh, disc.set.positions, disc.near, normals, options);
+        finishDisc (mesh, disc.set.positions, disc.near, normals, options);
       });
     }
     addTimes (disc, times, mesh.triangles.size (), bicgstab);

@@ -167,18 +167,6 @@ TEST (Flips, UnfoldAPair)
   EXPECT_EQ (unordered (mesh.triangles), (std::set<Triangle>{{0, 1, 3}, {1, 2, 3}}));
 }
 
-TEST (Flips, OnlyWhereAllowed)
-{
-  const Positions square = {{0, 0, 0}, {1, -0.1, 0}, {2, 0, 0}, {1, 0.1, 0}};
-  const std::vector<Eigen::Vector3f> normals = upward (4);
-  const TriangleCost cost (square, normals);
-  SurfaceMesh mesh;
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  ASSERT_TRUE (mesh.connect (4));
-  EXPECT_EQ (flipEdges (mesh, cost, [] (Index p, Index q) { return p + q != 4; }), 0U);
-  EXPECT_EQ (flipEdges (mesh, cost, [] (Index p, Index q) { return p + q == 4; }), 1U);
-}
-
 TEST (Flips, OrientNormalsLikeTheMesh)
 {
   const Sheet sheet = samples::disc (0.1, 6);
@@ -289,8 +277,7 @@ TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
     std::vector<Eigen::Vector3f> normals = made.stars.normals;
     SurfaceMesh mesh = triangulatePlane (mixed, loop);
     const std::set<Triangle> before = unordered (mesh.triangles);
-    const SurfaceFinish finish =
-        finishSurface (mesh, made.set.positions, made.near, normals, options);
+    const SurfaceFinish finish = finishDisc (mesh, made.set.positions, made.near, normals, options);
     EXPECT_FALSE (finish.problem);
     EXPECT_EQ (finish.folds.size (), findFolds (mesh, made.set.positions).size ());
     const samples::Topology topology = samples::topologyOf (mesh.triangles);
@@ -324,8 +311,7 @@ TEST (SurfaceFinish, RefusesASurfaceFoldedAllOver)
   }
   SurfaceMesh mesh = triangulatePlane (scattered, {0, 1, 2});
   std::vector<Eigen::Vector3f> normals = made.stars.normals;
-  const SurfaceFinish finish =
-      finishSurface (mesh, made.set.positions, made.near, normals, Options{});
+  const SurfaceFinish finish = finishDisc (mesh, made.set.positions, made.near, normals, Options{});
   EXPECT_EQ (finish.problem.status, Status::NOT_A_DISC);
   EXPECT_NE (finish.problem.message.find ("folded"), std::string::npos);
 }
