@@ -11,6 +11,7 @@
 #include "neighborhoods/tangent_planes.h"
 #include "neighborhoods/working_set.h"
 #include "parameterization/parameterize.h"
+#include "parameterization/region_recursion.h"
 #include "report_builder.h"
 #include "triangulation/planar_delaunay.h"
 #include "triangulation/surface_finish.h"
@@ -111,7 +112,13 @@ makeDisc (Samples& samples, const Options& options, StageClock& clock, Report& r
   clock.start (Stage::DELAUNAY);
   disc.mesh = triangulatePlane (parameterization.uv, disc.boundary.loop);
 
-  // Beyond the report: points that coincide in the plane come back, edges are flipped in space.
+  // Beyond the report: what is too deep for double precision is laid out again, level by level.
+  report.statistics.levels =
+      layOutCollapsedRegions (disc.mesh, parameterization.uv, positions, samples.near,
+                              samples.stars.normals, disc.boundary.loop, options)
+          .levels;
+
+  // Points that coincide in the plane come back, edges are flipped in space.
   clock.start (Stage::FLIPS);
   disc.finish = finishDisc (disc.mesh, positions, samples.near, samples.stars.normals, options);
   disc.problem = disc.finish.problem;

@@ -52,6 +52,7 @@ statisticsJson (const Statistics& statistics)
           {"boundary_candidates", statistics.boundary_candidates},
           {"loop_points", statistics.loop_points},
           {"triangles", statistics.triangles},
+          {"levels", statistics.levels},
           {"flips", statistics.flips},
           {"folds", statistics.folds},
           {"unknowns", statistics.unknowns},

@@ -87,8 +87,9 @@ struct Statistics
   std::size_t boundary_candidates = 0; ///< points that look like boundary
   std::size_t loop_points = 0;         ///< points of the boundary loop
   std::size_t triangles = 0;
-  std::size_t flips = 0; ///< edges flipped after lifting
-  std::size_t folds = 0; ///< neighbouring triangles left more than 120 degrees apart
+  std::size_t levels = 0; ///< of regions laid out again where the plane was too small for them
+  std::size_t flips = 0;  ///< edges flipped after lifting
+  std::size_t folds = 0;  ///< neighbouring triangles left more than 120 degrees apart
 
   std::size_t unknowns = 0;       ///< interior points m, rows of the system
   std::size_t nnz_matrix = 0;     ///< nnz (A)
@@ -115,9 +116,9 @@ struct Report
   std::vector<std::uint32_t> loop;         ///< longest boundary loop, in order, each point once
   std::vector<Eigen::Vector2d> parameters; ///< of a disc: per cloud point; NaN where it was not
                                            ///< used; else empty
-  std::vector<std::uint32_t> unused;     ///< finite, not duplicate, but in no triangle; ascending
-  std::vector<std::uint32_t> outliers;   ///< left out of the mesh as outliers; ascending
-  std::vector<std::uint32_t> non_finite; ///< ascending
+  std::vector<std::uint32_t> unused;       ///< finite, not duplicate, but in no triangle; ascending
+  std::vector<std::uint32_t> outliers;     ///< left out of the mesh as outliers; ascending
+  std::vector<std::uint32_t> non_finite;   ///< ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the point that stands for it)
   Statistics statistics;
 };
