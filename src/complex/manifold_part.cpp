@@ -145,31 +145,6 @@ withoutIslands (const SurfaceMesh& mesh, const FlatLists& near)
 
 } // namespace
 
-std::vector<Index>
-findPieces (const SurfaceMesh& mesh, Index& count)
-{
-  std::vector<Index> piece (mesh.triangles.size (), NONE);
-  std::vector<Index> front;
-  count = 0;
-  for (Index start = 0; start < piece.size (); ++start) {
-    if (piece[start] != NONE)
-      continue;
-    piece[start] = count;
-    front.assign (1, start);
-    while (!front.empty ()) {
-      const Index t = front.back ();
-      front.pop_back ();
-      for (Index u : mesh.neighbors[t])
-        if (u != NONE && piece[u] == NONE) {
-          piece[u] = count;
-          front.push_back (u);
-        }
-    }
-    ++count;
-  }
-  return piece;
-}
-
 SurfaceMesh
 manifoldPart (const SurfaceComplex& complex, const FlatLists& near)
 {

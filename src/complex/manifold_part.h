@@ -17,12 +17,7 @@ SurfaceMesh
 manifoldPart (const SurfaceComplex& complex, const FlatLists& near);
 
 /// Smallest piece that may stand alone.
-constexpr std::size_t ISLAND = 8;
-
-/// Piece of each triangle, numbered from 0 in the order of their first triangles: triangles that
-/// hang together by edges.
-std::vector<Index>
-findPieces (const SurfaceMesh& mesh, Index& count);
+constexpr std::size_t ISLAND = 32;
 
 } // namespace floater
 } // namespace pcl

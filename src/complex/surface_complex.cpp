@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -59,23 +61,68 @@ public:
     next_corner_.reserve (3 * most);
   }
 
-  void offer (const Candidate& candidate)
+  // Takes a candidate if it fits. Sectors of one star do not overlap: candidates of three votes,
+  // offered first to an empty complex, need no test.
+  void offer (const Candidate& candidate, bool test_sectors)
   {
-    // Sectors of one star do not overlap: candidates of three votes, offered first, need no test.
-    for (std::uint8_t i = 0; i < 3 && candidate.votes < 3; ++i)
-      if (isTaken (candidate.corners, i))
-        return;
+    if (test_sectors && isTaken (candidate.corners))
+      return;
     if (!isOriented (candidate)) {
       complex_.misfits += candidate.votes == 3 ? 1 : 0;
       return;
     }
-    const auto t = static_cast<Index> (complex_.triangles.size ());
-    complex_.triangles.push_back (candidate.corners);
-    complex_.votes.push_back (candidate.votes);
-    for (std::uint8_t i = 0; i < 3; ++i) {
-      next_corner_.push_back (first_corner_[candidate.corners[i]]);
-      first_corner_[candidate.corners[i]] = 3 * t + i;
+    take (candidate.corners, candidate.votes);
+  }
+
+  // Takes the triangles of a mesh, oriented like the normals.
+  void start (const SurfaceMesh& mesh)
+  {
+    for (const Triangle& corners : mesh.triangles) {
+      take (corners, 3);
+      sides_.join (corners[0], corners[1], false);
+      sides_.join (corners[0], corners[2], false);
     }
+  }
+
+  // Decides which pieces of the mesh are turned round, by the candidates between them.
+  void orientPieces (const std::vector<Candidate>& candidates, const std::vector<Index>& open,
+                     const SurfaceMesh& mesh)
+  {
+    Index count = 0;
+    const std::vector<Index> pieces = findPieces (mesh, count);
+    if (count < 2)
+      return;
+    const auto pieceOf = [&] (Index p) {
+      return mesh.triangle_of[p] == NONE ? NONE : pieces[mesh.triangle_of[p]];
+    };
+    std::map<std::pair<Index, Index>, Ballot> ballots;
+    for (Index i : open) {
+      const Candidate& candidate = candidates[i];
+      if (isTaken (candidate.corners))
+        continue;
+      for (std::uint8_t a = 0; a < 3; ++a) {
+        const auto b = static_cast<std::uint8_t> ((a + 1U) % 3U);
+        const Index p = candidate.corners[a], q = candidate.corners[b];
+        const auto pair = std::minmax (pieceOf (p), pieceOf (q));
+        if (pair.first == pair.second || pair.second == NONE)
+          continue;
+        const bool opposite =
+            runsClockwise (candidate.corners, a) != runsClockwise (candidate.corners, b);
+        Ballot& ballot = ballots.try_emplace (pair, Ballot{0, p, q}).first->second;
+        ballot.same += (opposite ? -1 : 1) * candidate.votes * candidate.votes;
+      }
+    }
+    std::vector<Ballot> sorted;
+    for (const auto& entry : ballots)
+      sorted.push_back (entry.second);
+    std::stable_sort (sorted.begin (), sorted.end (), [] (const Ballot& a, const Ballot& b) {
+      return std::abs (a.same) > std::abs (b.same);
+    });
+    if (getenv ("DBG"))
+      for (const auto& e : ballots)
+        printf ("ballot %u %u same %d\n", e.first.first, e.first.second, e.second.same);
+    for (const Ballot& ballot : sorted)
+      sides_.join (ballot.p, ballot.q, ballot.same < 0);
   }
 
   // Turns all triangles to the side of their component.
@@ -91,6 +138,24 @@ public:
   }
 
 private:
+  // Votes on two pieces: for being oriented alike, minus for the opposite; and a point of each.
+  struct Ballot
+  {
+    int same;
+    Index p, q;
+  };
+
+  void take (const Triangle& corners, std::uint8_t votes)
+  {
+    const auto t = static_cast<Index> (complex_.triangles.size ());
+    complex_.triangles.push_back (corners);
+    complex_.votes.push_back (votes);
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      next_corner_.push_back (first_corner_[corners[i]]);
+      first_corner_[corners[i]] = 3 * t + i;
+    }
+  }
+
   Sector sector (const Triangle& corners, std::uint8_t i) const
   {
     const Index p = corners[i], q = corners[(i + 1U) % 3U], r = corners[(i + 2U) % 3U];
@@ -104,12 +169,15 @@ private:
     return sector;
   }
 
-  bool isTaken (const Triangle& corners, std::uint8_t i) const
+  // True if a triangle taken overlaps another at one of its corners.
+  bool isTaken (const Triangle& corners) const
   {
-    const Sector wanted = sector (corners, i);
-    for (Index c = first_corner_[corners[i]]; c != NONE; c = next_corner_[c])
-      if (overlap (wanted, sector (complex_.triangles[c / 3], static_cast<std::uint8_t> (c % 3))))
-        return true;
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      const Sector wanted = sector (corners, i);
+      for (Index c = first_corner_[corners[i]]; c != NONE; c = next_corner_[c])
+        if (overlap (wanted, sector (complex_.triangles[c / 3], static_cast<std::uint8_t> (c % 3))))
+          return true;
+    }
     return false;
   }
 
@@ -149,14 +217,12 @@ private:
   SurfaceComplex complex_;
 };
 
-} // namespace
-
-SurfaceComplex
-buildComplex (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> candidates,
-              std::vector<Eigen::Vector3f>& normals)
+// The order in which candidates are offered. The trees of normals grow along triangles that agree
+// best, like a spanning forest of least cost; that takes classes of agreement, no full order, for
+// the many candidates of three votes.
+std::vector<Index>
+inOrder (const std::vector<Candidate>& candidates)
 {
-  // The trees of normals grow along triangles that agree best, like a spanning forest of least
-  // cost; that takes classes of agreement, no full order, for the many candidates of three votes.
   std::array<std::size_t, CLASSES + 2> begin{};
   const auto classOf = [] (const Candidate& candidate) {
     if (candidate.votes < 3)
@@ -177,10 +243,46 @@ buildComplex (const std::vector<Eigen::Vector3d>& positions, std::vector<Candida
                return std::tie (b.votes, b.agreement, a.size, a.corners) <
                       std::tie (a.votes, a.agreement, b.size, b.corners);
              });
+  return order;
+}
+
+} // namespace
+
+SurfaceComplex
+buildComplex (const std::vector<Eigen::Vector3d>& positions,
+              const std::vector<Candidate>& candidates, std::vector<Eigen::Vector3f>& normals)
+{
   ComplexBuilder builder (positions, normals, candidates.size ());
-  for (Index i : order)
-    builder.offer (candidates[i]);
-  std::vector<Candidate> ().swap (candidates);
+  for (Index i : inOrder (candidates))
+    builder.offer (candidates[i], candidates[i].votes < 3);
+  return builder.finish (normals);
+}
+
+SurfaceComplex
+extendComplex (const std::vector<Eigen::Vector3d>& positions,
+               const std::vector<Candidate>& candidates, const SurfaceMesh& mesh,
+               std::vector<Eigen::Vector3f>& normals)
+{
+  // Only at the rims, and at points without triangles, is there room.
+  std::vector<std::uint8_t> has_room (positions.size (), 0);
+  for (Index p = 0; p < positions.size (); ++p)
+    has_room[p] = mesh.triangle_of[p] == NONE ? 1 : 0;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE)
+        has_room[mesh.from ({t, side})] = has_room[mesh.to ({t, side})] = 1;
+  std::vector<Index> open = inOrder (candidates);
+  open.erase (std::remove_if (open.begin (), open.end (),
+                              [&] (Index i) {
+                                const auto& [a, b, c] = candidates[i].corners;
+                                return has_room[a] == 0 || has_room[b] == 0 || has_room[c] == 0;
+                              }),
+              open.end ());
+  ComplexBuilder builder (positions, normals, mesh.triangles.size () + open.size ());
+  builder.start (mesh);
+  builder.orientPieces (candidates, open, mesh);
+  for (Index i : open)
+    builder.offer (candidates[i], true);
   return builder.finish (normals);
 }
 

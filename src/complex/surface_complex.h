@@ -3,6 +3,7 @@
 #pragma once
 
 #include "complex/candidate_triangles.h"
+#include "triangulation/surface_mesh.h"
 
 #include <cstddef>
 #include <vector>
@@ -28,8 +29,16 @@ struct SurfaceComplex
 /// O(n log n) for the candidates of one and two votes.
 /// \param normals in and out: unit normals of the points
 SurfaceComplex
-buildComplex (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> candidates,
-              std::vector<Eigen::Vector3f>& normals);
+buildComplex (const std::vector<Eigen::Vector3d>& positions,
+              const std::vector<Candidate>& candidates, std::vector<Eigen::Vector3f>& normals);
+
+/// Offers the candidates once more to the rims of a mesh. Its pieces were oriented each by itself;
+/// now the candidates that would join two of them vote on whether one is to be turned round first.
+/// \param normals as the triangles are oriented
+SurfaceComplex
+extendComplex (const std::vector<Eigen::Vector3d>& positions,
+               const std::vector<Candidate>& candidates, const SurfaceMesh& mesh,
+               std::vector<Eigen::Vector3f>& normals);
 
 } // namespace floater
 } // namespace pcl

@@ -50,9 +50,12 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
   clock.start (Stage::COMPLEX);
   const std::vector<float> spacing = localSpacing (positions, near, options.threads);
   {
-    const SurfaceComplex complex = buildComplex (
-        positions, findCandidates (positions, stars, spacing, {}, options.threads), stars.normals);
+    const std::vector<Candidate> candidates =
+        findCandidates (positions, stars, spacing, {}, options.threads);
+    SurfaceComplex complex = buildComplex (positions, candidates, stars.normals);
     surface.misfits = complex.misfits;
+    surface.mesh = manifoldPart (complex, near);
+    complex = extendComplex (positions, candidates, surface.mesh, stars.normals);
     surface.mesh = manifoldPart (complex, near);
   }
 

@@ -114,5 +114,10 @@ private:
 std::vector<std::vector<Index>>
 boundaryLoops (const SurfaceMesh& mesh);
 
+/// Piece of each triangle, numbered from 0 in the order of their first triangles: triangles that
+/// hang together by edges.
+std::vector<Index>
+findPieces (const SurfaceMesh& mesh, Index& count);
+
 } // namespace floater
 } // namespace pcl
