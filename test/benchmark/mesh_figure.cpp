@@ -93,6 +93,16 @@ densestPoints (const std::vector<Eigen::Vector3d>& flat)
   return chosen;
 }
 
+std::vector<unsigned char>
+picture (const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles,
+         const std::vector<Eigen::Vector3d>& flat, const std::vector<Triangle>& in_plane)
+{
+  const vtkSmartPointer<vtkPolyData> plane = makePolyData (flat, in_plane);
+  PictureOptions options;
+  options.parameterization = plane;
+  return toPng (drawMesh (makePolyData (positions, triangles), HEIGHT, options));
+}
+
 class MeshFigure : public Section
 {
 public:
@@ -128,16 +138,13 @@ public:
       if (chosen[p] != 0)
         window.extend (flat[p]);
 
-    const vtkSmartPointer<vtkPolyData> plane = makePolyData (flat, in_plane);
-    figures_.push_back (
-        {"figure6_mesh_" + disc.name,
-         drawMesh (makePolyData (disc.set.positions, mesh.triangles), plane, HEIGHT),
-         disc.name + ": mesh of " + grouped (mesh.triangles.size ()) +
-             " triangles, and its parameterization"});
+    figures_.push_back ({"figure6_mesh_" + disc.name,
+                         picture (disc.set.positions, mesh.triangles, flat, in_plane),
+                         disc.name + ": mesh of " + grouped (mesh.triangles.size ()) +
+                             " triangles, and its parameterization"});
     figures_.push_back (
         {"figure6_close_up_" + disc.name,
-         drawMesh (makePolyData (disc.set.positions, closeUp (mesh.triangles)),
-                   makePolyData (flat, closeUp (in_plane)), HEIGHT),
+         picture (disc.set.positions, closeUp (mesh.triangles), flat, closeUp (in_plane)),
          disc.name + ": the " + std::to_string (CLOSE_UP) +
              " points where the plane is densest, on the surface and in the plane. The "
              "window in the plane is " +

@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture_file.h"
 
+#include "mesh_picture.h"
+
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace pcl
 {
 namespace floater
 {
-std::vector<unsigned char>
-toPng (vtkImageData* image)
-{
-  constexpr int STRONGEST = 9;
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData (image);
-  writer->WriteToMemoryOn ();
-  writer->SetCompressionLevel (STRONGEST);
-  writer->Write ();
-  vtkUnsignedCharArray* bytes = writer->GetResult ();
-  if (bytes == nullptr || bytes->GetNumberOfValues () == 0)
-    throw std::runtime_error ("VTK could not make a picture");
-  return {bytes->Begin (), bytes->End ()};
-}
-
 std::vector<unsigned char>
 toPng (const GreyImage& image)
 {

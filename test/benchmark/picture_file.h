@@ -5,16 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-class vtkImageData;
-
 namespace pcl
 {
 namespace floater
 {
-/// \throw std::runtime_error if VTK fails
-std::vector<unsigned char>
-toPng (vtkImageData* image);
-
 /// Grey values, row by row from the top.
 struct GreyImage
 {
@@ -34,6 +28,7 @@ struct GreyImage
   std::vector<std::uint8_t> pixels;
 };
 
+/// \throw std::runtime_error if VTK fails
 std::vector<unsigned char>
 toPng (const GreyImage& image);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "times_chart.h"
 
-#include "picture_file.h"
+#include "mesh_picture.h"
 #include "table.h"
 
 #include <vtkAxis.h>

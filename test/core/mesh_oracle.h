@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How good the geometry of a mesh is, measured independently of the library.
+// What a mesh is, topology and geometry; shares no code with the library.
 #pragma once
 
-#include "samples.h"
+#include "common/types.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pcl
 {
@@ -13,6 +22,84 @@ namespace floater
 {
 namespace samples
 {
+using Positions = std::vector<Eigen::Vector3d>;
+
+/// What triangles are, counted from their edges; shares no code with the library.
+struct Topology
+{
+  bool manifold = true; ///< edges with one or two oppositely directed triangles, one fan per vertex
+  std::size_t vertices = 0;
+  std::size_t components = 0;
+  long euler = 0;
+  std::vector<std::vector<Index>> loops;
+};
+
+inline Topology
+topologyOf (const std::vector<Triangle>& triangles)
+{
+  Topology topology;
+  std::map<std::pair<Index, Index>, std::size_t> directed;
+  std::map<Index, Index> parent;                       // of components
+  std::map<Index, std::map<Index, Index>> next_in_fan; // by vertex: edge to edge, anti-clockwise
+  const auto root = [&parent] (Index p) {
+    while (parent[p] != p)
+      p = parent[p] = parent[parent[p]];
+    return p;
+  };
+  for (const Triangle& t : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Index a = t[static_cast<std::size_t> (i)];
+      const Index b = t[static_cast<std::size_t> ((i + 1) % 3)];
+      const Index c = t[static_cast<std::size_t> ((i + 2) % 3)];
+      topology.manifold = topology.manifold && a != b && ++directed[{a, b}] == 1;
+      parent.emplace (a, a);
+      parent.emplace (b, b);
+      parent[root (a)] = root (b);
+      next_in_fan[a][b] = c;
+    }
+  topology.vertices = parent.size ();
+  std::size_t undirected = 0;
+  std::map<Index, Index> successor;
+  for (const auto& [edge, count] : directed) {
+    const bool at_boundary = directed.count ({edge.second, edge.first}) == 0;
+    undirected += at_boundary || edge.first < edge.second ? 1 : 0;
+    if (at_boundary)
+      topology.manifold = topology.manifold && successor.emplace (edge).second;
+  }
+  for (auto& [p, fan] : next_in_fan) {
+    // The fan begins at an edge that is the end of no triangle; in a closed fan anywhere.
+    std::set<Index> ends;
+    for (const auto& [from, to] : fan)
+      ends.insert (to);
+    Index start = fan.begin ()->first;
+    for (const auto& [from, to] : fan)
+      if (ends.count (from) == 0)
+        start = from;
+    std::size_t length = 0;
+    for (Index at = start; length <= fan.size () && fan.count (at) != 0; at = fan[at]) {
+      if (length > 0 && at == start)
+        break;
+      ++length;
+    }
+    topology.manifold = topology.manifold && length == fan.size ();
+  }
+  for (const auto& [p, unused] : parent)
+    topology.components += root (p) == p ? 1 : 0;
+  topology.euler = static_cast<long> (topology.vertices) - static_cast<long> (undirected) +
+                   static_cast<long> (triangles.size ());
+  while (!successor.empty ()) {
+    std::vector<Index> loop;
+    for (auto at = successor.begin (); at != successor.end ();) {
+      loop.push_back (at->first);
+      const Index next = at->second;
+      successor.erase (at);
+      at = successor.find (next);
+    }
+    topology.loops.push_back (std::move (loop));
+  }
+  return topology;
+}
+
 /// Mean distance of each point to its six nearest, by looking at all. Equal points do not count.
 inline std::vector<double>
 spacingByBruteForce (const Positions& points)
@@ -38,49 +125,57 @@ spacingByBruteForce (const Positions& points)
   return spacing;
 }
 
+/// Edges between triangles more than 120 degrees apart.
+inline std::vector<std::array<Index, 2>>
+foldedEdges (const std::vector<Triangle>& triangles, const Positions& points)
+{
+  constexpr double FOLDED = -0.5;                             // cosine
+  std::map<std::pair<Index, Index>, Eigen::Vector3d> normals; // by directed edge
+  std::vector<std::array<Index, 2>> folded;
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d normal =
+        (points[t[1]] - points[t[0]]).cross (points[t[2]] - points[t[0]]).normalized ();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3];
+      const auto twin = normals.find ({b, a});
+      if (twin == normals.end ())
+        normals[{a, b}] = normal;
+      else if (normal.dot (twin->second) < FOLDED)
+        folded.push_back ({a, b});
+    }
+  }
+  return folded;
+}
+
 /// Sizes of a mesh.
 struct Geometry
 {
   double area = 0.0;
-  double mean_edge = 0.0;             ///< in spacings at its ends
-  double longest_edge = 0.0;          ///< in spacings at its ends
-  Eigen::Vector3d longest_at;         ///< middle of that edge
-  std::vector<Eigen::Vector3d> folds; ///< middles of edges between triangles over 120 degrees apart
+  double mean_edge = 0.0;                                ///< in spacings at its ends
+  double longest_edge = 0.0;                             ///< in spacings at its ends
+  Eigen::Vector3d longest_at = Eigen::Vector3d::Zero (); ///< middle of that edge
 };
 
 inline Geometry
 geometryOf (const std::vector<Triangle>& triangles, const Positions& points)
 {
-  constexpr double FOLDED = -0.5; // cosine
   Geometry geometry;
-  geometry.longest_at.setZero ();
-  std::map<std::pair<Index, Index>, Eigen::Vector3d> normals; // by directed edge
-  for (const Triangle& t : triangles) {
-    const Eigen::Vector3d normal =
-        (points[t[1]] - points[t[0]]).cross (points[t[2]] - points[t[0]]);
-    geometry.area += 0.5 * normal.norm ();
-    for (std::size_t i = 0; i < 3; ++i)
-      normals[{t[i], t[(i + 1) % 3]}] = normal.normalized ();
-  }
   const std::vector<double> spacing = spacingByBruteForce (points);
-  std::size_t edges = 0;
-  for (const auto& [edge, normal] : normals) {
-    const auto& [a, b] = edge;
-    const auto twin = normals.find ({b, a});
-    if (twin != normals.end () && b < a)
-      continue;
-    const Eigen::Vector3d middle = 0.5 * (points[a] + points[b]);
+  std::set<std::pair<Index, Index>> edges;
+  for (const Triangle& t : triangles) {
+    geometry.area +=
+        0.5 * (points[t[1]] - points[t[0]]).cross (points[t[2]] - points[t[0]]).norm ();
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.insert (std::minmax (t[i], t[(i + 1) % 3]));
+  }
+  for (const auto& [a, b] : edges) {
     const double length = (points[a] - points[b]).norm () / (0.5 * (spacing[a] + spacing[b]));
-    ++edges;
-    geometry.mean_edge += length;
+    geometry.mean_edge += length / static_cast<double> (edges.size ());
     if (length > geometry.longest_edge) {
       geometry.longest_edge = length;
-      geometry.longest_at = middle;
+      geometry.longest_at = 0.5 * (points[a] + points[b]);
     }
-    if (twin != normals.end () && normal.dot (twin->second) < FOLDED)
-      geometry.folds.push_back (middle);
   }
-  geometry.mean_edge /= static_cast<double> (std::max<std::size_t> (edges, 1));
   return geometry;
 }
 

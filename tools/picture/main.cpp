@@ -74,7 +74,9 @@ main (int argc, char** argv)
         "there is no X display to draw on; put tools/picture/on_virtual_display.sh in front");
   std::vector<unsigned char> png;
   try {
-    png = pcl::floater::drawMesh (mesh, parameterization, height);
+    pcl::floater::PictureOptions options;
+    options.parameterization = parameterization;
+    png = pcl::floater::toPng (pcl::floater::drawMesh (mesh, height, options));
   }
   catch (const std::exception& error) {
     return fail (CANNOT_DRAW, error.what ());

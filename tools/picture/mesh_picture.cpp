@@ -39,6 +39,7 @@ namespace
 {
 constexpr int SUPERSAMPLING = 2;              // pixels drawn per pixel of the picture, each way
 constexpr vtkIdType MOST_DRAWN_EDGES = 15000; // polygons of a shaded mesh up to which edges show
+constexpr int STRONGEST_COMPRESSION = 9;      // of a PNG file
 constexpr int COLOUR_STEP = 5;                // of 256 levels of each colour
 constexpr double MARGIN = 1.06;               // side of the picture over that of what it shows
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
@@ -50,7 +51,7 @@ constexpr double TIP_BACK = 50.0, FROM_ABOVE = 15.0, TURN = 20.0; // degrees
 
 using Colour = std::array<double, 3>;
 constexpr Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
-    EDGE{0.18, 0.27, 0.40}, PAPER{1.0, 1.0, 1.0};
+    EDGE{0.18, 0.27, 0.40}, MARK{0.90, 0.0, 0.85}, PAPER{1.0, 1.0, 1.0};
 
 struct View
 {
@@ -148,6 +149,19 @@ makeActor (vtkPolyDataMapper* mapper, const Colour& colour)
   return actor;
 }
 
+// Lines that lie on the surface.
+void
+addLines (vtkRenderer* renderer, vtkPolyData* edges, const Colour& colour)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData (edges);
+  mapper->SetResolveCoincidentTopologyToPolygonOffset ();
+  const vtkSmartPointer<vtkActor> lines = makeActor (mapper, colour);
+  lines->GetProperty ()->LightingOff ();
+  lines->GetProperty ()->SetLineWidth (2.0F * SUPERSAMPLING);
+  renderer->AddActor (lines);
+}
+
 void
 addBoundary (vtkRenderer* renderer, vtkPolyData* mesh)
 {
@@ -158,13 +172,8 @@ addBoundary (vtkRenderer* renderer, vtkPolyData* mesh)
   edges->ManifoldEdgesOff ();
   edges->NonManifoldEdgesOff ();
   edges->ColoringOff ();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection (edges->GetOutputPort ());
-  mapper->SetResolveCoincidentTopologyToPolygonOffset ();
-  const vtkSmartPointer<vtkActor> lines = makeActor (mapper, BOUNDARY);
-  lines->GetProperty ()->LightingOff ();
-  lines->GetProperty ()->SetLineWidth (2.0F * SUPERSAMPLING);
-  renderer->AddActor (lines);
+  edges->Update ();
+  addLines (renderer, edges->GetOutput (), BOUNDARY);
 }
 
 bool
@@ -174,7 +183,7 @@ edgesShow (vtkPolyData* mesh)
 }
 
 void
-addSurface (vtkRenderer* renderer, vtkPolyData* mesh)
+addSurface (vtkRenderer* renderer, vtkPolyData* mesh, bool flat_shading)
 {
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData (mesh);
@@ -184,6 +193,8 @@ addSurface (vtkRenderer* renderer, vtkPolyData* mesh)
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection (normals->GetOutputPort ());
   const vtkSmartPointer<vtkActor> surface = makeActor (mapper, FRONT);
+  if (flat_shading)
+    surface->GetProperty ()->SetInterpolationToFlat ();
   surface->GetProperty ()->SetEdgeVisibility (edgesShow (mesh) ? 1 : 0);
   surface->GetProperty ()->SetEdgeColor (EDGE[0], EDGE[1], EDGE[2]);
   vtkNew<vtkProperty> back;
@@ -295,10 +306,10 @@ readMesh (const std::string& path)
   return mesh;
 }
 
-std::vector<unsigned char>
-drawMesh (vtkPolyData* mesh, vtkPolyData* parameterization, int height)
+vtkSmartPointer<vtkImageData>
+drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
 {
-  const int panels = parameterization != nullptr ? 2 : 1;
+  const int panels = options.parameterization != nullptr ? 2 : 1;
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering (1);
   window->SetMultiSamples (0);
@@ -311,15 +322,17 @@ drawMesh (vtkPolyData* mesh, vtkPolyData* parameterization, int height)
     renderer->SetBackground (PAPER[0], PAPER[1], PAPER[2]);
     window->AddRenderer (renderer);
     if (panel == 0) {
-      addSurface (renderer, mesh);
+      addSurface (renderer, mesh, options.flat_shading);
+      if (options.marked_edges != nullptr)
+        addLines (renderer, options.marked_edges, MARK);
       addLights (renderer);
       const std::vector<Eigen::Vector3d> points = pointsOf (mesh);
       aimCamera (renderer, chooseView (mesh, points), points);
     }
     else {
-      addWireframe (renderer, parameterization);
+      addWireframe (renderer, options.parameterization);
       aimCamera (renderer, {Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()},
-                 pointsOf (parameterization));
+                 pointsOf (options.parameterization));
     }
   }
   window->Render ();
@@ -333,10 +346,16 @@ drawMesh (vtkPolyData* mesh, vtkPolyData* parameterization, int height)
   shrink->MeanOn ();
   shrink->Update ();
   coarsenColours (shrink->GetOutput ());
+  return shrink->GetOutput ();
+}
+
+std::vector<unsigned char>
+toPng (vtkImageData* image)
+{
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData (shrink->GetOutput ());
+  writer->SetInputData (image);
   writer->WriteToMemoryOn ();
-  writer->SetCompressionLevel (9);
+  writer->SetCompressionLevel (STRONGEST_COMPRESSION);
   writer->Write ();
   vtkUnsignedCharArray* bytes = writer->GetResult ();
   if (bytes == nullptr || bytes->GetNumberOfValues () == 0)

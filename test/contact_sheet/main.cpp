@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One picture of many results: pcl_floater_contact_sheet OUT.png FOLDER NAME...
+//
+// FOLDER has NAME.json, the report of a run of pcl_floater_reconstruct, and NAME.vtk, its mesh,
+// unless the cloud was refused. Figures of the mesh are counted here, not taken from the report.
+#include "atomic_file.h"
+#include "canvas.h"
+#include "mesh_oracle.h"
+#include "mesh_picture.h"
+
+#include <nlohmann/json.hpp>
+
+#include <vtkCellArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Pixels.
+constexpr int PICTURE = 400, MARGIN = 12, NAME_SIZE = 17, TEXT_SIZE = 13, LINE = 18;
+constexpr int CELL_WIDTH = PICTURE + 2 * MARGIN;
+constexpr int CAPTION_LINES = 6; // below the name
+constexpr int CELL_HEIGHT = PICTURE + 2 * MARGIN + (CAPTION_LINES + 2) * LINE;
+// Characters.
+constexpr std::size_t LINE_LENGTH = 62;
+constexpr std::size_t REASON_LINES = 12;
+constexpr Rgb INK{30, 30, 30}, WARNING{150, 85, 0}, REFUSAL{190, 10, 30};
+
+struct Line
+{
+  std::string text;
+  Rgb colour;
+};
+
+struct Cell
+{
+  std::string name;
+  vtkSmartPointer<vtkImageData> picture; ///< null if there is no mesh
+  std::vector<Line> lines;
+};
+
+std::string
+grouped (std::size_t number)
+{
+  std::string digits = std::to_string (number);
+  for (std::size_t at = digits.size (); at > 3;)
+    digits.insert (at -= 3, ",");
+  return digits;
+}
+
+std::string
+counted (std::size_t number, const std::string& what)
+{
+  return grouped (number) + " " + what + (number == 1 ? "" : "s");
+}
+
+std::vector<Triangle>
+trianglesOf (vtkPolyData* mesh)
+{
+  std::vector<Triangle> triangles;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells (); ++cell) {
+    mesh->GetCellPoints (cell, corners);
+    triangles.push_back ({static_cast<Index> (corners->GetId (0)),
+                          static_cast<Index> (corners->GetId (1)),
+                          static_cast<Index> (corners->GetId (2))});
+  }
+  return triangles;
+}
+
+/// The triangles with the points that they use: the others would only make the picture smaller.
+vtkSmartPointer<vtkPolyData>
+withoutUnusedPoints (const samples::Positions& points, const std::vector<Triangle>& triangles)
+{
+  std::vector<vtkIdType> vertex (points.size (), -1);
+  vtkNew<vtkPoints> used;
+  used->SetDataTypeToDouble ();
+  vtkNew<vtkCellArray> cells;
+  for (const Triangle& t : triangles) {
+    cells->InsertNextCell (3);
+    for (const Index p : t) {
+      if (vertex[p] < 0)
+        vertex[p] = used->InsertNextPoint (points[p].data ());
+      cells->InsertCellPoint (vertex[p]);
+    }
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New ();
+  mesh->SetPoints (used);
+  mesh->SetPolys (cells);
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData>
+linesOf (const std::vector<std::array<Index, 2>>& edges, vtkPoints* points)
+{
+  vtkNew<vtkCellArray> lines;
+  for (const auto& [a, b] : edges) {
+    const std::array<vtkIdType, 2> ends{a, b};
+    lines->InsertNextCell (2, ends.data ());
+  }
+  auto made = vtkSmartPointer<vtkPolyData>::New ();
+  made->SetPoints (points);
+  made->SetLines (lines);
+  return made;
+}
+
+void
+addMesh (vtkPolyData* file, Cell& cell)
+{
+  samples::Positions points (static_cast<std::size_t> (file->GetNumberOfPoints ()));
+  for (std::size_t p = 0; p < points.size (); ++p)
+    file->GetPoint (static_cast<vtkIdType> (p), points[p].data ());
+  const std::vector<Triangle> triangles = trianglesOf (file);
+  const auto folded = samples::foldedEdges (triangles, points);
+  const samples::Topology topology = samples::topologyOf (triangles);
+
+  const vtkSmartPointer<vtkPolyData> marks = linesOf (folded, file->GetPoints ());
+  PictureOptions options;
+  options.marked_edges = marks;
+  options.flat_shading = true;
+  cell.picture = drawMesh (withoutUnusedPoints (points, triangles), PICTURE, options);
+
+  const long handles = 2 * static_cast<long> (topology.components) - topology.euler -
+                       static_cast<long> (topology.loops.size ());
+  cell.lines.push_back ({counted (topology.components, "piece") + ", " +
+                             counted (topology.loops.size (), "loop") + ", genus " +
+                             std::to_string (handles / 2) + ", " + counted (folded.size (), "fold"),
+                         INK});
+  if (!topology.manifold)
+    cell.lines.push_back ({"not an oriented manifold", REFUSAL});
+}
+
+Cell
+makeCell (const std::filesystem::path& folder, const std::string& name)
+{
+  std::ifstream file (folder / (name + ".json"));
+  const auto report = nlohmann::json::parse (file);
+  const auto& statistics = report.at ("statistics");
+  const std::size_t points = statistics.at ("cloud_points");
+  const std::string status = report.at ("status");
+  Cell cell;
+  cell.name = name;
+  if (status != "OK") {
+    cell.lines.push_back ({counted (points, "point"), INK});
+    for (const std::string& text :
+         wrap (status + ": " + std::string (report.at ("message")), LINE_LENGTH, REASON_LINES))
+      cell.lines.push_back ({text, REFUSAL});
+    return cell;
+  }
+  const std::size_t used = statistics.at ("used_points");
+  const double seconds = report.at ("seconds").at ("reconstruction");
+  const std::string shown = std::to_string (std::round (100.0 * seconds) / 100.0);
+  cell.lines.push_back ({counted (points, "point") +
+                             (used < points ? " (" + grouped (points - used) + " unused)" : "") +
+                             ", " + counted (statistics.at ("triangles"), "triangle") + ", " +
+                             shown.substr (0, shown.find ('.') + 3) + " s",
+                         INK});
+  addMesh (readMesh ((folder / (name + ".vtk")).string ()), cell);
+  for (const std::string warning : report.at ("warnings"))
+    for (const std::string& text : wrap (warning, LINE_LENGTH, 2))
+      cell.lines.push_back ({text, WARNING});
+  if (cell.lines.size () > CAPTION_LINES) {
+    cell.lines.resize (CAPTION_LINES);
+    cell.lines.back () = {"... and more warnings", WARNING};
+  }
+  return cell;
+}
+
+void
+place (const Cell& cell, int x, int y, Canvas& canvas)
+{
+  if (cell.picture != nullptr)
+    canvas.put (cell.picture, x + MARGIN, y + MARGIN);
+  // A reason takes the place of the picture.
+  int at = cell.picture != nullptr ? y + PICTURE + 2 * MARGIN : y + PICTURE / 3;
+  canvas.write (cell.name, x + MARGIN, at, NAME_SIZE, true, INK);
+  at += LINE + LINE / 3;
+  for (const Line& line : cell.lines) {
+    canvas.write (line.text, x + MARGIN, at, TEXT_SIZE, false, line.colour);
+    at += LINE;
+  }
+}
+
+std::vector<unsigned char>
+makeSheet (const std::filesystem::path& folder, const std::vector<std::string>& names)
+{
+  // About as wide as high.
+  const int count = static_cast<int> (names.size ());
+  const int columns = static_cast<int> (
+      std::ceil (std::sqrt (static_cast<double> (count) * CELL_HEIGHT / CELL_WIDTH)));
+  const int rows = (count + columns - 1) / columns;
+  Canvas canvas (columns * CELL_WIDTH, rows * CELL_HEIGHT);
+  for (int i = 0; i < count; ++i) {
+    const Cell cell = makeCell (folder, names[static_cast<std::size_t> (i)]);
+    place (cell, i % columns * CELL_WIDTH, i / columns * CELL_HEIGHT, canvas);
+    std::cout << cell.name;
+    for (const Line& line : cell.lines)
+      std::cout << "\n  " << line.text;
+    std::cout << std::endl;
+  }
+  return toPng (canvas.image ());
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
+
+int
+main (int argc, char** argv)
+{
+  const std::vector<std::string> arguments (argv + 1, argv + argc);
+  if (arguments.size () < 3 || !pcl::floater::displayAvailable ()) {
+    std::cerr << "Usage: on_virtual_display.sh pcl_floater_contact_sheet OUT.png FOLDER NAME...\n";
+    return 1;
+  }
+  try {
+    const std::vector<unsigned char> png =
+        pcl::floater::makeSheet (arguments[1], {arguments.begin () + 2, arguments.end ()});
+    pcl::floater::AtomicFile file (arguments[0]);
+    file.write (png.data (), png.size ());
+    file.close ();
+    file.publish ();
+  }
+  catch (const std::exception& error) {
+    std::cerr << "pcl_floater_contact_sheet: " << error.what () << "\n";
+    return 1;
+  }
+  return 0;
+}
