@@ -82,7 +82,8 @@ wrap (const std::string& text, std::size_t length, std::size_t most)
   for (std::string word; words >> word;) {
     if (lines.empty () || lines.back ().size () + 1 + word.size () > length) {
       if (lines.size () == most) {
-        lines.back () = lines.back ().substr (0, length - 4) + " ...";
+        lines.back ().resize (std::min (lines.back ().size (), length - 4));
+        lines.back () += " ...";
         return lines;
       }
       lines.push_back (word);

@@ -26,12 +26,12 @@ namespace floater
 namespace
 {
 // Pixels.
-constexpr int PICTURE = 400, MARGIN = 12, NAME_SIZE = 17, TEXT_SIZE = 13, LINE = 18;
+constexpr int PICTURE = 400, MARGIN = 12, NAME_SIZE = 20, TEXT_SIZE = 15, LINE = 20;
 constexpr int CELL_WIDTH = PICTURE + 2 * MARGIN;
 constexpr int CAPTION_LINES = 6; // below the name
 constexpr int CELL_HEIGHT = PICTURE + 2 * MARGIN + (CAPTION_LINES + 2) * LINE;
 // Characters.
-constexpr std::size_t LINE_LENGTH = 62;
+constexpr std::size_t LINE_LENGTH = 50;
 constexpr std::size_t REASON_LINES = 12;
 constexpr Rgb INK{30, 30, 30}, WARNING{150, 85, 0}, REFUSAL{190, 10, 30};
 
@@ -156,12 +156,12 @@ makeCell (const std::filesystem::path& folder, const std::string& name)
       cell.lines.push_back ({text, REFUSAL});
     return cell;
   }
-  const std::size_t used = statistics.at ("used_points");
+  const std::size_t unused = report.at ("unused").size ();
   const double seconds = report.at ("seconds").at ("reconstruction");
   const std::string shown = std::to_string (std::round (100.0 * seconds) / 100.0);
   cell.lines.push_back ({counted (points, "point") +
-                             (used < points ? " (" + grouped (points - used) + " unused)" : "") +
-                             ", " + counted (statistics.at ("triangles"), "triangle") + ", " +
+                             (unused > 0 ? " (" + grouped (unused) + " unused)" : "") + ", " +
+                             counted (statistics.at ("triangles"), "triangle") + ", " +
                              shown.substr (0, shown.find ('.') + 3) + " s",
                          INK});
   addMesh (readMesh ((folder / (name + ".vtk")).string ()), cell);
@@ -195,9 +195,9 @@ makeSheet (const std::filesystem::path& folder, const std::vector<std::string>& 
 {
   // About as wide as high.
   const int count = static_cast<int> (names.size ());
-  const int columns = static_cast<int> (
-      std::ceil (std::sqrt (static_cast<double> (count) * CELL_HEIGHT / CELL_WIDTH)));
-  const int rows = (count + columns - 1) / columns;
+  const int rows = std::max (1, static_cast<int> (std::lround (std::sqrt (
+                                    static_cast<double> (count) * CELL_WIDTH / CELL_HEIGHT))));
+  const int columns = (count + rows - 1) / rows;
   Canvas canvas (columns * CELL_WIDTH, rows * CELL_HEIGHT);
   for (int i = 0; i < count; ++i) {
     const Cell cell = makeCell (folder, names[static_cast<std::size_t> (i)]);

@@ -164,7 +164,7 @@ lattice (Lattice kind)
 KnownSurface
 sheetWithHoles (int holes, double hole_radius, bool ragged, std::uint64_t seed)
 {
-  const double cell = 2.0 * hole_radius + 8.0;
+  const double cell = 2.0 * hole_radius + 5.0;
   const int columns = static_cast<int> (std::ceil (std::sqrt (static_cast<double> (holes))));
   const int rows = (holes + columns - 1) / columns;
   std::vector<Outline> outlines{resample (rectangle (columns * cell, rows * cell), 1.0)};

@@ -30,6 +30,7 @@ withPiece (KnownSurface surface, const KnownSurface& more, double scale,
 KnownSurface
 withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed)
 {
+  surface.clean = surface.points;
   RandomStream random (seed);
   for (Eigen::Vector3d& p : surface.points)
     for (Eigen::Index axis = 0; axis < 3; ++axis)

@@ -20,6 +20,7 @@ namespace samples
 struct KnownSurface
 {
   Positions points;
+  Positions clean; ///< of points with noise, where they were without
   std::size_t components = 1;
   std::size_t loops = 0;
   std::size_t handles = 0;     ///< of all components together
@@ -70,7 +71,7 @@ lattice (Lattice kind);
 
 // ---- holes
 
-/// A bent sheet with round holes in rows, 8 apart.
+/// A bent sheet with round holes in rows, 5 apart.
 KnownSurface
 sheetWithHoles (int holes, double hole_radius, bool ragged, std::uint64_t seed);
 
@@ -134,7 +135,7 @@ KnownSurface
 withPiece (KnownSurface surface, const KnownSurface& more, double scale,
            const Eigen::Vector3d& place);
 
-/// Moves every coordinate by a normal deviate.
+/// Moves every coordinate by a normal deviate; the points before that are the clean ones.
 KnownSurface
 withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed);
 
