@@ -279,7 +279,7 @@ INSTANTIATE_TEST_SUITE_P (
         Case{"hole_1", [] { return samples::sheetWithHoles (1, 10.0, false, 1); }},
         Case{"holes_9", [] { return samples::sheetWithHoles (9, 5.0, false, 2); }},
         Case{"holes_9_ragged", [] { return samples::sheetWithHoles (9, 5.0, true, 3); }},
-        Case{"holes_50", [] { return samples::sheetWithHoles (50, 3.0, false, 4); }},
+        Case{"holes_50", [] { return samples::sheetWithHoles (50, 4.0, false, 4); }},
         Case{"sphere_with_holes", [] { return samples::sphereWithThreeHoles (1); }},
         Case{"sphere_with_holes_closed",
              [] {
