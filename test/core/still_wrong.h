@@ -20,8 +20,7 @@ inline const std::set<std::string>&
 stillWrong ()
 {
   static const std::set<std::string> names{
-      // A hole less than about 20 spacings wide is taken for a defect: too few points of its rim
-      // see an empty sector of 160 degrees.
+      // Boundaries up to 10 spacings wide are taken for defects and closed.
       "finger_30", "finger_100", "holes_9", "holes_9_ragged", "holes_50", "sphere_with_holes",
       // Outliers are not left out.
       "sphere_outliers", "annulus_outliers", "pieces_outliers",
@@ -29,7 +28,7 @@ stillWrong ()
       "parallel_2", "box", "box_open", "bracket", "wedge",
       // Neighbours change places.
       "noise_05", "sphere_noise_05",
-      // No word about it.
+      // The warning does not come.
       "one_sided"};
   return names;
 }
