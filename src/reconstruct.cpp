@@ -7,6 +7,8 @@
 #include "complex/surface_method.h"
 #include "neighborhoods/ball_neighbors.h"
 #include "neighborhoods/nearest_neighbors.h"
+#include "neighborhoods/noise.h"
+#include "neighborhoods/outliers.h"
 #include "neighborhoods/stars.h"
 #include "neighborhoods/tangent_planes.h"
 #include "neighborhoods/working_set.h"
@@ -17,6 +19,7 @@
 #include "triangulation/surface_finish.h"
 #include "validation.h"
 
+#include <algorithm>
 #include <new>
 
 namespace pcl
@@ -52,6 +55,40 @@ struct Disc
   Problem problem;
 };
 
+// Beyond the report: points that lie off any surface would be woven in as spikes. Those that the
+// user's loop names stay.
+void
+leaveOutliersOut (Samples& samples, const Options& options, NeighborSearch* search, Report& report)
+{
+  const WorkingSet& set = samples.set;
+  std::vector<Index> outliers = findOutliers (set.positions, samples.near, options.threads);
+  const auto in_loop = [&] (Index p) {
+    return std::find (options.loop.begin (), options.loop.end (), set.cloud_index[p]) !=
+           options.loop.end ();
+  };
+  outliers.erase (std::remove_if (outliers.begin (), outliers.end (), in_loop), outliers.end ());
+  if (outliers.empty ())
+    return;
+  std::vector<Index> cloud_indices = removePoints (samples.set, outliers);
+  reportOutliers (std::move (cloud_indices), set.positions.size (), report);
+  samples.near = findNeighbors (set, options, search);
+}
+
+// Beyond the report: where noise is strong, triangles join the points as they lie in their local
+// planes. The mesh is triangles only, so that the user's points stay where they are.
+void
+smoothNoise (Samples& samples, const Options& options, NeighborSearch* search, Report& report)
+{
+  std::vector<Eigen::Vector3d>& positions = samples.set.positions;
+  const double noise = measureNoise (positions, samples.near, options.threads);
+  const bool denoise = options.denoise && isStrongNoise (noise, positions.size ());
+  reportNoise (noise, denoise, report);
+  if (!denoise)
+    return;
+  positions = projectOntoPlanes (positions, samples.near, options.threads);
+  samples.near = findNeighbors (samples.set, options, search);
+}
+
 Problem
 prepare (Input& input, const Options& options, StageClock& clock, Samples& samples, Report& report)
 {
@@ -67,6 +104,11 @@ prepare (Input& input, const Options& options, StageClock& clock, Samples& sampl
   // weights alike.
   clock.start (Stage::NEIGHBORS);
   samples.near = findNeighbors (samples.set, options, input.search);
+  if (options.remove_outliers)
+    leaveOutliersOut (samples, options, input.search, report);
+  if (Problem problem = checkWorkingSet (samples.set))
+    return problem;
+  smoothNoise (samples, options, input.search, report);
 
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);

@@ -32,6 +32,29 @@ reportWorkingSet (const WorkingSet& set, Report& report)
 }
 
 void
+reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report)
+{
+  report.outliers = std::move (outliers);
+  report.statistics.outlier_points = report.outliers.size ();
+  report.statistics.working_points = working_points;
+  if (!report.outliers.empty ())
+    report.warnings.push_back (
+        std::to_string (report.outliers.size ()) + " points lie off any surface, point " +
+        std::to_string (report.outliers.front ()) + " among them: they were left out");
+}
+
+void
+reportNoise (double noise, bool denoised, Report& report)
+{
+  report.statistics.noise = noise;
+  report.denoised = denoised;
+  if (denoised)
+    report.warnings.push_back ("the points are noisy, by " + std::to_string (noise) +
+                               " local spacings: they were connected as they lie in the planes of "
+                               "their neighbours; the mesh keeps them where they are");
+}
+
+void
 reportBoundary (const WorkingSet& set, const Boundary& boundary, Report& report)
 {
   for (Index p : boundary.loop)

@@ -17,6 +17,15 @@ namespace floater
 void
 reportWorkingSet (const WorkingSet& set, Report& report);
 
+/// Points left out of the working set, of which `working_points` are left; a warning on them.
+/// \param outliers cloud indices, ascending
+void
+reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report);
+
+/// The noise, and a warning if points are connected as they lie in their local planes.
+void
+reportNoise (double noise, bool denoised, Report& report);
+
 /// Loop, candidates, and a warning where the loop takes a long step.
 void
 reportBoundary (const WorkingSet& set, const Boundary& boundary, Report& report);

@@ -80,7 +80,8 @@ struct Statistics
   std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
   std::size_t working_points = 0;    ///< points that the stages worked on
   std::size_t outlier_points = 0;    ///< points left out since they lie off any surface
-  double noise = 0.0; ///< median distance of points to the plane of their neighbours, in spacings
+  double noise = 0.0; ///< median over points of the rms distance of their neighbours to the plane
+                      ///< or quadric through them, in local spacings
   std::size_t holes_filled = 0;        ///< holes closed by the surface method
   std::size_t used_points = 0;         ///< points that are a vertex of the mesh
   std::size_t relinked_points = 0;     ///< points that had to be linked back to the loop
