@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <map>
 #include <numeric>
 #include <tuple>
+#include <unordered_set>
 
 namespace pcl
 {
@@ -17,7 +17,8 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t CLASSES = 32; // of agreement
+constexpr std::size_t CLASSES = 32;      // of agreement
+constexpr float SURE_AGREEMENT = 0.875F; // a triangle that alone tells how normals are oriented
 
 double
 cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
@@ -84,45 +85,28 @@ public:
     }
   }
 
-  // Decides which pieces of the mesh are turned round, by the candidates between them.
-  void orientPieces (const std::vector<Candidate>& candidates, const std::vector<Index>& open,
-                     const SurfaceMesh& mesh)
+  // Joins sets of points whose normals have no common side yet, by all candidates between them
+  // together: a single triangle across a crease or between sheets may be wrong. In rounds, as in
+  // Boruvka's forest: every set joins the one that most votes tie it to.
+  void orientSets (const std::vector<Candidate>& candidates, const Index* first, const Index* last)
   {
-    Index count = 0;
-    const std::vector<Index> pieces = findPieces (mesh, count);
-    if (count < 2)
-      return;
-    const auto pieceOf = [&] (Index p) {
-      return mesh.triangle_of[p] == NONE ? NONE : pieces[mesh.triangle_of[p]];
-    };
-    std::map<std::pair<Index, Index>, Ballot> ballots;
-    for (Index i : open) {
-      const Candidate& candidate = candidates[i];
-      if (isTaken (candidate.corners))
-        continue;
-      for (std::uint8_t a = 0; a < 3; ++a) {
-        const auto b = static_cast<std::uint8_t> ((a + 1U) % 3U);
-        const Index p = candidate.corners[a], q = candidate.corners[b];
-        const auto pair = std::minmax (pieceOf (p), pieceOf (q));
-        if (pair.first == pair.second || pair.second == NONE)
-          continue;
-        const bool opposite =
-            runsClockwise (candidate.corners, a) != runsClockwise (candidate.corners, b);
-        Ballot& ballot = ballots.try_emplace (pair, Ballot{0, p, q}).first->second;
-        ballot.same += (opposite ? -1 : 1) * candidate.votes * candidate.votes;
+    std::vector<Ballot> ballots;
+    do {
+      ballots.clear ();
+      for (const Index* i = first; i != last; ++i)
+        cast (candidates[*i], ballots);
+      count (ballots);
+      std::stable_sort (ballots.begin (), ballots.end (), [] (const Ballot& a, const Ballot& b) {
+        return std::abs (a.votes) > std::abs (b.votes);
+      });
+      std::unordered_set<Index> joined;
+      for (const Ballot& ballot : ballots) {
+        const bool first_seen = joined.insert (ballot.a).second;
+        const bool second_seen = joined.insert (ballot.b).second;
+        if (first_seen || second_seen)
+          sides_.join (ballot.a, ballot.b, ballot.votes < 0);
       }
-    }
-    std::vector<Ballot> sorted;
-    for (const auto& entry : ballots)
-      sorted.push_back (entry.second);
-    std::stable_sort (sorted.begin (), sorted.end (), [] (const Ballot& a, const Ballot& b) {
-      return std::abs (a.same) > std::abs (b.same);
-    });
-    if (getenv ("DBG"))
-      for (const auto& e : ballots)
-        printf ("ballot %u %u same %d\n", e.first.first, e.first.second, e.second.same);
-    for (const Ballot& ballot : sorted)
-      sides_.join (ballot.p, ballot.q, ballot.same < 0);
+    } while (!ballots.empty ());
   }
 
   // Turns all triangles to the side of their component.
@@ -138,12 +122,44 @@ public:
   }
 
 private:
-  // Votes on two pieces: for being oriented alike, minus for the opposite; and a point of each.
+  // Votes on two sets of points, by their representatives: for the same side, minus for the other.
   struct Ballot
   {
-    int same;
-    Index p, q;
+    Index a, b;
+    int votes;
   };
+
+  // The votes of one candidate on the sets of its corners.
+  void cast (const Candidate& candidate, std::vector<Ballot>& ballots)
+  {
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      const auto j = static_cast<std::uint8_t> ((i + 1U) % 3U);
+      const SignedSets::Place a = sides_.find (candidate.corners[i]),
+                              b = sides_.find (candidate.corners[j]);
+      if (a.root == b.root)
+        continue;
+      const bool opposite = (runsClockwise (candidate.corners, i) !=
+                             runsClockwise (candidate.corners, j)) != (a.flipped != b.flipped);
+      ballots.push_back ({std::min (a.root, b.root), std::max (a.root, b.root),
+                          opposite ? -candidate.votes : candidate.votes});
+    }
+  }
+
+  // Adds up the votes on each pair.
+  static void count (std::vector<Ballot>& ballots)
+  {
+    std::stable_sort (ballots.begin (), ballots.end (), [] (const Ballot& a, const Ballot& b) {
+      return std::tie (a.a, a.b) < std::tie (b.a, b.b);
+    });
+    std::size_t pairs = 0;
+    for (const Ballot& ballot : ballots) {
+      if (pairs > 0 && ballots[pairs - 1].a == ballot.a && ballots[pairs - 1].b == ballot.b)
+        ballots[pairs - 1].votes += ballot.votes;
+      else
+        ballots[pairs++] = ballot;
+    }
+    ballots.resize (pairs);
+  }
 
   void take (const Triangle& corners, std::uint8_t votes)
   {
@@ -252,9 +268,22 @@ SurfaceComplex
 buildComplex (const std::vector<Eigen::Vector3d>& positions,
               const std::vector<Candidate>& candidates, std::vector<Eigen::Vector3f>& normals)
 {
+  const std::vector<Index> order = inOrder (candidates);
+  const auto firstWhere = [&] (auto&& predicate) {
+    return static_cast<std::size_t> (
+        std::find_if (order.begin (), order.end (),
+                      [&] (Index i) { return predicate (candidates[i]); }) -
+        order.begin ());
+  };
+  const std::size_t sure =
+      firstWhere ([] (const Candidate& c) { return c.votes < 3 || c.agreement < SURE_AGREEMENT; });
+  const std::size_t doubtful = firstWhere ([] (const Candidate& c) { return c.votes < 3; });
   ComplexBuilder builder (positions, normals, candidates.size ());
-  for (Index i : inOrder (candidates))
-    builder.offer (candidates[i], candidates[i].votes < 3);
+  for (std::size_t i = 0; i < sure; ++i)
+    builder.offer (candidates[order[i]], false);
+  builder.orientSets (candidates, order.data () + sure, order.data () + doubtful);
+  for (std::size_t i = sure; i < order.size (); ++i)
+    builder.offer (candidates[order[i]], i >= doubtful);
   return builder.finish (normals);
 }
 
@@ -280,7 +309,7 @@ extendComplex (const std::vector<Eigen::Vector3d>& positions,
               open.end ());
   ComplexBuilder builder (positions, normals, mesh.triangles.size () + open.size ());
   builder.start (mesh);
-  builder.orientPieces (candidates, open, mesh);
+  builder.orientSets (candidates, open.data (), open.data () + open.size ());
   for (Index i : open)
     builder.offer (candidates[i], true);
   return builder.finish (normals);
