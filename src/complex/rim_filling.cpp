@@ -3,6 +3,8 @@
 
 #include "triangulation/polygon_filling.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -14,6 +16,9 @@ namespace floater
 namespace
 {
 constexpr std::size_t LARGEST_POLYGON = 128; // for which the best triangulation is searched
+
+constexpr double AREA_COST =
+    200.0; // of twice the square of the rim's step; a right isosceles triangle costs 2
 
 using Edge = std::pair<Index, Index>;
 
@@ -27,11 +32,17 @@ edgeOf (Index p, Index q)
 class RimFiller
 {
 public:
-  RimFiller (const SurfaceMesh& mesh, const TriangleCost& cost) : mesh_ (mesh), cost_ (cost) {}
+  RimFiller (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             const TriangleCost& cost)
+      : mesh_ (mesh), positions_ (positions), cost_ (cost)
+  {
+  }
 
   bool fill (const Rim& rim)
   {
     std::vector<Index> polygon (rim.points.rbegin (), rim.points.rend ());
+    const double step = rim.length / static_cast<double> (rim.points.size ());
+    area_cost_ = AREA_COST / (step * step);
     std::vector<Triangle> triangles;
     std::set<Edge> ears; // chords cut off in this rim
     const auto allowed = [&] (Index p, Index q) {
@@ -40,7 +51,8 @@ public:
     };
     if (!cutEars (polygon, triangles, ears, allowed))
       return false;
-    const std::vector<Triangle> rest = filling_.fill (polygon, cost_, allowed);
+    const std::vector<Triangle> rest = filling_.fill (
+        polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); }, allowed);
     if (rest.empty ())
       return false;
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
@@ -54,6 +66,15 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
+  // Sheets that end face to face are to be joined across the narrow gap between them, not each
+  // closed over its opening: area counts.
+  double fillCost (Index p, Index q, Index r) const
+  {
+    const Eigen::Vector3d area_vector =
+        (positions_[q] - positions_[p]).cross (positions_[r] - positions_[p]);
+    return cost_ (p, q, r) + area_cost_ * area_vector.norm ();
+  }
+
   // Cuts the ears of least cost until the polygon is small.
   template <typename Allowed>
   bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles, std::set<Edge>& ears,
@@ -68,7 +89,7 @@ private:
       after[i] = i + 1 == count ? 0 : i + 1;
     }
     const auto earCost = [&] (Index i) {
-      return cost_ (polygon[before[i]], polygon[i], polygon[after[i]]);
+      return fillCost (polygon[before[i]], polygon[i], polygon[after[i]]);
     };
     std::set<std::pair<double, Index>> queue;
     std::vector<double> queued (count);
@@ -103,7 +124,9 @@ private:
   }
 
   const SurfaceMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
   const TriangleCost& cost_;
+  double area_cost_ = 0.0; // per unit of doubled area, for the rim at hand
   PolygonFilling filling_;
   std::vector<Triangle> filled_;
   std::set<Edge> chords_;
@@ -112,9 +135,10 @@ private:
 } // namespace
 
 std::size_t
-fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const TriangleCost& cost)
+fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const std::vector<Eigen::Vector3d>& positions,
+          const TriangleCost& cost)
 {
-  RimFiller filler (mesh, cost);
+  RimFiller filler (mesh, positions, cost);
   std::size_t filled = 0;
   for (Rim& rim : rims) {
     if (rim.stays)

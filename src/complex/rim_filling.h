@@ -15,7 +15,8 @@ namespace floater
 /// for a rim of m points up to that size, O(m log m) beyond.
 /// \return number of rims filled
 std::size_t
-fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const TriangleCost& cost);
+fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const std::vector<Eigen::Vector3d>& positions,
+          const TriangleCost& cost);
 
 } // namespace floater
 } // namespace pcl

@@ -66,7 +66,7 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
                            options.opening_angle);
   chooseRims (surface.rims, pointsOfPieces (surface.mesh, pieces, count), options, unit);
   const TriangleCost cost (positions, stars.normals);
-  surface.holes_filled = fillRims (surface.mesh, surface.rims, cost);
+  surface.holes_filled = fillRims (surface.mesh, surface.rims, positions, cost);
   orientMissingNormals (surface.mesh, near, stars.normals);
 
   clock.start (Stage::FLIPS);

@@ -18,9 +18,9 @@ class PolygonFilling
 public:
   /// Least-cost triangles of a closed polygon, anti-clockwise; empty if there is no way.
   /// \param allowed (p, q): whether these corners may be joined
-  template <typename Allowed>
-  std::vector<Triangle> fill (const std::vector<Index>& polygon, const TriangleCost& cost,
-                              Allowed&& allowed)
+  /// \param cost (p, q, r): of a triangle, 0 or more
+  template <typename Cost, typename Allowed>
+  std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)
   {
     const std::size_t m = polygon.size ();
     best_.assign (m * m, {0.0, 0});
