@@ -2,6 +2,7 @@
 #include "report_builder.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace pcl
 {
@@ -9,14 +10,110 @@ namespace floater
 {
 namespace
 {
-constexpr double LONG_STEP = 8.0; // spacings: a longer edge of the loop is worth a warning
+constexpr double LONG_STEP = 8.0;      // spacings: a longer edge of the loop is worth a warning
+constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
+constexpr std::size_t FEW_POINTS = 50; // a piece of fewer points is hardly meant to be one ...
+constexpr std::size_t TINY_SHARE = 20; // ... if another one has this many times as many
 
 std::string
 place (const WorkingSet& set, Index p)
 {
+  std::ostringstream text;
+  text.precision (9); // tells all numbers of single precision apart
   const Eigen::Vector3d at = set.centre + set.scale * set.positions[p];
-  return "point " + std::to_string (set.cloud_index[p]) + " (" + std::to_string (at.x ()) + ", " +
-         std::to_string (at.y ()) + ", " + std::to_string (at.z ()) + ")";
+  text << "point " << set.cloud_index[p] << " (" << at.x () << ", " << at.y () << ", " << at.z ()
+       << ")";
+  return text.str ();
+}
+
+// "1 edge is", "2 edges are".
+std::string
+counted (std::size_t count, const char* one, const char* several)
+{
+  return std::to_string (count) + " " + (count == 1 ? one : several);
+}
+
+// Far fewer points than the border of a disc as large as its piece has, and not wide: 3.5 sqrt (n)
+// if that were round.
+bool
+isSmallHole (const LoopSummary& loop, const BoundaryRim& rim)
+{
+  return loop.width_spacings < SMALL_HOLE && loop.points * loop.points < rim.piece_points;
+}
+
+void
+warnOfShape (const WorkingSet& set, const MeshExamination& found, Report& report)
+{
+  std::vector<std::string>& warnings = report.warnings;
+  const MeshCheck& check = found.check;
+  if (check.folds > 0)
+    warnings.push_back (counted (check.folds, "edge is", "edges are") +
+                        " folded by more than 120 degrees, one of them at " +
+                        place (set, found.fold_at) +
+                        ": sheets of the surface come close there, or a feature is thinly sampled");
+  if (found.long_edges > 0)
+    warnings.push_back (
+        counted (found.long_edges, "edge inside the surface is", "edges inside the surface are") +
+        " longer than 6 local spacings, the longest one of " +
+        std::to_string (static_cast<int> (found.longest_inside)) + " from " +
+        place (set, found.longest_inside_at.first) + " to " +
+        place (set, found.longest_inside_at.second) + ": a hole may be bridged there");
+  if (check.degenerate_triangles > 0)
+    warnings.push_back (counted (check.degenerate_triangles, "triangle has", "triangles have") +
+                        " no area, one of them at " + place (set, found.degenerate_at) +
+                        ": points lie on one line there in the precision of the coordinates");
+  if (found.smallest_piece < FEW_POINTS && found.largest_piece > TINY_SHARE * found.smallest_piece)
+    warnings.push_back ("the mesh has " + std::to_string (check.components) +
+                        " pieces, the smallest of " + std::to_string (found.smallest_piece) +
+                        " points at " + place (set, found.smallest_piece_at) +
+                        ": they may belong to a larger one, or be outliers");
+}
+
+// The user who chose how many holes stay, or which, gets what was asked for.
+void
+warnOfHoles (const WorkingSet& set, const MeshExamination& found, const Options& options,
+             Report& report)
+{
+  const bool close_all = options.holes == HolePolicy::CLOSE_ALL;
+  if (options.topology == Topology::DISC || (!close_all && options.holes != HolePolicy::AUTO))
+    return;
+  std::size_t holes = 0, largest = 0;
+  for (std::size_t i = found.rims.size (); i-- > 0;)
+    if (close_all || isSmallHole (found.check.loops[i], found.rims[i])) {
+      ++holes;
+      largest = i;
+    }
+  if (holes == 0)
+    return;
+  const std::string where = ", the largest, of " +
+                            std::to_string (found.rims[largest].points.size ()) +
+                            " points, around " + place (set, found.rims[largest].points.front ());
+  if (close_all)
+    report.warnings.push_back (counted (holes, "hole stays", "holes stay") +
+                               " open though all were to be closed" + where);
+  else
+    report.warnings.push_back (counted (holes, "small hole stays", "small holes stay") + " open" +
+                               where +
+                               ": the sampling may be thin there; the policy for holes decides");
+}
+
+void
+reportUnused (const WorkingSet& set, const MeshExamination& found, Report& report)
+{
+  for (const Index p : found.unused)
+    if (!std::binary_search (report.outliers.begin (), report.outliers.end (), set.cloud_index[p]))
+      report.unused.push_back (set.cloud_index[p]);
+  std::sort (report.unused.begin (), report.unused.end ());
+  report.statistics.used_points = set.positions.size () - found.unused.size ();
+  if (report.unused.empty ())
+    return;
+  const auto first = std::find_if (found.unused.begin (), found.unused.end (), [&] (Index p) {
+    return set.cloud_index[p] == report.unused.front ();
+  });
+  report.warnings.push_back (
+      counted (report.unused.size (), "point is", "points are") + " in no triangle, " +
+      place (set, *first) + " among them: " + (report.unused.size () == 1 ? "it does" : "they do") +
+      " not connect to the rest of the surface");
 }
 
 } // namespace
@@ -117,6 +214,32 @@ reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish&
   report.statistics.used_points = set.positions.size () - report.unused.size ();
   report.statistics.triangles = triangles.size ();
   return triangles;
+}
+
+Problem
+reportCheck (const WorkingSet& set, const MeshExamination& found, const Options& options,
+             Report& report)
+{
+  report.check = found.check;
+  report.statistics.folds = found.check.folds;
+  if (!found.isManifold ())
+    return {
+        Status::INTERNAL_ERROR,
+        "the result is no oriented manifold: " + std::to_string (found.check.nonmanifold_edges) +
+            " edges and " + std::to_string (found.check.nonmanifold_vertices) +
+            " points are not manifold, " + std::to_string (found.check.orientation_conflicts) +
+            " edges join triangles that face opposite ways" +
+            (found.broken_at == NONE ? "" : ", one at " + place (set, found.broken_at)) +
+            "; please report this with the cloud"};
+  if (report.loop.empty () && !found.rims.empty ()) {
+    for (const Index p : found.rims.front ().points)
+      report.loop.push_back (set.cloud_index[p]);
+    report.statistics.loop_points = report.loop.size ();
+  }
+  reportUnused (set, found, report);
+  warnOfShape (set, found, report);
+  warnOfHoles (set, found, options, report);
+  return {};
 }
 
 } // namespace floater

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "boundary/boundary_loop.h"
+#include "common/problem.h"
 #include "common/types.h"
+#include "mesh_check.h"
 #include "parameterization/parameterize.h"
 #include "triangulation/surface_finish.h"
 
@@ -35,10 +37,18 @@ void
 reportParameterization (const WorkingSet& set, const Parameterization& parameterization,
                         Report& report);
 
-/// Triangles in cloud indices, unused points and counts; warnings on unused points and folds.
+/// Triangles in cloud indices, and counts.
 std::vector<Triangle>
 reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
             Report& report);
+
+/// What checkMesh () found: its figures, points that are in no triangle, but for those that the
+/// report lists as outliers, the longest loop if there is none yet, and warnings with places: on
+/// unused points, folds, long edges, triangles without area, pieces of a few points, and small
+/// holes that no option asked for. \return INTERNAL_ERROR if the mesh is no oriented manifold
+Problem
+reportCheck (const WorkingSet& set, const MeshExamination& found, const Options& options,
+             Report& report);
 
 } // namespace floater
 } // namespace pcl

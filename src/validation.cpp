@@ -12,9 +12,38 @@ namespace pcl
 {
 namespace floater
 {
+namespace
+{
+// What the two methods take, and what a policy for holes needs.
+Problem
+checkTopology (const Options& options)
+{
+  const auto refused = [] (const char* why) { return Problem{Status::INVALID_OPTION, why}; };
+  if (options.kept_loops < 0)
+    return refused ("the number of kept loops must be 0 or more");
+  if (!(options.largest_hole >= 0.0 && std::isfinite (options.largest_hole)))
+    return refused ("the largest hole must be 0 or more local spacings");
+  if (!(options.largest_hole_length >= 0.0 && std::isfinite (options.largest_hole_length)))
+    return refused ("the length of the largest hole must be 0 or more");
+  if (options.holes == HolePolicy::BY_SIZE && options.largest_hole == 0.0 &&
+      options.largest_hole_length == 0.0)
+    return refused ("holes chosen by their size need the largest hole to close, or its length");
+  if (options.topology == Topology::DISC && options.holes != HolePolicy::AUTO &&
+      options.holes != HolePolicy::KEEP_LARGEST)
+    return refused ("a disc has one boundary loop and no holes: of the policies for holes it takes "
+                    "AUTO and KEEP_LARGEST only; choose another topology");
+  if (options.topology == Topology::SURFACE && !options.loop.empty ())
+    return refused ("a boundary loop can be given for a disc only; choose another topology");
+  return {};
+}
+
+} // namespace
+
 Problem
 checkOptions (const Options& options)
 {
+  if (Problem problem = checkTopology (options))
+    return problem;
   const auto out_of_range = [] (const char* name, const char* range) {
     return Problem{Status::INVALID_OPTION, std::string (name) + " must be " + range};
   };

@@ -12,7 +12,8 @@ namespace pcl
 {
 namespace floater
 {
-/// Every option in its range, and the solver there and fit for the ordering.
+/// Every option in its range, the solver there and fit for the ordering, the policy for holes and a
+/// given loop fit for the topology.
 Problem
 checkOptions (const Options& options);
 

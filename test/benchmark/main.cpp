@@ -75,6 +75,7 @@ makeSample (const std::filesystem::path& path, const Settings& settings)
     throw ReadError ("cannot read '" + path.string () + "': " + error.what ());
   }
   Options options;
+  options.topology = Topology::DISC;
   options.threads = settings.threads;
   sample.disc = makeDisc (path.stem ().string (), sample.cloud, options);
   const Solution solution = solve (sample.disc.system, options);

@@ -78,6 +78,7 @@ public:
     for (const Named<Neighborhood>& neighborhood : neighborhoods ())
       for (const Named<Weighting>& weighting : weightings ()) {
         Options options;
+        options.topology = Topology::DISC;
         options.neighborhood = neighborhood.choice;
         options.weighting = weighting.choice;
         options.threads = settings_.threads;

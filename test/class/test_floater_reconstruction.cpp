@@ -15,7 +15,13 @@ namespace floater
 {
 namespace
 {
-using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
+// For what only a disc has: parameters, and one loop over all points.
+class Floater : public pcl::FloaterReconstruction<pcl::PointXYZ>
+{
+public:
+  Floater () { setTopology (Topology::DISC); }
+};
+
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 constexpr float NOWHERE = std::numeric_limits<float>::quiet_NaN ();
@@ -125,6 +131,7 @@ TEST_F (FloaterClass, KeepsAllFields)
     (*cloud)[i].normal_x = NOWHERE; // not read
   }
   pcl::FloaterReconstruction<pcl::PointXYZRGBNormal> floater;
+  floater.setTopology (Topology::DISC);
   floater.setInputCloud (cloud);
   pcl::PolygonMesh mesh;
   floater.reconstruct (mesh);
@@ -348,6 +355,7 @@ TYPED_TEST (FloaterClassOf, IsInstantiated)
 {
   const auto cloud = makeCloud<TypeParam> (SurfaceKind::HEIGHT_FIELD, 100);
   pcl::FloaterReconstruction<TypeParam> floater;
+  floater.setTopology (Topology::DISC);
   floater.setInputCloud (cloud);
   runDisc (floater, allOf (cloud->size ()));
 }

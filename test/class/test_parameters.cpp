@@ -18,7 +18,13 @@ namespace floater
 {
 namespace
 {
-using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
+// For what only a disc has: parameters, and one loop over all points.
+class Floater : public pcl::FloaterReconstruction<pcl::PointXYZ>
+{
+public:
+  Floater () { setTopology (Topology::DISC); }
+};
+
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Search = pcl::search::Search<pcl::PointXYZ>;
 
@@ -46,7 +52,7 @@ struct Choice
 TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
 {
   const Options defaults;
-  const Floater floater;
+  const pcl::FloaterReconstruction<pcl::PointXYZ> floater;
   EXPECT_EQ (floater.getKNearest (), defaults.k);
   EXPECT_EQ (floater.getOpeningAngle (), defaults.opening_angle);
   EXPECT_EQ (floater.getClusterTolerance (), defaults.cluster_tolerance);

@@ -200,6 +200,15 @@ asInput (const Positions& positions, NeighborSearch* search = nullptr)
   return {positions, indices (positions.size ()), positions.size (), search};
 }
 
+/// The defaults, but for the method of TW 385 whatever the surface.
+inline Options
+discOptions ()
+{
+  Options options;
+  options.topology = floater::Topology::DISC;
+  return options;
+}
+
 } // namespace samples
 } // namespace floater
 } // namespace pcl

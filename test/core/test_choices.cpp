@@ -93,6 +93,7 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
 {
   const Input input = sheet (0.0);
   Options options;
+  options.topology = Topology::DISC;
   options.threads = 1;
   options.loop = border ();
   const Result expected = reconstruct (input, options);
@@ -117,6 +118,7 @@ TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
 {
   const Input input = sheet (0.0);
   Options options;
+  options.topology = Topology::DISC;
   options.threads = 1;
   options.loop = border ();
   for (const Neighborhood neighborhood : ALL_NEIGHBORHOODS)
@@ -145,6 +147,7 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
   for (const Neighborhood neighborhood : ALL_NEIGHBORHOODS)
     for (const Weighting weighting : ALL_WEIGHTINGS) {
       Options options;
+      options.topology = Topology::DISC;
       options.threads = 1;
       options.neighborhood = neighborhood;
       options.weighting = weighting;
@@ -176,6 +179,7 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
   const Input input = sheet (0.7);
   const auto nonzeros = [&input] (Neighborhood neighborhood, double radius) {
     Options options;
+    options.topology = Topology::DISC;
     options.loop = border ();
     options.neighborhood = neighborhood;
     options.ball_radius = radius;
@@ -192,6 +196,7 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
 TEST (Choices, OfALimitThatIsTooLowAreTold)
 {
   Options options;
+  options.topology = Topology::DISC;
   options.solver = Solver::GAUSS_SEIDEL;
   options.max_iterations = 10;
   const Result result = reconstruct (sheet (0.7), options);
@@ -207,6 +212,7 @@ TEST (Choices, ThatCannotBeAreRefused)
 {
   const auto status = [] (const std::function<void (Options&)>& change) {
     Options options;
+    options.topology = Topology::DISC;
     change (options);
     return reconstruct (sheet (0.0), options).report.status;
   };

@@ -137,7 +137,7 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
   ASSERT_FALSE (cloud.empty ()) << base << ".pcd is not what this test can read";
   ASSERT_FALSE (truth.empty ()) << base << ".gt.ply is not what this test can read";
 
-  const Result result = reconstruct (samples::asInput (cloud), {});
+  const Result result = reconstruct (samples::asInput (cloud), samples::discOptions ());
   ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);

@@ -14,6 +14,7 @@ namespace floater
 namespace
 {
 using samples::asInput;
+using samples::discOptions;
 using samples::Positions;
 using samples::unordered;
 
@@ -72,7 +73,7 @@ TEST (Reconstruct, KnownDiscs)
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       SCOPED_TRACE (surfaceName (kind));
       const Positions cloud = surface (kind, 3000, seed);
-      const Result result = reconstruct (asInput (cloud), {});
+      const Result result = reconstruct (asInput (cloud), discOptions ());
       expectDisc (result, cloud.size ());
       EXPECT_EQ (result.report.statistics.folds, 0U);
       // One point for each unit of area; of rolling terrain, in plan view.
@@ -91,27 +92,27 @@ TEST (Reconstruct, EveryChoiceMakesADisc)
     expectDisc (reconstruct (asInput (cloud), options), cloud.size ());
   };
   for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON}) {
-    Options options;
+    Options options = discOptions ();
     options.domain = domain;
     expectOk (options);
   }
   for (const Weighting weighting : {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
                                     Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE}) {
-    Options options;
+    Options options = discOptions ();
     options.weighting = weighting;
     expectOk (options);
   }
   for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS}) {
-    Options options;
+    Options options = discOptions ();
     options.ordering = ordering;
     expectOk (options);
   }
   for (const int k : {8, 12, 40}) {
-    Options options;
+    Options options = discOptions ();
     options.k = k;
     expectOk (options);
   }
-  Options options;
+  Options options = discOptions ();
   options.filter_sheets = false;
   expectOk (options);
 }
@@ -119,7 +120,7 @@ TEST (Reconstruct, EveryChoiceMakesADisc)
 TEST (Reconstruct, TheReportsLoopMakesADisc)
 {
   const Positions cloud = samples::disc (0.07, 4).positions;
-  Options options;
+  Options options = discOptions ();
   options.boundary = BoundaryMethod::TWO_SEGMENTS;
   expectDisc (reconstruct (asInput (cloud), options), cloud.size ());
 }
@@ -127,7 +128,7 @@ TEST (Reconstruct, TheReportsLoopMakesADisc)
 TEST (Reconstruct, TheUsersLoopIsTheBoundary)
 {
   samples::Sheet sheet = samples::disc (0.07, 5);
-  Options options;
+  Options options = discOptions ();
   options.loop = samples::indices (sheet.border);
   std::rotate (options.loop.begin (), options.loop.begin () + 11, options.loop.end ());
   const Result result = reconstruct (asInput (sheet.positions), options);
@@ -138,7 +139,7 @@ TEST (Reconstruct, TheUsersLoopIsTheBoundary)
 TEST (Reconstruct, ThreadsAndRunsChangeNothing)
 {
   const Positions cloud = surface (SurfaceKind::FINGER, 3000, 6);
-  Options options;
+  Options options = discOptions ();
   options.threads = 1;
   const Result expected = reconstruct (asInput (cloud), options);
   expectDisc (expected, cloud.size ());
@@ -154,12 +155,12 @@ TEST (Reconstruct, ThreadsAndRunsChangeNothing)
 TEST (Reconstruct, PermutationChangesLabelsOnly)
 {
   const Positions cloud = surface (SurfaceKind::HEMISPHERE, 2000, 7);
-  const Result expected = reconstruct (asInput (cloud), {});
+  const Result expected = reconstruct (asInput (cloud), discOptions ());
   const std::vector<Index> order = samples::permutation (cloud.size (), 8);
   Positions permuted;
   for (const Index p : order)
     permuted.push_back (cloud[p]);
-  Result result = reconstruct (asInput (permuted), {});
+  Result result = reconstruct (asInput (permuted), discOptions ());
   for (Triangle& t : result.triangles)
     for (Index& p : t)
       p = order[p];
@@ -171,12 +172,13 @@ TEST (Reconstruct, PermutationChangesLabelsOnly)
 TEST (Reconstruct, RigidMotionAndScalingChangeNothing)
 {
   const Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 2000, 9);
-  const std::set<Triangle> expected = unordered (reconstruct (asInput (cloud), {}).triangles);
+  const std::set<Triangle> expected =
+      unordered (reconstruct (asInput (cloud), discOptions ()).triangles);
   const auto expectSame = [&] (const Eigen::Affine3d& motion, double tolerance) {
     Positions moved;
     for (const Eigen::Vector3d& p : cloud)
       moved.push_back (motion * p);
-    const Result result = reconstruct (asInput (moved), {});
+    const Result result = reconstruct (asInput (moved), discOptions ());
     expectDisc (result, cloud.size ());
     EXPECT_LE (difference (unordered (result.triangles), expected), tolerance);
   };
@@ -193,7 +195,7 @@ TEST (Reconstruct, RigidMotionAndScalingChangeNothing)
 TEST (Reconstruct, WithoutFlipsItIsTheDelaunayTriangulationOfTheParameters)
 {
   const Positions cloud = surface (SurfaceKind::HEMISPHERE, 600, 10);
-  Options options;
+  Options options = discOptions ();
   options.flip_edges = false;
   const Result result = reconstruct (asInput (cloud), options);
   expectDisc (result, cloud.size ());
@@ -214,18 +216,19 @@ TEST (Reconstruct, WithoutFlipsItIsTheDelaunayTriangulationOfTheParameters)
       ASSERT_GT ((p - centre).norm (), radius * (1.0 - 1e-9) - 1e-12);
   }
   EXPECT_NEAR (area, samples::PI, 0.02); // the whole disc, but for the segments beside the loop
-  EXPECT_NE (unordered (reconstruct (asInput (cloud), {}).triangles), unordered (result.triangles));
+  EXPECT_NE (unordered (reconstruct (asInput (cloud), discOptions ()).triangles),
+             unordered (result.triangles));
 }
 
 TEST (Reconstruct, DuplicatesAndNonFinitePointsAreReported)
 {
   Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 800, 11);
   const auto count = static_cast<Index> (cloud.size ());
-  const Result expected = reconstruct (asInput (cloud), {});
+  const Result expected = reconstruct (asInput (cloud), discOptions ());
   cloud.push_back (cloud[17]);
   cloud.push_back (cloud[3]);
   cloud.emplace_back (0.0, std::numeric_limits<double>::quiet_NaN (), 0.0);
-  const Result result = reconstruct (asInput (cloud), {});
+  const Result result = reconstruct (asInput (cloud), discOptions ());
   expectDisc (result, count);
   EXPECT_EQ (result.triangles, expected.triangles);
   const std::vector<std::array<Index, 2>> duplicates = {{count, 17}, {count + 1, 3}};
@@ -242,12 +245,12 @@ TEST (Reconstruct, DuplicatesAndNonFinitePointsAreReported)
 TEST (Reconstruct, ASelectionOfALargerCloud)
 {
   const Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 1200, 12);
-  const Result expected = reconstruct (asInput (cloud), {});
+  const Result expected = reconstruct (asInput (cloud), discOptions ());
   Input input = asInput (cloud);
   input.cloud_size = 3 * cloud.size () + 1;
   for (Index& p : input.cloud_index)
     p = 3 * p + 1;
-  Result result = reconstruct (input, {});
+  Result result = reconstruct (input, discOptions ());
   ASSERT_EQ (result.report.status, Status::OK);
   EXPECT_EQ (result.report.statistics.cloud_points, input.cloud_size);
   EXPECT_EQ (result.report.statistics.selected_points, cloud.size ());
@@ -263,8 +266,8 @@ TEST (Reconstruct, ASelectionOfALargerCloud)
 TEST (Reconstruct, FewestPoints)
 {
   const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}};
-  expectDisc (reconstruct (asInput (square), {}), 4);
-  Options options;
+  expectDisc (reconstruct (asInput (square), discOptions ()), 4);
+  Options options = discOptions ();
   options.loop = {0, 1, 2, 3};
   expectDisc (reconstruct (asInput (square), options), 4);
   Positions with_middle = square;

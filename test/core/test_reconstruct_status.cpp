@@ -17,6 +17,7 @@ namespace floater
 namespace
 {
 using samples::asInput;
+using samples::discOptions;
 using samples::Positions;
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
@@ -67,7 +68,7 @@ TEST (Status, NoBoundary)
     SurfaceSpec spec;
     spec.kind = kind;
     spec.points = 3000;
-    const Result result = reconstruct (asInput (generateSurface (spec)), {});
+    const Result result = reconstruct (asInput (generateSurface (spec)), discOptions ());
     expectFailure (result, Status::NO_BOUNDARY, "closed");
     EXPECT_TRUE (result.report.loop.empty ());
   }
@@ -79,7 +80,8 @@ TEST (Status, Unreachable)
   for (std::uint64_t i = 0; i < 3; ++i)
     for (const Eigen::Vector3d& p : discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1))
       three.push_back (p);
-  expectFailure (reconstruct (asInput (three), {}), Status::UNREACHABLE, "do not connect");
+  expectFailure (reconstruct (asInput (three), discOptions ()), Status::UNREACHABLE,
+                 "do not connect");
 }
 
 TEST (Status, ASmallSecondComponentIsLeftOutAndNamed)
@@ -88,7 +90,7 @@ TEST (Status, ASmallSecondComponentIsLeftOutAndNamed)
   const std::size_t large = cloud.size ();
   for (const Eigen::Vector3d& p : discAt ({10, 0, 0}, 0.5, 2))
     cloud.push_back (p);
-  const Result result = reconstruct (asInput (cloud), {});
+  const Result result = reconstruct (asInput (cloud), discOptions ());
   ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
   EXPECT_EQ (result.report.unused.size (), cloud.size () - large);
   EXPECT_EQ (result.report.unused.front (), large);
@@ -106,7 +108,7 @@ TEST (Status, ASmallSecondComponentIsLeftOutAndNamed)
 TEST (Status, InvalidLoop)
 {
   const Positions cloud = samples::disc (0.1, 3).positions;
-  Options options;
+  Options options = discOptions ();
   options.loop = {0, 10};
   expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "fewer than 3");
   options.loop = {0, 10, 20, 10};
@@ -119,7 +121,7 @@ TEST (Status, InvalidLoop)
 TEST (Status, InvalidOption)
 {
   const Positions cloud = samples::disc (0.1, 4).positions;
-  Options options;
+  Options options = discOptions ();
   options.k = 5;
   const Result result = reconstruct (asInput (cloud), options);
   expectFailure (result, Status::INVALID_OPTION, "k must be from 6 to 200");
@@ -152,18 +154,20 @@ TEST (Status, ExceptionsBecomeStatuses)
 TEST (Progress, StagesComeInOrder)
 {
   const Positions cloud = samples::disc (0.1, 6).positions;
-  Options options;
+  Options options = discOptions ();
   std::vector<Stage> stages;
   options.progress = [&stages] (Stage stage) { stages.push_back (stage); };
   const Result result = reconstruct (asInput (cloud), options);
   EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
                                          Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE,
                                          Stage::DELAUNAY, Stage::FLIPS}));
-  ASSERT_EQ (stages.size (), static_cast<std::size_t> (Stage::COUNT));
   const Statistics& statistics = result.report.statistics;
   double sum = 0.0;
-  for (const double seconds : statistics.seconds) {
-    EXPECT_GT (seconds, 0.0);
+  for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage) {
+    const double seconds = statistics.seconds[stage];
+    const bool has_run =
+        std::find (stages.begin (), stages.end (), static_cast<Stage> (stage)) != stages.end ();
+    EXPECT_EQ (seconds > 0.0, has_run) << stageName (static_cast<Stage> (stage));
     sum += seconds;
   }
   EXPECT_NEAR (statistics.total_seconds, sum, 1e-9);
@@ -171,7 +175,7 @@ TEST (Progress, StagesComeInOrder)
 
 TEST (Progress, StopsAtTheStageThatFails)
 {
-  Options options;
+  Options options = discOptions ();
   std::vector<Stage> stages;
   options.progress = [&stages] (Stage stage) { stages.push_back (stage); };
   reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);

@@ -52,6 +52,42 @@ TEST (Validation, OptionsHaveRanges)
   expectRange (&Options::ilut_fill, {1, 15, 10000}, {0, -1, 10001});
   expectRange (&Options::ilut_drop, {0.0, 1e-2, 1.0}, {-1e-9, 1.1, NOT_A_NUMBER});
   expectRange (&Options::threads, {0, 1, 64}, {-1});
+  expectRange (&Options::kept_loops, {0, 1, 1000}, {-1});
+  expectRange (&Options::largest_hole, {0.0, 5.5, 1e6}, {-1e-9, NOT_A_NUMBER, INF});
+  expectRange (&Options::largest_hole_length, {0.0, 1e-20, 1e20}, {-1e-9, NOT_A_NUMBER, INF});
+}
+
+TEST (Validation, PoliciesFitTheTopology)
+{
+  for (const Topology topology : {Topology::AUTO, Topology::DISC, Topology::SURFACE})
+    for (const HolePolicy holes :
+         {HolePolicy::AUTO, HolePolicy::CLOSE_ALL, HolePolicy::KEEP_LARGEST, HolePolicy::KEEP_COUNT,
+          HolePolicy::BY_SIZE}) {
+      Options options;
+      options.topology = topology;
+      options.holes = holes;
+      options.largest_hole = 3.0;
+      const bool fits = topology != Topology::DISC || holes == HolePolicy::AUTO ||
+                        holes == HolePolicy::KEEP_LARGEST;
+      EXPECT_EQ (checkOptions (options).status, fits ? Status::OK : Status::INVALID_OPTION);
+      // A size is needed by one policy alone, in either unit.
+      options.largest_hole = 0.0;
+      const bool fits_still = fits && holes != HolePolicy::BY_SIZE;
+      EXPECT_EQ (checkOptions (options).status, fits_still ? Status::OK : Status::INVALID_OPTION);
+      options.largest_hole_length = 0.1;
+      EXPECT_EQ (checkOptions (options).status, fits ? Status::OK : Status::INVALID_OPTION);
+    }
+}
+
+TEST (Validation, AGivenLoopIsOfADisc)
+{
+  Options options;
+  options.loop = {1, 2, 3};
+  EXPECT_FALSE (checkOptions (options));
+  options.topology = Topology::DISC;
+  EXPECT_FALSE (checkOptions (options));
+  options.topology = Topology::SURFACE;
+  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
 }
 
 TEST (Validation, ALoopHasThreePoints)

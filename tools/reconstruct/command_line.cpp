@@ -19,21 +19,25 @@ namespace
 const char* const GENERAL = "General";
 
 const char* const DESCRIPTION =
-    "Reconstructs a surface from unorganized points (Floater's meshless parameterization).\n"
-    "The vertices of the mesh are the points of the cloud, in the same order and with all their\n"
-    "fields. The surface must be one piece with a boundary, like a scan from one side. Nothing\n"
-    "needs to be tuned.\n";
+    "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of "
+    "the\n"
+    "cloud, in the same order and with all their fields. The surface may be open or closed, with\n"
+    "holes, handles or several pieces; a disc is made by Floater's meshless parameterization.\n"
+    "Nothing needs to be tuned.\n";
 
 const char* const FOOTER =
     R"(Examples:
   pcl_floater_reconstruct scan.pcd scan.vtk
   pcl_floater_reconstruct --report scan.json --parameterization flat.ply scan.ply mesh.ply
-  pcl_floater_reconstruct --boundary two-segments --flips off --sheet-filter off scan.pcd paper.ply
+  pcl_floater_reconstruct --holes close-all --strict statue.pcd statue.stl
+  pcl_floater_reconstruct --topology disc --boundary two-segments --flips off --sheet-filter off \
+                          scan.pcd paper.ply
 
 Notes:
   Input formats: .pcd, .ply, .obj. Output formats: .vtk (pcl_viewer opens it), .ply, .obj, .stl.
   Points with a coordinate that is not finite are left out of the output, and the vertices after
-  them move up; the report lists them. All other points are vertices, also if no triangle uses them.
+  them move up; the report lists them. All other points are vertices, also if no triangle uses them,
+  as outliers and repeated points; the report lists these, too.
   An output appears when it is whole; a file that is there already is replaced. After a failure
   there is no mesh, and what was there before is unchanged.
 
@@ -44,6 +48,7 @@ Exit codes:
   3  the cloud cannot be reconstructed; the message and the report name the status
   4  an output cannot be written
   5  out of memory, or an internal error
+  6  with --strict: there are warnings; no mesh is written, a report is
 )";
 
 template <typename Enum, std::size_t N>
@@ -96,6 +101,31 @@ addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
 }
 
 void
+addTopology (CLI::App& app, Options& options)
+{
+  const std::string surface = "Surface";
+  addChoice (app, "--topology", options.topology, TOPOLOGY_CHOICES,
+             "what is made: one disc, any surface, or what\nthe points tell", surface);
+  addChoice (
+      app, "--holes", options.holes, HOLE_CHOICES,
+      "holes that stay open: those where the sampling\nends, none, the largest of each piece, "
+      "some of\nthe largest, or those above a size",
+      surface);
+  addNumber (app, "--kept-loops", options.kept_loops,
+             "keep-count: boundary loops that stay, 0 or more", surface);
+  addNumber (app, "--largest-hole", options.largest_hole,
+             "by-size: widest hole to close, in local spacings;\n0: not looked at", surface);
+  addNumber (app, "--largest-hole-length", options.largest_hole_length,
+             "by-size: the same in units of the cloud", surface);
+  addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
+             "leave points that lie off any surface out of\nthe mesh", surface);
+  addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
+             "where noise is strong, connect points as they\nlie in local planes", surface);
+  addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
+             "flip edges on the surface at the end", surface);
+}
+
+void
 addOptions (CLI::App& app, CommandLine& line)
 {
   Options& options = line.options;
@@ -104,6 +134,8 @@ addOptions (CLI::App& app, CommandLine& line)
   app.add_flag ("--json", line.json, "print a summary as one line of JSON, the last")
       ->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only (and the line of --json)")
+      ->group (GENERAL);
+  app.add_flag ("--strict", line.strict, "take warnings for a failure: write no mesh")
       ->group (GENERAL);
   const auto positional = [&app] (const std::string& name, std::filesystem::path& path,
                                   const std::string& text) {
@@ -114,6 +146,8 @@ addOptions (CLI::App& app, CommandLine& line)
   };
   positional ("INPUT", line.input, "point cloud: .pcd, .ply or .obj");
   positional ("OUTPUT", line.output, "mesh to write: .vtk, .ply, .obj or .stl");
+
+  addTopology (app, options);
 
   const std::string neighborhoods = "Neighbourhoods";
   addNumber (app, "-k,--neighbors", options.k, "nearest neighbours of each point, 6 to 200",
@@ -126,7 +160,7 @@ addOptions (CLI::App& app, CommandLine& line)
   addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
              "leave out neighbours on another sheet", neighborhoods);
 
-  const std::string boundary = "Boundary";
+  const std::string boundary = "Boundary of a disc";
   addChoice (app, "--boundary", options.boundary, BOUNDARY_CHOICES,
              "how the boundary loop is found", boundary);
   addPath (app, "--loop", line.loop,
@@ -139,7 +173,7 @@ addOptions (CLI::App& app, CommandLine& line)
   addNumber (app, "--cluster-neighbors", options.cluster_k,
              "two-segments: nearest boundary points appended\nin cluster growing", boundary);
 
-  const std::string parameterization = "Parameterization";
+  const std::string parameterization = "Parameterization of a disc";
   addChoice (app, "--domain", options.domain, DOMAIN_CHOICES,
              "convex curve on which the loop is laid", parameterization);
   addNumber (app, "--sides", options.polygon_sides, "sides of the polygon, 3 or more",
@@ -164,13 +198,10 @@ addOptions (CLI::App& app, CommandLine& line)
              "bicgstab-ilut: entries dropped from the factors,\nas a share of their row, 0 to 1",
              system);
 
-  addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
-             "flip edges on the surface at the end", "Surface");
-
   const std::string output = "More output";
   addPath (app, "--report", line.report, "write all there is to say about the run as JSON", output);
   addPath (app, "--parameterization", line.parameterization,
-           "write the mesh in the plane z = 0, in any of the\nmesh formats", output);
+           "write the mesh of a disc in the plane z = 0, in\nany of the mesh formats", output);
 }
 
 /// The same file under whatever names; files need not exist.
@@ -211,6 +242,9 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   }
   if (const Problem problem = checkOptions (command_line.options))
     throw UsageError (problem.message);
+  if (command_line.options.topology == Topology::SURFACE &&
+      !(command_line.loop.empty () && command_line.parameterization.empty ()))
+    throw UsageError ("--loop and --parameterization are for a disc, not for --topology surface");
   return std::nullopt;
 }
 

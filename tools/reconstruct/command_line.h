@@ -22,7 +22,8 @@ enum ExitCode
   EXIT_INPUT = 2,
   EXIT_RECONSTRUCTION = 3,
   EXIT_OUTPUT = 4,
-  EXIT_INTERNAL = 5
+  EXIT_INTERNAL = 5,
+  EXIT_WARNINGS = 6
 };
 
 /// The command line asks for something that makes no sense.
@@ -43,14 +44,23 @@ struct CommandLine
   Options options; ///< but for the loop, which is still in its file
   bool quiet = false;
   bool json = false;
+  bool strict = false; ///< no mesh if there is a warning
 };
 
 /// Words for the values of an enumeration, on the command line and in reports.
 template <typename Enum, std::size_t N>
 using Choices = std::array<std::pair<const char*, Enum>, N>;
 
-constexpr Choices<BoundaryMethod, 2> BOUNDARY_CHOICES{
+constexpr Choices<Topology, 3> TOPOLOGY_CHOICES{
+    {{"auto", Topology::AUTO}, {"disc", Topology::DISC}, {"surface", Topology::SURFACE}}};
+constexpr Choices<HolePolicy, 5> HOLE_CHOICES{{{"auto", HolePolicy::AUTO},
+                                               {"close-all", HolePolicy::CLOSE_ALL},
+                                               {"keep-largest", HolePolicy::KEEP_LARGEST},
+                                               {"keep-count", HolePolicy::KEEP_COUNT},
+                                               {"by-size", HolePolicy::BY_SIZE}}};
+constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{
     {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
+     {"complex", BoundaryMethod::COMPLEX},
      {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
 constexpr Choices<Neighborhood, 4> NEIGHBORHOOD_CHOICES{
     {{"nearest-delaunay", Neighborhood::NEAREST_DELAUNAY},

@@ -43,9 +43,11 @@ readNamed (const std::filesystem::path& path, Read&& read)
 }
 
 int
-exitCode (Status status)
+exitCode (const Report& report, const RunFigures& run)
 {
-  switch (status) {
+  if (run.is_refused)
+    return EXIT_WARNINGS;
+  switch (report.status) {
   case Status::OK:
     return EXIT_OK;
   case Status::INVALID_OPTION:
@@ -121,7 +123,12 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
-  if (!line.parameterization.empty ()) {
+  run.is_flat_written = !line.parameterization.empty () && !result.report.parameters.empty ();
+  if (!line.parameterization.empty () && !run.is_flat_written)
+    result.report.warnings.push_back (
+        "there is no mesh in the plane, '" + line.parameterization.string () +
+        "' is not written: the surface was not made as a disc, which --topology disc insists on");
+  if (run.is_flat_written) {
     const auto [flat, triangles] = flatMesh (cloud, result);
     stage (line.parameterization, flat, triangles);
   }
@@ -132,7 +139,24 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
         "after them moved up");
   run.vertices = cloud.size ();
   stage (line.output, cloud, result.triangles);
-  stageReport (line, result.report, run, files);
+}
+
+/// Writes nothing but the report if there is no mesh, or one that --strict refuses.
+void
+stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
+{
+  Report& report = result.report;
+  if (report.status == Status::OK)
+    stageOutputs (line, cloud, result, run, files);
+  run.is_refused = line.strict && report.status == Status::OK && !report.warnings.empty ();
+  if (run.is_refused) {
+    files.clear ();
+    const std::size_t count = report.warnings.size ();
+    report.message = count == 1
+                         ? "1 warning, which --strict does not allow"
+                         : std::to_string (count) + " warnings, which --strict does not allow";
+  }
+  stageReport (line, report, run, files);
 }
 
 void
@@ -143,24 +167,56 @@ publish (const Files& files)
 }
 
 void
+printWarnings (const Report& report)
+{
+  for (const std::string& warning : report.warnings)
+    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
+}
+
+/// Method, pieces, handles and loops.
+void
+printShape (const Report& report)
+{
+  const MeshCheck& check = report.check;
+  std::printf ("topology   %s%s%s\n", choiceName (TOPOLOGY_CHOICES, report.topology),
+               report.topology_reason.empty () ? "" : ": ", report.topology_reason.c_str ());
+  std::printf ("shape      %zu %s, genus %lld, %s\n", check.components,
+               check.components == 1 ? "piece" : "pieces", static_cast<long long> (check.genus),
+               check.loops.empty () ? "closed" : "with boundary");
+  if (check.loops.empty ())
+    return;
+  const LoopSummary &longest = check.loops.front (), &shortest = check.loops.back ();
+  if (check.loops.size () == 1)
+    std::printf ("loops      1 of %zu points, %.3g spacings wide\n", longest.points,
+                 longest.width_spacings);
+  else
+    std::printf (
+        "loops      %zu, of %zu points, %.3g spacings wide, to %zu points, %.3g spacings\n",
+        check.loops.size (), longest.points, longest.width_spacings, shortest.points,
+        shortest.width_spacings);
+}
+
+void
 printSummary (const CommandLine& line, const Report& report, const RunFigures& run)
 {
   const Statistics& statistics = report.statistics;
-  for (const std::string& warning : report.warnings)
-    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
   constexpr double MEGABYTE = 1e6;
   std::printf (
-      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %zu unused)\n",
+      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %zu outliers, %zu "
+      "unused)\n",
       run.input_points, statistics.used_points, statistics.duplicate_points,
-      statistics.non_finite_points, report.unused.size ());
+      statistics.non_finite_points, report.outliers.size (), report.unused.size ());
   std::printf ("triangles  %zu\n", statistics.triangles);
-  std::printf ("loop       %zu points\n", statistics.loop_points);
+  printShape (report);
+  if (report.denoised)
+    std::printf ("noise      %.2g spacings: connected as the points lie in local planes\n",
+                 statistics.noise);
   std::printf ("seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
                run.read_seconds, run.reconstruct_seconds, run.write_seconds,
                static_cast<double> (peakMemory ()) / MEGABYTE);
   std::printf ("warnings   %zu\n", report.warnings.size ());
   std::printf ("mesh       %s\n", line.output.c_str ());
-  if (!line.parameterization.empty ())
+  if (run.is_flat_written)
     std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
   if (!line.report.empty ())
     std::printf ("report     %s\n", line.report.c_str ());
@@ -192,25 +248,25 @@ run (CommandLine line)
   progress.show ("writing");
   start = std::chrono::steady_clock::now ();
   Files files;
-  const bool is_ok = report.status == Status::OK;
-  if (is_ok)
-    stageOutputs (line, cloud, result, figures, files);
-  else
-    stageReport (line, report, figures, files);
+  stageAll (line, cloud, result, figures, files);
   publish (files);
   figures.write_seconds = secondsSince (start);
   progress.clear ();
 
+  const bool is_ok = report.status == Status::OK && !figures.is_refused;
   if (!is_ok)
     std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct '%s': %s (%s)\n",
-                  line.input.c_str (), report.message.c_str (), statusName (report.status));
-  else if (!line.quiet)
+                  line.input.c_str (), report.message.c_str (),
+                  outcomeName (report, figures).c_str ());
+  if (figures.is_refused || (is_ok && !line.quiet))
+    printWarnings (report);
+  if (is_ok && !line.quiet)
     printSummary (line, report, figures);
   if (line.json)
     std::printf ("%s\n", summaryLine (line, report, figures).c_str ());
   if (std::fflush (stdout) != 0)
     throw WriteError ("cannot write to the standard output");
-  return exitCode (report.status);
+  return exitCode (report, figures);
 }
 
 int

@@ -16,7 +16,14 @@ using Json = nlohmann::ordered_json;
 Json
 optionsJson (const Options& options)
 {
-  return {{"neighbors", options.k},
+  return {{"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
+          {"holes", choiceName (HOLE_CHOICES, options.holes)},
+          {"kept_loops", options.kept_loops},
+          {"largest_hole", options.largest_hole},
+          {"largest_hole_length", options.largest_hole_length},
+          {"remove_outliers", options.remove_outliers},
+          {"denoise", options.denoise},
+          {"neighbors", options.k},
           {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighborhood)},
           {"ball_radius", options.ball_radius},
           {"sheet_filter", options.filter_sheets},
@@ -47,6 +54,9 @@ statisticsJson (const Statistics& statistics)
           {"non_finite_points", statistics.non_finite_points},
           {"duplicate_points", statistics.duplicate_points},
           {"working_points", statistics.working_points},
+          {"outlier_points", statistics.outlier_points},
+          {"noise", statistics.noise},
+          {"holes_filled", statistics.holes_filled},
           {"used_points", statistics.used_points},
           {"relinked_points", statistics.relinked_points},
           {"boundary_candidates", statistics.boundary_candidates},
@@ -65,6 +75,31 @@ statisticsJson (const Statistics& statistics)
           {"iterations_v", statistics.iterations_v},
           {"reciprocal_condition", statistics.reciprocal_condition},
           {"factorization_bytes", statistics.factorization_bytes}};
+}
+
+Json
+checkJson (const MeshCheck& check)
+{
+  if (!check.done)
+    return {};
+  Json loops = Json::array ();
+  for (const LoopSummary& loop : check.loops)
+    loops.push_back ({{"points", loop.points},
+                      {"length", loop.length},
+                      {"width", loop.width},
+                      {"width_spacings", loop.width_spacings},
+                      {"at", loop.at}});
+  return {{"nonmanifold_edges", check.nonmanifold_edges},
+          {"nonmanifold_vertices", check.nonmanifold_vertices},
+          {"orientation_conflicts", check.orientation_conflicts},
+          {"components", check.components},
+          {"euler_characteristic", check.euler_characteristic},
+          {"genus", check.genus},
+          {"folds", check.folds},
+          {"degenerate_triangles", check.degenerate_triangles},
+          {"longest_edge", check.longest_edge},
+          {"longest_edge_at", check.longest_edge_at},
+          {"loops", loops}};
 }
 
 Json
@@ -103,9 +138,16 @@ peakMemory ()
 }
 
 std::string
+outcomeName (const Report& report, const RunFigures& run)
+{
+  return run.is_refused ? "WARNINGS" : statusName (report.status);
+}
+
+std::string
 reportText (const CommandLine& line, const Report& report, const RunFigures& run)
 {
-  const bool is_ok = report.status == Status::OK;
+  const bool is_ok = report.status == Status::OK && !run.is_refused;
+  const Json flat = run.is_flat_written ? fileName (line.parameterization) : Json ();
   const Json all = {{"tool", "pcl_floater_reconstruct"},
                     {"version", PCL_FLOATER_VERSION},
                     {"input",
@@ -116,17 +158,23 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"output", is_ok ? Json{{"file", fileName (line.output)},
                                             {"vertices", run.vertices},
                                             {"triangles", report.statistics.triangles},
-                                            {"parameterization", fileName (line.parameterization)}}
+                                            {"parameterization", flat}}
                                      : Json ()},
                     {"options", optionsJson (line.options)},
-                    {"status", statusName (report.status)},
+                    {"strict", line.strict},
+                    {"status", outcomeName (report, run)},
                     {"message", report.message},
                     {"warnings", report.warnings},
+                    {"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
+                    {"topology_reason", report.topology_reason},
+                    {"denoised", report.denoised},
+                    {"check", checkJson (report.check)},
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},
                     {"peak_memory_bytes", peakMemory ()},
                     {"loop", report.loop},
                     {"unused", report.unused},
+                    {"outliers", report.outliers},
                     {"non_finite", report.non_finite},
                     {"duplicates", report.duplicates}};
   std::string text;
@@ -138,18 +186,26 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
 std::string
 summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
 {
-  return dump ({{"status", statusName (report.status)},
+  const bool is_ok = report.status == Status::OK && !run.is_refused;
+  return dump ({{"status", outcomeName (report, run)},
                 {"message", report.message},
                 {"points", run.input_points},
                 {"used_points", report.statistics.used_points},
                 {"triangles", report.statistics.triangles},
+                {"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
+                {"topology_reason", report.topology_reason},
+                {"components", report.check.components},
+                {"genus", report.check.genus},
+                {"loops", report.check.loops.size ()},
                 {"loop_points", report.statistics.loop_points},
+                {"denoised", report.denoised},
+                {"outliers", report.outliers.size ()},
                 {"warnings", report.warnings.size ()},
                 {"recon_seconds", run.reconstruct_seconds},
                 {"read_seconds", run.read_seconds},
                 {"write_seconds", run.write_seconds},
                 {"peak_memory_bytes", peakMemory ()},
-                {"output", report.status == Status::OK ? fileName (line.output) : Json ()}});
+                {"output", is_ok ? fileName (line.output) : Json ()}});
 }
 
 } // namespace floater

@@ -20,6 +20,8 @@ struct RunFigures
   std::vector<std::string> input_fields; ///< other than the coordinates
   bool single_precision = true;          ///< of the coordinates
   std::size_t vertices = 0;              ///< in the output
+  bool is_flat_written = false;          ///< the mesh in the plane is asked for and there is one
+  bool is_refused = false;               ///< no mesh is written because of warnings
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;
   double write_seconds = 0.0;
@@ -28,6 +30,10 @@ struct RunFigures
 /// Largest resident memory of this process so far, in bytes.
 std::size_t
 peakMemory ();
+
+/// Name of the outcome: that of the status, or "WARNINGS" if the mesh is refused because of these.
+std::string
+outcomeName (const Report& report, const RunFigures& run);
 
 /// The whole report; one line for each entry of the outermost object.
 std::string

@@ -31,9 +31,14 @@ namespace pcl
  *   std::cerr << floater.getMessage () << '\n';
  * \endcode
  *
- * - \b Input: one piece of surface with one border (a disc, however it is bent). Only x, y, z are
- *   read. Points with a NaN or infinity, and all but one of equal points, stay in the cloud but in
- *   no triangle. setIndices() selects points; an index given twice counts once.
+ * That is the method for a disc, one piece of surface with one border however it is bent. Any other
+ * surface, closed or with holes, handles or several pieces, is made of the triangles on which the
+ * Delaunay stars of neighbouring points agree, and holes are closed by the same parameterization of
+ * a patch around them. Which of the two, setTopology() says; by default the points do.
+ *
+ * - \b Input: points of a surface. Only x, y, z are read. Points with a NaN or infinity, and all
+ * but one of equal points, stay in the cloud but in no triangle. So do outliers, which
+ *   setRemoveOutliers() is about. setIndices() selects points; an index given twice counts once.
  * - \b Output: the whole input cloud, unchanged and in its order, with every field of PointT; one
  *   consistently oriented manifold of triangles, whose indices count in the whole cloud also with
  *   setIndices(). The order of points and the number of threads make no difference.
@@ -71,6 +76,42 @@ public:
    * \param[out] polygons the triangles, as indices of the whole cloud */
   void reconstruct (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
 
+  /** \brief What surface the points are taken for; default AUTO: as they tell. DISC lays all out in
+   * the plane, with Status::NO_BOUNDARY or NOT_A_DISC where that cannot be; SURFACE takes any.
+   * Which one a run has taken, and why, is in getReport(). */
+  void setTopology (floater::Topology topology) { options_.topology = topology; }
+  floater::Topology getTopology () const { return options_.topology; }
+
+  /** \brief Which holes of a surface stay open; default AUTO: those where the sampling ends. A disc
+   * has none: with Topology::DISC only AUTO and KEEP_LARGEST are taken, which are then the same. */
+  void setHolePolicy (floater::HolePolicy policy) { options_.holes = policy; }
+  floater::HolePolicy getHolePolicy () const { return options_.holes; }
+
+  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay, the largest ones of the whole
+   * surface; 0 or more, default 1. */
+  void setKeptLoops (int loops) { options_.kept_loops = loops; }
+  int getKeptLoops () const { return options_.kept_loops; }
+
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is closed, in local spacings;
+   * default 0: not looked at. This or setLargestHoleLength() must be above 0; if both are, a hole
+   * is closed that exceeds neither. */
+  void setLargestHole (double spacings) { options_.largest_hole = spacings; }
+  double getLargestHole () const { return options_.largest_hole; }
+
+  /** \brief HolePolicy::BY_SIZE: the same in units of the cloud; default 0: not looked at. */
+  void setLargestHoleLength (double length) { options_.largest_hole_length = length; }
+  double getLargestHoleLength () const { return options_.largest_hole_length; }
+
+  /** \brief Whether points that lie off any surface are left out of the mesh; default true. They
+   * are in getOutlierIndices(). */
+  void setRemoveOutliers (bool remove_outliers) { options_.remove_outliers = remove_outliers; }
+  bool getRemoveOutliers () const { return options_.remove_outliers; }
+
+  /** \brief Whether points are connected as they lie in their local planes where noise is strong;
+   * default true. The points themselves stay where they are. */
+  void setDenoise (bool denoise) { options_.denoise = denoise; }
+  bool getDenoise () const { return options_.denoise; }
+
   /** \brief Nearest neighbours of each point, 6 to 200; default 20. */
   void setKNearest (int k) { options_.k = k; }
   int getKNearest () const { return options_.k; }
@@ -107,8 +148,8 @@ public:
   void setClusterK (int k) { options_.cluster_k = k; }
   int getClusterK () const { return options_.cluster_k; }
 
-  /** \brief Gives the boundary loop: cloud indices in order, either way round, each once, 3 or
-   * more. Empty, the default: it is found from the points. */
+  /** \brief Gives the boundary loop of a disc: cloud indices in order, either way round, each once,
+   * 3 or more. Empty, the default: it is found from the points. Not for Topology::SURFACE. */
   void setPrescribedLoop (const pcl::Indices& loop) { prescribed_loop_ = loop; }
   const pcl::Indices& getPrescribedLoop () const { return prescribed_loop_; }
 
@@ -192,14 +233,22 @@ public:
   /** \brief Counts, times and figures of the solver. */
   const floater::Statistics& getStatistics () const { return report_.statistics; }
 
-  /** \brief Boundary loop in order, each point once. */
+  /** \brief What the mesh is, as examined at the end of the last run: pieces, genus, boundary loops
+   * with their sizes, folds and more. */
+  const floater::MeshCheck& getMeshCheck () const { return report_.check; }
+
+  /** \brief The longest boundary loop in order, each point once; empty if the surface is closed. */
   pcl::Indices getBoundaryLoop () const;
 
-  /** \brief Place of every point of the cloud in the plane; NaN where it was not used. */
+  /** \brief Place of every point of the cloud in the plane, if the surface was made as a disc; NaN
+   * where a point was not used. Else empty. */
   const std::vector<Eigen::Vector2d>& getParameters () const { return report_.parameters; }
 
-  /** \brief Finite points, not duplicates, that are in no triangle; ascending. */
+  /** \brief Finite points, neither duplicates nor outliers, that are in no triangle; ascending. */
   pcl::Indices getUnusedIndices () const;
+
+  /** \brief Points left out of the mesh since they lie off any surface; ascending. */
+  pcl::Indices getOutlierIndices () const;
 
   /** \brief Points with a NaN or infinite coordinate; ascending. */
   pcl::Indices getNonFiniteIndices () const;

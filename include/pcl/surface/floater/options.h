@@ -122,10 +122,10 @@ stageName (Stage stage);
 struct Options
 {
   Topology topology = Topology::AUTO;
-  HolePolicy holes = HolePolicy::AUTO; ///< not for Topology::DISC, which closes all
+  HolePolicy holes = HolePolicy::AUTO; ///< Topology::DISC takes AUTO and KEEP_LARGEST only
   int kept_loops = 1;                  ///< 1: KEEP_COUNT: loops that stay, 0 or more
-  double largest_hole = 0.0; ///< 0: BY_SIZE: widest hole to close, in local spacings, 0 or more
-  double largest_hole_length = 0.0; ///< 0: BY_SIZE: widest hole to close, in units of the cloud
+  double largest_hole = 0.0; ///< 0: BY_SIZE: widest hole to close, local spacings; 0: not looked at
+  double largest_hole_length = 0.0; ///< 0: BY_SIZE: the same in units of the cloud; one is above 0
   bool remove_outliers = true;      ///< true: leave out points that lie off any surface
   bool denoise = true; ///< true: where noise is strong, connect points as they lie in local planes
   int k = 20;          ///< 20: nearest neighbours of each point, 6 to 200; not for balls
@@ -150,7 +150,7 @@ struct Options
   bool flip_edges = true;    ///< true: Delaunay flips on the surface after lifting
   int threads = 0;           ///< 0: number of threads, 0 for all cores; does not change the result
 
-  /// The boundary loop as cloud indices in order; empty: find it.
+  /// The boundary loop of a disc as cloud indices in order; empty: find it. Not for SURFACE.
   std::vector<std::uint32_t> loop;
 
   /// Called when a stage begins, from the thread that runs the reconstruction.

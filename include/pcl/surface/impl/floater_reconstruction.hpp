@@ -254,6 +254,13 @@ FloaterReconstruction<PointT>::getUnusedIndices () const
 
 template <typename PointT>
 pcl::Indices
+FloaterReconstruction<PointT>::getOutlierIndices () const
+{
+  return pcl::Indices (report_.outliers.begin (), report_.outliers.end ());
+}
+
+template <typename PointT>
+pcl::Indices
 FloaterReconstruction<PointT>::getNonFiniteIndices () const
 {
   return pcl::Indices (report_.non_finite.begin (), report_.non_finite.end ());
