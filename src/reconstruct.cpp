@@ -169,6 +169,18 @@ makeDisc (Samples& samples, const Options& options, StageClock& clock, Report& r
   return disc;
 }
 
+// Beyond the report: the mesh as it is, whatever the stages think that they made.
+Problem
+examine (const Samples& samples, const SurfaceMesh& mesh, const Options& options, StageClock& clock,
+         Report& report)
+{
+  clock.start (Stage::CHECK);
+  const std::vector<float> spacing =
+      localSpacing (samples.set.positions, samples.near, options.threads);
+  return reportCheck (samples.set, checkMesh (mesh.triangles, samples.set, spacing), options,
+                      report);
+}
+
 Problem
 reconstructAny (Input& input, const Options& options, Result& result)
 {
@@ -182,21 +194,22 @@ reconstructAny (Input& input, const Options& options, Result& result)
   if (Problem problem = prepare (input, options, clock, samples, report))
     return problem;
 
-  if (options.topology == Topology::DISC) {
+  if (options.topology == Topology::DISC || !options.loop.empty ()) {
     report.topology = Topology::DISC;
-    report.topology_reason = "asked for";
+    report.topology_reason =
+        options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
     const Disc disc = makeDisc (samples, options, clock, report);
     reportBoundary (samples.set, disc.boundary, report);
     if (disc.problem)
       return disc.problem;
     result.triangles = reportMesh (samples.set, disc.mesh, disc.finish, report);
-    return {};
+    return examine (samples, disc.mesh, options, clock, report);
   }
   report.topology = Topology::SURFACE;
   Surface surface = makeSurface (samples.set.positions, samples.near, samples.stars,
                                  1.0 / samples.set.scale, options, clock);
   result.triangles = reportMesh (samples.set, surface.mesh, surface.finish, report);
-  return {};
+  return examine (samples, surface.mesh, options, clock, report);
 }
 
 } // namespace

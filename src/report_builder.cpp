@@ -194,24 +194,7 @@ reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish&
   for (Triangle& triangle : triangles)
     for (Index& p : triangle)
       p = set.cloud_index[p];
-  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
-    if (mesh.triangle_of[p] == NONE)
-      report.unused.push_back (set.cloud_index[p]);
-  std::sort (report.unused.begin (), report.unused.end ());
-  if (!report.unused.empty ())
-    report.warnings.push_back (std::to_string (report.unused.size ()) +
-                               " points are in no triangle, point " +
-                               std::to_string (report.unused.front ()) +
-                               " among them: they do not connect to the rest of the surface");
   report.statistics.flips = finish.flips;
-  report.statistics.folds = finish.folds.size ();
-  if (!finish.folds.empty ())
-    report.warnings.push_back (
-        std::to_string (finish.folds.size ()) +
-        " edges are folded by more than 120 degrees, one of them at " +
-        place (set, mesh.from (finish.folds.front ())) +
-        ": sheets of the surface come close there, or a feature is thinly sampled");
-  report.statistics.used_points = set.positions.size () - report.unused.size ();
   report.statistics.triangles = triangles.size ();
   return triangles;
 }

@@ -51,19 +51,25 @@ fi
 
 echo "Reconstructing $cloud ..."
 reconstruct=$build/tools/reconstruct/pcl_floater_reconstruct
-"$reconstruct" --report "$result/report.json" --parameterization "$result/parameterization.ply" \
-  "$cloud" "$result/mesh.vtk"
+"$reconstruct" --report "$result/report.json" "$cloud" "$result/mesh.vtk"
 "$reconstruct" --quiet "$cloud" "$result/mesh.ply"
+# Only a disc can be laid out in the plane.
+rm -f "$result/parameterization.ply" "$result/disc.ply"
+flat=()
+if "$reconstruct" --quiet --parameterization "$result/parameterization.ply" "$cloud" \
+  "$result/disc.ply" 2>/dev/null; then
+  flat=("$result/parameterization.ply")
+fi
 "$root/tools/picture/on_virtual_display.sh" "$build/tools/picture/pcl_floater_picture" \
-  "$result/mesh.vtk" "$result/parameterization.ply" "$result/picture.png"
+  "$result/mesh.vtk" "${flat[@]}" "$result/picture.png"
 
 cat <<END
 Done. In $result:
   mesh.vtk, mesh.ply    the mesh; its vertices are the points of the cloud
-  parameterization.ply  the same triangles in the plane
   report.json           all there is to say about the run
-  picture.png           both, drawn
-To turn it around (key r: all of it, w: edges, q: quit):
+  picture.png           the mesh, drawn${flat:+, and beside it in the plane}
+${flat:+  parameterization.ply  the surface laid out in the plane, and disc.ply, the same triangles in space
+}To turn it around (key r: all of it, w: edges, q: quit):
   pcl_viewer '$result/mesh.vtk'
 END
 if ! command -v pcl_viewer >/dev/null; then

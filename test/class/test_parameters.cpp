@@ -53,6 +53,13 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
 {
   const Options defaults;
   const pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  EXPECT_EQ (floater.getTopology (), defaults.topology);
+  EXPECT_EQ (floater.getHolePolicy (), defaults.holes);
+  EXPECT_EQ (floater.getKeptLoops (), defaults.kept_loops);
+  EXPECT_EQ (floater.getLargestHole (), defaults.largest_hole);
+  EXPECT_EQ (floater.getLargestHoleLength (), defaults.largest_hole_length);
+  EXPECT_EQ (floater.getRemoveOutliers (), defaults.remove_outliers);
+  EXPECT_EQ (floater.getDenoise (), defaults.denoise);
   EXPECT_EQ (floater.getKNearest (), defaults.k);
   EXPECT_EQ (floater.getOpeningAngle (), defaults.opening_angle);
   EXPECT_EQ (floater.getClusterTolerance (), defaults.cluster_tolerance);
@@ -80,12 +87,21 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getReport ().status, Status::NOT_RUN);
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
   EXPECT_TRUE (floater.getParameters ().empty ());
+  EXPECT_TRUE (floater.getOutlierIndices ().empty ());
+  EXPECT_FALSE (floater.getMeshCheck ().done);
   EXPECT_EQ (floater.getStatistics ().cloud_points, 0U);
 }
 
 TEST_F (FloaterClass, EveryChoiceMakesADiscAndStays)
 {
   const std::vector<Choice> choices{
+      CHOICE (HolePolicy, HolePolicy::KEEP_LARGEST),
+      CHOICE (KeptLoops, 3),
+      CHOICE (LargestHole, 5.0),
+      CHOICE (LargestHoleLength, 0.5),
+      CHOICE (RemoveOutliers, false),
+      CHOICE (Denoise, false),
+      CHOICE (BoundaryMethod, BoundaryMethod::COMPLEX),
       CHOICE (KNearest, 12),
       CHOICE (OpeningAngle, 150.0),
       CHOICE (ClusterTolerance, 0.07),
@@ -137,6 +153,12 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
 {
   constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
   const std::vector<Choice> choices{
+      CHOICE (HolePolicy, HolePolicy::CLOSE_ALL), // not for a disc
+      CHOICE (HolePolicy, HolePolicy::KEEP_COUNT),
+      CHOICE (HolePolicy, HolePolicy::BY_SIZE),
+      CHOICE (KeptLoops, -1),
+      CHOICE (LargestHole, -0.5),
+      CHOICE (LargestHoleLength, -1e-9),
       CHOICE (KNearest, 5),
       CHOICE (KNearest, 201),
       CHOICE (OpeningAngle, 0.0),
@@ -168,6 +190,63 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
     expectFailure (floater, Status::INVALID_OPTION);
     EXPECT_TRUE (choice.is_set (floater)); // refused, not replaced
   }
+}
+
+// With every policy for holes: each keeps the one loop of a height field, or may be asked to.
+TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
+{
+  const Cloud::Ptr cloud = heightField ();
+  const std::vector<Choice> topologies{CHOICE (Topology, Topology::AUTO),
+                                       CHOICE (Topology, Topology::SURFACE)};
+  const std::vector<Choice> policies{
+      CHOICE (HolePolicy, HolePolicy::AUTO), CHOICE (HolePolicy, HolePolicy::KEEP_LARGEST),
+      CHOICE (HolePolicy, HolePolicy::KEEP_COUNT), CHOICE (HolePolicy, HolePolicy::BY_SIZE)};
+  for (const Choice& topology : topologies)
+    for (const Choice& policy : policies) {
+      SCOPED_TRACE (topology.name + ", " + policy.name);
+      Floater floater;
+      floater.setInputCloud (cloud);
+      topology.set (floater);
+      policy.set (floater);
+      floater.setLargestHole (6.0);
+      const Triangles triangles = runWell (floater);
+      EXPECT_TRUE (topology.is_set (floater));
+      EXPECT_TRUE (policy.is_set (floater));
+      const MeshCheck& check = floater.getMeshCheck ();
+      EXPECT_TRUE (check.done);
+      EXPECT_EQ (check.components, 1U);
+      EXPECT_EQ (check.euler_characteristic, 1);
+      EXPECT_EQ (check.genus, 0);
+      ASSERT_EQ (check.loops.size (), 1U);
+      EXPECT_EQ (check.loops.front ().points, floater.getBoundaryLoop ().size ());
+      expectDisc (triangles, allOf (cloud->size ()), floater.getBoundaryLoop ());
+      EXPECT_TRUE (floater.getOutlierIndices ().empty ());
+      EXPECT_NE (floater.getReport ().topology, Topology::AUTO);
+    }
+  Floater floater;
+  floater.setInputCloud (cloud);
+  floater.setTopology (Topology::AUTO);
+  floater.setHolePolicy (HolePolicy::BY_SIZE); // without a size
+  expectFailure (floater, Status::INVALID_OPTION);
+  floater.setHolePolicy (HolePolicy::AUTO);
+  floater.setTopology (Topology::SURFACE);
+  floater.setPrescribedLoop ({0, 1, 2});
+  expectFailure (floater, Status::INVALID_OPTION);
+}
+
+// What the user gives is taken, and only a disc can be laid out in it.
+TEST_F (FloaterClass, AGivenLoopMakesADisc)
+{
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  const Triangles expected = runWell (floater);
+  EXPECT_EQ (floater.getReport ().topology, Topology::DISC);
+  const pcl::Indices loop = floater.getBoundaryLoop ();
+  floater.setTopology (Topology::AUTO);
+  floater.setPrescribedLoop (loop);
+  EXPECT_EQ (runWell (floater), expected);
+  EXPECT_EQ (floater.getReport ().topology, Topology::DISC);
+  EXPECT_FALSE (floater.getParameters ().empty ());
 }
 
 TEST_F (FloaterClass, ParametersChangeTheRun)
@@ -441,7 +520,7 @@ TEST_F (FloaterClass, TellsItsProgress)
   runWell (floater);
   const std::vector<Stage> all{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
                                Stage::BOUNDARY,    Stage::WEIGHTS,   Stage::SOLVE,
-                               Stage::DELAUNAY,    Stage::FLIPS};
+                               Stage::DELAUNAY,    Stage::FLIPS,     Stage::CHECK};
   EXPECT_EQ (stages, all);
 
   floater.setProgressCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });

@@ -160,7 +160,7 @@ TEST (Progress, StagesComeInOrder)
   const Result result = reconstruct (asInput (cloud), options);
   EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
                                          Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE,
-                                         Stage::DELAUNAY, Stage::FLIPS}));
+                                         Stage::DELAUNAY, Stage::FLIPS, Stage::CHECK}));
   const Statistics& statistics = result.report.statistics;
   double sum = 0.0;
   for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage) {

@@ -20,6 +20,7 @@ constexpr int USAGE = 1;
 constexpr int INPUT_FAILED = 2;
 constexpr int RECONSTRUCTION_FAILED = 3;
 constexpr int OUTPUT_FAILED = 4;
+constexpr int WARNINGS = 6;
 
 class CommandLineTest : public ToolTest
 {
@@ -72,7 +73,23 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"--cluster-neighbors", "0"}, "must be 1 or more"},
       {{"--sides", "2"}, "3 or more"},
       {{"--domain", "disc"}, "'disc' is none of: circle, square, polygon"},
-      {{"--boundary", "none"}, "'none' is none of: spanning-tree"},
+      {{"--boundary", "none"}, "'none' is none of: spanning-tree, complex"},
+      {{"--topology", "sphere"}, "'sphere' is none of: auto, disc, surface"},
+      {{"--holes", "all"}, "'all' is none of: auto, close-all, keep-largest"},
+      {{"--holes", "by-size"}, "need the largest hole"},
+      {{"--topology", "disc", "--holes", "close-all"}, "one boundary loop and no holes"},
+      {{"--kept-loops", "-1"}, "kept loops must be 0 or more"},
+      {{"--kept-loops", "two"}, "'two' is not a whole number"},
+      {{"--largest-hole", "-1"}, "largest hole must be 0 or more"},
+      {{"--largest-hole", "wide"}, "'wide' is not a number"},
+      {{"--largest-hole", "nan"}, "largest hole must be 0 or more"},
+      {{"--largest-hole-length", "-1"}, "length of the largest hole must be 0 or more"},
+      {{"--largest-hole-length", "inf"}, "length of the largest hole must be 0 or more"},
+      {{"--remove-outliers", "yes"}, "'yes' is none of: on, off"},
+      {{"--denoise", "1"}, "'1' is none of: on, off"},
+      {{"--strict=maybe"}, "maybe"},
+      {{"--topology", "surface", "--loop", "loop.txt"}, "are for a disc"},
+      {{"--topology", "surface", "--parameterization", "flat.ply"}, "are for a disc"},
       {{"--weights", "0"}, "'0' is none of: uniform"},
       {{"--ordering", "AMD"}, "'AMD' is none of: automatic"},
       {{"--ordering", "colamd"}, "cannot take the ordering COLAMD"},
@@ -151,7 +168,7 @@ TEST_F (CommandLineTest, WriteThatFailsHalfWay)
     expectFailure ({"in.pcd", name, "--report", "out.json"}, OUTPUT_FAILED,
                    "cannot write '" + name + "': File too large", 1000);
   // The mesh fits, the flat mesh in double precision does not: neither appears.
-  ASSERT_EQ (run ({"in.pcd", "fits.ply", "-q"}).code, 0);
+  ASSERT_EQ (run ({"in.pcd", "fits.ply", "-q", "--topology", "disc"}).code, 0);
   const std::size_t limit = std::filesystem::file_size (path ("fits.ply")) + 100;
   expectFailure ({"in.pcd", "out.ply", "--parameterization", "flat.ply"}, OUTPUT_FAILED,
                  "cannot write 'flat.ply'", limit);
@@ -183,8 +200,9 @@ TEST_F (CommandLineTest, SummaryNamesFiguresAndFile)
 {
   const Outcome outcome = run ({"in.pcd", "out.vtk"});
   EXPECT_EQ (outcome.code, 0);
-  for (const char* part :
-       {"points     144", "triangles", "loop", "seconds", "warnings   0", "mesh       out.vtk"})
+  for (const char* part : {"points     144", "0 outliers", "triangles", "topology   ",
+                           "1 piece, genus 0, with boundary", "loops      1 of", "seconds",
+                           "warnings   0", "mesh       out.vtk"})
     EXPECT_NE (outcome.out.find (part), std::string::npos) << part;
   EXPECT_EQ (outcome.out.find ('{'), std::string::npos);
 }
@@ -200,6 +218,13 @@ TEST_F (CommandLineTest, JsonIsTheLastLine)
     const Json summary = Json::parse (lines.substr (before == std::string::npos ? 0 : before + 1));
     EXPECT_EQ (summary.at ("status"), "OK");
     EXPECT_EQ (summary.at ("points"), sample_.size ());
+    EXPECT_EQ (summary.at ("components"), 1);
+    EXPECT_EQ (summary.at ("genus"), 0);
+    EXPECT_EQ (summary.at ("loops"), 1);
+    EXPECT_EQ (summary.at ("outliers"), 0);
+    EXPECT_EQ (summary.at ("denoised"), false);
+    EXPECT_NE (summary.at ("topology"), "unknown");
+    EXPECT_TRUE (summary.at ("topology_reason").is_string ());
     EXPECT_GT (summary.at ("recon_seconds").get<double> (), 0.0);
     EXPECT_EQ (summary.at ("triangles"), readPly (path ("out.ply")).triangles.size ());
   }
@@ -253,10 +278,125 @@ TEST_F (CommandLineTest, ReportHasEverything)
     }
 }
 
+TEST_F (CommandLineTest, ReportTellsWhatTheMeshIs)
+{
+  const Json all = report ({"--topology", "disc"});
+  EXPECT_EQ (all.at ("topology"), "disc");
+  EXPECT_EQ (all.at ("topology_reason"), "asked for");
+  EXPECT_EQ (all.at ("strict"), false);
+  EXPECT_EQ (all.at ("denoised"), false);
+  EXPECT_EQ (all.at ("outliers"), Json::array ());
+  for (const char* figure : {"outlier_points", "noise", "holes_filled"})
+    EXPECT_EQ (all.at ("statistics").at (figure), 0) << figure;
+  for (const char* stage : {"complex", "holes", "check"})
+    EXPECT_GE (all.at ("seconds").at (stage).get<double> (), 0.0) << stage;
+  const Json& check = all.at ("check");
+  for (const char* flaw : {"nonmanifold_edges", "nonmanifold_vertices", "orientation_conflicts",
+                           "genus", "folds", "degenerate_triangles"})
+    EXPECT_EQ (check.at (flaw), 0) << flaw;
+  EXPECT_EQ (check.at ("components"), 1);
+  EXPECT_EQ (check.at ("euler_characteristic"), 1);
+  EXPECT_GT (check.at ("longest_edge").get<double> (), 1.0);
+  EXPECT_EQ (check.at ("longest_edge_at").size (), 2U);
+  ASSERT_EQ (check.at ("loops").size (), 1U);
+  const Json& loop = check.at ("loops").front ();
+  EXPECT_EQ (loop.at ("points"), all.at ("loop").size ());
+  EXPECT_EQ (loop.at ("at"), *std::min_element (all.at ("loop").begin (), all.at ("loop").end ()));
+  EXPECT_GT (loop.at ("width").get<double> (), 10.0); // of a square of side 11
+  EXPECT_GT (loop.at ("length").get<double> (), 2.0 * loop.at ("width").get<double> ());
+  EXPECT_GT (loop.at ("width_spacings").get<double> (), 5.0);
+
+  // Without a mesh there is nothing to check.
+  writeFile ("line.pcd", pcdText ({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}));
+  run ({"line.pcd", "out.ply", "--report", "failed.json"});
+  EXPECT_EQ (Json::parse (readFile ("failed.json")).at ("check"), Json ());
+}
+
+TEST_F (CommandLineTest, ALoopOrAMeshInThePlaneMakesADisc)
+{
+  const Json flat = report ({"--parameterization", "flat.ply"});
+  EXPECT_EQ (flat.at ("topology"), "disc");
+  EXPECT_EQ (flat.at ("options").at ("topology"), "disc");
+  std::string indices;
+  for (const Json& index : flat.at ("loop"))
+    indices += index.dump () + '\n';
+  writeFile ("loop.txt", indices);
+  EXPECT_EQ (report ({"--loop", "loop.txt"}).at ("topology"), "disc");
+  expectFailure ({"in.pcd", "out.ply", "--loop", "loop.txt", "--holes", "close-all"}, USAGE,
+                 "one boundary loop and no holes");
+}
+
+TEST_F (CommandLineTest, StrictTakesWarningsForAFailure)
+{
+  writeFile ("out.ply", "what was there before");
+  std::vector<Eigen::Vector3d> with_nan = sample_.points;
+  with_nan.emplace_back (std::nan (""), 0, 0); // its absence in the output is a warning
+  writeFile ("nan.pcd", pcdText (with_nan));
+  std::vector<Eigen::Vector3d> with_island = makeSample (false, 24).points;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      with_island.emplace_back (200.0 + i, j, 0.0);
+  writeFile ("island.pcd", pcdText (with_island));
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"nan.pcd", "1 points without finite coordinates"},
+      {"island.pcd", "36 points are in no triangle, point 576 (200, 0, 0) among them"}};
+  for (const auto& [cloud, cause] : cases) {
+    SCOPED_TRACE (cloud);
+    for (const std::string quiet : {"--quiet", "--threads=0"}) {
+      const std::vector<std::string> arguments{cloud,        "out.ply", "--report", "out.json",
+                                               "--topology", "disc",    quiet};
+      std::vector<std::string> strictly = arguments;
+      strictly.emplace_back ("--strict");
+      const std::set<std::string> before = names ();
+      const Outcome outcome = run (strictly);
+      EXPECT_EQ (outcome.code, WARNINGS);
+      EXPECT_EQ (outcome.out, "");
+      EXPECT_EQ (outcome.err.rfind ("pcl_floater_reconstruct: cannot reconstruct '" + cloud +
+                                        "': 1 warning, which --strict does not allow (WARNINGS)",
+                                    0),
+                 0U)
+          << outcome.err;
+      EXPECT_NE (outcome.err.find ("warning: " + cause), std::string::npos) << outcome.err;
+      EXPECT_EQ (readFile ("out.ply"), "what was there before");
+      const Json all = Json::parse (readFile ("out.json"));
+      EXPECT_EQ (all.at ("status"), "WARNINGS");
+      EXPECT_EQ (all.at ("strict"), true);
+      EXPECT_EQ (all.at ("output"), Json ());
+      ASSERT_EQ (all.at ("warnings").size (), 1U);
+      EXPECT_EQ (all.at ("warnings").front ().get<std::string> ().rfind (cause, 0), 0U);
+      EXPECT_EQ (all.at ("check").at ("components"), 1);
+      std::filesystem::remove (path ("out.json"));
+      EXPECT_EQ (names (), before);
+    }
+    EXPECT_EQ (run ({cloud, "lax.ply", "--topology", "disc", "-q"}).code, 0);
+  }
+  const Outcome summary =
+      run ({"island.pcd", "out.ply", "--topology", "disc", "--strict", "--json"});
+  EXPECT_EQ (Json::parse (summary.out).at ("status"), "WARNINGS");
+  EXPECT_EQ (Json::parse (summary.out).at ("output"), Json ());
+
+  // What is without warnings is written; what fails anyway fails as ever.
+  EXPECT_EQ (run ({"in.pcd", "good.ply", "--strict", "-q"}).code, 0);
+  EXPECT_EQ (readPly (path ("good.ply")).points, sample_.points);
+  writeFile ("line.pcd", pcdText ({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}));
+  expectFailure ({"line.pcd", "out.ply", "--strict"}, RECONSTRUCTION_FAILED, "(DEGENERATE)");
+}
+
 TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
 {
   const Json defaults = report ({}).at ("options");
   const std::vector<std::tuple<std::string, std::string, std::string, Json>> cases{
+      {"--topology", "surface", "topology", "surface"},
+      {"--topology", "disc", "topology", "disc"},
+      {"--holes", "close-all", "holes", "close-all"},
+      {"--holes", "keep-largest", "holes", "keep-largest"},
+      {"--holes", "keep-count", "holes", "keep-count"},
+      {"--kept-loops", "0", "kept_loops", 0},
+      {"--largest-hole", "5.5", "largest_hole", 5.5},
+      {"--largest-hole-length", "0.25", "largest_hole_length", 0.25},
+      {"--remove-outliers", "off", "remove_outliers", false},
+      {"--denoise", "off", "denoise", false},
+      {"--boundary", "complex", "boundary", "complex"},
       {"--neighbors", "24", "neighbors", 24},
       {"--neighborhood", "ball", "neighborhood", "ball"},
       {"--ball-radius", "3", "ball_radius", 3.0},

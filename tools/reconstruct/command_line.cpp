@@ -164,7 +164,8 @@ addOptions (CLI::App& app, CommandLine& line)
   addChoice (app, "--boundary", options.boundary, BOUNDARY_CHOICES,
              "how the boundary loop is found", boundary);
   addPath (app, "--loop", line.loop,
-           "take the loop from this text file: indices of\npoints in order, from 0", boundary);
+           "take the loop from this text file: indices of\npoints in order, from 0; makes a disc",
+           boundary);
   addNumber (app, "--opening-angle", options.opening_angle,
              "degrees: a boundary point sees a wider sector\nwithout neighbours", boundary);
   addNumber (app, "--cluster-tolerance", options.cluster_tolerance,
@@ -201,7 +202,7 @@ addOptions (CLI::App& app, CommandLine& line)
   const std::string output = "More output";
   addPath (app, "--report", line.report, "write all there is to say about the run as JSON", output);
   addPath (app, "--parameterization", line.parameterization,
-           "write the mesh of a disc in the plane z = 0, in\nany of the mesh formats", output);
+           "write the mesh in the plane z = 0, in any of the\nmesh formats; makes a disc", output);
 }
 
 /// The same file under whatever names; files need not exist.
@@ -240,11 +241,14 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
       return app.exit (error);
     throw UsageError (error.what ());
   }
+  const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();
+  Topology& topology = command_line.options.topology;
+  if (needs_disc && topology == Topology::SURFACE)
+    throw UsageError ("--loop and --parameterization are for a disc, not for --topology surface");
+  if (needs_disc)
+    topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
     throw UsageError (problem.message);
-  if (command_line.options.topology == Topology::SURFACE &&
-      !(command_line.loop.empty () && command_line.parameterization.empty ()))
-    throw UsageError ("--loop and --parameterization are for a disc, not for --topology surface");
   return std::nullopt;
 }
 

@@ -123,12 +123,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
-  run.is_flat_written = !line.parameterization.empty () && !result.report.parameters.empty ();
-  if (!line.parameterization.empty () && !run.is_flat_written)
-    result.report.warnings.push_back (
-        "there is no mesh in the plane, '" + line.parameterization.string () +
-        "' is not written: the surface was not made as a disc, which --topology disc insists on");
-  if (run.is_flat_written) {
+  if (!line.parameterization.empty ()) {
     const auto [flat, triangles] = flatMesh (cloud, result);
     stage (line.parameterization, flat, triangles);
   }
@@ -216,7 +211,7 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
                static_cast<double> (peakMemory ()) / MEGABYTE);
   std::printf ("warnings   %zu\n", report.warnings.size ());
   std::printf ("mesh       %s\n", line.output.c_str ());
-  if (run.is_flat_written)
+  if (!line.parameterization.empty ())
     std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
   if (!line.report.empty ())
     std::printf ("report     %s\n", line.report.c_str ());

@@ -147,7 +147,6 @@ std::string
 reportText (const CommandLine& line, const Report& report, const RunFigures& run)
 {
   const bool is_ok = report.status == Status::OK && !run.is_refused;
-  const Json flat = run.is_flat_written ? fileName (line.parameterization) : Json ();
   const Json all = {{"tool", "pcl_floater_reconstruct"},
                     {"version", PCL_FLOATER_VERSION},
                     {"input",
@@ -158,7 +157,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"output", is_ok ? Json{{"file", fileName (line.output)},
                                             {"vertices", run.vertices},
                                             {"triangles", report.statistics.triangles},
-                                            {"parameterization", flat}}
+                                            {"parameterization", fileName (line.parameterization)}}
                                      : Json ()},
                     {"options", optionsJson (line.options)},
                     {"strict", line.strict},

@@ -20,7 +20,6 @@ struct RunFigures
   std::vector<std::string> input_fields; ///< other than the coordinates
   bool single_precision = true;          ///< of the coordinates
   std::size_t vertices = 0;              ///< in the output
-  bool is_flat_written = false;          ///< the mesh in the plane is asked for and there is one
   bool is_refused = false;               ///< no mesh is written because of warnings
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;

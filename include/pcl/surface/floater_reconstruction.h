@@ -148,8 +148,9 @@ public:
   void setClusterK (int k) { options_.cluster_k = k; }
   int getClusterK () const { return options_.cluster_k; }
 
-  /** \brief Gives the boundary loop of a disc: cloud indices in order, either way round, each once,
-   * 3 or more. Empty, the default: it is found from the points. Not for Topology::SURFACE. */
+  /** \brief Gives the boundary loop, which makes the surface a disc: cloud indices in order, either
+   * way round, each once, 3 or more. Empty, the default: it is found from the points. Not for
+   * Topology::SURFACE. */
   void setPrescribedLoop (const pcl::Indices& loop) { prescribed_loop_ = loop; }
   const pcl::Indices& getPrescribedLoop () const { return prescribed_loop_; }
 

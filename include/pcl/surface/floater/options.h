@@ -150,7 +150,7 @@ struct Options
   bool flip_edges = true;    ///< true: Delaunay flips on the surface after lifting
   int threads = 0;           ///< 0: number of threads, 0 for all cores; does not change the result
 
-  /// The boundary loop of a disc as cloud indices in order; empty: find it. Not for SURFACE.
+  /// The boundary loop as cloud indices in order, which makes the surface a disc; empty: find it.
   std::vector<std::uint32_t> loop;
 
   /// Called when a stage begins, from the thread that runs the reconstruction.
