@@ -38,7 +38,7 @@ widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& p
   return std::sqrt (sqr_width);
 }
 
-// Largest first, those with empty sectors before all others.
+// Those with empty sectors before all others, then by how much of the rim has them.
 std::vector<Rim*>
 bySize (std::vector<Rim>& rims)
 {
@@ -46,7 +46,8 @@ bySize (std::vector<Rim>& rims)
   for (Rim& rim : rims)
     sorted.push_back (&rim);
   std::stable_sort (sorted.begin (), sorted.end (), [] (const Rim* a, const Rim* b) {
-    return std::make_tuple (isOpen (*b), b->length) < std::make_tuple (isOpen (*a), a->length);
+    return std::make_tuple (isOpen (*b), b->open_share * b->length) <
+           std::make_tuple (isOpen (*a), a->open_share * a->length);
   });
   return sorted;
 }
