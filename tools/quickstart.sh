@@ -7,7 +7,8 @@ usage () {
   cat <<'END'
 Usage: quickstart.sh [CLOUD]
 Reconstructs a point cloud (.pcd, .ply or .obj; without one a sample is made) and writes mesh,
-parameterization, report and picture to the folder floater_result of the working directory.
+report, picture and, of a disc, the parameterization to the folder floater_result of the working
+directory.
 END
 }
 
