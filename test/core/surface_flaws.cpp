@@ -40,20 +40,20 @@ withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed)
 }
 
 KnownSurface
-withOutliers (KnownSurface surface, std::size_t count, std::uint64_t seed)
+withOutliers (KnownSurface surface, std::size_t count, double distance, std::uint64_t seed)
 {
-  constexpr double SQR_DISTANCE = 16.0;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : surface.points)
     box.extend (p);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant (2.0 * distance);
+  const Eigen::Vector3d first = box.min () - margin, size = box.sizes () + 2.0 * margin;
   RandomStream random (seed);
   while (surface.outliers.size () < count) {
     Eigen::Vector3d p;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
-      p[axis] = box.center ()[axis] + 1.25 * box.sizes ()[axis] * (random.uniform () - 0.5);
-    if (std::any_of (
-            surface.points.begin (), surface.points.end (),
-            [&p] (const Eigen::Vector3d& q) { return (q - p).squaredNorm () < SQR_DISTANCE; }))
+      p[axis] = first[axis] + size[axis] * random.uniform ();
+    if (std::any_of (surface.points.begin (), surface.points.end (),
+                     [&] (const Eigen::Vector3d& q) { return (q - p).norm () < distance; }))
       continue;
     surface.outliers.push_back (static_cast<Index> (surface.points.size ()));
     surface.points.push_back (p);

@@ -139,9 +139,9 @@ withPiece (KnownSurface surface, const KnownSurface& more, double scale,
 KnownSurface
 withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed);
 
-/// Adds points in the bounding box, grown by a quarter, each 4 spacings away from all others.
+/// Adds points in and around the bounding box, each at least a distance away from all others.
 KnownSurface
-withOutliers (KnownSurface surface, std::size_t count, std::uint64_t seed);
+withOutliers (KnownSurface surface, std::size_t count, double distance, std::uint64_t seed);
 
 /// Adds points that are equal to others.
 KnownSurface

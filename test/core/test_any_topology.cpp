@@ -335,17 +335,20 @@ INSTANTIATE_TEST_SUITE_P (
 
 INSTANTIATE_TEST_SUITE_P (
     Closed, AnyTopology,
-    testing::Values (Case{"sphere", [] { return samples::sphere (3000, 1); }},
-                     Case{"torus", [] { return samples::torus (3000, 2); }},
-                     Case{"double_torus", [] { return samples::doubleTorus (3); }},
-                     Case{"sphere_duplicates",
-                          [] {
-                            return samples::withDuplicates (samples::sphere (2000, 4), 200, 5);
-                          }},
-                     Case{"sphere_outliers",
-                          [] { return samples::withOutliers (samples::sphere (3000, 6), 20, 7); }},
-                     Case{"annulus_outliers",
-                          [] { return samples::withOutliers (samples::annulus (8), 15, 9); }}),
+    testing::Values (
+        Case{"sphere", [] { return samples::sphere (3000, 1); }},
+        Case{"torus", [] { return samples::torus (3000, 2); }},
+        Case{"double_torus", [] { return samples::doubleTorus (3); }},
+        Case{"sphere_duplicates",
+             [] { return samples::withDuplicates (samples::sphere (2000, 4), 200, 5); }},
+        Case{"sphere_outliers",
+             [] { return samples::withOutliers (samples::sphere (3000, 6), 20, 12.0, 7); }},
+        Case{"sphere_outliers_near",
+             [] { return samples::withOutliers (samples::sphere (3000, 6), 20, 4.0, 7); }},
+        Case{"annulus_outliers",
+             [] { return samples::withOutliers (samples::annulus (8), 15, 12.0, 9); }},
+        Case{"annulus_outliers_near",
+             [] { return samples::withOutliers (samples::annulus (8), 15, 4.0, 9); }}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P (
@@ -354,7 +357,7 @@ INSTANTIATE_TEST_SUITE_P (
                      Case{"parallel_3", [] { return samples::parallelSheets (3.0, 3); }},
                      Case{"pieces", [] { return samples::pieces (1); }},
                      Case{"pieces_outliers",
-                          [] { return samples::withOutliers (samples::pieces (2), 10, 3); }}),
+                          [] { return samples::withOutliers (samples::pieces (2), 10, 36.0, 3); }}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P (SharpEdges, AnyTopology,

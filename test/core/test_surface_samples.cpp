@@ -81,7 +81,7 @@ TEST (SurfaceSamples, DoubleTorusIsOnItsSurface)
 TEST (SurfaceSamples, FlawsAreWhatTheySay)
 {
   const KnownSurface clean = annulus (1);
-  const KnownSurface far = withOutliers (clean, 10, 2);
+  const KnownSurface far = withOutliers (clean, 10, 4.0, 2);
   ASSERT_EQ (far.outliers.size (), 10U);
   for (const Index outlier : far.outliers)
     for (const Eigen::Vector3d& p : clean.points)
