@@ -13,7 +13,9 @@ namespace floater
 namespace
 {
 constexpr double TURNED = 0.2; // cosine to the corners' normals below which a triangle is penalized
-constexpr double PENALTY = 1000.0; // per unit of that cosine; a right isosceles triangle costs 2
+constexpr double PENALTY = 1000.0;   // per unit of that cosine; a right isosceles triangle costs 2
+constexpr double LARGE = 3.0;        // doubled area, in squared spacings, that is not penalized
+constexpr double LARGE_COST = 100.0; // per squared spacing beyond
 constexpr double IMPROVES =
     1e-9; // relative gain below which the diagonals of a quad count as equal
 
@@ -37,7 +39,12 @@ TriangleCost::operator() (Index a, Index b, Index c) const
   // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area); bounded, so that costs of needles
   // compare.
   const double cotangents = sqr_lengths / (2.0 * std::max (double_area, 1e-9 * sqr_lengths));
-  return cotangents + PENALTY * std::max (0.0, TURNED - agreement (a, b, c, area_vector));
+  const double turned = PENALTY * std::max (0.0, TURNED - agreement (a, b, c, area_vector));
+  if (spacing_ == nullptr)
+    return cotangents + turned;
+  const double spacing = ((*spacing_)[a] + (*spacing_)[b] + (*spacing_)[c]) / 3.0;
+  return cotangents + turned +
+         LARGE_COST * std::max (0.0, double_area / (spacing * spacing) - LARGE);
 }
 
 double

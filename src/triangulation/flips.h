@@ -12,14 +12,17 @@ namespace pcl
 namespace floater
 {
 /// How bad a triangle is: the sum of the cotangents of its angles, which Delaunay flips minimize in
-/// the plane, and a penalty where it is turned away from the normals of its corners.
+/// the plane, and penalties where it is turned away from the normals of its corners, or larger than
+/// triangles between neighbours are: where sheets are near, that tells the wrong one.
 class TriangleCost
 {
 public:
   /// \param normals oriented like the mesh (see orientNormals)
+  /// \param spacing of each point (see localSpacing); nullptr: large triangles cost no more
   TriangleCost (const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Eigen::Vector3f>& normals)
-      : positions_ (positions), normals_ (normals)
+                const std::vector<Eigen::Vector3f>& normals,
+                const std::vector<float>* spacing = nullptr)
+      : positions_ (positions), normals_ (normals), spacing_ (spacing)
   {
   }
 
@@ -53,6 +56,7 @@ private:
 
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<Eigen::Vector3f>& normals_;
+  const std::vector<float>* spacing_;
 };
 
 /// Gives every normal the sign for which most of the area around its point faces along it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation/surface_finish.h"
 
+#include "neighborhoods/stars.h"
 #include "triangulation/flips.h"
 #include "triangulation/fold_repair.h"
 #include "triangulation/insertion.h"
@@ -21,7 +22,8 @@ flipSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              SurfaceFinish& finish)
 {
   orientNormals (mesh, positions, normals);
-  const TriangleCost cost (positions, normals);
+  const std::vector<float> spacing = localSpacing (positions, near, options.threads);
+  const TriangleCost cost (positions, normals, &spacing);
   insertMissingPoints (mesh, near, cost);
   if (options.flip_edges)
     finish.flips = flipEdges (mesh, cost);
@@ -32,10 +34,11 @@ flipSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 // Flips have turned triangles round, so that some normals may have the wrong sign.
 void
 repair (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-        std::vector<Eigen::Vector3f>& normals, SurfaceFinish& finish)
+        std::vector<Eigen::Vector3f>& normals, const Options& options, SurfaceFinish& finish)
 {
+  const std::vector<float> spacing = localSpacing (positions, near, options.threads);
   orientNormals (mesh, positions, normals);
-  finish.moves = moveVertices (mesh, near, TriangleCost (positions, normals), positions);
+  finish.moves = moveVertices (mesh, near, TriangleCost (positions, normals, &spacing), positions);
   finish.folds = findFolds (mesh, positions);
 }
 
@@ -47,7 +50,7 @@ finishSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 {
   SurfaceFinish finish;
   if (flipSurface (mesh, positions, near, normals, options, finish))
-    repair (mesh, positions, near, normals, finish);
+    repair (mesh, positions, near, normals, options, finish);
   return finish;
 }
 
@@ -68,7 +71,7 @@ finishDisc (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions, co
             "have handles, several parts, or be too thinly sampled); let the topology be chosen "
             "automatically, or reconstruct a part of it"};
   else
-    repair (mesh, positions, near, normals, finish);
+    repair (mesh, positions, near, normals, options, finish);
   return finish;
 }
 
