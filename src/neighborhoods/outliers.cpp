@@ -20,7 +20,7 @@ namespace
 constexpr std::size_t LOOKED_AT = 20; // nearest neighbours, however many there are
 constexpr std::size_t REACH_OF = 6;   // nearest neighbour whose distance is a point's reach
 constexpr std::size_t HANDFUL = 7;    // points of the largest cluster that may be left out
-constexpr double FAR = 8.0;           // reaches to the rest from which on such a cluster is apart
+constexpr double FAR = 5.0;           // reaches to the rest from which on such a cluster is apart
 constexpr double OFF_PLANE = 1.75;    // reaches above its neighbours' plane where a point is apart
 constexpr double FLAT = 0.25;         // neighbours' median distance to their plane, of that height
 constexpr double STRAY = 3.0;     // of these medians: neighbours that do not belong to the plane
