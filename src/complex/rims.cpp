@@ -14,9 +14,14 @@ namespace floater
 {
 namespace
 {
-constexpr double OPEN = 0.5; // share of points with an empty sector at a true boundary
-constexpr double WIDE = 6.0; // steps of the rim; as wide as a regular polygon of 19 sides
-constexpr double LONG = 1.0; // points of the rim over the root of those of its piece
+constexpr double OPEN = 0.8;           // share of points with an empty sector at a true boundary
+constexpr double ALL_OPEN = 0.97;      // the same where the rim is small
+constexpr double EMPTY_SECTOR = 130.0; // degrees; 180 less the bend of a hole 6 spacings wide
+constexpr double LEAVES_PLANE = 0.75;  // sine; neighbours on another sheet do not fill a sector
+constexpr double SAME_SHEET = 0.3;     // cosine between normals
+constexpr double WIDE = 6.0;           // steps of the rim; as wide as a regular polygon of 19 sides
+constexpr double SMALL = 4.0;          // the same of 13 sides
+constexpr double LONG = 1.0;           // points of the rim over the root of those of its piece
 constexpr std::size_t WIDTH_POINTS = 256; // at most, evenly taken, for the width
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 
@@ -25,6 +30,42 @@ isOpen (const Rim& rim)
 {
   return rim.open_share >= OPEN;
 }
+
+// Tells whether a point sees a wide empty sector among its neighbours, all or those on its sheet.
+class SectorTest
+{
+public:
+  SectorTest (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+              const std::vector<Eigen::Vector3f>& normals)
+      : positions_ (positions), near_ (near), normals_ (normals)
+  {
+  }
+
+  bool hasEmptySector (Index p, bool same_sheet)
+  {
+    const Eigen::Vector3d normal = normals_[p].cast<double> ();
+    const TangentFrame frame (normal);
+    neighbors_.clear ();
+    for (Index q : near_.row (p)) {
+      const Eigen::Vector3d offset = positions_[q] - positions_[p];
+      const Eigen::Vector3d other = normals_[q].cast<double> ();
+      const double limit = LEAVES_PLANE * offset.norm ();
+      if (!same_sheet ||
+          (std::abs (normal.dot (offset)) <= limit && std::abs (other.dot (offset)) <= limit &&
+           std::abs (normal.dot (other)) >= SAME_SHEET))
+        neighbors_.push_back ({frame.project (offset), q});
+    }
+    star_.order (neighbors_);
+    return star_.openingAngle () > EMPTY_SECTOR * DEGREE;
+  }
+
+private:
+  const std::vector<Eigen::Vector3d>& positions_;
+  const FlatLists& near_;
+  const std::vector<Eigen::Vector3f>& normals_;
+  PlanarStar star_;
+  std::vector<PlanarNeighbor> neighbors_;
+};
 
 double
 widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& positions)
@@ -46,8 +87,8 @@ bySize (std::vector<Rim>& rims)
   for (Rim& rim : rims)
     sorted.push_back (&rim);
   std::stable_sort (sorted.begin (), sorted.end (), [] (const Rim* a, const Rim* b) {
-    return std::make_tuple (isOpen (*b), b->open_share * b->length) <
-           std::make_tuple (isOpen (*a), a->open_share * a->length);
+    return std::make_tuple (isOpen (*b), b->empty_share * b->length) <
+           std::make_tuple (isOpen (*a), a->empty_share * a->length);
   });
   return sorted;
 }
@@ -57,29 +98,25 @@ bySize (std::vector<Rim>& rims)
 std::vector<Rim>
 findRims (const SurfaceMesh& mesh, const std::vector<Index>& pieces,
           const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-          const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-          double opening_angle)
+          const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing)
 {
   std::vector<Rim> rims;
-  PlanarStar star;
-  std::vector<PlanarNeighbor> neighbors;
+  SectorTest test (positions, near, normals);
   for (std::vector<Index>& loop : boundaryLoops (mesh)) {
-    Rim rim{{}, pieces[mesh.triangle_of[loop.front ()]], 0.0, widthOf (loop, positions), 0.0, 0.0};
-    std::size_t open = 0;
+    Rim rim{{}, pieces[mesh.triangle_of[loop.front ()]], 0.0, widthOf (loop, positions), 0.0, 0.0,
+            0.0};
+    std::size_t open = 0, empty = 0;
     for (std::size_t i = 0; i < loop.size (); ++i) {
       const Index p = loop[i];
       rim.length += (positions[loop[(i + 1) % loop.size ()]] - positions[p]).norm ();
       rim.spacing += spacing[p];
-      const TangentFrame frame (normals[p].cast<double> ());
-      neighbors.clear ();
-      for (Index q : near.row (p))
-        neighbors.push_back ({frame.project (positions[q] - positions[p]), q});
-      star.order (neighbors);
-      open += star.openingAngle () > opening_angle * DEGREE ? 1 : 0;
+      open += test.hasEmptySector (p, true) ? 1 : 0;
+      empty += test.hasEmptySector (p, false) ? 1 : 0;
     }
     const auto count = static_cast<double> (loop.size ());
     rim.spacing /= count;
     rim.open_share = static_cast<double> (open) / count;
+    rim.empty_share = static_cast<double> (empty) / count;
     rim.points = std::move (loop);
     rims.push_back (std::move (rim));
   }
@@ -114,10 +151,11 @@ chooseRims (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points
   case HolePolicy::AUTO:
     for (Rim& rim : rims) {
       const auto count = static_cast<double> (rim.points.size ());
-      const bool is_wide = rim.width >= WIDE * rim.length / count;
+      const double steps = rim.width * count / rim.length;
       const bool is_long =
           count >= LONG * std::sqrt (static_cast<double> (piece_points[rim.piece]));
-      rim.stays = isOpen (rim) && (is_wide || is_long);
+      rim.stays = (isOpen (rim) && (steps >= WIDE || is_long)) ||
+                  (rim.open_share >= ALL_OPEN && steps >= SMALL);
     }
     return;
   }

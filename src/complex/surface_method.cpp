@@ -62,8 +62,7 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
   clock.start (Stage::HOLES);
   Index count = 0;
   const std::vector<Index> pieces = findPieces (surface.mesh, count);
-  surface.rims = findRims (surface.mesh, pieces, positions, near, stars.normals, spacing,
-                           options.opening_angle);
+  surface.rims = findRims (surface.mesh, pieces, positions, near, stars.normals, spacing);
   chooseRims (surface.rims, pointsOfPieces (surface.mesh, pieces, count), options, unit);
   const TriangleCost cost (positions, stars.normals);
   surface.holes_filled = fillRims (surface.mesh, surface.rims, positions, cost);

@@ -5,6 +5,7 @@
 #include "neighborhoods/planar_star.h"
 #include "neighborhoods/tangent_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl
@@ -15,6 +16,8 @@ namespace
 {
 constexpr double LEAVES_PLANE = 0.75; // sine of the angle between a neighbour and a tangent plane
 constexpr double SAME_SIDE = 0.3;     // cosine between the normals of neighbours
+constexpr std::size_t MEAN_OVER = 8;  // nearest points for the mean normal
+constexpr double PERPENDICULAR = 0.1; // cosine below which it does not tell the side
 
 enum class Tier
 {
@@ -33,14 +36,22 @@ public:
   {
   }
 
-  /// Returns true if the star is open.
-  bool make (Index p, bool filter_sheets)
+  /// Makes the star of p; `normal` becomes that of the plane in which it lies. Returns true if the
+  /// star is open.
+  bool make (Index p, bool filter_sheets, Eigen::Vector3f& normal)
   {
-    const TangentFrame frame (normals_[p].cast<double> ());
+    normal = normals_[p];
+    const TangentFrame frame (normal.cast<double> ());
     if (!filter_sheets)
       return select (p, frame, Tier::ALL, star_);
     if (!select (p, frame, Tier::EITHER_PLANE, star_))
       return false;
+    const Eigen::Vector3d mean = meanNormal (p);
+    if (!select (p, TangentFrame (mean), Tier::EITHER_PLANE, wider_)) {
+      star_.swap (wider_);
+      normal = mean.cast<float> ();
+      return false;
+    }
     for (const Tier tier : {Tier::BOTH_PLANES, Tier::ALL})
       if (!select (p, frame, tier, wider_)) {
         star_.swap (wider_);
@@ -52,6 +63,27 @@ public:
   const std::vector<PlanarNeighbor>& star () const { return star_; }
 
 private:
+  // Mean of the normals around a point. On a sharp edge both faces are seen along it, where the
+  // best plane of the points there is that of one face.
+  Eigen::Vector3d meanNormal (Index p) const
+  {
+    const Eigen::Vector3d normal = normals_[p].cast<double> ();
+    Eigen::Vector3d sum = normal;
+    const Row row = near_.row (p);
+    for (std::size_t i = 0; i < std::min (MEAN_OVER, row.size ()); ++i) {
+      const Eigen::Vector3d other = normals_[row[i]].cast<double> ();
+      double same = normal.dot (other);
+      if (std::abs (same) < PERPENDICULAR) {
+        // Of two faces at a right angle each bends away from the other's normal, or towards it.
+        const Eigen::Vector3d step = positions_[row[i]] - positions_[p];
+        same = -step.dot (normal) * step.dot (other);
+      }
+      sum += same < 0.0 ? Eigen::Vector3d (-other) : other;
+    }
+    const double length = sum.norm ();
+    return length > 0.0 ? Eigen::Vector3d (sum / length) : normal;
+  }
+
   bool select (Index p, const TangentFrame& frame, Tier tier, std::vector<PlanarNeighbor>& star)
   {
     star.clear ();
@@ -88,11 +120,13 @@ private:
 
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads, StarKind kind)
+           const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
+           StarKind kind)
 {
   const std::size_t n = positions.size ();
   Stars stars;
   stars.open.resize (n);
+  stars.normals.resize (n);
   stars.neighbors.offsets.assign (n + 1, 0);
 
   // Each range collects its stars; then they are packed.
@@ -102,7 +136,7 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
     std::vector<PlanarNeighbor>& range = ranges[first / RANGE_LENGTH];
     range.reserve (8 * (last - first));
     for (std::size_t p = first; p < last; ++p) {
-      stars.open[p] = maker.make (static_cast<Index> (p), filter_sheets) ? 1 : 0;
+      stars.open[p] = maker.make (static_cast<Index> (p), filter_sheets, stars.normals[p]) ? 1 : 0;
       stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
       range.insert (range.end (), maker.star ().begin (), maker.star ().end ());
     }
@@ -118,7 +152,6 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
     }
     std::vector<PlanarNeighbor> ().swap (range);
   }
-  stars.normals = std::move (normals);
   return stars;
 }
 

@@ -21,12 +21,15 @@ enum class StarKind
 /// out, in tiers:
 ///  1. drop a neighbour whose direction leaves either point's plane by more than 49 degrees (sine
 ///     0.75) or whose normal is more than 72 degrees away (cosine 0.3);
-///  2. where that opens the star, drop only neighbours that leave both planes;
-///  3. where that star is open too, take that of all neighbours if it is closed.
-/// A star open in all three is that of tier 1. O(n k log k).
+///  2. where that opens the star, the same in the plane of the mean normal of the 8 nearest points,
+///     if that star is closed: on a sharp edge both faces are seen in it;
+///  3. else drop only neighbours that leave both planes;
+///  4. where that star is open too, take that of all neighbours if it is closed.
+/// A star open in all tiers is that of tier 1. O(n k log k).
+/// \param normals of each point; the stars' normals are these but for stars of tier 2
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-           std::vector<Eigen::Vector3f> normals, bool filter_sheets, int threads,
+           const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
            StarKind kind = StarKind::DELAUNAY);
 
 /// Distance scale of the sampling around each point: mean distance of its 6 nearest neighbours.
