@@ -20,7 +20,9 @@ struct Rim
   double length;             ///< in the unit of the positions
   double width;              ///< largest distance between two of its points, same unit
   double spacing;            ///< mean local spacing of its points, same unit
-  double open_share;  ///< of its points: those with no neighbour in a sector of 160 degrees or more
+  double open_share;  ///< of its points: those with no neighbour on their sheet in a sector of 130
+                      ///< degrees or more
+  double empty_share; ///< of its points: those with no neighbour on any sheet in such a sector
   bool stays = false; ///< as a boundary of the surface
 };
 
