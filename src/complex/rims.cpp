@@ -25,10 +25,15 @@ constexpr double LONG = 1.0;           // points of the rim over the root of tho
 constexpr std::size_t WIDTH_POINTS = 256; // at most, evenly taken, for the width
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 
+// What the automatic policy takes for the end of the surface.
 bool
-isOpen (const Rim& rim)
+isBoundary (const Rim& rim, const std::vector<std::size_t>& piece_points)
 {
-  return rim.open_share >= OPEN;
+  const auto count = static_cast<double> (rim.points.size ());
+  const double steps = rim.width * count / rim.length;
+  const bool is_long = count >= LONG * std::sqrt (static_cast<double> (piece_points[rim.piece]));
+  return (rim.open_share >= OPEN && (steps >= WIDE || is_long)) ||
+         (rim.open_share >= ALL_OPEN && steps >= SMALL);
 }
 
 // Tells whether a point sees a wide empty sector among its neighbours, all or those on its sheet.
@@ -79,17 +84,19 @@ widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& p
   return std::sqrt (sqr_width);
 }
 
-// Those with empty sectors before all others, then by how much of the rim has them.
+// Boundaries before all others, then by how much of the rim sees an empty sector.
 std::vector<Rim*>
-bySize (std::vector<Rim>& rims)
+bySize (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points)
 {
   std::vector<Rim*> sorted;
   for (Rim& rim : rims)
     sorted.push_back (&rim);
-  std::stable_sort (sorted.begin (), sorted.end (), [] (const Rim* a, const Rim* b) {
-    return std::make_tuple (isOpen (*b), b->empty_share * b->length) <
-           std::make_tuple (isOpen (*a), a->empty_share * a->length);
-  });
+  const auto key = [&piece_points] (const Rim* rim) {
+    return std::make_tuple (isBoundary (*rim, piece_points), rim->empty_share * rim->length,
+                            rim->length);
+  };
+  std::stable_sort (sorted.begin (), sorted.end (),
+                    [&key] (const Rim* a, const Rim* b) { return key (b) < key (a); });
   return sorted;
 }
 
@@ -127,7 +134,7 @@ void
 chooseRims (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points,
             const Options& options, double unit)
 {
-  std::vector<Rim*> sorted = bySize (rims);
+  std::vector<Rim*> sorted = bySize (rims, piece_points);
   switch (options.holes) {
   case HolePolicy::CLOSE_ALL:
     return;
@@ -149,14 +156,8 @@ chooseRims (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points
                   std::max (options.largest_hole * rim.spacing, options.largest_hole_length * unit);
     return;
   case HolePolicy::AUTO:
-    for (Rim& rim : rims) {
-      const auto count = static_cast<double> (rim.points.size ());
-      const double steps = rim.width * count / rim.length;
-      const bool is_long =
-          count >= LONG * std::sqrt (static_cast<double> (piece_points[rim.piece]));
-      rim.stays = (isOpen (rim) && (steps >= WIDE || is_long)) ||
-                  (rim.open_share >= ALL_OPEN && steps >= SMALL);
-    }
+    for (Rim& rim : rims)
+      rim.stays = isBoundary (rim, piece_points);
     return;
   }
 }
