@@ -15,6 +15,7 @@
 #include "parameterization/parameterize.h"
 #include "parameterization/region_recursion.h"
 #include "report_builder.h"
+#include "triangulation/flips.h"
 #include "triangulation/planar_delaunay.h"
 #include "triangulation/surface_finish.h"
 #include "validation.h"
@@ -36,6 +37,8 @@ findNeighbors (const WorkingSet& set, const Options& options, NeighborSearch* se
     return findBallNeighbors (set, options.ball_radius, search, options.threads);
   return findNearestNeighbors (set, options.k, search, options.threads);
 }
+
+constexpr std::size_t LARGEST_SECOND_TRY = 300'000; // points; a second and half a GB
 
 // What both methods work on.
 struct Samples
@@ -181,6 +184,61 @@ examine (const Samples& samples, const SurfaceMesh& mesh, const Options& options
                       report);
 }
 
+// Makes the mesh of a disc the result.
+Problem
+useDisc (const Samples& samples, const Disc& disc, const Options& options, StageClock& clock,
+         Result& result)
+{
+  result.report.topology = Topology::DISC;
+  reportBoundary (samples.set, disc.boundary, result.report);
+  if (disc.problem)
+    return disc.problem;
+  result.triangles = reportMesh (samples.set, disc.mesh, disc.finish, result.report);
+  return examine (samples, disc.mesh, options, clock, result.report);
+}
+
+std::size_t
+countFlaws (const SurfaceMesh& mesh, const SurfaceFinish& finish)
+{
+  return finish.folds.size () + static_cast<std::size_t> (std::count (
+                                    mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE));
+}
+
+double
+costOf (const Samples& samples, const SurfaceMesh& mesh, const Options& options)
+{
+  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
+  std::vector<Eigen::Vector3f> normals = samples.stars.normals;
+  orientNormals (mesh, positions, normals);
+  const std::vector<float> spacing = localSpacing (positions, samples.near, options.threads);
+  return meshCost (mesh, TriangleCost (positions, normals, &spacing));
+}
+
+// Topology::AUTO: where the surface is one disc but came out with folds or without points, and is
+// not too large for a second try, the disc method makes it, too. It is taken if that has fewer of
+// these, and is the smoother one.
+bool
+isDiscBetter (Samples& samples, const Surface& surface, const Options& options, StageClock& clock,
+              Report& report, Disc& disc)
+{
+  const std::size_t flaws = countFlaws (surface.mesh, surface.finish);
+  if (options.topology != Topology::AUTO || !surface.is_one_disc || flaws == 0 ||
+      samples.set.positions.size () > LARGEST_SECOND_TRY)
+    return false;
+  const Report before = report;
+  disc = makeDisc (samples, options, clock, report);
+  clock.stop ();
+  if (!disc.problem && countFlaws (disc.mesh, disc.finish) < flaws &&
+      costOf (samples, disc.mesh, options) < costOf (samples, surface.mesh, options))
+    return true;
+  const auto seconds = report.statistics.seconds;
+  const double total_seconds = report.statistics.total_seconds;
+  report = before;
+  report.statistics.seconds = seconds;
+  report.statistics.total_seconds = total_seconds;
+  return false;
+}
+
 Problem
 reconstructAny (Input& input, const Options& options, Result& result)
 {
@@ -194,20 +252,21 @@ reconstructAny (Input& input, const Options& options, Result& result)
   if (Problem problem = prepare (input, options, clock, samples, report))
     return problem;
 
+  Disc disc;
   if (options.topology == Topology::DISC || !options.loop.empty ()) {
-    report.topology = Topology::DISC;
     report.topology_reason =
         options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
-    const Disc disc = makeDisc (samples, options, clock, report);
-    reportBoundary (samples.set, disc.boundary, report);
-    if (disc.problem)
-      return disc.problem;
-    result.triangles = reportMesh (samples.set, disc.mesh, disc.finish, report);
-    return examine (samples, disc.mesh, options, clock, report);
+    disc = makeDisc (samples, options, clock, report);
+    return useDisc (samples, disc, options, clock, result);
+  }
+  const Surface surface = makeSurface (samples.set.positions, samples.near, samples.stars,
+                                       1.0 / samples.set.scale, options, clock);
+  if (isDiscBetter (samples, surface, options, clock, report, disc)) {
+    report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
+    return useDisc (samples, disc, options, clock, result);
   }
   report.topology = Topology::SURFACE;
-  Surface surface = makeSurface (samples.set.positions, samples.near, samples.stars,
-                                 1.0 / samples.set.scale, options, clock);
+  report.statistics.holes_filled = surface.holes_filled;
   result.triangles = reportMesh (samples.set, surface.mesh, surface.finish, report);
   return examine (samples, surface.mesh, options, clock, report);
 }

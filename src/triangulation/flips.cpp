@@ -91,6 +91,20 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 }
 
 double
+meshCost (const SurfaceMesh& mesh, const TriangleCost& cost)
+{
+  double sum = 0.0;
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    const Eigen::Vector3d normal = cost.unitNormal (mesh.triangles[t]);
+    sum += cost (mesh.triangles[t]);
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
+        sum += edgeCost (mesh, cost, {t, side}, normal);
+  }
+  return sum;
+}
+
+double
 EdgeFlipper::run ()
 {
   double change = 0.0;

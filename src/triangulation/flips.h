@@ -75,6 +75,10 @@ edgeCost (const SurfaceMesh& mesh, const TriangleCost& cost, MeshEdge e,
              : TriangleCost::ofFold (unit_normal, cost.unitNormal (mesh.triangles[other]));
 }
 
+/// Cost of all triangles and edges of a mesh. O(n).
+double
+meshCost (const SurfaceMesh& mesh, const TriangleCost& cost);
+
 /// Flips edges from a stack until none of them, nor of those around the flipped ones, gains. Each
 /// flip lowers the cost of the mesh: that of its two triangles and of their five edges.
 class EdgeFlipper
