@@ -14,14 +14,16 @@ namespace floater
 {
 namespace
 {
-constexpr double OPEN = 0.8;           // share of points with an empty sector at a true boundary
-constexpr double ALL_OPEN = 0.97;      // the same where the rim is small
 constexpr double EMPTY_SECTOR = 130.0; // degrees; 180 less the bend of a hole 6 spacings wide
 constexpr double LEAVES_PLANE = 0.75;  // sine; neighbours on another sheet do not fill a sector
 constexpr double SAME_SHEET = 0.3;     // cosine between normals
-constexpr double WIDE = 6.0;           // steps of the rim; as wide as a regular polygon of 19 sides
-constexpr double SMALL = 4.0;          // the same of 13 sides
-constexpr double LONG = 1.0;           // points of the rim over the root of those of its piece
+constexpr double OPEN = 0.8; // share of points with an empty sector at a true boundary ...
+constexpr double WIDE = 6.0; // ... which is that many steps wide, a regular polygon of 19 sides
+constexpr double ALL_OPEN = 0.97; // the same where it is small ...
+constexpr double SMALL = 4.0;     // ... a polygon of 13 sides
+constexpr double HALF_OPEN = 0.5; // the same where it is long: ragged and noisy borders ...
+constexpr double LONG = 2.0;      // ... of more points than twice the root of those of its piece
+constexpr double SHORT = 1.0;     // as long as that, a loop is no hole but the border of its piece
 constexpr std::size_t WIDTH_POINTS = 256; // at most, evenly taken, for the width
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 
@@ -31,9 +33,10 @@ isBoundary (const Rim& rim, const std::vector<std::size_t>& piece_points)
 {
   const auto count = static_cast<double> (rim.points.size ());
   const double steps = rim.width * count / rim.length;
-  const bool is_long = count >= LONG * std::sqrt (static_cast<double> (piece_points[rim.piece]));
-  return (rim.open_share >= OPEN && (steps >= WIDE || is_long)) ||
-         (rim.open_share >= ALL_OPEN && steps >= SMALL);
+  const double length = count / std::sqrt (static_cast<double> (piece_points[rim.piece]));
+  return (rim.open_share >= OPEN && (steps >= WIDE || length >= SHORT)) ||
+         (rim.open_share >= ALL_OPEN && steps >= SMALL) ||
+         (rim.open_share >= HALF_OPEN && length >= LONG);
 }
 
 // Tells whether a point sees a wide empty sector among its neighbours, all or those on its sheet.

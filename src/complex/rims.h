@@ -34,11 +34,11 @@ findRims (const SurfaceMesh& mesh, const std::vector<Index>& pieces,
           const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing);
 
 /// Decides which rims stay. The automatic policy keeps a rim where four in five points see an empty
-/// sector and which is at least 6 of its own steps wide, or long for the size of its piece; and one
-/// of 4 steps where all points do. A gap in the sampling is narrower, and where the complex has a
-/// defect there are points on the other side. The policies that count or keep the largest go by the
-/// length of the rim along which points see an empty sector.
-/// \param unit length of one unit of the cloud in the unit of the positions
+/// sector and which is at least 6 of its own steps wide, or long for the size of its piece; one of
+/// 4 steps where all points do; and a very long one where half of them do. A gap in the sampling is
+/// narrower, and where the complex has a defect there are points on the other side. The policies
+/// that count or keep the largest go by the length of the rim along which points see an empty
+/// sector. \param unit length of one unit of the cloud in the unit of the positions
 void
 chooseRims (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points,
             const Options& options, double unit);
