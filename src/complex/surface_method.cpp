@@ -3,6 +3,7 @@
 
 #include "complex/manifold_part.h"
 #include "complex/rim_filling.h"
+#include "neighborhoods/mean_normals.h"
 #include "neighborhoods/stars.h"
 #include "triangulation/flips.h"
 #include "triangulation/insertion.h"
@@ -50,6 +51,9 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
   clock.start (Stage::COMPLEX);
   const std::vector<float> spacing = localSpacing (positions, near, options.threads);
   {
+    // On sharp edges triangles of both faces are to be seen.
+    std::vector<Eigen::Vector3f> own = std::move (stars.normals);
+    stars.normals = creaseNormals (positions, near, own, options.threads);
     const std::vector<Candidate> candidates =
         findCandidates (positions, stars, spacing, {}, options.threads);
     SurfaceComplex complex = buildComplex (positions, candidates, stars.normals);
@@ -57,6 +61,10 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
     surface.mesh = manifoldPart (complex, near);
     complex = extendComplex (positions, candidates, surface.mesh, stars.normals);
     surface.mesh = manifoldPart (complex, near);
+    for (std::size_t p = 0; p < own.size (); ++p)
+      if (own[p].dot (stars.normals[p]) < 0.0F)
+        own[p] = -own[p];
+    stars.normals = std::move (own);
   }
 
   clock.start (Stage::HOLES);

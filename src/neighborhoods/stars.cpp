@@ -2,6 +2,7 @@
 #include "neighborhoods/stars.h"
 
 #include "common/parallel.h"
+#include "neighborhoods/mean_normals.h"
 #include "neighborhoods/planar_star.h"
 #include "neighborhoods/tangent_frame.h"
 
@@ -16,8 +17,6 @@ namespace
 {
 constexpr double LEAVES_PLANE = 0.75; // sine of the angle between a neighbour and a tangent plane
 constexpr double SAME_SIDE = 0.3;     // cosine between the normals of neighbours
-constexpr std::size_t MEAN_OVER = 8;  // nearest points for the mean normal
-constexpr double PERPENDICULAR = 0.1; // cosine below which it does not tell the side
 
 enum class Tier
 {
@@ -46,7 +45,7 @@ public:
       return select (p, frame, Tier::ALL, star_);
     if (!select (p, frame, Tier::EITHER_PLANE, star_))
       return false;
-    const Eigen::Vector3d mean = meanNormal (p);
+    const Eigen::Vector3d mean = meanNormal (positions_, near_, normals_, p);
     if (!select (p, TangentFrame (mean), Tier::EITHER_PLANE, wider_)) {
       star_.swap (wider_);
       normal = mean.cast<float> ();
@@ -63,27 +62,6 @@ public:
   const std::vector<PlanarNeighbor>& star () const { return star_; }
 
 private:
-  // Mean of the normals around a point. On a sharp edge both faces are seen along it, where the
-  // best plane of the points there is that of one face.
-  Eigen::Vector3d meanNormal (Index p) const
-  {
-    const Eigen::Vector3d normal = normals_[p].cast<double> ();
-    Eigen::Vector3d sum = normal;
-    const Row row = near_.row (p);
-    for (std::size_t i = 0; i < std::min (MEAN_OVER, row.size ()); ++i) {
-      const Eigen::Vector3d other = normals_[row[i]].cast<double> ();
-      double same = normal.dot (other);
-      if (std::abs (same) < PERPENDICULAR) {
-        // Of two faces at a right angle each bends away from the other's normal, or towards it.
-        const Eigen::Vector3d step = positions_[row[i]] - positions_[p];
-        same = -step.dot (normal) * step.dot (other);
-      }
-      sum += same < 0.0 ? Eigen::Vector3d (-other) : other;
-    }
-    const double length = sum.norm ();
-    return length > 0.0 ? Eigen::Vector3d (sum / length) : normal;
-  }
-
   bool select (Index p, const TangentFrame& frame, Tier tier, std::vector<PlanarNeighbor>& star)
   {
     star.clear ();

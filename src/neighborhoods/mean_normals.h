@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mean normals: planes from which both faces of a sharp edge are seen.
+#pragma once
+
+#include "common/types.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Mean of the normals of a point and its 8 nearest, unit length, on the side of its own. On a
+/// sharp edge the best plane of the points there is that of either face; the mean lies between the
+/// faces.
+Eigen::Vector3d
+meanNormal (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+            const std::vector<Eigen::Vector3f>& normals, Index p);
+
+/// The mean normal of every point where it is more than 26 degrees (cosine 0.9) off the point's
+/// own, which it else is. O(n).
+std::vector<Eigen::Vector3f>
+creaseNormals (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+               const std::vector<Eigen::Vector3f>& normals, int threads);
+
+} // namespace floater
+} // namespace pcl
