@@ -92,6 +92,13 @@ smoothNoise (Samples& samples, const Options& options, NeighborSearch* search, R
   samples.near = findNeighbors (samples.set, options, search);
 }
 
+// True if the options ask for the disc method.
+bool
+isDisc (const Options& options)
+{
+  return options.topology == Topology::DISC || !options.loop.empty ();
+}
+
 Problem
 prepare (Input& input, const Options& options, StageClock& clock, Samples& samples, Report& report)
 {
@@ -116,9 +123,9 @@ prepare (Input& input, const Options& options, StageClock& clock, Samples& sampl
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);
   const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
-  samples.stars = makeStars (positions, samples.near,
-                             fitTangentPlanes (positions, samples.near, options.threads),
-                             options.filter_sheets, options.threads);
+  samples.stars = makeStars (
+      positions, samples.near, fitTangentPlanes (positions, samples.near, options.threads),
+      options.filter_sheets, options.threads, StarKind::DELAUNAY, isDisc (options));
   return {};
 }
 
@@ -226,6 +233,9 @@ isDiscBetter (Samples& samples, const Surface& surface, const Options& options, 
       samples.set.positions.size () > LARGEST_SECOND_TRY)
     return false;
   const Report before = report;
+  clock.start (Stage::STARS);
+  samples.stars = makeStars (samples.set.positions, samples.near, samples.stars.normals,
+                             options.filter_sheets, options.threads);
   disc = makeDisc (samples, options, clock, report);
   clock.stop ();
   if (!disc.problem && countFlaws (disc.mesh, disc.finish) < flaws &&
@@ -253,7 +263,7 @@ reconstructAny (Input& input, const Options& options, Result& result)
     return problem;
 
   Disc disc;
-  if (options.topology == Topology::DISC || !options.loop.empty ()) {
+  if (isDisc (options)) {
     report.topology_reason =
         options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
     disc = makeDisc (samples, options, clock, report);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <unordered_set>
@@ -118,10 +119,29 @@ public:
     for (Index p = 0; p < normals.size (); ++p)
       if (sides_.find (p).flipped)
         normals[p] = -normals[p];
-    return std::move (complex_);
+    return inOrderOfPoints ();
   }
 
 private:
+  // The triangles by their first corners, so that near triangles are near in memory.
+  SurfaceComplex inOrderOfPoints () const
+  {
+    std::vector<Index> at (positions_.size () + 1, 0);
+    for (const Triangle& corners : complex_.triangles)
+      ++at[corners[0] + 1];
+    std::partial_sum (at.begin (), at.end (), at.begin ());
+    SurfaceComplex sorted;
+    sorted.triangles.resize (complex_.triangles.size ());
+    sorted.votes.resize (complex_.triangles.size ());
+    sorted.misfits = complex_.misfits;
+    for (std::size_t t = 0; t < complex_.triangles.size (); ++t) {
+      const Index place = at[complex_.triangles[t][0]]++;
+      sorted.triangles[place] = complex_.triangles[t];
+      sorted.votes[place] = complex_.votes[t];
+    }
+    return sorted;
+  }
+
   // Votes on two sets of points, by their representatives: for the same side, minus for the other.
   struct Ballot
   {
@@ -300,18 +320,18 @@ extendComplex (const std::vector<Eigen::Vector3d>& positions,
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] == NONE)
         has_room[mesh.from ({t, side})] = has_room[mesh.to ({t, side})] = 1;
-  std::vector<Index> open = inOrder (candidates);
-  open.erase (std::remove_if (open.begin (), open.end (),
-                              [&] (Index i) {
-                                const auto& [a, b, c] = candidates[i].corners;
-                                return has_room[a] == 0 || has_room[b] == 0 || has_room[c] == 0;
-                              }),
-              open.end ());
+  std::vector<Candidate> open;
+  std::copy_if (candidates.begin (), candidates.end (), std::back_inserter (open),
+                [&has_room] (const Candidate& candidate) {
+                  const auto& [a, b, c] = candidate.corners;
+                  return has_room[a] != 0 && has_room[b] != 0 && has_room[c] != 0;
+                });
+  const std::vector<Index> order = inOrder (open);
   ComplexBuilder builder (positions, normals, mesh.triangles.size () + open.size ());
   builder.start (mesh);
-  builder.orientSets (candidates, open.data (), open.data () + open.size ());
-  for (Index i : open)
-    builder.offer (candidates[i], true);
+  builder.orientSets (open, order.data (), order.data () + order.size ());
+  for (Index i : order)
+    builder.offer (open[i], true);
   return builder.finish (normals);
 }
 

@@ -99,7 +99,7 @@ private:
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
            const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
-           StarKind kind)
+           StarKind kind, bool with_offsets)
 {
   const std::size_t n = positions.size ();
   Stars stars;
@@ -108,27 +108,35 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
   stars.neighbors.offsets.assign (n + 1, 0);
 
   // Each range collects its stars; then they are packed.
-  std::vector<std::vector<PlanarNeighbor>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  struct Range
+  {
+    std::vector<Index> ids;
+    std::vector<Eigen::Vector2d> offsets;
+  };
+  std::vector<Range> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (n, threads, [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, near, normals, kind);
-    std::vector<PlanarNeighbor>& range = ranges[first / RANGE_LENGTH];
-    range.reserve (8 * (last - first));
+    Range& range = ranges[first / RANGE_LENGTH];
+    range.ids.reserve (7 * (last - first));
     for (std::size_t p = first; p < last; ++p) {
       stars.open[p] = maker.make (static_cast<Index> (p), filter_sheets, stars.normals[p]) ? 1 : 0;
       stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
-      range.insert (range.end (), maker.star ().begin (), maker.star ().end ());
+      for (const PlanarNeighbor& neighbor : maker.star ()) {
+        range.ids.push_back (neighbor.point);
+        if (with_offsets)
+          range.offsets.push_back (neighbor.offset);
+      }
     }
   });
   for (std::size_t p = 0; p < n; ++p)
     stars.neighbors.offsets[p + 1] += stars.neighbors.offsets[p];
   stars.neighbors.ids.reserve (stars.neighbors.offsets[n]);
-  stars.offsets_in_plane.reserve (stars.neighbors.offsets[n]);
-  for (std::vector<PlanarNeighbor>& range : ranges) {
-    for (const PlanarNeighbor& neighbor : range) {
-      stars.neighbors.ids.push_back (neighbor.point);
-      stars.offsets_in_plane.push_back (neighbor.offset);
-    }
-    std::vector<PlanarNeighbor> ().swap (range);
+  stars.offsets_in_plane.reserve (with_offsets ? stars.neighbors.offsets[n] : 0);
+  for (Range& range : ranges) {
+    stars.neighbors.ids.insert (stars.neighbors.ids.end (), range.ids.begin (), range.ids.end ());
+    stars.offsets_in_plane.insert (stars.offsets_in_plane.end (), range.offsets.begin (),
+                                   range.offsets.end ());
+    range = {};
   }
   return stars;
 }

@@ -27,10 +27,11 @@ enum class StarKind
 ///  4. where that star is open too, take that of all neighbours if it is closed.
 /// A star open in all tiers is that of tier 1. O(n k log k).
 /// \param normals of each point; the stars' normals are these but for stars of tier 2
+/// \param with_offsets false: offsets_in_plane, 16 bytes per entry, stay empty
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
            const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
-           StarKind kind = StarKind::DELAUNAY);
+           StarKind kind = StarKind::DELAUNAY, bool with_offsets = true);
 
 /// Distance scale of the sampling around each point: mean distance of its 6 nearest neighbours.
 std::vector<float>

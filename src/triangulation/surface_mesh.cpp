@@ -191,28 +191,31 @@ SurfaceMesh::connect (std::size_t points)
       ++offsets[p + 1];
   for (std::size_t p = 0; p < points; ++p)
     offsets[p + 1] += offsets[p];
-  std::vector<MeshEdge> leaving (3 * triangles.size ());
+  std::vector<Index> leaving (3 * triangles.size ()); // 3 t + side
+  const auto edge = [&leaving] (Index i) {
+    return MeshEdge{leaving[i] / 3, static_cast<std::uint8_t> (leaving[i] % 3)};
+  };
   {
     std::vector<Index> at (offsets.begin (), offsets.end () - 1);
     for (Index t = 0; t < triangles.size (); ++t)
       for (std::uint8_t side = 0; side < 3; ++side) {
         const Index p = from ({t, side});
-        leaving[at[p]++] = {t, side};
+        leaving[at[p]++] = 3 * t + side;
         triangle_of[p] = t;
       }
   }
   for (Index p = 0; p < points; ++p)
     for (Index i = offsets[p]; i < offsets[p + 1]; ++i) {
-      const MeshEdge e = leaving[i];
+      const MeshEdge e = edge (i);
       const Index q = to (e);
       if (q == p)
         return false;
       for (Index j = i + 1; j < offsets[p + 1]; ++j)
-        if (to (leaving[j]) == q)
+        if (to (edge (j)) == q)
           return false; // the same directed edge twice
       for (Index j = offsets[q]; j < offsets[q + 1]; ++j)
-        if (to (leaving[j]) == p)
-          neighbors[e.triangle][e.side] = leaving[j].triangle;
+        if (to (edge (j)) == p)
+          neighbors[e.triangle][e.side] = edge (j).triangle;
     }
   std::vector<Index> fan_triangles;
   for (Index p = 0; p < points; ++p) {
