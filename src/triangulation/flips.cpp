@@ -105,6 +105,20 @@ meshCost (const SurfaceMesh& mesh, const TriangleCost& cost)
 }
 
 double
+splitCost (const SurfaceMesh& mesh, const TriangleCost& cost, Index t, Index p)
+{
+  const auto [a, b, c] = mesh.triangles[t];
+  const Eigen::Vector3d whole = cost.unitNormal (a, b, c);
+  const std::array<Eigen::Vector3d, 3> part{cost.unitNormal (p, b, c), cost.unitNormal (p, c, a),
+                                            cost.unitNormal (p, a, b)};
+  double added = cost (p, b, c) + cost (p, c, a) + cost (p, a, b) - cost (a, b, c);
+  for (std::uint8_t side = 0; side < 3; ++side)
+    added += TriangleCost::ofFold (part[side], part[SurfaceMesh::next (side)]) +
+             edgeCost (mesh, cost, {t, side}, part[side]) - edgeCost (mesh, cost, {t, side}, whole);
+  return added;
+}
+
+double
 EdgeFlipper::run ()
 {
   double change = 0.0;

@@ -79,6 +79,10 @@ edgeCost (const SurfaceMesh& mesh, const TriangleCost& cost, MeshEdge e,
 double
 meshCost (const SurfaceMesh& mesh, const TriangleCost& cost);
 
+/// Cost that the split of triangle t at point p would add, that of the edges included.
+double
+splitCost (const SurfaceMesh& mesh, const TriangleCost& cost, Index t, Index p);
+
 /// Flips edges from a stack until none of them, nor of those around the flipped ones, gains. Each
 /// flip lowers the cost of the mesh: that of its two triangles and of their five edges.
 class EdgeFlipper

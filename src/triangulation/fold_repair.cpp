@@ -231,27 +231,12 @@ private:
     makeSet (candidates);
     std::vector<std::pair<double, Index>> places;
     for (Index t : candidates)
-      places.emplace_back (splitCost (t, v), t);
+      places.emplace_back (splitCost (mesh_, cost_, t, v), t);
     const std::size_t kept = std::min (most, places.size ());
     std::partial_sort (places.begin (), places.begin () + static_cast<std::ptrdiff_t> (kept),
                        places.end ());
     places.resize (kept);
     return places;
-  }
-
-  // Cost that the split of a triangle at a point adds, with the edges.
-  double splitCost (Index t, Index v) const
-  {
-    const auto [a, b, c] = mesh_.triangles[t];
-    const Eigen::Vector3d whole = cost_.unitNormal (a, b, c);
-    const std::array<Eigen::Vector3d, 3> part{
-        cost_.unitNormal (v, b, c), cost_.unitNormal (v, c, a), cost_.unitNormal (v, a, b)};
-    double added = cost_ (v, b, c) + cost_ (v, c, a) + cost_ (v, a, b) - cost_ (a, b, c);
-    for (std::uint8_t side = 0; side < 3; ++side)
-      added += TriangleCost::ofFold (part[side], part[SurfaceMesh::next (side)]) +
-               edgeCost (mesh_, cost_, {t, side}, part[side]) -
-               edgeCost (mesh_, cost_, {t, side}, whole);
-    return added;
   }
 
   SurfaceMesh& mesh_;

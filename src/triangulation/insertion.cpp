@@ -1,61 +1,132 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation/insertion.h"
 
+#include <algorithm>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 namespace pcl
 {
 namespace floater
 {
 namespace
 {
-// The triangle around p's neighbours whose split at p adds the least cost; NONE if there is none.
-Index
-cheapestTriangle (const SurfaceMesh& mesh, Row neighbors, Index p, const TriangleCost& cost,
-                  std::vector<Index>& fan_triangles)
+// Inserts points one by one, always the one that fits best next.
+class PointInserter
 {
-  Index best = NONE;
-  double best_added = 0.0;
-  for (Index q : neighbors) {
-    mesh.fan (q, fan_triangles);
-    for (Index t : fan_triangles) {
-      const Triangle& corners = mesh.triangles[t];
-      const double added = cost (p, corners[1], corners[2]) + cost (p, corners[2], corners[0]) +
-                           cost (p, corners[0], corners[1]) - cost (corners);
-      if (best == NONE || added < best_added) {
-        best = t;
-        best_added = added;
+public:
+  PointInserter (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost, bool flip)
+      : mesh_ (mesh), near_ (near), cost_ (cost), flipper_ (mesh, cost), flip_ (flip)
+  {
+  }
+
+  std::size_t run ()
+  {
+    std::vector<Index> missing;
+    for (Index p = 0; p < mesh_.triangle_of.size (); ++p)
+      if (mesh_.triangle_of[p] == NONE)
+        missing.push_back (p);
+    findAwaiting (missing);
+    for (Index p : missing)
+      offer (p);
+    std::size_t inserted = 0;
+    while (!queue_.empty ()) {
+      const Place place = queue_.top ();
+      queue_.pop ();
+      if (mesh_.triangle_of[place.point] != NONE)
+        continue;
+      const Place now = cheapest (place.point);
+      if (now.triangle == NONE)
+        continue;
+      if (now.added > place.added && !queue_.empty () && now.added > queue_.top ().added) {
+        queue_.push (now); // the mesh has changed there: another one is better now
+        continue;
+      }
+      insert (now);
+      ++inserted;
+    }
+    return inserted;
+  }
+
+private:
+  struct Place
+  {
+    double added;
+    Index point, triangle;
+
+    bool operator<(const Place& other) const // the cheapest on top of the queue
+    {
+      return std::tie (other.added, other.point) < std::tie (added, point);
+    }
+  };
+
+  // Which missing points have a missing point among their neighbours: they may get a place with it.
+  void findAwaiting (const std::vector<Index>& missing)
+  {
+    for (Index p : missing)
+      for (Index q : near_.row (p))
+        if (mesh_.triangle_of[q] == NONE)
+          awaiting_.emplace_back (q, p);
+    std::sort (awaiting_.begin (), awaiting_.end ());
+  }
+
+  void offer (Index p)
+  {
+    const Place place = cheapest (p);
+    if (place.triangle != NONE)
+      queue_.push (place);
+  }
+
+  // The triangle around p's neighbours whose split at p adds the least cost.
+  Place cheapest (Index p)
+  {
+    Place best{0.0, p, NONE};
+    for (Index q : near_.row (p)) {
+      mesh_.fan (q, fan_);
+      for (Index t : fan_) {
+        const double added = splitCost (mesh_, cost_, t, p);
+        if (best.triangle == NONE || added < best.added)
+          best = {added, p, t};
       }
     }
+    return best;
   }
-  return best;
-}
+
+  void insert (const Place& place)
+  {
+    mesh_.split (place.triangle, place.point);
+    if (flip_) {
+      mesh_.fan (place.point, fan_);
+      for (Index t : fan_)
+        for (std::uint8_t side = 0; side < 3; ++side)
+          flipper_.push ({t, side});
+      flipper_.run ();
+    }
+    for (auto at = std::lower_bound (awaiting_.begin (), awaiting_.end (),
+                                     std::make_pair (place.point, Index{0}));
+         at != awaiting_.end () && at->first == place.point; ++at)
+      if (mesh_.triangle_of[at->second] == NONE)
+        offer (at->second);
+  }
+
+  SurfaceMesh& mesh_;
+  const FlatLists& near_;
+  const TriangleCost& cost_;
+  EdgeFlipper flipper_;
+  bool flip_;
+  std::vector<std::pair<Index, Index>> awaiting_; // (missing point, one that has it as neighbour)
+  std::priority_queue<Place> queue_;
+  std::vector<Index> fan_;
+};
 
 } // namespace
 
 std::size_t
-insertMissingPoints (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost)
+insertMissingPoints (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost, bool flip)
 {
-  std::vector<Index> missing;
-  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
-    if (mesh.triangle_of[p] == NONE)
-      missing.push_back (p);
-  std::vector<Index> fan_triangles;
-  std::size_t inserted = 0;
-  for (bool progress = true; progress && !missing.empty ();) {
-    progress = false;
-    std::vector<Index> left;
-    for (Index p : missing) {
-      const Index t = cheapestTriangle (mesh, near.row (p), p, cost, fan_triangles);
-      if (t == NONE) {
-        left.push_back (p);
-        continue;
-      }
-      mesh.split (t, p);
-      ++inserted;
-      progress = true;
-    }
-    missing.swap (left);
-  }
-  return inserted;
+  return PointInserter (mesh, near, cost, flip).run ();
 }
 
 void

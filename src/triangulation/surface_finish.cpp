@@ -24,7 +24,7 @@ flipSurface (SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   orientNormals (mesh, positions, normals);
   const std::vector<float> spacing = localSpacing (positions, near, options.threads);
   const TriangleCost cost (positions, normals, &spacing);
-  insertMissingPoints (mesh, near, cost);
+  insertMissingPoints (mesh, near, cost, options.flip_edges);
   if (options.flip_edges)
     finish.flips = flipEdges (mesh, cost);
   finish.folds = findFolds (mesh, positions);
