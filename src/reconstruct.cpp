@@ -16,6 +16,7 @@
 #include "parameterization/region_recursion.h"
 #include "report_builder.h"
 #include "triangulation/flips.h"
+#include "triangulation/outward.h"
 #include "triangulation/planar_delaunay.h"
 #include "triangulation/surface_finish.h"
 #include "validation.h"
@@ -176,6 +177,8 @@ makeDisc (Samples& samples, const Options& options, StageClock& clock, Report& r
   disc.problem = disc.finish.problem;
   if (!disc.problem)
     disc.problem = checkDisc (disc.mesh.triangles, positions.size (), disc.boundary.loop);
+  if (!disc.problem && faceOutwards (disc.mesh, positions) > 0)
+    mirrorParameters (report);
   return disc;
 }
 

@@ -186,6 +186,13 @@ reportParameterization (const WorkingSet& set, const Parameterization& parameter
     report.parameters[duplicate[0]] = report.parameters[duplicate[1]];
 }
 
+void
+mirrorParameters (Report& report)
+{
+  for (Eigen::Vector2d& parameter : report.parameters)
+    parameter.y () = -parameter.y ();
+}
+
 std::vector<Triangle>
 reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
             Report& report)

@@ -37,6 +37,10 @@ void
 reportParameterization (const WorkingSet& set, const Parameterization& parameterization,
                         Report& report);
 
+/// The parameterization seen from behind, for a disc that was turned round.
+void
+mirrorParameters (Report& report);
+
 /// Triangles in cloud indices, and counts.
 std::vector<Triangle>
 reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,

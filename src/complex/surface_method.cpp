@@ -7,6 +7,7 @@
 #include "neighborhoods/stars.h"
 #include "triangulation/flips.h"
 #include "triangulation/insertion.h"
+#include "triangulation/outward.h"
 
 #include <algorithm>
 
@@ -78,6 +79,7 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
 
   clock.start (Stage::FLIPS);
   surface.finish = finishSurface (surface.mesh, positions, near, stars.normals, options);
+  faceOutwards (surface.mesh, positions);
   surface.pieces = count;
   surface.is_one_disc = isDisc (surface.mesh, count);
   return surface;

@@ -53,16 +53,20 @@ struct Input
 /// A mesh over the cloud and what there is to say about it.
 struct Result
 {
-  std::vector<std::array<std::uint32_t, 3>> triangles; ///< cloud indices, consistently oriented
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< cloud indices, facing outwards
   Report report;
 };
 
-/// Triangulates one disc by Floater's meshless parameterization: the whole of TW 385, with edge
-/// flips on the surface after it. Every position that can be used is a vertex of the result.
+/// Triangulates a surface of any topology from the triangles on which neighbouring points agree, or
+/// one disc by Floater's meshless parameterization: the whole of TW 385, with edge flips on the
+/// surface after it. Every position that can be used is a vertex of the result. Pieces of the mesh
+/// face outwards: closed ones enclose a positive volume, bowls face away from their inside, and
+/// sheets and terrain face up (+z; +y or +x where they stand upright).
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
-/// on the number of threads nor on the order of the points. About 5 microseconds and 1.3 kB per
-/// point, most of it the factorization, which grows a little faster than the number of points.
+/// on the number of threads nor on the order of the points. Of a disc about 5 microseconds and
+/// 1.3 kB per point, most of it the factorization, which grows a little faster than the number of
+/// points.
 /// \param input consumed: its arrays are freed as soon as the working set is made
 PCL_FLOATER_EXPORT Result
 reconstruct (Input input, const Options& options);

@@ -116,7 +116,7 @@ struct Report
   bool denoised = false;                   ///< connected as the points lie in their local planes
   std::vector<std::uint32_t> loop;         ///< longest boundary loop, in order, each point once
   std::vector<Eigen::Vector2d> parameters; ///< of a disc: per cloud point; NaN where it was not
-                                           ///< used; else empty
+                                           ///< used; triangles run anti-clockwise; else empty
   std::vector<std::uint32_t> unused;       ///< finite, not duplicate, but in no triangle; ascending
   std::vector<std::uint32_t> outliers;     ///< left out of the mesh as outliers; ascending
   std::vector<std::uint32_t> non_finite;   ///< ascending
