@@ -274,6 +274,7 @@ reconstructAny (Input& input, const Options& options, Result& result)
   }
   const Surface surface = makeSurface (samples.set.positions, samples.near, samples.stars,
                                        1.0 / samples.set.scale, options, clock);
+  reportOneSided (samples.set, surface.cut, report);
   if (isDiscBetter (samples, surface, options, clock, report, disc)) {
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
     return useDisc (samples, disc, options, clock, result);

@@ -97,6 +97,23 @@ warnOfHoles (const WorkingSet& set, const MeshExamination& found, const Options&
                                ": the sampling may be thin there; the policy for holes decides");
 }
 
+// "2 pieces, 3 boundary loops", "closed, genus 4", "one disc".
+std::string
+inFewWords (const MeshCheck& check)
+{
+  std::string text = check.components > 1 ? std::to_string (check.components) + " pieces" : "";
+  const auto add = [&text] (const std::string& more) {
+    text += (text.empty () ? "" : ", ") + more;
+  };
+  if (check.loops.empty ())
+    add ("closed");
+  else if (check.loops.size () > 1)
+    add (std::to_string (check.loops.size ()) + " boundary loops");
+  if (check.genus > 0)
+    add ("genus " + std::to_string (check.genus));
+  return text.empty () ? "one disc" : text;
+}
+
 void
 reportUnused (const WorkingSet& set, const MeshExamination& found, Report& report)
 {
@@ -187,6 +204,16 @@ reportParameterization (const WorkingSet& set, const Parameterization& parameter
 }
 
 void
+reportOneSided (const WorkingSet& set, const std::vector<Triangle>& cut, Report& report)
+{
+  if (!cut.empty ())
+    report.warnings.push_back (
+        "the surface seems to be one-sided, like a Moebius strip: it was cut "
+        "open along " +
+        std::to_string (cut.size ()) + " triangles near " + place (set, cut.front ()[0]));
+}
+
+void
 mirrorParameters (Report& report)
 {
   for (Eigen::Vector2d& parameter : report.parameters)
@@ -211,6 +238,9 @@ reportCheck (const WorkingSet& set, const MeshExamination& found, const Options&
              Report& report)
 {
   report.check = found.check;
+  if (report.topology == Topology::SURFACE)
+    report.topology_reason =
+        options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check);
   report.statistics.folds = found.check.folds;
   if (!found.isManifold ())
     return {

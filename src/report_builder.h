@@ -37,6 +37,11 @@ void
 reportParameterization (const WorkingSet& set, const Parameterization& parameterization,
                         Report& report);
 
+/// A warning if a surface was cut open since it seems one-sided.
+/// \param cut triangles left out for that
+void
+reportOneSided (const WorkingSet& set, const std::vector<Triangle>& cut, Report& report);
+
 /// The parameterization seen from behind, for a disc that was turned round.
 void
 mirrorParameters (Report& report);
@@ -46,10 +51,11 @@ std::vector<Triangle>
 reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
             Report& report);
 
-/// What checkMesh () found: its figures, points that are in no triangle, but for those that the
-/// report lists as outliers, the longest loop if there is none yet, and warnings with places: on
-/// unused points, folds, long edges, triangles without area, pieces of a few points, and small
-/// holes that no option asked for. \return INTERNAL_ERROR if the mesh is no oriented manifold
+/// What checkMesh () found: its figures, in a few words if they are why no disc was made, points
+/// that are in no triangle, but for those that the report lists as outliers, the longest loop if
+/// there is none yet, and warnings with places: on unused points, folds, long edges, triangles
+/// without area, pieces of a few points, and small holes that no option asked for. \return
+/// INTERNAL_ERROR if the mesh is no oriented manifold
 Problem
 reportCheck (const WorkingSet& set, const MeshExamination& found, const Options& options,
              Report& report);

@@ -2,6 +2,7 @@
 #include "boundary/boundary_loop.h"
 
 #include "boundary/clusters.h"
+#include "boundary/complex_loop.h"
 #include "boundary/opening_angle.h"
 #include "boundary/spanning_tree_loop.h"
 #include "boundary/two_segment_loop.h"
@@ -95,6 +96,9 @@ findBoundary (const WorkingSet& set, const FlatLists& near, const Stars& stars,
   }
   else if (options.boundary == BoundaryMethod::TWO_SEGMENTS) {
     boundary = byTwoSegments (set, near, stars, options);
+  }
+  else if (options.boundary == BoundaryMethod::COMPLEX) {
+    boundary = complexLoop (set.positions, near, stars, spacing, options.threads);
   }
   else {
     BoundaryLoop found = spanningTreeLoop (set.positions, stars, spacing);

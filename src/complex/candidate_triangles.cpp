@@ -33,7 +33,7 @@ starHas (const Stars& stars, Index p, Index q, Index r)
 
 // Sets size and agreement.
 void
-measure (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+measure (const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Vector3f>& normals,
          const std::vector<float>& spacing, Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
@@ -48,14 +48,15 @@ measure (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
   const Eigen::Vector3f unit = (normal / double_area).cast<float> ();
   candidate.agreement = 1.0F;
   for (Index p : candidate.corners)
-    candidate.agreement = std::min (candidate.agreement, std::abs (unit.dot (stars.normals[p])));
+    candidate.agreement = std::min (candidate.agreement, std::abs (unit.dot (normals[p])));
 }
 
 } // namespace
 
 std::vector<Candidate>
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                const std::vector<float>& spacing, const CandidateLimits& limits, int threads)
+                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
+                const CandidateLimits& limits, int threads)
 {
   const std::size_t n = positions.size ();
   std::vector<std::vector<Candidate>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
@@ -74,7 +75,7 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
         if ((in_q && q < p) || (in_r && r < p))
           continue; // theirs to propose
         Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0.0F, 0.0F};
-        measure (positions, stars, spacing, candidate);
+        measure (positions, normals, spacing, candidate);
         const std::size_t rank = candidate.votes - 1U;
         if (candidate.size <= limits.size[rank] && candidate.agreement >= limits.agreement[rank])
           range.push_back (candidate);

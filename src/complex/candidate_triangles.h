@@ -29,10 +29,13 @@ struct CandidateLimits
 };
 
 /// All triangles of stars within the limits, each once, ordered by their first corner and around
-/// it. O(entries). \param spacing of each point (see localSpacing)
+/// it. O(entries).
+/// \param normals by which triangles are judged: those of the stars, or others on the same side
+/// \param spacing of each point (see localSpacing)
 std::vector<Candidate>
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                const std::vector<float>& spacing, const CandidateLimits& limits, int threads);
+                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
+                const CandidateLimits& limits, int threads);
 
 } // namespace floater
 } // namespace pcl

@@ -155,8 +155,9 @@ chooseRims (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points
     return;
   case HolePolicy::BY_SIZE:
     for (Rim& rim : rims)
-      rim.stays = rim.width >
-                  std::max (options.largest_hole * rim.spacing, options.largest_hole_length * unit);
+      rim.stays =
+          (options.largest_hole > 0.0 && rim.width > options.largest_hole * rim.spacing) ||
+          (options.largest_hole_length > 0.0 && rim.width > options.largest_hole_length * unit);
     return;
   case HolePolicy::AUTO:
     for (Rim& rim : rims)

@@ -70,7 +70,8 @@ public:
     if (test_sectors && isTaken (candidate.corners))
       return;
     if (!isOriented (candidate)) {
-      complex_.misfits += candidate.votes == 3 ? 1 : 0;
+      if (candidate.votes == 3)
+        complex_.misfits.push_back (candidate.corners);
       return;
     }
     take (candidate.corners, candidate.votes);

@@ -18,8 +18,8 @@ struct SurfaceComplex
 {
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> votes; ///< of each triangle
-  std::size_t misfits = 0;         ///< triangles of three votes left out since they would turn the
-                                   ///< orientation round: many on a one-sided surface
+  std::vector<Triangle> misfits;   ///< of three votes, left out since they would turn the
+                                   ///< orientation round: a row of them on a one-sided surface
 };
 
 /// Accepts candidates greedily: three votes first, then two, then one; the better agreement first.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "complex/surface_method.h"
 
-#include "complex/manifold_part.h"
+#include "complex/complex_mesh.h"
+#include "complex/one_sided.h"
 #include "complex/rim_filling.h"
-#include "neighborhoods/mean_normals.h"
 #include "neighborhoods/stars.h"
 #include "triangulation/flips.h"
 #include "triangulation/insertion.h"
@@ -17,16 +17,6 @@ namespace floater
 {
 namespace
 {
-std::vector<std::size_t>
-pointsOfPieces (const SurfaceMesh& mesh, const std::vector<Index>& pieces, Index count)
-{
-  std::vector<std::size_t> points (count, 0);
-  for (Index t : mesh.triangle_of)
-    if (t != NONE)
-      ++points[pieces[t]];
-  return points;
-}
-
 bool
 isDisc (const SurfaceMesh& mesh, std::size_t pieces)
 {
@@ -51,22 +41,10 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
   Surface surface;
   clock.start (Stage::COMPLEX);
   const std::vector<float> spacing = localSpacing (positions, near, options.threads);
-  {
-    // On sharp edges triangles of both faces are to be seen.
-    std::vector<Eigen::Vector3f> own = std::move (stars.normals);
-    stars.normals = creaseNormals (positions, near, own, options.threads);
-    const std::vector<Candidate> candidates =
-        findCandidates (positions, stars, spacing, {}, options.threads);
-    SurfaceComplex complex = buildComplex (positions, candidates, stars.normals);
-    surface.misfits = complex.misfits;
-    surface.mesh = manifoldPart (complex, near);
-    complex = extendComplex (positions, candidates, surface.mesh, stars.normals);
-    surface.mesh = manifoldPart (complex, near);
-    for (std::size_t p = 0; p < own.size (); ++p)
-      if (own[p].dot (stars.normals[p]) < 0.0F)
-        own[p] = -own[p];
-    stars.normals = std::move (own);
-  }
+  ComplexMesh complex =
+      makeComplexMesh (positions, near, stars, spacing, options.threads, stars.normals);
+  surface.mesh = std::move (complex.mesh);
+  surface.cut = longestRow (complex.misfits);
 
   clock.start (Stage::HOLES);
   Index count = 0;

@@ -18,7 +18,7 @@ struct Surface
   SurfaceFinish finish;
   std::vector<Rim> rims; ///< of the complex; those that stay are the mesh's boundary loops
   std::size_t holes_filled = 0;
-  std::size_t misfits = 0; ///< triangles left out for their orientation (see SurfaceComplex)
+  std::vector<Triangle> cut; ///< where a surface that seems one-sided was cut open; see longestRow
   std::size_t pieces = 0;
   bool is_one_disc = false; ///< one piece, one loop, Euler characteristic 1
 };

@@ -16,7 +16,7 @@ namespace
 {
 // Least volume of an open piece, closed over its rim from its middle, that tells an inside from an
 // outside: as a share of what it would be if all of it faced straight away from there. A half
-// sphere has 0.8, a round bowl that is half as deep as that 0.5, terrain less than 0.2.
+// sphere has 0.8, a round bowl that is half as deep as that 0.5, a volcano 0.25, terrain less.
 constexpr double HAS_INSIDE = 0.3;
 constexpr double ALIKE = 0.9; // lengths along two axes, relative
 

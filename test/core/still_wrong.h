@@ -25,9 +25,7 @@ stillWrong ()
       // Outliers less than 10 spacings away in the plane of a sheet are not told from it.
       "sphere_outliers_near",
       // Close sheets, slits along sharp edges.
-      "parallel_2", "bracket", "wedge",
-      // The warning does not come.
-      "one_sided"};
+      "parallel_2", "bracket", "wedge"};
   return names;
 }
 

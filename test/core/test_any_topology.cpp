@@ -181,6 +181,8 @@ expectSurface (const Case& one)
                 (result.report.topology == Topology::DISC ? "DISC: " : "SURFACE: ") +
                 result.report.topology_reason + warningsOf (result.report));
   ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_EQ (warningsOf (result.report).find ("one-sided"), std::string::npos);
+  EXPECT_NE (result.report.topology_reason, "");
   expectPointsUsed (result, surface);
   expectTopology (result, surface);
   expectGeometry (result, surface, one);
@@ -261,11 +263,9 @@ expectRefusedOrCut (const KnownSurface& strip, Topology method)
 
 TEST (OneSided, IsNeverPassedOffAsRight)
 {
-  expectUnlessStillWrong ("one_sided", [] {
-    const KnownSurface strip = samples::moebiusStrip (1);
-    for (const Topology method : {Topology::AUTO, Topology::SURFACE})
-      expectRefusedOrCut (strip, method);
-  });
+  const KnownSurface strip = samples::moebiusStrip (1);
+  for (const Topology method : {Topology::AUTO, Topology::SURFACE})
+    expectRefusedOrCut (strip, method);
 }
 
 // The method of TW 385 was made for these.

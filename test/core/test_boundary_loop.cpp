@@ -49,7 +49,7 @@ TEST (BoundaryLoop, EveryMethodFindsTheBorderOfADisc)
   const Sheet sheet = samples::disc (0.06, 1);
   const Neighborhoods made = makeNeighborhoods (sheet.positions);
   for (const BoundaryMethod method :
-       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
+       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::COMPLEX, BoundaryMethod::TWO_SEGMENTS}) {
     Options options;
     options.boundary = method;
     const Boundary boundary = find (made, options);
@@ -57,6 +57,22 @@ TEST (BoundaryLoop, EveryMethodFindsTheBorderOfADisc)
     EXPECT_EQ (samples::canonicalCycle (inCloud (made, boundary)), samples::indices (sheet.border));
     EXPECT_GE (boundary.candidates, sheet.border);
   }
+}
+
+// A hole in the sheet is no border, however it is sampled.
+TEST (BoundaryLoop, TheComplexTellsTheBorderFromAHole)
+{
+  samples::Outline hole = samples::circle (0.4, 0.06);
+  const Sheet sheet = samples::fillOutlines ({samples::circle (1.0, 0.06), hole}, 0.06, 0.35, 6);
+  const Neighborhoods made = makeNeighborhoods (sheet.positions);
+  Options options;
+  options.boundary = BoundaryMethod::COMPLEX;
+  const std::vector<Eigen::Vector3f> normals = made.stars.normals;
+  const Boundary boundary = find (made, options);
+  EXPECT_EQ (samples::canonicalCycle (inCloud (made, boundary)), samples::indices (sheet.border));
+  EXPECT_GE (boundary.candidates, sheet.border + hole.size ());
+  EXPECT_LT (boundary.largest_step, 2.0);
+  EXPECT_EQ (made.stars.normals, normals);
 }
 
 TEST (BoundaryLoop, TheUsersLoopIsTakenAsItIs)
@@ -122,7 +138,7 @@ TEST (BoundaryLoop, NoneAroundAClosedSurface)
   }
   const Neighborhoods made = makeNeighborhoods (sphere);
   for (const BoundaryMethod method :
-       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
+       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::COMPLEX, BoundaryMethod::TWO_SEGMENTS}) {
     Options options;
     options.boundary = method;
     const Boundary boundary = find (made, options);
