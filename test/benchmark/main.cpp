@@ -3,6 +3,7 @@
 #include "atomic_file.h"
 #include "cloud_reader.h"
 #include "mesh_picture.h"
+#include "processor.h"
 #include "section.h"
 #include "solvers/solver.h"
 #include "stopwatch.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 
 namespace pcl
@@ -83,17 +83,6 @@ makeSample (const std::filesystem::path& path, const Settings& settings)
     throw std::runtime_error (sample.disc.name + ": " + solution.message);
   sample.direct = parametersOf (sample.disc, solution.uv);
   return sample;
-}
-
-// What /proc tells of the processor; empty where there is no such file.
-std::string
-processorName ()
-{
-  std::ifstream file ("/proc/cpuinfo");
-  for (std::string line; std::getline (file, line);)
-    if (line.rfind ("model name", 0) == 0)
-      return line.substr (line.find (':') + 2);
-  return {};
 }
 
 void

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table 3 of TW 385, and Figure 5: seconds by stage and solver.
 #include "gmm_bicgstab.h"
+#include "growth_chart.h"
 #include "section.h"
 #include "solvers/ordering.h"
 #include "solvers/residual.h"
 #include "solvers/solver.h"
 #include "stopwatch.h"
-#include "times_chart.h"
 #include "triangulation/planar_delaunay.h"
 #include "triangulation/surface_finish.h"
 
@@ -215,31 +215,31 @@ private:
     const auto [fewest, most] = std::minmax_element (points.begin (), points.end ());
     if (points.empty () || *fewest == *most)
       return; // no curve through a single size
-    std::vector<TimeSeries> series;
+    std::vector<GrowthSeries> series;
     Table seconds{{"cloud", "points"}, {}};
     Table laws{{"stage", "seconds at 100,000 points", "exponent"}, {}};
     for (const std::string& stage : STAGES) {
       if (!measured_.front ().times.has (stage))
         continue;
-      TimeSeries one{stage, {}};
+      GrowthSeries one{stage, points, {}};
       for (const Measured& measured : measured_)
-        one.seconds.push_back (measured.times[stage]);
-      const PowerLaw law = fitPowerLaw (points, one.seconds);
+        one.values.push_back (measured.times[stage]);
+      const PowerLaw law = fitPowerLaw (one);
       laws.rows.push_back ({stage, fixed (law (TYPICAL_POINTS), 3), fixed (law.exponent, 2)});
       seconds.columns.push_back (stage);
       series.push_back (std::move (one));
     }
     for (std::size_t i = 0; i < measured_.size (); ++i) {
       std::vector<std::string> row{measured_[i].name, fixed (points[i], 0)};
-      for (const TimeSeries& one : series)
-        row.push_back (fixed (one.seconds[i], 4));
+      for (const GrowthSeries& one : series)
+        row.push_back (fixed (one.values[i], 4));
       seconds.rows.push_back (row);
     }
     report.heading ("Figure 5: time against points");
     report.paragraph ("The times of Table 3; lines are power laws fitted to their logarithms. "
                       "The clouds differ in more than size: the time of the boundary goes with "
                       "its length, that of the flips with the folds that they find.");
-    report.picture ("figure5_times", drawTimes (points, series),
+    report.picture ("figure5_times", drawGrowth (series, "seconds"),
                     "Seconds against points, by stage and solver");
     report.table ("figure5_power_laws", laws);
     report.data ("figure5_times", seconds);

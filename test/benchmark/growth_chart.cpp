@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "times_chart.h"
+#include "growth_chart.h"
 
 #include "mesh_picture.h"
 #include "table.h"
@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace pcl
 {
@@ -38,6 +39,27 @@ using Colour = std::array<unsigned char, 3>;
 constexpr std::array<Colour, 8> COLOURS{
     Colour{0, 114, 178},   Colour{230, 159, 0},  Colour{0, 158, 115}, Colour{213, 94, 0},
     Colour{204, 121, 167}, Colour{86, 180, 233}, Colour{60, 60, 60},  Colour{160, 150, 0}};
+
+struct Range
+{
+  Range () = default;
+
+  explicit Range (const std::vector<double>& values)
+  {
+    const auto [first, last] = std::minmax_element (values.begin (), values.end ());
+    least = *first;
+    most = *last;
+  }
+
+  void add (const Range& other)
+  {
+    least = std::min (least, other.least);
+    most = std::max (most, other.most);
+  }
+
+  double least = std::numeric_limits<double>::infinity ();
+  double most = 0.0; // all values are positive
+};
 
 vtkNew<vtkTable>
 makeTable (const std::string& name, const std::vector<double>& x, const std::vector<double>& y)
@@ -75,16 +97,16 @@ PowerLaw::operator() (double points) const
 }
 
 PowerLaw
-fitPowerLaw (const std::vector<double>& points, const std::vector<double>& seconds)
+fitPowerLaw (const GrowthSeries& series)
 {
-  const auto n = static_cast<double> (points.size ());
+  const auto n = static_cast<double> (series.points.size ());
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < points.size (); ++i) {
-    const double log_points = std::log (points[i]), log_seconds = std::log (seconds[i]);
+  for (std::size_t i = 0; i < series.points.size (); ++i) {
+    const double log_points = std::log (series.points[i]), log_value = std::log (series.values[i]);
     x += log_points;
-    y += log_seconds;
+    y += log_value;
     xx += log_points * log_points;
-    xy += log_points * log_seconds;
+    xy += log_points * log_value;
   }
   PowerLaw law;
   law.exponent = (n * xy - x * y) / (n * xx - x * x);
@@ -92,12 +114,21 @@ fitPowerLaw (const std::vector<double>& points, const std::vector<double>& secon
   return law;
 }
 
+bool
+hasPowerLaw (const GrowthSeries& series)
+{
+  return !series.points.empty () &&
+         std::any_of (series.points.begin (), series.points.end (),
+                      [&] (double points) { return points != series.points.front (); }) &&
+         std::all_of (series.values.begin (), series.values.end (),
+                      [] (double value) { return value > 0.0; });
+}
+
 std::vector<unsigned char>
-drawTimes (const std::vector<double>& points, const std::vector<TimeSeries>& series)
+drawGrowth (const std::vector<GrowthSeries>& series, const std::string& quantity)
 {
   constexpr double ROOM = 1.25; // beside the outermost marks
-  const auto [fewest, most] = std::minmax_element (points.begin (), points.end ());
-  double shortest = series.front ().seconds.front (), longest = shortest;
+  Range all_points, all_values;
   vtkNew<vtkContextView> view;
   view->GetRenderer ()->SetBackground (1.0, 1.0, 1.0);
   view->GetRenderWindow ()->SetOffScreenRendering (1);
@@ -107,29 +138,31 @@ drawTimes (const std::vector<double>& points, const std::vector<TimeSeries>& ser
   view->GetScene ()->AddItem (chart);
 
   for (std::size_t i = 0; i < series.size (); ++i) {
-    const TimeSeries& one = series[i];
+    const GrowthSeries& one = series[i];
     const Colour& colour = COLOURS[i % COLOURS.size ()];
-    const PowerLaw law = fitPowerLaw (points, one.seconds);
-    for (const double seconds : one.seconds) {
-      shortest = std::min (shortest, seconds);
-      longest = std::max (longest, seconds);
-    }
+    const PowerLaw law = fitPowerLaw (one);
+    const Range points (one.points);
+    all_points.add (points);
+    all_values.add (Range (one.values));
     vtkPlot* line = chart->AddPlot (vtkChart::LINE);
-    line->SetInputData (makeTable (one.name + ", N^" + fixed (law.exponent, 2), {*fewest, *most},
-                                   {law (*fewest), law (*most)}),
+    line->SetInputData (makeTable (one.name + ", N^" + fixed (law.exponent, 2),
+                                   {points.least, points.most},
+                                   {law (points.least), law (points.most)}),
                         0, 1);
     line->SetColor (colour[0], colour[1], colour[2], 255);
     line->SetWidth (LINE_WIDTH);
     vtkPlot* marks = chart->AddPlot (vtkChart::POINTS);
-    marks->SetInputData (makeTable (one.name, points, one.seconds), 0, 1);
+    marks->SetInputData (makeTable (one.name, one.points, one.values), 0, 1);
     marks->SetColor (colour[0], colour[1], colour[2], 255);
     auto* style = vtkPlotPoints::SafeDownCast (marks);
     style->SetMarkerStyle (vtkPlotPoints::CIRCLE);
     style->SetMarkerSize (MARK_SIZE);
     marks->LegendVisibilityOff ();
   }
-  prepareAxis (chart->GetAxis (vtkAxis::BOTTOM), "points", *fewest / ROOM, *most * ROOM);
-  prepareAxis (chart->GetAxis (vtkAxis::LEFT), "seconds", shortest / ROOM, longest * ROOM);
+  prepareAxis (chart->GetAxis (vtkAxis::BOTTOM), "points", all_points.least / ROOM,
+               all_points.most * ROOM);
+  prepareAxis (chart->GetAxis (vtkAxis::LEFT), quantity, all_values.least / ROOM,
+               all_values.most * ROOM);
   chart->SetShowLegend (true);
   chart->GetLegend ()->SetHorizontalAlignment (vtkChartLegend::LEFT);
   chart->GetLegend ()->SetVerticalAlignment (vtkChartLegend::TOP);

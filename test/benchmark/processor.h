@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The machine that the figures are of.
+#pragma once
+
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// What /proc tells of the processor; empty where there is no such file.
+std::string
+processorName ();
+
+} // namespace floater
+} // namespace pcl
