@@ -158,8 +158,11 @@ for surface in "${surfaces[@]}"; do
 done
 for cloud in "${clouds[@]}"; do
   points=$("$programs/pcl_floater_scaling_afs" --count "$cloud")
-  ((points <= largest)) || continue
   name=$(basename "${cloud%.*}")
+  if ((points > largest)); then
+    echo "Skipped: $name, for it has $points points"
+    continue
+  fi
   measure clouds "${name//[^A-Za-z0-9_.-]/_}" "$points" "$cloud"
 done
 
