@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What both methods work on: points, neighbours and stars.
+#pragma once
+
+#include "common/problem.h"
+#include "common/stage_clock.h"
+#include "common/types.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// Points of a run. Where noise is strong, positions are those in the local planes.
+struct Samples
+{
+  WorkingSet set;
+  FlatLists near; ///< the nearest neighbours, or those in a ball
+  Stars stars;    ///< Delaunay stars; offsets in the plane only for the disc method
+};
+
+/// True if the options ask for the disc method.
+bool
+asksForDisc (const Options& options);
+
+/// Working set, neighbours without outliers, noise, and stars. Books stages WORKING_SET, NEIGHBORS
+/// and STARS, and reports what was found. \param input its positions are consumed
+/// \return TOO_FEW_POINTS or DEGENERATE
+Problem
+prepareSamples (Input& input, const Options& options, StageClock& clock, Samples& samples,
+                Report& report);
+
+} // namespace floater
+} // namespace pcl
