@@ -9,10 +9,9 @@ namespace pcl
 namespace floater
 {
 /// Makes the complex (see complex_mesh.h) and takes the rim that HolePolicy::KEEP_LARGEST would
-/// keep of the largest piece, the surface on its left. All steps of such a loop are edges of
-/// triangles, so that it cuts across nothing; points beside it that no star joined to the rest are
-/// not on it. Its candidates are the points of all rims. O(n log n), about 5 microseconds per
-/// point.
+/// keep of the largest piece, the surface on its left. Points with a gap in their star that lie
+/// beside it are then inserted (see refineLoop): a ragged border has points that no triangle joins
+/// to the rest. Candidates are these points and those of all rims. O(n log n).
 Boundary
 complexLoop (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
              const Stars& stars, const std::vector<float>& spacing, int threads);

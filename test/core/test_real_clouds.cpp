@@ -160,6 +160,27 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
   RecordProperty ("folds", std::to_string (result.report.statistics.folds));
 }
 
+// Rims of triangles pass no point inside; ragged borders they may cut short.
+TEST (RealClouds, HaveTheirBoundaryOnARimOfTheComplex)
+{
+  for (const Case& cloud :
+       {Case{"snail", 1.0, 1.0}, Case{"tum_rabbit", 0.98, 0.98}, Case{"bunny", 0.65, 1.0}}) {
+    SCOPED_TRACE (cloud.name);
+    const std::string base = dataFolder () + "/" + cloud.name;
+    if (!std::ifstream (base + ".pcd"))
+      GTEST_SKIP () << "no " << cloud.name << ".pcd in " << dataFolder ();
+    Options options = samples::discOptions ();
+    options.boundary = BoundaryMethod::COMPLEX;
+    const Result result = reconstruct (samples::asInput (readPcd (base + ".pcd")), options);
+    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    const std::vector<Index> truth = samples::topologyOf (readPly (base + ".gt.ply")).loops.at (0);
+    const std::set<Index> wanted (truth.begin (), truth.end ());
+    const std::set<Index> found (result.report.loop.begin (), result.report.loop.end ());
+    EXPECT_GE (shareOf (wanted, found), cloud.loop_recall);
+    EXPECT_GE (shareOf (found, wanted), cloud.edge_recall) << "of the loop on the true boundary";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P (Discs, RealCloud,
                           testing::Values (Case{"snail", 0.99, 0.985}, Case{"lilium", 0.99, 0.99},
                                            Case{"tum_rabbit", 0.98, 0.95},

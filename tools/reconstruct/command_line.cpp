@@ -162,7 +162,10 @@ addOptions (CLI::App& app, CommandLine& line)
 
   const std::string boundary = "Boundary of a disc";
   addChoice (app, "--boundary", options.boundary, BOUNDARY_CHOICES,
-             "how the boundary loop is found", boundary);
+             "how the boundary loop is found: along a\nspanning tree of boundary points; as the "
+             "largest\nrim of triangles that stars agree on (complex); or\nas in the report "
+             "(two-segments)",
+             boundary);
   addPath (app, "--loop", line.loop,
            "take the loop from this text file: indices of\npoints in order, from 0; makes a disc",
            boundary);

@@ -34,7 +34,7 @@ enum class HolePolicy
 enum class BoundaryMethod
 {
   SPANNING_TREE, ///< longest path of a spanning tree over points whose star has a gap
-  COMPLEX,       ///< longest rim of the triangles that stars agree on
+  COMPLEX,       ///< largest rim of the triangles that stars agree on
   TWO_SEGMENTS   ///< TW 385, section 3: largest cluster, two segments, 1D parameterization
 };
 
