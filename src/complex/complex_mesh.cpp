@@ -18,14 +18,15 @@ makeComplexMesh (const std::vector<Eigen::Vector3d>& positions, const FlatLists&
                  std::vector<Eigen::Vector3f>& normals)
 {
   std::vector<Eigen::Vector3f> crease = creaseNormals (positions, near, normals, threads);
-  const std::vector<Candidate> candidates =
+  std::vector<Candidate> candidates =
       findCandidates (positions, stars, crease, spacing, {}, threads);
   SurfaceComplex complex = buildComplex (positions, candidates, crease);
   ComplexMesh made;
-  made.mesh = manifoldPart (complex, near);
+  made.mesh = manifoldPart (std::move (complex), near);
   complex = extendComplex (positions, candidates, made.mesh, crease);
+  std::vector<Candidate> ().swap (candidates);
   made.misfits = std::move (complex.misfits);
-  made.mesh = manifoldPart (complex, near);
+  made.mesh = manifoldPart (std::move (complex), near);
   for (std::size_t p = 0; p < normals.size (); ++p)
     if (normals[p].dot (crease[p]) < 0.0F)
       normals[p] = -normals[p];

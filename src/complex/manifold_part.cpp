@@ -146,10 +146,11 @@ withoutIslands (const SurfaceMesh& mesh, const FlatLists& near)
 } // namespace
 
 SurfaceMesh
-manifoldPart (const SurfaceComplex& complex, const FlatLists& near)
+manifoldPart (SurfaceComplex complex, const FlatLists& near)
 {
   SurfaceMesh mesh;
   mesh.triangles = FanPruner (complex, near.rows ()).run ();
+  complex = {};
   mesh.connect (near.rows ());
   std::vector<Triangle> left = withoutIslands (mesh, near);
   if (left.size () < mesh.triangles.size ()) {

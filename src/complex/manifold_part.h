@@ -14,7 +14,7 @@ namespace floater
 /// neighbours; these lie in its holes. What is left is an oriented manifold whose rims are simple
 /// loops. O(n).
 SurfaceMesh
-manifoldPart (const SurfaceComplex& complex, const FlatLists& near);
+manifoldPart (SurfaceComplex complex, const FlatLists& near);
 
 /// Smallest piece that may stand alone.
 constexpr std::size_t ISLAND = 32;

@@ -120,6 +120,8 @@ public:
     for (Index p = 0; p < normals.size (); ++p)
       if (sides_.find (p).flipped)
         normals[p] = -normals[p];
+    std::vector<Index> ().swap (first_corner_);
+    std::vector<Index> ().swap (next_corner_);
     return inOrderOfPoints ();
   }
 

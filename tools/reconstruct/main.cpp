@@ -17,6 +17,10 @@
 #include <new>
 #include <numeric>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace pcl
 {
 namespace floater
@@ -305,6 +309,11 @@ runTool (int argc, char** argv)
 int
 main (int argc, char** argv)
 {
+#ifdef __GLIBC__
+  // Large arrays go back to the system as soon as they are freed; else the threshold grows with the
+  // first of them, and the peak memory by a tenth.
+  mallopt (M_MMAP_THRESHOLD, 1 << 20);
+#endif
   const int code = pcl::floater::runTool (argc, argv);
   if (code != pcl::floater::EXIT_INTERNAL)
     return code;
