@@ -92,6 +92,7 @@ std::vector<Rim*>
 bySize (std::vector<Rim>& rims, const std::vector<std::size_t>& piece_points)
 {
   std::vector<Rim*> sorted;
+  sorted.reserve (rims.size ());
   for (Rim& rim : rims)
     sorted.push_back (&rim);
   const auto key = [&piece_points] (const Rim* rim) {
