@@ -160,6 +160,70 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
   RecordProperty ("folds", std::to_string (result.report.statistics.folds));
 }
 
+/// What the cloud is, as its ground truth tells, and the policy that tells what is ambiguous in it.
+struct Known
+{
+  const char* name;
+  std::size_t pieces, loops;
+  std::int64_t genus;
+  std::size_t most_folds; ///< what the ground truth has, but for none
+  HolePolicy holes = HolePolicy::AUTO;
+  int kept_loops = 1;
+};
+
+void
+PrintTo (const Known& cloud, std::ostream* out)
+{
+  *out << cloud.name;
+}
+
+class AnyRealCloud : public testing::TestWithParam<Known>
+{
+};
+
+TEST_P (AnyRealCloud, IsWhatItIs)
+{
+  const Known& known = GetParam ();
+  const std::string base = dataFolder () + "/" + known.name;
+  if (!std::ifstream (base + ".pcd"))
+    GTEST_SKIP () << "no " << known.name << ".pcd in " << dataFolder ()
+                  << "; set PCL_FLOATER_DATA to the folder of the real clouds";
+  const Positions cloud = readPcd (base + ".pcd");
+  ASSERT_FALSE (cloud.empty ()) << base << ".pcd is not what this test can read";
+  Options options;
+  options.holes = known.holes;
+  options.kept_loops = known.kept_loops;
+  const Result result = reconstruct (samples::asInput (cloud), options);
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  const samples::Topology topology = samples::topologyOf (result.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.vertices, cloud.size ());
+  EXPECT_EQ (topology.components, known.pieces);
+  EXPECT_EQ (topology.loops.size (), known.loops);
+  EXPECT_EQ (topology.euler, 2 * static_cast<long> (known.pieces) -
+                                 static_cast<long> (known.loops) -
+                                 2 * static_cast<long> (known.genus));
+  EXPECT_EQ (result.report.check.components, known.pieces);
+  EXPECT_EQ (result.report.check.loops.size (), known.loops);
+  EXPECT_EQ (result.report.check.genus, known.genus);
+  EXPECT_LE (result.report.check.folds, known.most_folds);
+}
+
+INSTANTIATE_TEST_SUITE_P (
+    Clouds, AnyRealCloud,
+    testing::Values (Known{"snail", 1, 1, 0, 0}, Known{"lilium", 1, 1, 0, 0},
+                     Known{"fandisk", 1, 1, 0, 0}, Known{"lion_head", 1, 1, 0, 5},
+                     Known{"tum_rabbit", 1, 1, 0, 0}, Known{"camel_head", 1, 1, 0, 7},
+                     Known{"man_bust", 1, 1, 0, 0}, Known{"bunny", 1, 1, 0, 0},
+                     Known{"max_planck", 1, 1, 0, 0}, Known{"nefertiti", 1, 1, 0, 197},
+                     Known{"st_helens", 1, 1, 0, 0}, Known{"face_strip", 1, 1, 0, 0},
+                     Known{"hill_lidar", 1, 1, 0, 30}, Known{"igea", 1, 1, 0, 0},
+                     Known{"field_lidar", 1, 1, 0, 0}, Known{"spot_closed", 1, 0, 0, 0},
+                     Known{"rocker_arm_closed", 1, 0, 1, 0}, Known{"fertility_closed", 1, 0, 4, 0},
+                     Known{"two_objects", 2, 0, 1, 0}, Known{"max_planck_mask", 1, 4, 0, 0},
+                     Known{"bunny_holes", 1, 5, 0, 0, HolePolicy::KEEP_COUNT, 5}),
+    [] (const auto& info) { return std::string (info.param.name); });
+
 // Rims of triangles pass no point inside; ragged borders they may cut short.
 TEST (RealClouds, HaveTheirBoundaryOnARimOfTheComplex)
 {
