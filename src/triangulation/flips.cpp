@@ -12,66 +12,10 @@ namespace floater
 {
 namespace
 {
-constexpr double TURNED = 0.2; // cosine to the corners' normals below which a triangle is penalized
-constexpr double PENALTY = 1000.0;   // per unit of that cosine; a right isosceles triangle costs 2
-constexpr double LARGE = 3.0;        // doubled area, in squared spacings, that is not penalized
-constexpr double LARGE_COST = 100.0; // per squared spacing beyond
 constexpr double IMPROVES =
     1e-9; // relative gain below which the diagonals of a quad count as equal
 
 } // namespace
-
-double
-TriangleCost::operator() (Index a, Index b, Index c) const
-{
-  // The smallest point first, so that the cost of a triangle does not depend, not even by rounding,
-  // on where it begins: flips could go round in circles otherwise.
-  if (b < a && b < c)
-    return (*this) (b, c, a);
-  if (c < a && c < b)
-    return (*this) (c, a, b);
-  const Eigen::Vector3d ab = positions_[b] - positions_[a];
-  const Eigen::Vector3d ac = positions_[c] - positions_[a];
-  const Eigen::Vector3d bc = positions_[c] - positions_[b];
-  const Eigen::Vector3d area_vector = ab.cross (ac);
-  const double double_area = area_vector.norm ();
-  const double sqr_lengths = ab.squaredNorm () + ac.squaredNorm () + bc.squaredNorm ();
-  // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area); bounded, so that costs of needles
-  // compare.
-  const double cotangents = sqr_lengths / (2.0 * std::max (double_area, 1e-9 * sqr_lengths));
-  const double turned = PENALTY * std::max (0.0, TURNED - agreement (a, b, c, area_vector));
-  if (spacing_ == nullptr)
-    return cotangents + turned;
-  const double spacing = ((*spacing_)[a] + (*spacing_)[b] + (*spacing_)[c]) / 3.0;
-  return cotangents + turned +
-         LARGE_COST * std::max (0.0, double_area / (spacing * spacing) - LARGE);
-}
-
-double
-TriangleCost::agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector) const
-{
-  const Eigen::Vector3f normal = normals_[a] + normals_[b] + normals_[c];
-  const double length = normal.norm () * area_vector.norm ();
-  return length > 0.0 ? normal.cast<double> ().dot (area_vector) / length : 0.0;
-}
-
-bool
-TriangleCost::isTurned (const Triangle& corners) const
-{
-  const auto [a, b, c] = corners;
-  return agreement (a, b, c,
-                    (positions_[b] - positions_[a]).cross (positions_[c] - positions_[a])) < TURNED;
-}
-
-Eigen::Vector3d
-TriangleCost::unitNormal (Index a, Index b, Index c) const
-{
-  if (b < a && b < c)
-    return unitNormal (b, c, a);
-  if (c < a && c < b)
-    return unitNormal (c, a, b);
-  return (positions_[b] - positions_[a]).cross (positions_[c] - positions_[a]).normalized ();
-}
 
 void
 orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -93,28 +37,42 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 double
 meshCost (const SurfaceMesh& mesh, const TriangleCost& cost)
 {
+  RememberedCost remembered (cost);
   double sum = 0.0;
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    const Eigen::Vector3d normal = cost.unitNormal (mesh.triangles[t]);
-    sum += cost (mesh.triangles[t]);
+    const TriangleCost::Value value = remembered (mesh.triangles[t]);
+    sum += value.cost;
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
-        sum += edgeCost (mesh, cost, {t, side}, normal);
+        sum += TriangleCost::ofFold (value.unit_normal, normalBehind (mesh, remembered, {t, side}));
   }
   return sum;
 }
 
 double
-splitCost (const SurfaceMesh& mesh, const TriangleCost& cost, Index t, Index p)
+splitCost (const SurfaceMesh& mesh, RememberedCost& cost, Index t, Index p, double limit)
 {
   const auto [a, b, c] = mesh.triangles[t];
-  const Eigen::Vector3d whole = cost.unitNormal (a, b, c);
-  const std::array<Eigen::Vector3d, 3> part{cost.unitNormal (p, b, c), cost.unitNormal (p, c, a),
-                                            cost.unitNormal (p, a, b)};
-  double added = cost (p, b, c) + cost (p, c, a) + cost (p, a, b) - cost (a, b, c);
+  const TriangleCost::Value whole = cost (a, b, c);
+  double added = -whole.cost;
+  std::array<Eigen::Vector3d, 3> behind;
+  for (std::uint8_t side = 0; side < 3; ++side) {
+    behind[side] = normalBehind (mesh, cost, {t, side});
+    added -= TriangleCost::ofFold (whole.unit_normal, behind[side]);
+  }
+  // All that follows adds.
+  const std::array<Triangle, 3> corners{{{p, b, c}, {p, c, a}, {p, a, b}}};
+  std::array<Eigen::Vector3d, 3> part;
+  for (std::uint8_t side = 0; side < 3; ++side) {
+    const TriangleCost::Value& value = cost (corners[side]);
+    part[side] = value.unit_normal;
+    added += value.cost;
+    if (added > limit)
+      return added;
+  }
   for (std::uint8_t side = 0; side < 3; ++side)
     added += TriangleCost::ofFold (part[side], part[SurfaceMesh::next (side)]) +
-             edgeCost (mesh, cost, {t, side}, part[side]) - edgeCost (mesh, cost, {t, side}, whole);
+             TriangleCost::ofFold (part[side], behind[side]);
   return added;
 }
 
@@ -147,23 +105,28 @@ EdgeFlipper::gain (MeshEdge e) const
   if (m.triangle == NONE)
     return 0.0;
   const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
-  const double now = cost_ (c, a, b) + cost_ (d, b, a);
-  const double then = cost_ (c, a, d) + cost_ (d, b, c);
-  const Eigen::Vector3d now_cab = cost_.unitNormal (c, a, b), now_dba = cost_.unitNormal (d, b, a);
-  if (then >= now && now_cab.dot (now_dba) >= 0.0)
+  const TriangleCost::Value now_cab = cost_ (c, a, b), now_dba = cost_ (d, b, a);
+  const TriangleCost::Value then_cad = cost_ (c, a, d), then_dbc = cost_ (d, b, c);
+  const double now = now_cab.cost + now_dba.cost;
+  const double then = then_cad.cost + then_dbc.cost;
+  if (then >= now && now_cab.unit_normal.dot (now_dba.unit_normal) >= 0.0)
     return 0.0;
-  const Eigen::Vector3d then_cad = cost_.unitNormal (c, a, d),
-                        then_dbc = cost_.unitNormal (d, b, c);
-  const MeshEdge bc{e.triangle, SurfaceMesh::next (e.side)},
-      ca{e.triangle, SurfaceMesh::previous (e.side)}, ad{m.triangle, SurfaceMesh::next (m.side)},
-      db{m.triangle, SurfaceMesh::previous (m.side)};
-  const auto edge = [this] (MeshEdge outer, const Eigen::Vector3d& normal) {
-    return edgeCost (mesh_, cost_, outer, normal);
+  // What is behind the other edges of the two triangles: at bc, ca, ad, db.
+  const auto behind = [this] (Index t, std::uint8_t side) {
+    return normalBehind (mesh_, cost_, {t, side});
   };
-  const double total = now + TriangleCost::ofFold (now_cab, now_dba) + edge (bc, now_cab) +
-                       edge (ca, now_cab) + edge (ad, now_dba) + edge (db, now_dba);
-  const double total_then = then + TriangleCost::ofFold (then_cad, then_dbc) + edge (bc, then_dbc) +
-                            edge (ca, then_cad) + edge (ad, then_cad) + edge (db, then_dbc);
+  const Eigen::Vector3d at_bc = behind (e.triangle, SurfaceMesh::next (e.side));
+  const Eigen::Vector3d at_ca = behind (e.triangle, SurfaceMesh::previous (e.side));
+  const Eigen::Vector3d at_ad = behind (m.triangle, SurfaceMesh::next (m.side));
+  const Eigen::Vector3d at_db = behind (m.triangle, SurfaceMesh::previous (m.side));
+  const auto fold = TriangleCost::ofFold;
+  const double total = now + fold (now_cab.unit_normal, now_dba.unit_normal) +
+                       fold (at_bc, now_cab.unit_normal) + fold (at_ca, now_cab.unit_normal) +
+                       fold (at_ad, now_dba.unit_normal) + fold (at_db, now_dba.unit_normal);
+  const double total_then = then + fold (then_cad.unit_normal, then_dbc.unit_normal) +
+                            fold (at_bc, then_dbc.unit_normal) +
+                            fold (at_ca, then_cad.unit_normal) +
+                            fold (at_ad, then_cad.unit_normal) + fold (at_db, then_dbc.unit_normal);
   if (total_then >= total - IMPROVES * std::abs (total) || mesh_.hasEdge (c, d))
     return 0.0;
   return total_then - total;
@@ -172,7 +135,8 @@ EdgeFlipper::gain (MeshEdge e) const
 std::size_t
 flipEdges (SurfaceMesh& mesh, const TriangleCost& cost)
 {
-  EdgeFlipper flipper (mesh, cost);
+  RememberedCost remembered (cost);
+  EdgeFlipper flipper (mesh, remembered);
   for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation/fold_repair.h"
 
-#include "triangulation/polygon_filling.h"
+#include "triangulation/vertex_mover.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pcl
@@ -16,86 +17,80 @@ namespace
 {
 constexpr double FOLD_COSINE = -0.5; // 120 degrees between the normals of neighbours
 constexpr int PASSES = 12;
-constexpr std::size_t LARGEST_FAN = 16; // vertices of more triangles are not moved
-constexpr std::size_t PLACES = 16;      // cheapest triangles into which a vertex is tried
-constexpr std::size_t KICKS = 16;       // places to which a vertex of a fold is forced
+constexpr std::size_t PLACES = 16; // cheapest triangles into which a vertex is tried
+constexpr std::uint8_t KICKS = 16; // places to which a vertex of a fold is forced
 constexpr std::size_t PLACES_AFTER_KICK = 3;
-constexpr int KICK_PASSES = 3;
-constexpr double IMPROVES = 1e-6; // of the cost of a triangle of equal sides
+constexpr int PASSES_AFTER_KICK = 2;
+constexpr std::size_t POINTS_PER_KICK = 16;
 
-class VertexMover
+void
+makeSet (std::vector<Index>& list)
+{
+  std::sort (list.begin (), list.end ());
+  list.erase (std::unique (list.begin (), list.end ()), list.end ());
+}
+
+class FoldRepair
 {
 public:
-  VertexMover (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost)
-      : mesh_ (mesh), near_ (near), cost_ (cost), flipper_ (mesh, cost)
+  FoldRepair (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost)
+      : mesh_ (mesh), mover_ (mesh, near, cost)
   {
-    mesh_.journal = &journal_;
   }
-  VertexMover (const VertexMover&) = delete;
-  VertexMover& operator= (const VertexMover&) = delete;
-  ~VertexMover () { mesh_.journal = nullptr; }
 
-  std::size_t run ()
+  std::size_t moveAll ()
   {
     std::size_t moves = 0;
     std::vector<Index> vertices = badVertices ();
     for (int pass = 0; pass < PASSES && !vertices.empty (); ++pass) {
-      touched_.clear ();
+      mover_.touched ().clear ();
       for (Index v : vertices) {
-        journal_.clear ();
-        moves += move (v, PLACES) < 0.0 ? 1 : 0;
+        mover_.start ();
+        moves += mover_.move (v, PLACES) < 0.0 ? 1 : 0;
       }
-      makeSet (touched_);
-      vertices.swap (touched_);
+      vertices.swap (mover_.touched ());
+      makeSet (vertices);
     }
     return moves;
   }
 
-  // Where no single move helps, a vertex of a fold goes to a place that is worse, and its old and
-  // new neighbours move after it; kept if the whole gains. Returns the number of such kicks.
-  std::size_t kick (const std::vector<Index>& vertices)
+  std::size_t kickAll (std::vector<Index> vertices)
   {
-    std::size_t kicks = 0;
-    for (Index v : vertices)
-      for (std::size_t rank = 0; rank < KICKS; ++rank) {
-        journal_.clear ();
-        touched_.clear ();
-        double change = moveTo (v, rank);
-        if (touched_.empty ())
-          break;
-        for (int pass = 0; pass < 2; ++pass) {
-          std::vector<Index> around;
-          around.swap (touched_);
-          makeSet (around);
-          for (Index w : around)
-            change += move (w, PLACES_AFTER_KICK);
+    std::size_t kept = 0;
+    next_rank_.assign (mesh_.triangle_of.size (), 0);
+    kicks_left_ = mesh_.triangle_of.size () / POINTS_PER_KICK + KICKS;
+    while (!vertices.empty ()) {
+      const std::size_t share = std::min<std::size_t> (KICKS, 1 + kicks_left_ / vertices.size ());
+      std::vector<Index> again;
+      for (Index v : vertices) {
+        if (!isAtFold (v))
+          continue;
+        if (kick (v, share)) {
+          ++kept;
+          forgetKicksAround (again);
         }
-        if (change < -IMPROVES) {
-          ++kicks;
-          break;
-        }
-        mesh_.undo (0);
+        else if (next_rank_[v] < KICKS)
+          again.push_back (v);
+        if (kicks_left_ == 0)
+          return kept;
       }
-    return kicks;
+      makeSet (again);
+      vertices.swap (again);
+    }
+    return kept;
   }
 
 private:
-  static void makeSet (std::vector<Index>& list)
-  {
-    std::sort (list.begin (), list.end ());
-    list.erase (std::unique (list.begin (), list.end ()), list.end ());
-  }
-
   // Corners of the triangles that are penalized or folded against a neighbour.
-  std::vector<Index> badVertices () const
+  std::vector<Index> badVertices ()
   {
     std::vector<Index> vertices;
     for (Index t = 0; t < mesh_.triangles.size (); ++t) {
       const Triangle& corners = mesh_.triangles[t];
-      const Eigen::Vector3d normal = cost_.unitNormal (corners);
-      bool bad = cost_.isTurned (corners);
+      const Eigen::Vector3d normal = cost_ (corners).unit_normal;
+      bool bad = cost_.plain ().isTurned (corners);
       for (std::uint8_t side = 0; side < 3 && !bad; ++side)
-        bad = edgeCost (mesh_, cost_, {t, side}, normal) > 0.0;
+        bad = normal.dot (normalBehind (mesh_, cost_, {t, side})) < 0.0;
       if (bad)
         vertices.insert (vertices.end (), corners.begin (), corners.end ());
     }
@@ -103,151 +98,95 @@ private:
     return vertices;
   }
 
-  // Cost of some triangles and all their edges, those between two of them once.
-  double costOf (const Index* first, const Index* last) const
-  {
-    double sum = 0.0;
-    for (const Index* t = first; t != last; ++t) {
-      const Eigen::Vector3d normal = cost_.unitNormal (mesh_.triangles[*t]);
-      sum += cost_ (mesh_.triangles[*t]);
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index other = mesh_.neighbors[*t][side];
-        if (other != NONE && (std::find (first, last, other) == last || *t < other))
-          sum += edgeCost (mesh_, cost_, {*t, side}, normal);
-      }
-    }
-    return sum;
-  }
-
-  // Takes the vertex out, if that can be done. Returns the change of cost.
-  bool takeOut (Index v, double& change)
+  // True if an edge of the triangles around a vertex is folded.
+  bool isAtFold (Index v)
   {
     mesh_.fan (v, fan_);
-    if (fan_.size () < 3 || fan_.size () > LARGEST_FAN)
-      return false;
-    const Index last = fan_.back ();
-    if (mesh_.neighbors[last][SurfaceMesh::next (mesh_.sideOf (last, v))] != fan_.front ())
-      return false; // at the boundary
-    polygon_.clear ();
-    for (Index t : fan_)
-      polygon_.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
-    filled_ = filling_.fill (polygon_, cost_,
-                             [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); });
-    if (filled_.empty () || (filled_.size () == 1 && isTriangle (filled_.front ())))
-      return false;
-    slots_ = fan_;
-    change = -costOf (slots_.data (), slots_.data () + slots_.size ());
-    mesh_.replaceFan (v, slots_, filled_);
-    change += costOf (slots_.data (), slots_.data () + filled_.size ());
-    return true;
+    for (Index t : fan_) {
+      const Eigen::Vector3d normal = cost_ (mesh_.triangles[t]).unit_normal;
+      for (Index u : mesh_.neighbors[t])
+        if (u != NONE && normal.dot (cost_ (mesh_.triangles[u]).unit_normal) < FOLD_COSINE)
+          return true;
+    }
+    return false;
   }
 
-  // Moves the vertex to the place where the cost of the mesh gets least, if less than now. Returns
-  // the change of cost, 0 if it stays.
-  double move (Index v, std::size_t tried)
+  // Kicks a vertex to its next places, until one gains. Several places may come to the same when
+  // edges have been flipped, or to where the vertex was; the neighbours tell.
+  bool kick (Index v, std::size_t times)
   {
-    const std::size_t before = journal_.mark ();
+    rings_.clear ();
+    noteRing (v);
+    while (times > 0 && kicks_left_ > 0 && next_rank_[v] < KICKS) {
+      mover_.start ();
+      mover_.touched ().clear ();
+      double change = 0.0;
+      if (!mover_.moveTo (v, next_rank_[v]++, change)) {
+        next_rank_[v] = KICKS;
+        return false;
+      }
+      if (noteRing (v)) {
+        --times;
+        --kicks_left_;
+        if (change + moveAfterKick (change) < -VertexMover::IMPROVES)
+          return true;
+      }
+      mover_.undo ();
+    }
+    return false;
+  }
+
+  // Moves the vertices around after a kick. Returns the change of cost.
+  double moveAfterKick (double change_by_kick)
+  {
     double change = 0.0;
-    if (!takeOut (v, change))
-      return 0.0;
-    const std::size_t without = journal_.mark ();
-    double best = -IMPROVES;
-    Index best_place = NONE;
-    for (const auto& [added, t] : places (v, tried)) {
-      const double total = change + added + settleAt (v, t);
-      mesh_.undo (without);
-      if (total < best) {
-        best = total;
-        best_place = t;
+    for (int pass = 0; pass < PASSES_AFTER_KICK; ++pass) {
+      around_.swap (mover_.touched ());
+      mover_.touched ().clear ();
+      makeSet (around_);
+      for (Index w : around_) {
+        change += mover_.move (w, PLACES_AFTER_KICK);
+        if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
+          return change; // all is as it was
       }
     }
-    if (best_place == NONE) {
-      mesh_.undo (before);
-      return 0.0;
-    }
-    settleAt (v, best_place);
-    touch (v);
-    return best;
-  }
-
-  // Moves the vertex to the place of a rank by the cost that it adds there. Returns the change.
-  double moveTo (Index v, std::size_t rank)
-  {
-    double change = 0.0;
-    if (!takeOut (v, change))
-      return 0.0;
-    const std::vector<std::pair<double, Index>> ranked = places (v, KICKS);
-    if (rank >= ranked.size ()) {
-      mesh_.undo (0);
-      return 0.0;
-    }
-    change += ranked[rank].first + settleAt (v, ranked[rank].second);
-    touch (v);
     return change;
   }
 
-  // Notes the old and the new neighbours of a vertex that has been moved.
-  void touch (Index v)
+  // Notes who the neighbours of a vertex are. False if they have been the same before.
+  bool noteRing (Index v)
   {
-    touched_.insert (touched_.end (), polygon_.begin (), polygon_.end ());
     mesh_.fan (v, fan_);
-    for (Index u : fan_)
-      touched_.insert (touched_.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
+    std::vector<Index> ring;
+    for (Index t : fan_)
+      ring.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
+    std::sort (ring.begin (), ring.end ());
+    if (std::find (rings_.begin (), rings_.end (), ring) != rings_.end ())
+      return false;
+    rings_.push_back (std::move (ring));
+    return true;
   }
 
-  // Splits a triangle at a vertex, in the slots that its fan has left, and flips edges from there
-  // and from the filling. Returns the change of cost by the flips.
-  double settleAt (Index v, Index t)
+  // After a kick that is kept: the corners of all changed triangles may be kicked anew.
+  void forgetKicksAround (std::vector<Index>& again)
   {
-    mesh_.split (t, v, slots_[slots_.size () - 2], slots_.back ());
-    mesh_.fan (v, fan_);
-    fan_.insert (fan_.end (), slots_.begin (), slots_.end () - 2);
-    for (Index u : fan_)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        flipper_.push ({u, side});
-    return flipper_.run ();
-  }
-
-  // True if the mesh has a triangle of these corners, the other way round: the tetrahedron's last.
-  bool isTriangle (const Triangle& corners)
-  {
-    std::vector<Index> around;
-    mesh_.fan (corners[0], around);
-    return std::any_of (around.begin (), around.end (), [&] (Index t) {
-      const Triangle& c = mesh_.triangles[t];
-      return std::find (c.begin (), c.end (), corners[1]) != c.end () &&
-             std::find (c.begin (), c.end (), corners[2]) != c.end ();
-    });
-  }
-
-  // The triangles in which the vertex costs least, with the cost that its split adds.
-  std::vector<std::pair<double, Index>> places (Index v, std::size_t most)
-  {
-    std::vector<Index> candidates (slots_.begin (), slots_.end () - 2);
-    for (Index q : near_.row (v)) {
-      mesh_.fan (q, fan_);
-      candidates.insert (candidates.end (), fan_.begin (), fan_.end ());
-    }
-    makeSet (candidates);
-    std::vector<std::pair<double, Index>> places;
-    for (Index t : candidates)
-      places.emplace_back (splitCost (mesh_, cost_, t, v), t);
-    const std::size_t kept = std::min (most, places.size ());
-    std::partial_sort (places.begin (), places.begin () + static_cast<std::ptrdiff_t> (kept),
-                       places.end ());
-    places.resize (kept);
-    return places;
+    changed_.clear ();
+    mover_.journal ().appendTriangles (changed_);
+    makeSet (changed_);
+    for (Index t : changed_)
+      for (Index p : mesh_.triangles[t]) {
+        next_rank_[p] = 0;
+        again.push_back (p);
+      }
   }
 
   SurfaceMesh& mesh_;
-  const FlatLists& near_;
-  const TriangleCost& cost_;
-  MeshJournal journal_;
-  EdgeFlipper flipper_;
-  PolygonFilling filling_;
-  std::vector<Triangle> filled_; // of the hole that the vertex taken out has left ...
-  std::vector<Index> slots_;     // ... in these but for the last two, which are free
-  std::vector<Index> fan_, polygon_, touched_;
+  VertexMover mover_;
+  RememberedCost& cost_ = mover_.cost ();
+  std::vector<std::uint8_t> next_rank_; // per point: the place to which it is kicked next
+  std::size_t kicks_left_ = 0;
+  std::vector<std::vector<Index>> rings_;
+  std::vector<Index> fan_, around_, changed_;
 };
 
 } // namespace
@@ -276,22 +215,15 @@ std::size_t
 moveVertices (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost,
               const std::vector<Eigen::Vector3d>& positions)
 {
-  VertexMover mover (mesh, near, cost);
-  std::size_t moves = mover.run ();
-  for (int pass = 0; pass < KICK_PASSES; ++pass) {
-    std::vector<Index> vertices;
-    for (const MeshEdge& fold : findFolds (mesh, positions))
-      for (Index p :
-           {mesh.corner (fold), mesh.from (fold), mesh.to (fold), mesh.corner (mesh.mate (fold))})
-        vertices.push_back (p);
-    std::sort (vertices.begin (), vertices.end ());
-    vertices.erase (std::unique (vertices.begin (), vertices.end ()), vertices.end ());
-    const std::size_t kicks = mover.kick (vertices);
-    if (kicks == 0)
-      break;
-    moves += kicks;
-  }
-  return moves;
+  FoldRepair repair (mesh, near, cost);
+  const std::size_t moves = repair.moveAll ();
+  std::vector<Index> vertices;
+  for (const MeshEdge& fold : findFolds (mesh, positions))
+    for (Index p :
+         {mesh.corner (fold), mesh.from (fold), mesh.to (fold), mesh.corner (mesh.mate (fold))})
+      vertices.push_back (p);
+  makeSet (vertices);
+  return moves + repair.kickAll (std::move (vertices));
 }
 
 } // namespace floater

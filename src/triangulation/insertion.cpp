@@ -2,6 +2,7 @@
 #include "triangulation/insertion.h"
 
 #include <algorithm>
+#include <limits>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -18,7 +19,7 @@ class PointInserter
 {
 public:
   PointInserter (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost, bool flip)
-      : mesh_ (mesh), near_ (near), cost_ (cost), flipper_ (mesh, cost), flip_ (flip)
+      : mesh_ (mesh), near_ (near), cost_ (cost), flipper_ (mesh, cost_), flip_ (flip)
   {
   }
 
@@ -86,7 +87,9 @@ private:
     for (Index q : near_.row (p)) {
       mesh_.fan (q, fan_);
       for (Index t : fan_) {
-        const double added = splitCost (mesh_, cost_, t, p);
+        const double limit =
+            best.triangle == NONE ? std::numeric_limits<double>::infinity () : best.added;
+        const double added = splitCost (mesh_, cost_, t, p, limit);
         if (best.triangle == NONE || added < best.added)
           best = {added, p, t};
       }
@@ -113,7 +116,7 @@ private:
 
   SurfaceMesh& mesh_;
   const FlatLists& near_;
-  const TriangleCost& cost_;
+  RememberedCost cost_;
   EdgeFlipper flipper_;
   bool flip_;
   std::vector<std::pair<Index, Index>> awaiting_; // (missing point, one that has it as neighbour)

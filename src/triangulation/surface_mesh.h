@@ -24,6 +24,14 @@ public:
   std::size_t mark () const { return entries_.size (); }
   void clear () { entries_.clear (); }
 
+  /// Appends the triangles noted; some come more than once.
+  void appendTriangles (std::vector<Index>& list) const
+  {
+    for (const Entry& entry : entries_)
+      if (entry.triangle != NONE)
+        list.push_back (entry.triangle);
+  }
+
 private:
   friend struct SurfaceMesh;
   struct Entry
