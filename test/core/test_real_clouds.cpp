@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P (
                      Known{"rocker_arm_closed", 1, 0, 1, 0}, Known{"fertility_closed", 1, 0, 4, 0},
                      Known{"two_objects", 2, 0, 1, 0}, Known{"max_planck_mask", 1, 4, 0, 0},
                      Known{"bunny_holes", 1, 5, 0, 0, HolePolicy::KEEP_COUNT, 5}),
-    [] (const auto& info) { return std::string (info.param.name); });
+    [] (const testing::TestParamInfo<Known>& cloud) { return std::string (cloud.param.name); });
 
 // Rims of triangles pass no point inside; ragged borders they may cut short.
 TEST (RealClouds, HaveTheirBoundaryOnARimOfTheComplex)
