@@ -2,6 +2,7 @@
 #include "complex/manifold_part.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace pcl
 {
@@ -58,6 +59,7 @@ private:
     for (Index t : around_.row (p))
       if (kept_[t] != 0)
         ring_.push_back ({t, static_cast<Index> (ring_.size ())});
+    dropDoubleEdges (p);
     if (ring_.size () < 2)
       return;
     // Label spreading over shared neighbours; rings are short.
@@ -81,13 +83,42 @@ private:
         best_weight = weight;
       }
     }
-    for (const Spoke& spoke : ring_) {
-      if (spoke.fan == best)
-        continue;
-      kept_[spoke.triangle] = 0;
-      for (Index q : triangles_[spoke.triangle])
-        touched_.push_back (q);
-    }
+    for (const Spoke& spoke : ring_)
+      if (spoke.fan != best)
+        drop (spoke.triangle);
+  }
+
+  // Of triangles that run along one edge of p in the same direction only the one of most votes
+  // stays. On creases and between sheets, planes of two corners may disagree on what overlaps.
+  void dropDoubleEdges (Index p)
+  {
+    for (std::size_t i = 0; i < ring_.size (); ++i)
+      for (std::size_t j = i + 1; j < ring_.size () && kept_[ring_[i].triangle] != 0; ++j) {
+        const Index t = ring_[i].triangle, u = ring_[j].triangle;
+        if (kept_[u] != 0 &&
+            (after (t, p, 1) == after (u, p, 1) || after (t, p, 2) == after (u, p, 2)))
+          drop (votes_[u] > votes_[t] ? t : u);
+      }
+    ring_.erase (
+        std::remove_if (ring_.begin (), ring_.end (),
+                        [this] (const Spoke& spoke) { return kept_[spoke.triangle] == 0; }),
+        ring_.end ());
+    for (Index i = 0; i < ring_.size (); ++i)
+      ring_[i].fan = i;
+  }
+
+  // The corner of a triangle one or two steps after p.
+  Index after (Index t, Index p, std::size_t steps) const
+  {
+    const Triangle& c = triangles_[t];
+    const std::size_t at = c[0] == p ? 0 : c[1] == p ? 1 : 2;
+    return c[(at + steps) % 3];
+  }
+
+  void drop (Index t)
+  {
+    kept_[t] = 0;
+    touched_.insert (touched_.end (), triangles_[t].begin (), triangles_[t].end ());
   }
 
   bool shareEdge (Index p, Index t, Index u) const
@@ -151,12 +182,14 @@ manifoldPart (SurfaceComplex complex, const FlatLists& near)
   SurfaceMesh mesh;
   mesh.triangles = FanPruner (complex, near.rows ()).run ();
   complex = {};
-  mesh.connect (near.rows ());
+  bool is_manifold = mesh.connect (near.rows ());
   std::vector<Triangle> left = withoutIslands (mesh, near);
-  if (left.size () < mesh.triangles.size ()) {
+  if (is_manifold && left.size () < mesh.triangles.size ()) {
     mesh.triangles.swap (left);
-    mesh.connect (near.rows ());
+    is_manifold = mesh.connect (near.rows ());
   }
+  if (!is_manifold)
+    throw std::logic_error ("the complex is no manifold");
   return mesh;
 }
 

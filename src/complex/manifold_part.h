@@ -12,7 +12,7 @@ namespace floater
 /// Keeps the largest fan of triangles around every point, and drops islands: pieces of fewer than
 /// ISLAND triangles that are open and have points of a larger piece among their nearest
 /// neighbours; these lie in its holes. What is left is an oriented manifold whose rims are simple
-/// loops. O(n).
+/// loops. O(n). \throw std::logic_error if it is not
 SurfaceMesh
 manifoldPart (SurfaceComplex complex, const FlatLists& near);
 

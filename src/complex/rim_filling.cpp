@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -150,7 +151,8 @@ fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const std::vector<Eigen::Ve
   }
   mesh.triangles.insert (mesh.triangles.end (), filler.triangles ().begin (),
                          filler.triangles ().end ());
-  mesh.connect (mesh.triangle_of.size ());
+  if (!mesh.connect (mesh.triangle_of.size ()))
+    throw std::logic_error ("a hole was filled by triangles that do not fit");
   return filled;
 }
 

@@ -19,7 +19,8 @@ class PointInserter
 {
 public:
   PointInserter (SurfaceMesh& mesh, const FlatLists& near, const TriangleCost& cost, bool flip)
-      : mesh_ (mesh), near_ (near), cost_ (cost), flipper_ (mesh, cost_), flip_ (flip)
+      : mesh_ (mesh), near_ (near), cost_ (cost), flipper_ (mesh, cost_), flip_ (flip),
+        queued_ (mesh.triangle_of.size (), 0)
   {
   }
 
@@ -73,11 +74,16 @@ private:
     std::sort (awaiting_.begin (), awaiting_.end ());
   }
 
+  // Queues a point once it has a place; a better one is found when its turn comes.
   void offer (Index p)
   {
+    if (queued_[p] != 0)
+      return;
     const Place place = cheapest (p);
-    if (place.triangle != NONE)
-      queue_.push (place);
+    if (place.triangle == NONE)
+      return;
+    queue_.push (place);
+    queued_[p] = 1;
   }
 
   // The triangle around p's neighbours whose split at p adds the least cost.
@@ -121,6 +127,7 @@ private:
   bool flip_;
   std::vector<std::pair<Index, Index>> awaiting_; // (missing point, one that has it as neighbour)
   std::priority_queue<Place> queue_;
+  std::vector<std::uint8_t> queued_; // per point
   std::vector<Index> fan_;
 };
 
