@@ -55,11 +55,12 @@ makeDisc (Samples& samples, const Options& options, StageClock& clock, Report& r
 
   // Points that coincide in the plane come back, edges are flipped in space.
   clock.start (Stage::FLIPS);
-  disc.finish = finishDisc (disc.mesh, positions, samples.near, samples.stars.normals, options);
+  disc.finish =
+      finishDisc (disc.mesh, samples.ownPositions (), samples.near, samples.stars.normals, options);
   disc.problem = disc.finish.problem;
   if (!disc.problem)
     disc.problem = checkDisc (disc.mesh.triangles, positions.size (), disc.boundary.loop);
-  if (!disc.problem && faceOutwards (disc.mesh, positions) > 0)
+  if (!disc.problem && faceOutwards (disc.mesh, samples.ownPositions ()) > 0)
     mirrorParameters (report);
   return disc;
 }

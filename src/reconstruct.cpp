@@ -22,21 +22,25 @@ namespace
 {
 constexpr std::size_t LARGEST_SECOND_TRY = 300'000; // points; a second and half a GB
 
-// Beyond the report: the mesh as it is, whatever the stages think that they made.
+// Beyond the report: the mesh as it is, on the user's own points, whatever the stages think that
+// they made.
 Problem
-examine (const Samples& samples, const SurfaceMesh& mesh, const Options& options, StageClock& clock,
+examine (Samples& samples, const SurfaceMesh& mesh, const Options& options, StageClock& clock,
          Report& report)
 {
   clock.start (Stage::CHECK);
+  if (!samples.noisy.empty ())
+    samples.set.positions.swap (samples.noisy);
   const std::vector<float> spacing =
       localSpacing (samples.set.positions, samples.near, options.threads);
-  return reportCheck (samples.set, checkMesh (mesh.triangles, samples.set, spacing), options,
-                      report);
+  const MeshExamination found = checkMesh (mesh.triangles, samples.set, spacing);
+  report.statistics.folds = found.check.folds;
+  return reportCheck (samples.set, found, options, report);
 }
 
 // Makes the mesh of a disc the result.
 Problem
-useDisc (const Samples& samples, const Disc& disc, const Options& options, StageClock& clock,
+useDisc (Samples& samples, const Disc& disc, const Options& options, StageClock& clock,
          Result& result)
 {
   result.report.topology = Topology::DISC;
@@ -57,7 +61,7 @@ countFlaws (const SurfaceMesh& mesh, const SurfaceFinish& finish)
 double
 costOf (const Samples& samples, const SurfaceMesh& mesh, const Options& options)
 {
-  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
+  const std::vector<Eigen::Vector3d>& positions = samples.ownPositions ();
   std::vector<Eigen::Vector3f> normals = samples.stars.normals;
   orientNormals (mesh, positions, normals);
   const std::vector<float> spacing = localSpacing (positions, samples.near, options.threads);
@@ -112,8 +116,8 @@ reconstructAny (Input& input, const Options& options, Result& result)
     disc = makeDisc (samples, options, clock, report);
     return useDisc (samples, disc, options, clock, result);
   }
-  const Surface surface = makeSurface (samples.set.positions, samples.near, samples.stars,
-                                       1.0 / samples.set.scale, options, clock);
+  const Surface surface = makeSurface (samples.set.positions, samples.ownPositions (), samples.near,
+                                       samples.stars, 1.0 / samples.set.scale, options, clock);
   reportOneSided (samples.set, surface.cut, report);
   if (isDiscBetter (samples, surface, options, clock, report, disc)) {
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";

@@ -58,7 +58,8 @@ smoothNoise (Samples& samples, const Options& options, NeighborSearch* search, R
   reportNoise (noise, denoise, report);
   if (!denoise)
     return;
-  positions = projectOntoPlanes (positions, samples.near, options.threads);
+  samples.noisy = projectOntoPlanes (positions, samples.near, options.threads);
+  samples.noisy.swap (positions);
   samples.near = findNeighbors (samples.set, options, search);
 }
 

@@ -12,12 +12,19 @@ namespace pcl
 {
 namespace floater
 {
-/// Points of a run. Where noise is strong, positions are those in the local planes.
+/// Points of a run.
 struct Samples
 {
-  WorkingSet set;
-  FlatLists near; ///< the nearest neighbours, or those in a ball
-  Stars stars;    ///< Delaunay stars; offsets in the plane only for the disc method
+  WorkingSet set; ///< where noise is strong, with positions in the local planes ...
+  std::vector<Eigen::Vector3d> noisy; ///< ... and these are the points' own; else empty
+  FlatLists near;                     ///< the nearest neighbours, or those in a ball
+  Stars stars; ///< Delaunay stars; offsets in the plane only for the disc method
+
+  /// Where the points are in the user's cloud, but for centre and scale.
+  const std::vector<Eigen::Vector3d>& ownPositions () const
+  {
+    return noisy.empty () ? set.positions : noisy;
+  }
 };
 
 /// True if the options ask for the disc method.

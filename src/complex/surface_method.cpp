@@ -35,8 +35,9 @@ isDisc (const SurfaceMesh& mesh, std::size_t pieces)
 } // namespace
 
 Surface
-makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, Stars& stars,
-             double unit, const Options& options, StageClock& clock)
+makeSurface (const std::vector<Eigen::Vector3d>& positions,
+             const std::vector<Eigen::Vector3d>& final_positions, const FlatLists& near,
+             Stars& stars, double unit, const Options& options, StageClock& clock)
 {
   Surface surface;
   clock.start (Stage::COMPLEX);
@@ -56,8 +57,8 @@ makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& nea
   orientMissingNormals (surface.mesh, near, stars.normals);
 
   clock.start (Stage::FLIPS);
-  surface.finish = finishSurface (surface.mesh, positions, near, stars.normals, options);
-  faceOutwards (surface.mesh, positions);
+  surface.finish = finishSurface (surface.mesh, final_positions, near, stars.normals, options);
+  faceOutwards (surface.mesh, final_positions);
   surface.pieces = count;
   surface.is_one_disc = isDisc (surface.mesh, count);
   return surface;

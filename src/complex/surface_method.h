@@ -24,10 +24,13 @@ struct Surface
 };
 
 /// Complex, holes, left-over points, flips and repair. Books stages COMPLEX, HOLES and FLIPS.
-/// O(n log n). \param stars their normals get consistent signs \param unit see chooseRims
+/// O(n log n). \param positions where stars and complex were made \param final_positions of the
+/// same points, where edges are flipped and folds repaired: other than these where noise was taken
+/// out \param stars their normals get consistent signs \param unit see chooseRims
 Surface
-makeSurface (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, Stars& stars,
-             double unit, const Options& options, StageClock& clock);
+makeSurface (const std::vector<Eigen::Vector3d>& positions,
+             const std::vector<Eigen::Vector3d>& final_positions, const FlatLists& near,
+             Stars& stars, double unit, const Options& options, StageClock& clock);
 
 } // namespace floater
 } // namespace pcl
