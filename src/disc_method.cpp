@@ -30,7 +30,7 @@ makeDisc (Samples& samples, const Options& options, StageClock& clock, Report& r
   // Section 2.1: weights for all neighbours, if so wished; boundaries are told by Delaunay stars.
   if (options.neighborhood == Neighborhood::NEAREST || options.neighborhood == Neighborhood::BALL) {
     clock.start (Stage::WEIGHTS);
-    samples.stars = makeStars (positions, samples.near, std::move (samples.stars.normals),
+    samples.stars = makeStars (positions, samples.near, samples.stars.normals,
                                options.filter_sheets, options.threads, StarKind::ALL);
   }
 

@@ -141,7 +141,7 @@ private:
     }
     const bool all = options_.neighborhood == Neighborhood::NEAREST ||
                      options_.neighborhood == Neighborhood::BALL;
-    Stars stars = makeStars (piece.positions, near, std::move (normals), options_.filter_sheets,
+    Stars stars = makeStars (piece.positions, near, normals, options_.filter_sheets,
                              options_.threads, all ? StarKind::ALL : StarKind::DELAUNAY);
     Statistics unused;
     StageClock clock (unused, options_.progress);
