@@ -96,9 +96,12 @@ prepareSamples (Input& input, const Options& options, StageClock& clock, Samples
   // Section 4.1: Delaunay neighbourhoods in the tangent planes.
   clock.start (Stage::STARS);
   const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
-  samples.stars = makeStars (
-      positions, samples.near, fitTangentPlanes (positions, samples.near, options.threads),
-      options.filter_sheets, options.threads, StarKind::DELAUNAY, asksForDisc (options));
+  std::vector<Eigen::Vector3f> planes = fitTangentPlanes (positions, samples.near, options.threads);
+  samples.stars =
+      asksForDisc (options)
+          ? makeStars (positions, samples.near, planes, options.filter_sheets, options.threads)
+          : makeStarsOf (Selection::all (positions.size ()), positions, samples.near, planes,
+                         options.filter_sheets, options.threads);
   return {};
 }
 

@@ -43,6 +43,23 @@ struct FlatLists
   Row row (std::size_t p) const { return {ids.data () + offsets[p], ids.data () + offsets[p + 1]}; }
 };
 
+/// Rows of a table to work on, ascending: those listed, or all.
+class Selection
+{
+public:
+  static Selection all (std::size_t rows) { return {nullptr, rows}; }
+  static Selection of (const std::vector<Index>& rows) { return {rows.data (), rows.size ()}; }
+
+  std::size_t size () const { return count_; }
+  Index operator[] (std::size_t i) const { return rows_ ? rows_[i] : static_cast<Index> (i); }
+
+private:
+  Selection (const Index* rows, std::size_t count) : rows_ (rows), count_ (count) {}
+
+  const Index* rows_;
+  std::size_t count_;
+};
+
 /// Finite, distinct points, in the order of a space-filling curve, so that near points are near in
 /// memory. The order depends on the coordinates only, not on the order of the cloud.
 struct WorkingSet

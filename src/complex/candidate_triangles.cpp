@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl
 {
@@ -31,40 +32,84 @@ starHas (const Stars& stars, Index p, Index q, Index r)
   return false;
 }
 
-// Sets size and agreement.
+// Sets the size.
 void
-measure (const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Vector3f>& normals,
-         const std::vector<float>& spacing, Candidate& candidate)
+measure (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+         Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
   const Eigen::Vector3d ab = positions[b] - positions[a];
   const Eigen::Vector3d ac = positions[c] - positions[a];
-  const Eigen::Vector3d normal = ab.cross (ac);
-  const double double_area = normal.norm ();
   const double mean_spacing = (spacing[a] + spacing[b] + spacing[c]) / 3.0;
-  const double circumradius =
-      ab.norm () * ac.norm () * (positions[c] - positions[b]).norm () / (2.0 * double_area);
+  const double circumradius = ab.norm () * ac.norm () * (positions[c] - positions[b]).norm () /
+                              (2.0 * ab.cross (ac).norm ());
   candidate.size = static_cast<float> (circumradius / mean_spacing);
-  const Eigen::Vector3f unit = (normal / double_area).cast<float> ();
-  candidate.agreement = 1.0F;
-  for (Index p : candidate.corners)
-    candidate.agreement = std::min (candidate.agreement, std::abs (unit.dot (normals[p])));
+}
+
+void
+append (const Candidate& candidate, CandidateLists& lists)
+{
+  const std::size_t rank = agreementRank (candidate);
+  if (candidate.votes == 3 && rank < SURE_RANKS)
+    lists.sure.push_back (
+        {candidate.corners, candidate.clockwise, static_cast<std::uint8_t> (rank), false});
+  else
+    lists.doubtful.push_back (candidate);
+}
+
+// The ranges' lists are freed one by one.
+CandidateLists
+concatenate (std::vector<CandidateLists>& ranges)
+{
+  if (ranges.size () == 1)
+    return std::move (ranges.front ());
+  std::size_t sure = 0, doubtful = 0;
+  for (const CandidateLists& range : ranges) {
+    sure += range.sure.size ();
+    doubtful += range.doubtful.size ();
+  }
+  CandidateLists all;
+  all.sure.reserve (sure);
+  all.doubtful.reserve (doubtful);
+  for (CandidateLists& range : ranges) {
+    all.sure.insert (all.sure.end (), range.sure.begin (), range.sure.end ());
+    all.doubtful.insert (all.doubtful.end (), range.doubtful.begin (), range.doubtful.end ());
+    range = {};
+  }
+  return all;
 }
 
 } // namespace
 
-std::vector<Candidate>
-findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const CandidateLimits& limits, int threads)
+void
+judge (const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Vector3f>& normals,
+       Candidate& candidate)
 {
-  const std::size_t n = positions.size ();
-  std::vector<std::vector<Candidate>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  const auto& [a, b, c] = candidate.corners;
+  const Eigen::Vector3d normal = (positions[b] - positions[a]).cross (positions[c] - positions[a]);
+  const Eigen::Vector3f unit = (normal / normal.norm ()).cast<float> ();
+  candidate.agreement = 1.0F;
+  candidate.clockwise = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3f& at_corner = normals[candidate.corners[i]];
+    candidate.agreement = std::min (candidate.agreement, std::abs (unit.dot (at_corner)));
+    if (normal.dot (at_corner.cast<double> ()) < 0.0)
+      candidate.clockwise = static_cast<std::uint8_t> (candidate.clockwise | (1U << i));
+  }
+}
+
+CandidateLists
+findCandidates (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+                const Stars& stars, const std::vector<Eigen::Vector3f>& normals,
+                const std::vector<float>& spacing, const CandidateLimits& limits, int threads)
+{
+  const std::size_t n = rows.size ();
+  std::vector<CandidateLists> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (n, threads, [&] (std::size_t first, std::size_t last) {
-    std::vector<Candidate>& range = ranges[first / RANGE_LENGTH];
-    range.reserve (5 * (last - first) / 2);
+    CandidateLists& range = ranges[first / RANGE_LENGTH];
+    range.sure.reserve (2 * (last - first));
     for (std::size_t i = first; i < last; ++i) {
-      const auto p = static_cast<Index> (i);
+      const Index p = rows[i];
       const Row row = stars.neighbors.row (p);
       if (row.size () < 2)
         continue;
@@ -74,24 +119,16 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
         const bool in_q = starHas (stars, q, r, p), in_r = starHas (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
           continue; // theirs to propose
-        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0.0F, 0.0F};
-        measure (positions, normals, spacing, candidate);
+        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, 0.0F, 0.0F};
+        measure (positions, spacing, candidate);
+        judge (positions, normals, candidate);
         const std::size_t rank = candidate.votes - 1U;
         if (candidate.size <= limits.size[rank] && candidate.agreement >= limits.agreement[rank])
-          range.push_back (candidate);
+          append (candidate, range);
       }
     }
   });
-  std::vector<Candidate> candidates;
-  std::size_t count = 0;
-  for (const std::vector<Candidate>& range : ranges)
-    count += range.size ();
-  candidates.reserve (count);
-  for (std::vector<Candidate>& range : ranges) {
-    candidates.insert (candidates.end (), range.begin (), range.end ());
-    std::vector<Candidate> ().swap (range);
-  }
-  return candidates;
+  return concatenate (ranges);
 }
 
 } // namespace floater

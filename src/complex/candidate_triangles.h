@@ -4,6 +4,8 @@
 
 #include "common/types.h"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace pcl
@@ -16,9 +18,40 @@ struct Candidate
   Triangle corners;   ///< the first is the smallest point whose star has the triangle;
                       ///< anti-clockwise seen along that point's normal
   std::uint8_t votes; ///< stars of its corners that have it, 1 to 3
+  std::uint8_t clockwise; ///< bit i: it runs clockwise seen along the normal of corner i
   float size;         ///< circumradius in mean spacings of its corners
   float agreement;    ///< smallest |cosine| between its normal and those of its corners
 };
+
+/// A candidate of three votes whose normal agrees so well with those of its corners that only a
+/// contradiction of orientations keeps it out of the complex. Most triangles are of this kind.
+struct SureTriangle
+{
+  Triangle corners;
+  std::uint8_t clockwise; ///< as in Candidate
+  std::uint8_t rank;      ///< class of agreement, the best 0, below SURE_RANKS
+  bool is_taken;          ///< it is in the complex; see surface_complex.h
+};
+
+/// Candidates, 16 bytes for each that is sure.
+struct CandidateLists
+{
+  std::vector<SureTriangle> sure;  ///< ordered by their first corner
+  std::vector<Candidate> doubtful; ///< the others, in the same order
+};
+
+/// Classes of agreement, evenly from cosine 1 down to 0.
+constexpr std::size_t AGREEMENT_RANKS = 32;
+constexpr std::size_t SURE_RANKS = 4; ///< cosine above 0.875: tells alone how normals are oriented
+
+/// Class of a candidate's agreement, below AGREEMENT_RANKS.
+inline std::size_t
+agreementRank (const Candidate& candidate)
+{
+  const auto steps = static_cast<std::size_t> ((1.0F - candidate.agreement) *
+                                               static_cast<float> (AGREEMENT_RANKS));
+  return steps < AGREEMENT_RANKS ? steps : AGREEMENT_RANKS - 1;
+}
 
 /// How large and how far turned away from its corners' normals a triangle may be, by its votes:
 /// what few stars agree on must look the better.
@@ -28,14 +61,20 @@ struct CandidateLimits
   std::array<float, 3> agreement{0.4F, 0.2F, 0.1F}; ///< cosines
 };
 
-/// All triangles of stars within the limits, each once, ordered by their first corner and around
-/// it. O(entries).
+/// Sets agreement and clockwise.
+void
+judge (const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Vector3f>& normals,
+       Candidate& candidate);
+
+/// Triangles of stars within the limits whose first corner is one of `rows`, each once, ordered by
+/// their first corner and around it. Needs the stars of the points of these stars, and those
+/// points' normals and spacings. O(entries).
 /// \param normals by which triangles are judged: those of the stars, or others on the same side
 /// \param spacing of each point (see localSpacing)
-std::vector<Candidate>
-findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const CandidateLimits& limits, int threads);
+CandidateLists
+findCandidates (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+                const Stars& stars, const std::vector<Eigen::Vector3f>& normals,
+                const std::vector<float>& spacing, const CandidateLimits& limits, int threads);
 
 } // namespace floater
 } // namespace pcl

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "complex/complex_mesh.h"
 
-#include "complex/candidate_triangles.h"
 #include "complex/manifold_part.h"
 #include "complex/surface_complex.h"
 #include "neighborhoods/mean_normals.h"
@@ -14,23 +13,37 @@ namespace floater
 {
 ComplexMesh
 makeComplexMesh (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-                 const Stars& stars, const std::vector<float>& spacing, int threads,
-                 std::vector<Eigen::Vector3f>& normals)
+                 std::vector<CandidateLists> candidates, std::vector<Eigen::Vector3f> crease,
+                 int threads, std::vector<Eigen::Vector3f>& normals)
 {
-  std::vector<Eigen::Vector3f> crease = creaseNormals (positions, near, normals, threads);
-  std::vector<Candidate> candidates =
-      findCandidates (positions, stars, crease, spacing, {}, threads);
   SurfaceComplex complex = buildComplex (positions, candidates, crease);
   ComplexMesh made;
-  made.mesh = manifoldPart (std::move (complex), near);
-  complex = extendComplex (positions, candidates, made.mesh, crease);
-  std::vector<Candidate> ().swap (candidates);
-  made.misfits = std::move (complex.misfits);
-  made.mesh = manifoldPart (std::move (complex), near);
+  made.mesh = manifoldPart (std::move (complex), near, threads);
+  complex = {};
+  const bool is_extended = extendComplex (positions, candidates, made.mesh, crease, complex);
+  std::vector<CandidateLists> ().swap (candidates);
+  if (is_extended) {
+    made.misfits = std::move (complex.misfits);
+    made.mesh = {};
+    made.mesh = manifoldPart (std::move (complex), near, threads);
+  }
   for (std::size_t p = 0; p < normals.size (); ++p)
     if (normals[p].dot (crease[p]) < 0.0F)
       normals[p] = -normals[p];
   return made;
+}
+
+ComplexMesh
+makeComplexMesh (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+                 const Stars& stars, const std::vector<float>& spacing, int threads,
+                 std::vector<Eigen::Vector3f>& normals)
+{
+  const Selection all = Selection::all (positions.size ());
+  std::vector<Eigen::Vector3f> crease = creaseNormals (all, positions, near, normals, threads);
+  std::vector<CandidateLists> candidates (1);
+  candidates.front () = findCandidates (all, positions, stars, crease, spacing, {}, threads);
+  return makeComplexMesh (positions, near, std::move (candidates), std::move (crease), threads,
+                          normals);
 }
 
 std::vector<std::size_t>

@@ -2,6 +2,7 @@
 // From stars to a manifold with rims: what both methods take from the complex.
 #pragma once
 
+#include "complex/candidate_triangles.h"
 #include "triangulation/surface_mesh.h"
 
 #include <vector>
@@ -18,9 +19,18 @@ struct ComplexMesh
                                  ///< would turn the orientation round
 };
 
-/// Candidates, complex, manifold part, and once more where there is room left. On sharp edges
-/// triangles are judged by the mean normal, from which both faces are seen. O(n log n).
-/// \param normals in and out: those of the stars get consistent signs; may be the stars' own
+/// Complex, manifold part, and once more where there is room left. O(n + m log m) for m doubtful
+/// candidates.
+/// \param candidates see buildComplex; consumed
+/// \param crease normals by which candidates were judged; consumed
+/// \param normals in and out: those of the stars get consistent signs
+ComplexMesh
+makeComplexMesh (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+                 std::vector<CandidateLists> candidates, std::vector<Eigen::Vector3f> crease,
+                 int threads, std::vector<Eigen::Vector3f>& normals);
+
+/// The same from stars of all points. On sharp edges triangles are judged by the mean normal, from
+/// which both faces are seen.
 ComplexMesh
 makeComplexMesh (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
                  const Stars& stars, const std::vector<float>& spacing, int threads,

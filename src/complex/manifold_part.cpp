@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "complex/manifold_part.h"
 
+#include "common/parallel.h"
+
 #include <algorithm>
+#include <array>
+#include <set>
 #include <stdexcept>
 
 namespace pcl
@@ -30,19 +34,21 @@ public:
         around_.ids[at[p]++] = t;
   }
 
-  std::vector<Triangle> run ()
+  std::vector<Triangle> run (int threads)
   {
-    // A triangle dropped at one point may split the fan of another: looked at again.
-    std::vector<Index> points (around_.rows ());
-    for (Index p = 0; p < points.size (); ++p)
-      points[p] = p;
+    // A triangle dropped at one point may split the fan of another, which is looked at again: in
+    // the same round if it comes later.
+    std::set<Index> points = pointsToPrune (threads);
     while (!points.empty ()) {
       touched_.clear ();
-      for (Index p : points)
-        keepLargestFan (p);
-      std::sort (touched_.begin (), touched_.end ());
-      touched_.erase (std::unique (touched_.begin (), touched_.end ()), touched_.end ());
-      points.swap (touched_);
+      for (auto p = points.begin (); p != points.end (); ++p) {
+        const std::size_t known = touched_.size ();
+        keepLargestFan (*p);
+        for (std::size_t i = known; i < touched_.size (); ++i)
+          if (touched_[i] > *p)
+            points.insert (touched_[i]);
+      }
+      points = std::set<Index> (touched_.begin (), touched_.end ());
     }
     std::vector<Triangle> left;
     left.reserve (triangles_.size ());
@@ -53,6 +59,54 @@ public:
   }
 
 private:
+  // Points whose triangles are not just one fan.
+  std::set<Index> pointsToPrune (int threads) const
+  {
+    const std::size_t points = around_.rows ();
+    std::vector<std::vector<Index>> ranges ((points + RANGE_LENGTH - 1) / RANGE_LENGTH);
+    parallelRanges (points, threads, [&] (std::size_t first, std::size_t last) {
+      for (std::size_t p = first; p < last; ++p)
+        if (!isOneFan (static_cast<Index> (p)))
+          ranges[first / RANGE_LENGTH].push_back (static_cast<Index> (p));
+    });
+    std::set<Index> found;
+    for (const std::vector<Index>& range : ranges)
+      found.insert (range.begin (), range.end ());
+    return found;
+  }
+
+  // True if the triangles around p follow each other edge by edge, once around or in one sector.
+  bool isOneFan (Index p) const
+  {
+    constexpr std::size_t MOST = 32; // longer rows are left to the slow way
+    const Row row = around_.row (p);
+    const std::size_t count = row.size ();
+    if (count == 0)
+      return true;
+    if (count > MOST)
+      return false;
+    std::array<Index, MOST> from{}, to{};
+    for (std::size_t i = 0; i < count; ++i) {
+      from[i] = after (row[i], p, 1);
+      to[i] = after (row[i], p, 2);
+      for (std::size_t j = 0; j < i; ++j)
+        if (from[j] == from[i] || to[j] == to[i])
+          return false; // two run along one edge alike
+    }
+    const auto find = [count] (const std::array<Index, MOST>& list, Index q) {
+      return static_cast<std::size_t> (std::find (list.begin (), list.begin () + count, q) -
+                                       list.begin ());
+    };
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < count && start == 0; ++i)
+      if (find (to, from[i]) == count)
+        start = i;
+    std::size_t walked = 0;
+    for (std::size_t i = start; i < count && walked < count; ++walked)
+      i = find (from, to[i]);
+    return walked == count;
+  }
+
   void keepLargestFan (Index p)
   {
     ring_.clear ();
@@ -177,16 +231,16 @@ withoutIslands (const SurfaceMesh& mesh, const FlatLists& near)
 } // namespace
 
 SurfaceMesh
-manifoldPart (SurfaceComplex complex, const FlatLists& near)
+manifoldPart (SurfaceComplex complex, const FlatLists& near, int threads)
 {
   SurfaceMesh mesh;
-  mesh.triangles = FanPruner (complex, near.rows ()).run ();
+  mesh.triangles = FanPruner (complex, near.rows ()).run (threads);
   complex = {};
-  bool is_manifold = mesh.connect (near.rows ());
+  bool is_manifold = mesh.connect (near.rows (), threads);
   std::vector<Triangle> left = withoutIslands (mesh, near);
   if (is_manifold && left.size () < mesh.triangles.size ()) {
     mesh.triangles.swap (left);
-    is_manifold = mesh.connect (near.rows ());
+    is_manifold = mesh.connect (near.rows (), threads);
   }
   if (!is_manifold)
     throw std::logic_error ("the complex is no manifold");

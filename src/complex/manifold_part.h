@@ -14,7 +14,7 @@ namespace floater
 /// neighbours; these lie in its holes. What is left is an oriented manifold whose rims are simple
 /// loops. O(n). \throw std::logic_error if it is not
 SurfaceMesh
-manifoldPart (SurfaceComplex complex, const FlatLists& near);
+manifoldPart (SurfaceComplex complex, const FlatLists& near, int threads);
 
 /// Smallest piece that may stand alone.
 constexpr std::size_t ISLAND = 32;

@@ -5,12 +5,10 @@
 #include "neighborhoods/tangent_frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
-#include <iterator>
-#include <numeric>
 #include <tuple>
 #include <unordered_set>
+#include <utility>
 
 namespace pcl
 {
@@ -18,9 +16,6 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t CLASSES = 32;      // of agreement
-constexpr float SURE_AGREEMENT = 0.875F; // a triangle that alone tells how normals are oriented
-
 double
 cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -50,53 +45,72 @@ overlap (const Sector& a, const Sector& b)
          (b.first != a.last && a.holds (b.from)) || (b.last != a.first && a.holds (b.to));
 }
 
+bool
+runsClockwise (std::uint8_t clockwise, std::size_t corner)
+{
+  return ((clockwise >> corner) & 1U) != 0;
+}
+
 class ComplexBuilder
 {
 public:
   ComplexBuilder (const std::vector<Eigen::Vector3d>& positions,
-                  const std::vector<Eigen::Vector3f>& normals, std::size_t most)
+                  const std::vector<Eigen::Vector3f>& normals)
       : positions_ (positions), normals_ (normals), sides_ (positions.size ()),
-        first_corner_ (positions.size (), NONE)
+        last_sector_ (positions.size (), UNWATCHED)
   {
-    complex_.triangles.reserve (most);
-    complex_.votes.reserve (most);
-    next_corner_.reserve (3 * most);
+  }
+
+  // Remembers the sectors around these corners from now on: where one is to be tested.
+  void watch (const Triangle& corners)
+  {
+    for (Index p : corners)
+      last_sector_[p] = NONE;
   }
 
   // Takes a candidate if it fits. Sectors of one star do not overlap: candidates of three votes,
   // offered first to an empty complex, need no test.
+  bool offer (const SureTriangle& candidate)
+  {
+    if (!isOriented (candidate.corners, candidate.clockwise)) {
+      misfits_.push_back (candidate.corners);
+      return false;
+    }
+    occupy (candidate.corners);
+    return true;
+  }
+
   void offer (const Candidate& candidate, bool test_sectors)
   {
     if (test_sectors && isTaken (candidate.corners))
       return;
-    if (!isOriented (candidate)) {
+    if (!isOriented (candidate.corners, candidate.clockwise)) {
       if (candidate.votes == 3)
-        complex_.misfits.push_back (candidate.corners);
+        misfits_.push_back (candidate.corners);
       return;
     }
-    take (candidate.corners, candidate.votes);
+    occupy (candidate.corners);
+    taken_.push_back (&candidate);
   }
 
-  // Takes the triangles of a mesh, oriented like the normals.
-  void start (const SurfaceMesh& mesh)
+  // Takes a triangle that is oriented like the normals.
+  void start (const Triangle& corners)
   {
-    for (const Triangle& corners : mesh.triangles) {
-      take (corners, 3);
-      sides_.join (corners[0], corners[1], false);
-      sides_.join (corners[0], corners[2], false);
-    }
+    occupy (corners);
+    sides_.join (corners[0], corners[1], false);
+    sides_.join (corners[0], corners[2], false);
   }
 
   // Joins sets of points whose normals have no common side yet, by all candidates between them
   // together: a single triangle across a crease or between sheets may be wrong. In rounds, as in
   // Boruvka's forest: every set joins the one that most votes tie it to.
-  void orientSets (const std::vector<Candidate>& candidates, const Index* first, const Index* last)
+  void orientSets (const Candidate* const* first, const Candidate* const* last)
   {
     std::vector<Ballot> ballots;
     do {
       ballots.clear ();
-      for (const Index* i = first; i != last; ++i)
-        cast (candidates[*i], ballots);
+      for (const Candidate* const* candidate = first; candidate != last; ++candidate)
+        cast (**candidate, ballots);
       count (ballots);
       std::stable_sort (ballots.begin (), ballots.end (), [] (const Ballot& a, const Ballot& b) {
         return std::abs (a.votes) > std::abs (b.votes);
@@ -111,39 +125,34 @@ public:
     } while (!ballots.empty ());
   }
 
-  // Turns all triangles to the side of their component.
-  SurfaceComplex finish (std::vector<Eigen::Vector3f>& normals)
+  // Candidates taken, but for the sure ones, by their first corners.
+  const std::vector<const Candidate*>& takenInOrder ()
   {
-    for (Triangle& corners : complex_.triangles)
-      if (runsClockwise (corners, 0) != sides_.find (corners[0]).flipped)
-        std::swap (corners[1], corners[2]);
+    std::stable_sort (taken_.begin (), taken_.end (), [] (const Candidate* a, const Candidate* b) {
+      return a->corners[0] < b->corners[0];
+    });
+    return taken_;
+  }
+
+  // Turned to the side of its component.
+  Triangle turned (Triangle corners, std::uint8_t clockwise)
+  {
+    if (runsClockwise (clockwise, 0) != sides_.find (corners[0]).flipped)
+      std::swap (corners[1], corners[2]);
+    return corners;
+  }
+
+  void turn (std::vector<Eigen::Vector3f>& normals)
+  {
     for (Index p = 0; p < normals.size (); ++p)
       if (sides_.find (p).flipped)
         normals[p] = -normals[p];
-    std::vector<Index> ().swap (first_corner_);
-    std::vector<Index> ().swap (next_corner_);
-    return inOrderOfPoints ();
   }
 
+  std::vector<Triangle>& misfits () { return misfits_; }
+
 private:
-  // The triangles by their first corners, so that near triangles are near in memory.
-  SurfaceComplex inOrderOfPoints () const
-  {
-    std::vector<Index> at (positions_.size () + 1, 0);
-    for (const Triangle& corners : complex_.triangles)
-      ++at[corners[0] + 1];
-    std::partial_sum (at.begin (), at.end (), at.begin ());
-    SurfaceComplex sorted;
-    sorted.triangles.resize (complex_.triangles.size ());
-    sorted.votes.resize (complex_.triangles.size ());
-    sorted.misfits = complex_.misfits;
-    for (std::size_t t = 0; t < complex_.triangles.size (); ++t) {
-      const Index place = at[complex_.triangles[t][0]]++;
-      sorted.triangles[place] = complex_.triangles[t];
-      sorted.votes[place] = complex_.votes[t];
-    }
-    return sorted;
-  }
+  static constexpr Index UNWATCHED = NONE - 1;
 
   // Votes on two sets of points, by their representatives: for the same side, minus for the other.
   struct Ballot
@@ -152,17 +161,25 @@ private:
     int votes;
   };
 
+  // A triangle taken, at a corner that is watched.
+  struct TakenSector
+  {
+    Index q, r;   // its other corners
+    Index before; // the one taken before it at the same corner
+  };
+
   // The votes of one candidate on the sets of its corners.
   void cast (const Candidate& candidate, std::vector<Ballot>& ballots)
   {
-    for (std::uint8_t i = 0; i < 3; ++i) {
-      const auto j = static_cast<std::uint8_t> ((i + 1U) % 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1U) % 3U;
       const SignedSets::Place a = sides_.find (candidate.corners[i]),
                               b = sides_.find (candidate.corners[j]);
       if (a.root == b.root)
         continue;
-      const bool opposite = (runsClockwise (candidate.corners, i) !=
-                             runsClockwise (candidate.corners, j)) != (a.flipped != b.flipped);
+      const bool opposite =
+          (runsClockwise (candidate.clockwise, i) != runsClockwise (candidate.clockwise, j)) !=
+          (a.flipped != b.flipped);
       ballots.push_back ({std::min (a.root, b.root), std::max (a.root, b.root),
                           opposite ? -candidate.votes : candidate.votes});
     }
@@ -184,20 +201,19 @@ private:
     ballots.resize (pairs);
   }
 
-  void take (const Triangle& corners, std::uint8_t votes)
+  void occupy (const Triangle& corners)
   {
-    const auto t = static_cast<Index> (complex_.triangles.size ());
-    complex_.triangles.push_back (corners);
-    complex_.votes.push_back (votes);
-    for (std::uint8_t i = 0; i < 3; ++i) {
-      next_corner_.push_back (first_corner_[corners[i]]);
-      first_corner_[corners[i]] = 3 * t + i;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Index& last = last_sector_[corners[i]];
+      if (last == UNWATCHED)
+        continue;
+      sectors_.push_back ({corners[(i + 1) % 3], corners[(i + 2) % 3], last});
+      last = static_cast<Index> (sectors_.size () - 1);
     }
   }
 
-  Sector sector (const Triangle& corners, std::uint8_t i) const
+  Sector sector (Index p, Index q, Index r) const
   {
-    const Index p = corners[i], q = corners[(i + 1U) % 3U], r = corners[(i + 2U) % 3U];
     const TangentFrame frame (normals_[p].cast<double> ());
     Sector sector{q, r, frame.project (positions_[q] - positions_[p]),
                   frame.project (positions_[r] - positions_[p])};
@@ -208,32 +224,24 @@ private:
     return sector;
   }
 
-  // True if a triangle taken overlaps another at one of its corners.
+  // True if a triangle taken overlaps another at one of its corners, which are watched.
   bool isTaken (const Triangle& corners) const
   {
-    for (std::uint8_t i = 0; i < 3; ++i) {
-      const Sector wanted = sector (corners, i);
-      for (Index c = first_corner_[corners[i]]; c != NONE; c = next_corner_[c])
-        if (overlap (wanted, sector (complex_.triangles[c / 3], static_cast<std::uint8_t> (c % 3))))
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index p = corners[i];
+      const Sector wanted = sector (p, corners[(i + 1) % 3], corners[(i + 2) % 3]);
+      for (Index s = last_sector_[p]; s != NONE; s = sectors_[s].before)
+        if (overlap (wanted, sector (p, sectors_[s].q, sectors_[s].r)))
           return true;
     }
     return false;
   }
 
-  bool runsClockwise (const Triangle& corners, std::uint8_t i) const
+  // True if a triangle fits the sides told by the triangles taken, which it then joins.
+  bool isOriented (const Triangle& corners, std::uint8_t clockwise)
   {
-    const Index p = corners[i], q = corners[(i + 1U) % 3U], r = corners[(i + 2U) % 3U];
-    const Eigen::Vector3d normal =
-        (positions_[q] - positions_[p]).cross (positions_[r] - positions_[p]);
-    return normal.dot (normals_[p].cast<double> ()) < 0.0;
-  }
-
-  // True if the candidate fits the sides told by the triangles taken, which it then joins.
-  bool isOriented (const Candidate& candidate)
-  {
-    const Triangle& corners = candidate.corners;
-    const bool a = runsClockwise (corners, 0), b = runsClockwise (corners, 1),
-               c = runsClockwise (corners, 2);
+    const bool a = runsClockwise (clockwise, 0), b = runsClockwise (clockwise, 1),
+               c = runsClockwise (clockwise, 2);
     const SignedSets::Place at_a = sides_.find (corners[0]), at_b = sides_.find (corners[1]),
                             at_c = sides_.find (corners[2]);
     const auto contradicts = [] (const SignedSets::Place& p, const SignedSets::Place& q,
@@ -243,99 +251,203 @@ private:
     if (contradicts (at_a, at_b, a != b) || contradicts (at_a, at_c, a != c) ||
         contradicts (at_b, at_c, b != c))
       return false;
-    sides_.join (corners[0], corners[1], a != b);
-    sides_.join (corners[0], corners[2], a != c);
+    if (at_a.root != at_b.root)
+      sides_.join (corners[0], corners[1], a != b);
+    if (at_a.root != at_c.root)
+      sides_.join (corners[0], corners[2], a != c);
     return true;
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<Eigen::Vector3f>& normals_;
-  SignedSets sides_;                // of the points' normals
-  std::vector<Index> first_corner_; // per point: 3 t + i of its last triangle taken
-  std::vector<Index> next_corner_;  // per 3 t + i: the one taken before it at the same point
-  SurfaceComplex complex_;
+  SignedSets sides_;               // of the points' normals
+  std::vector<Index> last_sector_; // per point: of the sectors taken there; NONE, UNWATCHED
+  std::vector<TakenSector> sectors_;
+  std::vector<const Candidate*> taken_;
+  std::vector<Triangle> misfits_;
 };
 
-// The order in which candidates are offered. The trees of normals grow along triangles that agree
-// best, like a spanning forest of least cost; that takes classes of agreement, no full order, for
-// the many candidates of three votes.
-std::vector<Index>
-inOrder (const std::vector<Candidate>& candidates)
+// The order in which doubtful candidates are offered. The trees of normals grow along triangles
+// that agree best, like a spanning forest of least cost; that takes classes of agreement, no full
+// order, for the candidates of three votes. These come first.
+// \return how many have three votes
+std::size_t
+putInOrder (std::vector<const Candidate*>& candidates)
 {
-  std::array<std::size_t, CLASSES + 2> begin{};
-  const auto classOf = [] (const Candidate& candidate) {
-    if (candidate.votes < 3)
-      return CLASSES;
-    const auto steps = static_cast<std::size_t> ((1.0F - candidate.agreement) * CLASSES);
-    return std::min (steps, CLASSES - 1);
+  const auto few = std::stable_partition (candidates.begin (), candidates.end (),
+                                          [] (const Candidate* c) { return c->votes == 3; });
+  std::stable_sort (candidates.begin (), few, [] (const Candidate* a, const Candidate* b) {
+    return agreementRank (*a) < agreementRank (*b);
+  });
+  std::sort (few, candidates.end (), [] (const Candidate* a, const Candidate* b) {
+    return std::tie (b->votes, b->agreement, a->size, a->corners) <
+           std::tie (a->votes, a->agreement, b->size, b->corners);
+  });
+  return static_cast<std::size_t> (few - candidates.begin ());
+}
+
+// Appends triangles with votes.
+void
+append (const Triangle& corners, std::uint8_t votes, SurfaceComplex& complex)
+{
+  complex.triangles.push_back (corners);
+  complex.votes.push_back (votes);
+}
+
+// The sure and the doubtful triangles taken, by their first corners.
+void
+collect (ComplexBuilder& builder, const std::vector<CandidateLists>& candidates,
+         std::size_t sure_taken, SurfaceComplex& complex)
+{
+  const std::vector<const Candidate*>& doubtful = builder.takenInOrder ();
+  complex.triangles.reserve (sure_taken + doubtful.size ());
+  complex.votes.reserve (sure_taken + doubtful.size ());
+  auto next = doubtful.begin ();
+  const auto appendDoubtfulBefore = [&] (Index p) {
+    for (; next != doubtful.end () && (*next)->corners[0] < p; ++next)
+      append (builder.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, complex);
   };
+  for (const CandidateLists& lists : candidates)
+    for (std::size_t i = 0, end = 0; i < lists.sure.size (); i = end) {
+      const Index p = lists.sure[i].corners[0];
+      appendDoubtfulBefore (p);
+      while (end < lists.sure.size () && lists.sure[end].corners[0] == p)
+        ++end;
+      for (std::uint8_t rank = 0; rank < SURE_RANKS; ++rank)
+        for (std::size_t j = i; j < end; ++j)
+          if (lists.sure[j].rank == rank && lists.sure[j].is_taken)
+            append (builder.turned (lists.sure[j].corners, lists.sure[j].clockwise), 3, complex);
+    }
+  appendDoubtfulBefore (NONE);
+  complex.misfits.swap (builder.misfits ());
+}
+
+// Tells which candidates have all their corners at the rims of a mesh, or at points without
+// triangles: elsewhere there is no room.
+class Room
+{
+public:
+  explicit Room (const SurfaceMesh& mesh) : has_room_ (mesh.triangle_of.size (), 0)
+  {
+    for (Index p = 0; p < has_room_.size (); ++p)
+      has_room_[p] = mesh.triangle_of[p] == NONE ? 1 : 0;
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh.neighbors[t][side] == NONE)
+          has_room_[mesh.from ({t, side})] = has_room_[mesh.to ({t, side})] = 1;
+  }
+
+  bool isAt (const Triangle& corners) const
+  {
+    return has_room_[corners[0]] != 0 && has_room_[corners[1]] != 0 && has_room_[corners[2]] != 0;
+  }
+
+private:
+  std::vector<std::uint8_t> has_room_;
+};
+
+// Candidates where there is room, as they are oriented now; what is sure counts as doubtful here.
+std::vector<Candidate>
+findOpen (const std::vector<Eigen::Vector3d>& positions,
+          const std::vector<CandidateLists>& candidates, const SurfaceMesh& mesh,
+          const std::vector<Eigen::Vector3f>& normals)
+{
+  const Room room (mesh);
+  std::vector<Candidate> open;
+  for (const CandidateLists& lists : candidates) {
+    for (const SureTriangle& sure : lists.sure)
+      if (room.isAt (sure.corners))
+        open.push_back ({sure.corners, 3, 0, 0.0F, 0.0F});
+    for (const Candidate& doubtful : lists.doubtful)
+      if (room.isAt (doubtful.corners))
+        open.push_back (doubtful);
+  }
+  for (Candidate& candidate : open)
+    judge (positions, normals, candidate);
+  std::stable_sort (open.begin (), open.end (), [] (const Candidate& a, const Candidate& b) {
+    return a.corners[0] < b.corners[0];
+  });
+  return open;
+}
+
+std::vector<const Candidate*>
+pointersTo (const std::vector<Candidate>& candidates)
+{
+  std::vector<const Candidate*> pointers;
+  pointers.reserve (candidates.size ());
   for (const Candidate& candidate : candidates)
-    ++begin[classOf (candidate) + 1];
-  std::partial_sum (begin.begin (), begin.end (), begin.begin ());
-  std::vector<Index> order (candidates.size ());
-  for (Index i = 0; i < candidates.size (); ++i)
-    order[begin[classOf (candidates[i])]++] = i;
-  const std::size_t doubtful = begin[CLASSES - 1];
-  std::sort (order.begin () + static_cast<std::ptrdiff_t> (doubtful), order.end (),
-             [&candidates] (Index i, Index j) {
-               const Candidate &a = candidates[i], &b = candidates[j];
-               return std::tie (b.votes, b.agreement, a.size, a.corners) <
-                      std::tie (a.votes, a.agreement, b.size, b.corners);
-             });
-  return order;
+    pointers.push_back (&candidate);
+  return pointers;
 }
 
 } // namespace
 
 SurfaceComplex
 buildComplex (const std::vector<Eigen::Vector3d>& positions,
-              const std::vector<Candidate>& candidates, std::vector<Eigen::Vector3f>& normals)
+              std::vector<CandidateLists>& candidates, std::vector<Eigen::Vector3f>& normals)
 {
-  const std::vector<Index> order = inOrder (candidates);
-  const auto firstWhere = [&] (auto&& predicate) {
-    return static_cast<std::size_t> (
-        std::find_if (order.begin (), order.end (),
-                      [&] (Index i) { return predicate (candidates[i]); }) -
-        order.begin ());
-  };
-  const std::size_t sure =
-      firstWhere ([] (const Candidate& c) { return c.votes < 3 || c.agreement < SURE_AGREEMENT; });
-  const std::size_t doubtful = firstWhere ([] (const Candidate& c) { return c.votes < 3; });
-  ComplexBuilder builder (positions, normals, candidates.size ());
-  for (std::size_t i = 0; i < sure; ++i)
-    builder.offer (candidates[order[i]], false);
-  builder.orientSets (candidates, order.data () + sure, order.data () + doubtful);
-  for (std::size_t i = sure; i < order.size (); ++i)
-    builder.offer (candidates[order[i]], i >= doubtful);
-  return builder.finish (normals);
+  std::vector<const Candidate*> doubtful;
+  for (const CandidateLists& lists : candidates)
+    for (const Candidate& candidate : lists.doubtful)
+      doubtful.push_back (&candidate);
+  const std::size_t of_three_votes = putInOrder (doubtful);
+
+  ComplexBuilder builder (positions, normals);
+  for (std::size_t i = of_three_votes; i < doubtful.size (); ++i)
+    builder.watch (doubtful[i]->corners);
+  std::size_t sure_taken = 0;
+  for (std::uint8_t rank = 0; rank < SURE_RANKS; ++rank)
+    for (CandidateLists& lists : candidates)
+      for (SureTriangle& sure : lists.sure)
+        if (sure.rank == rank) {
+          sure.is_taken = builder.offer (sure);
+          sure_taken += sure.is_taken ? 1 : 0;
+        }
+  builder.orientSets (doubtful.data (), doubtful.data () + of_three_votes);
+  for (std::size_t i = 0; i < doubtful.size (); ++i)
+    builder.offer (*doubtful[i], i >= of_three_votes);
+
+  SurfaceComplex complex;
+  collect (builder, candidates, sure_taken, complex);
+  builder.turn (normals);
+  return complex;
 }
 
-SurfaceComplex
+bool
 extendComplex (const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<Candidate>& candidates, const SurfaceMesh& mesh,
-               std::vector<Eigen::Vector3f>& normals)
+               const std::vector<CandidateLists>& candidates, const SurfaceMesh& mesh,
+               std::vector<Eigen::Vector3f>& normals, SurfaceComplex& complex)
 {
-  // Only at the rims, and at points without triangles, is there room.
-  std::vector<std::uint8_t> has_room (positions.size (), 0);
-  for (Index p = 0; p < positions.size (); ++p)
-    has_room[p] = mesh.triangle_of[p] == NONE ? 1 : 0;
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] == NONE)
-        has_room[mesh.from ({t, side})] = has_room[mesh.to ({t, side})] = 1;
-  std::vector<Candidate> open;
-  std::copy_if (candidates.begin (), candidates.end (), std::back_inserter (open),
-                [&has_room] (const Candidate& candidate) {
-                  const auto& [a, b, c] = candidate.corners;
-                  return has_room[a] != 0 && has_room[b] != 0 && has_room[c] != 0;
-                });
-  const std::vector<Index> order = inOrder (open);
-  ComplexBuilder builder (positions, normals, mesh.triangles.size () + open.size ());
-  builder.start (mesh);
-  builder.orientSets (open, order.data (), order.data () + order.size ());
-  for (Index i : order)
-    builder.offer (open[i], true);
-  return builder.finish (normals);
+  const std::vector<Candidate> open = findOpen (positions, candidates, mesh, normals);
+  if (open.empty ())
+    return false;
+  std::vector<const Candidate*> order = pointersTo (open);
+  putInOrder (order);
+  ComplexBuilder builder (positions, normals);
+  for (const Candidate* candidate : order)
+    builder.watch (candidate->corners);
+  for (const Triangle& corners : mesh.triangles)
+    builder.start (corners);
+  builder.orientSets (order.data (), order.data () + order.size ());
+  for (const Candidate* candidate : order)
+    builder.offer (*candidate, true);
+
+  const std::vector<const Candidate*>& taken = builder.takenInOrder ();
+  complex.triangles.reserve (mesh.triangles.size () + taken.size ());
+  complex.votes.reserve (mesh.triangles.size () + taken.size ());
+  auto next = taken.begin ();
+  const auto appendTakenBefore = [&] (Index p) {
+    for (; next != taken.end () && (*next)->corners[0] < p; ++next)
+      append (builder.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, complex);
+  };
+  for (const Triangle& corners : mesh.triangles) {
+    appendTakenBefore (corners[0]);
+    append (builder.turned (corners, 0), 3, complex);
+  }
+  appendTakenBefore (NONE);
+  complex.misfits.swap (builder.misfits ());
+  builder.turn (normals);
+  return true;
 }
 
 } // namespace floater

@@ -16,7 +16,7 @@ namespace floater
 /// plane: every edge has one or two. A point may still have several fans (see manifold_part.h).
 struct SurfaceComplex
 {
-  std::vector<Triangle> triangles;
+  std::vector<Triangle> triangles; ///< ordered by their first corners: near ones near in memory
   std::vector<std::uint8_t> votes; ///< of each triangle
   std::vector<Triangle> misfits;   ///< of three votes, left out since they would turn the
                                    ///< orientation round: a row of them on a one-sided surface
@@ -26,19 +26,24 @@ struct SurfaceComplex
 /// A candidate is taken if at none of its corners its sector overlaps one that is taken, and if it
 /// is oriented like the triangles that it hangs together with: a forest of points tells whether two
 /// normals point to the same side (union-find with parity). Normals get the signs so found.
-/// O(n log n) for the candidates of one and two votes.
-/// \param normals in and out: unit normals of the points
+/// O(n) for sure candidates, O(m log m) for m doubtful ones.
+/// \param candidates of blocks one after the other, ordered by first corners over all of them; what
+/// is taken of the sure ones is marked
+/// \param normals in and out: unit normals of the points, those by which candidates were judged
 SurfaceComplex
 buildComplex (const std::vector<Eigen::Vector3d>& positions,
-              const std::vector<Candidate>& candidates, std::vector<Eigen::Vector3f>& normals);
+              std::vector<CandidateLists>& candidates, std::vector<Eigen::Vector3f>& normals);
 
 /// Offers the candidates once more to the rims of a mesh. Its pieces were oriented each by itself;
 /// now the candidates that would join two of them vote on whether one is to be turned round first.
+/// \param mesh triangles ordered by first corners
 /// \param normals as the triangles are oriented
-SurfaceComplex
+/// \param complex the mesh's triangles and those that fit to it; untouched if there is no candidate
+/// \return false if there is no candidate
+bool
 extendComplex (const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<Candidate>& candidates, const SurfaceMesh& mesh,
-               std::vector<Eigen::Vector3f>& normals);
+               const std::vector<CandidateLists>& candidates, const SurfaceMesh& mesh,
+               std::vector<Eigen::Vector3f>& normals, SurfaceComplex& complex);
 
 } // namespace floater
 } // namespace pcl

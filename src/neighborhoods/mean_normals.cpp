@@ -12,7 +12,6 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t MEAN_OVER = 8;  // nearest points
 constexpr double PERPENDICULAR = 0.1; // cosine below which it does not tell the side
 constexpr double CREASE = 0.9;        // cosine between own and mean normal
 } // namespace
@@ -39,14 +38,14 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near
 }
 
 std::vector<Eigen::Vector3f>
-creaseNormals (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-               const std::vector<Eigen::Vector3f>& normals, int threads)
+creaseNormals (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+               const FlatLists& near, const std::vector<Eigen::Vector3f>& normals, int threads)
 {
   std::vector<Eigen::Vector3f> crease (normals.size ());
-  parallelRanges (normals.size (), threads, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const Eigen::Vector3f mean =
-          meanNormal (positions, near, normals, static_cast<Index> (p)).cast<float> ();
+  parallelRanges (rows.size (), threads, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Index p = rows[i];
+      const Eigen::Vector3f mean = meanNormal (positions, near, normals, p).cast<float> ();
       crease[p] = std::abs (mean.dot (normals[p])) < CREASE ? mean : normals[p];
     }
   });

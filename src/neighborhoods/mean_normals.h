@@ -17,11 +17,14 @@ Eigen::Vector3d
 meanNormal (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
             const std::vector<Eigen::Vector3f>& normals, Index p);
 
-/// The mean normal of every point where it is more than 26 degrees (cosine 0.9) off the point's
-/// own, which it else is. O(n).
+/// The mean normals of some points where they are more than 26 degrees (cosine 0.9) off the points'
+/// own, which they else are; zero for the other points. O(n).
 std::vector<Eigen::Vector3f>
-creaseNormals (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-               const std::vector<Eigen::Vector3f>& normals, int threads);
+creaseNormals (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+               const FlatLists& near, const std::vector<Eigen::Vector3f>& normals, int threads);
+
+/// Nearest points over which the mean is taken.
+constexpr std::size_t MEAN_OVER = 8;
 
 } // namespace floater
 } // namespace pcl

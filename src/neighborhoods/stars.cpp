@@ -94,12 +94,10 @@ private:
   std::vector<PlanarNeighbor> star_, wider_;
 };
 
-} // namespace
-
 Stars
-makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
-           const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
-           StarKind kind, bool with_offsets)
+makeSomeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+               const std::vector<Eigen::Vector3f>& normals, const Selection& rows,
+               bool filter_sheets, int threads, StarKind kind, bool with_offsets)
 {
   const std::size_t n = positions.size ();
   Stars stars;
@@ -113,13 +111,14 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
     std::vector<Index> ids;
     std::vector<Eigen::Vector2d> offsets;
   };
-  std::vector<Range> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (n, threads, [&] (std::size_t first, std::size_t last) {
+  std::vector<Range> ranges ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (rows.size (), threads, [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, near, normals, kind);
     Range& range = ranges[first / RANGE_LENGTH];
     range.ids.reserve (7 * (last - first));
-    for (std::size_t p = first; p < last; ++p) {
-      stars.open[p] = maker.make (static_cast<Index> (p), filter_sheets, stars.normals[p]) ? 1 : 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const Index p = rows[i];
+      stars.open[p] = maker.make (p, filter_sheets, stars.normals[p]) ? 1 : 0;
       stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
       for (const PlanarNeighbor& neighbor : maker.star ()) {
         range.ids.push_back (neighbor.point);
@@ -141,18 +140,46 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
   return stars;
 }
 
+} // namespace
+
+Stars
+makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
+           const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
+           StarKind kind)
+{
+  return makeSomeStars (positions, near, normals, Selection::all (positions.size ()), filter_sheets,
+                        threads, kind, true);
+}
+
+Stars
+makeStarsOf (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+             const FlatLists& near, const std::vector<Eigen::Vector3f>& normals, bool filter_sheets,
+             int threads)
+{
+  return makeSomeStars (positions, near, normals, rows, filter_sheets, threads, StarKind::DELAUNAY,
+                        false);
+}
+
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads)
 {
+  return localSpacing (Selection::all (positions.size ()), positions, near, threads);
+}
+
+std::vector<float>
+localSpacing (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+              const FlatLists& near, int threads)
+{
   constexpr std::size_t NEAREST = 6;
   std::vector<float> spacing (positions.size ());
-  parallelRanges (positions.size (), threads, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
+  parallelRanges (rows.size (), threads, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Index p = rows[i];
       const Row row = near.row (p);
       const std::size_t count = std::min (NEAREST, row.size ());
       double sum = 0.0;
-      for (std::size_t i = 0; i < count; ++i)
-        sum += (positions[row[i]] - positions[p]).norm ();
+      for (std::size_t j = 0; j < count; ++j)
+        sum += (positions[row[j]] - positions[p]).norm ();
       spacing[p] =
           static_cast<float> (sum / static_cast<double> (std::max<std::size_t> (1, count)));
     }

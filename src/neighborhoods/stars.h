@@ -27,15 +27,26 @@ enum class StarKind
 ///  4. where that star is open too, take that of all neighbours if it is closed.
 /// A star open in all tiers is that of tier 1. O(n k log k).
 /// \param normals of each point; the stars' normals are these but for stars of tier 2
-/// \param with_offsets false: offsets_in_plane, 16 bytes per entry, stay empty
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
            const std::vector<Eigen::Vector3f>& normals, bool filter_sheets, int threads,
-           StarKind kind = StarKind::DELAUNAY, bool with_offsets = true);
+           StarKind kind = StarKind::DELAUNAY);
+
+/// Delaunay stars of some points only: the others' are empty, and their normals zero. Without
+/// offsets in the plane, which take 16 bytes per entry.
+Stars
+makeStarsOf (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+             const FlatLists& near, const std::vector<Eigen::Vector3f>& normals, bool filter_sheets,
+             int threads);
 
 /// Distance scale of the sampling around each point: mean distance of its 6 nearest neighbours.
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads);
+
+/// The same of some points; 0 for the others.
+std::vector<float>
+localSpacing (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+              const FlatLists& near, int threads);
 
 } // namespace floater
 } // namespace pcl

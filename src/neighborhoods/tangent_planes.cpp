@@ -64,14 +64,21 @@ fitPlane (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors)
 } // namespace
 
 std::vector<Eigen::Vector3f>
-fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads)
+fitTangentPlanes (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+                  const FlatLists& near, int threads)
 {
   std::vector<Eigen::Vector3f> normals (positions.size ());
-  parallelRanges (positions.size (), threads, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      normals[p] = fitPlane (positions, static_cast<Index> (p), near.row (p)).cast<float> ();
+  parallelRanges (rows.size (), threads, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      normals[rows[i]] = fitPlane (positions, rows[i], near.row (rows[i])).cast<float> ();
   });
   return normals;
+}
+
+std::vector<Eigen::Vector3f>
+fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near, int threads)
+{
+  return fitTangentPlanes (Selection::all (positions.size ()), positions, near, threads);
 }
 
 } // namespace floater

@@ -17,5 +17,10 @@ std::vector<Eigen::Vector3f>
 fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const FlatLists& near,
                   int threads);
 
+/// The same of some points; zero for the others.
+std::vector<Eigen::Vector3f>
+fitTangentPlanes (const Selection& rows, const std::vector<Eigen::Vector3d>& positions,
+                  const FlatLists& near, int threads);
+
 } // namespace floater
 } // namespace pcl

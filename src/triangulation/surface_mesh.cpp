@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation/surface_mesh.h"
 
+#include "common/parallel.h"
+
 #include <algorithm>
+#include <atomic>
 
 namespace pcl
 {
@@ -180,48 +183,62 @@ SurfaceMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
 }
 
 bool
-SurfaceMesh::connect (std::size_t points)
+SurfaceMesh::connect (std::size_t points, int threads)
 {
   // Directed edges bucketed by their first point.
   triangle_of.assign (points, NONE);
-  neighbors.assign (triangles.size (), {NONE, NONE, NONE});
-  std::vector<Index> offsets (points + 1, 0);
+  neighbors.resize (triangles.size ());
+  std::vector<Index> offsets (points + 2, 0);
   for (const Triangle& corners : triangles)
     for (Index p : corners)
-      ++offsets[p + 1];
+      ++offsets[p + 2];
   for (std::size_t p = 0; p < points; ++p)
-    offsets[p + 1] += offsets[p];
+    offsets[p + 2] += offsets[p + 1];
   std::vector<Index> leaving (3 * triangles.size ()); // 3 t + side
+  for (Index t = 0; t < triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index p = from ({t, side});
+      leaving[offsets[p + 1]++] = 3 * t + side; // moves every offset to its place
+      triangle_of[p] = t;
+    }
+  std::atomic<bool> is_manifold{true};
+  parallelRanges (points, threads, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last && is_manifold; ++p)
+      if (!connectFrom (static_cast<Index> (p), offsets, leaving))
+        is_manifold = false;
+  });
+  if (!is_manifold)
+    return false;
+  parallelRanges (points, threads, [&] (std::size_t first, std::size_t last) {
+    std::vector<Index> fan_triangles;
+    for (std::size_t p = first; p < last && is_manifold; ++p) {
+      fan (static_cast<Index> (p), fan_triangles);
+      if (fan_triangles.size () != offsets[p + 1] - offsets[p])
+        is_manifold = false; // more than one fan
+    }
+  });
+  return is_manifold;
+}
+
+bool
+SurfaceMesh::connectFrom (Index p, const std::vector<Index>& offsets,
+                          const std::vector<Index>& leaving)
+{
   const auto edge = [&leaving] (Index i) {
     return MeshEdge{leaving[i] / 3, static_cast<std::uint8_t> (leaving[i] % 3)};
   };
-  {
-    std::vector<Index> at (offsets.begin (), offsets.end () - 1);
-    for (Index t = 0; t < triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index p = from ({t, side});
-        leaving[at[p]++] = 3 * t + side;
-        triangle_of[p] = t;
-      }
-  }
-  for (Index p = 0; p < points; ++p)
-    for (Index i = offsets[p]; i < offsets[p + 1]; ++i) {
-      const MeshEdge e = edge (i);
-      const Index q = to (e);
-      if (q == p)
-        return false;
-      for (Index j = i + 1; j < offsets[p + 1]; ++j)
-        if (to (edge (j)) == q)
-          return false; // the same directed edge twice
-      for (Index j = offsets[q]; j < offsets[q + 1]; ++j)
-        if (to (edge (j)) == p)
-          neighbors[e.triangle][e.side] = edge (j).triangle;
-    }
-  std::vector<Index> fan_triangles;
-  for (Index p = 0; p < points; ++p) {
-    fan (p, fan_triangles);
-    if (fan_triangles.size () != offsets[p + 1] - offsets[p])
-      return false; // more than one fan
+  for (Index i = offsets[p]; i < offsets[p + 1]; ++i) {
+    const MeshEdge e = edge (i);
+    const Index q = to (e);
+    if (q == p)
+      return false;
+    for (Index j = i + 1; j < offsets[p + 1]; ++j)
+      if (to (edge (j)) == q)
+        return false; // the same directed edge twice
+    neighbors[e.triangle][e.side] = NONE;
+    for (Index j = offsets[q]; j < offsets[q + 1]; ++j)
+      if (to (edge (j)) == p)
+        neighbors[e.triangle][e.side] = edge (j).triangle;
   }
   return true;
 }

@@ -108,9 +108,11 @@ struct SurfaceMesh
 
   /// Sets neighbours and triangle_of from the triangles. O(n).
   /// \return false if the triangles are no oriented manifold (the mesh is then unusable)
-  bool connect (std::size_t points);
+  bool connect (std::size_t points, int threads = 1);
 
 private:
+  // Sets the neighbours across the edges that leave p. False if one leaves it twice.
+  bool connectFrom (Index p, const std::vector<Index>& offsets, const std::vector<Index>& leaving);
   void link (Index t, std::uint8_t side, MeshEdge other);
   void set (Index t, const Triangle& corners);
   void setTriangleOf (Index p, Index t);
