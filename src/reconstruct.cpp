@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace pcl
 {
@@ -25,30 +26,41 @@ constexpr std::size_t LARGEST_SECOND_TRY = 300'000; // points; a second and half
 // Beyond the report: the mesh as it is, on the user's own points, whatever the stages think that
 // they made.
 Problem
-examine (Samples& samples, const SurfaceMesh& mesh, const Options& options, StageClock& clock,
-         Report& report)
+examine (Samples& samples, const std::vector<Triangle>& triangles, const Options& options,
+         StageClock& clock, Report& report)
 {
   clock.start (Stage::CHECK);
   if (!samples.noisy.empty ())
     samples.set.positions.swap (samples.noisy);
   const std::vector<float> spacing =
       localSpacing (samples.set.positions, samples.near, options.threads);
-  const MeshExamination found = checkMesh (mesh.triangles, samples.set, spacing);
+  samples.near = {};
+  samples.stars = {};
+  const MeshExamination found = checkMesh (triangles, samples.set, spacing);
   report.statistics.folds = found.check.folds;
   return reportCheck (samples.set, found, options, report);
 }
 
-// Makes the mesh of a disc the result.
+// Examines a mesh and makes it the result.
 Problem
-useDisc (Samples& samples, const Disc& disc, const Options& options, StageClock& clock,
-         Result& result)
+useMesh (Samples& samples, SurfaceMesh mesh, const SurfaceFinish& finish, const Options& options,
+         StageClock& clock, Result& result)
+{
+  std::vector<Triangle> triangles = std::move (mesh.triangles);
+  mesh = {};
+  Problem problem = examine (samples, triangles, options, clock, result.report);
+  result.triangles = reportMesh (samples.set, std::move (triangles), finish, result.report);
+  return problem;
+}
+
+Problem
+useDisc (Samples& samples, Disc disc, const Options& options, StageClock& clock, Result& result)
 {
   result.report.topology = Topology::DISC;
   reportBoundary (samples.set, disc.boundary, result.report);
   if (disc.problem)
     return disc.problem;
-  result.triangles = reportMesh (samples.set, disc.mesh, disc.finish, result.report);
-  return examine (samples, disc.mesh, options, clock, result.report);
+  return useMesh (samples, std::move (disc.mesh), disc.finish, options, clock, result);
 }
 
 std::size_t
@@ -114,19 +126,17 @@ reconstructAny (Input& input, const Options& options, Result& result)
     report.topology_reason =
         options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
     disc = makeDisc (samples, options, clock, report);
-    return useDisc (samples, disc, options, clock, result);
+    return useDisc (samples, std::move (disc), options, clock, result);
   }
-  const Surface surface = makeSurface (samples.set.positions, samples.ownPositions (), samples.near,
-                                       samples.stars, 1.0 / samples.set.scale, options, clock);
+  Surface surface = makeSurface (samples, options, clock);
   reportOneSided (samples.set, surface.cut, report);
   if (isDiscBetter (samples, surface, options, clock, report, disc)) {
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
-    return useDisc (samples, disc, options, clock, result);
+    return useDisc (samples, std::move (disc), options, clock, result);
   }
   report.topology = Topology::SURFACE;
   report.statistics.holes_filled = surface.holes_filled;
-  result.triangles = reportMesh (samples.set, surface.mesh, surface.finish, report);
-  return examine (samples, surface.mesh, options, clock, report);
+  return useMesh (samples, std::move (surface.mesh), surface.finish, options, clock, result);
 }
 
 } // namespace

@@ -221,10 +221,9 @@ mirrorParameters (Report& report)
 }
 
 std::vector<Triangle>
-reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
+reportMesh (const WorkingSet& set, std::vector<Triangle> triangles, const SurfaceFinish& finish,
             Report& report)
 {
-  std::vector<Triangle> triangles = mesh.triangles;
   for (Triangle& triangle : triangles)
     for (Index& p : triangle)
       p = set.cloud_index[p];

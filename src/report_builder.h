@@ -46,9 +46,9 @@ reportOneSided (const WorkingSet& set, const std::vector<Triangle>& cut, Report&
 void
 mirrorParameters (Report& report);
 
-/// Triangles in cloud indices, and counts.
+/// Triangles from working set to cloud indices, and counts.
 std::vector<Triangle>
-reportMesh (const WorkingSet& set, const SurfaceMesh& mesh, const SurfaceFinish& finish,
+reportMesh (const WorkingSet& set, std::vector<Triangle> triangles, const SurfaceFinish& finish,
             Report& report);
 
 /// What checkMesh () found: its figures, in a few words if they are why no disc was made, points

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "samples.h"
 
+#include "blocks/block_driver.h"
 #include "neighborhoods/ball_neighbors.h"
 #include "neighborhoods/nearest_neighbors.h"
 #include "neighborhoods/noise.h"
@@ -12,6 +13,7 @@
 #include "validation.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl
 {
@@ -19,19 +21,58 @@ namespace floater
 {
 namespace
 {
-FlatLists
-findNeighbors (const WorkingSet& set, const Options& options, NeighborSearch* search)
+bool
+hasBalls (const Options& options)
 {
-  if (options.neighborhood == Neighborhood::BALL ||
-      options.neighborhood == Neighborhood::BALL_DELAUNAY)
-    return findBallNeighbors (set, options.ball_radius, search, options.threads);
-  return findNearestNeighbors (set, options.k, search, options.threads);
+  return options.neighborhood == Neighborhood::BALL ||
+         options.neighborhood == Neighborhood::BALL_DELAUNAY;
 }
+
+// Finds neighbours, and, if in blocks, all that comes of them.
+class NeighborFinder
+{
+public:
+  NeighborFinder (const Options& options, NeighborSearch* search, std::size_t points)
+      : options_ (options), search_ (search),
+        blocks_ (asksForDisc (options) || hasBalls (options) || search != nullptr
+                     ? 1
+                     : chooseBlocks (points, options.blocks, options.threads))
+  {
+  }
+
+  bool isInBlocks () const { return blocks_ > 1; }
+
+  void find (Samples& samples) const
+  {
+    if (!isInBlocks ()) {
+      samples.near =
+          hasBalls (options_)
+              ? findBallNeighbors (samples.set, options_.ball_radius, search_, options_.threads)
+              : findNearestNeighbors (samples.set, options_.k, search_, options_.threads);
+      return;
+    }
+    samples.near = {};
+    samples.candidates.clear ();
+    ThreadDriver driver (options_.threads);
+    CloudSurface cloud = makeCloudSurface (samples.set.positions, blocks_, options_, driver);
+    samples.near = std::move (cloud.near);
+    samples.spacing = std::move (cloud.spacing);
+    samples.stars.normals = std::move (cloud.normals);
+    samples.crease = std::move (cloud.crease);
+    samples.candidates = std::move (cloud.candidates);
+  }
+
+private:
+  const Options& options_;
+  NeighborSearch* search_;
+  std::size_t blocks_;
+};
 
 // Beyond the report: points that lie off any surface would be woven in as spikes. Those that the
 // user's loop names stay.
 void
-leaveOutliersOut (Samples& samples, const Options& options, NeighborSearch* search, Report& report)
+leaveOutliersOut (Samples& samples, const Options& options, const NeighborFinder& finder,
+                  Report& report)
 {
   const WorkingSet& set = samples.set;
   std::vector<Index> outliers = findOutliers (set.positions, samples.near, options.threads);
@@ -44,13 +85,13 @@ leaveOutliersOut (Samples& samples, const Options& options, NeighborSearch* sear
     return;
   std::vector<Index> cloud_indices = removePoints (samples.set, outliers);
   reportOutliers (std::move (cloud_indices), set.positions.size (), report);
-  samples.near = findNeighbors (set, options, search);
+  finder.find (samples);
 }
 
 // Beyond the report: where noise is strong, triangles join the points as they lie in their local
 // planes. The mesh is triangles only, so that the user's points stay where they are.
 void
-smoothNoise (Samples& samples, const Options& options, NeighborSearch* search, Report& report)
+smoothNoise (Samples& samples, const Options& options, const NeighborFinder& finder, Report& report)
 {
   std::vector<Eigen::Vector3d>& positions = samples.set.positions;
   const double noise = measureNoise (positions, samples.near, options.threads);
@@ -60,7 +101,26 @@ smoothNoise (Samples& samples, const Options& options, NeighborSearch* search, R
     return;
   samples.noisy = projectOntoPlanes (positions, samples.near, options.threads);
   samples.noisy.swap (positions);
-  samples.near = findNeighbors (samples.set, options, search);
+  finder.find (samples);
+}
+
+// Section 4.1: Delaunay neighbourhoods in the tangent planes.
+void
+findStars (Samples& samples, const Options& options)
+{
+  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
+  if (asksForDisc (options)) {
+    samples.stars = makeStars (positions, samples.near,
+                               fitTangentPlanes (positions, samples.near, options.threads),
+                               options.filter_sheets, options.threads);
+    return;
+  }
+  BlockSurface whole =
+      makeWholeSurface (positions, samples.near, options.filter_sheets, options.threads);
+  samples.spacing = std::move (whole.spacing);
+  samples.stars.normals = std::move (whole.normals);
+  samples.crease = std::move (whole.crease);
+  samples.candidates.push_back (std::move (whole.candidates));
 }
 
 } // namespace
@@ -79,29 +139,24 @@ prepareSamples (Input& input, const Options& options, StageClock& clock, Samples
   clock.start (Stage::WORKING_SET);
   samples.set = makeWorkingSet (input.positions, input.cloud_index, options.threads);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
+  std::vector<Index> ().swap (input.cloud_index);
   reportWorkingSet (samples.set, report);
   if (Problem problem = checkWorkingSet (samples.set))
     return problem;
 
   // Sections 5 and 6: the same neighbours, the k nearest or those in a ball, serve boundary and
   // weights alike.
-  clock.start (Stage::NEIGHBORS);
-  samples.near = findNeighbors (samples.set, options, input.search);
+  const NeighborFinder finder (options, input.search, samples.set.positions.size ());
+  clock.start (finder.isInBlocks () ? Stage::STARS : Stage::NEIGHBORS);
+  finder.find (samples);
   if (options.remove_outliers)
-    leaveOutliersOut (samples, options, input.search, report);
+    leaveOutliersOut (samples, options, finder, report);
   if (Problem problem = checkWorkingSet (samples.set))
     return problem;
-  smoothNoise (samples, options, input.search, report);
-
-  // Section 4.1: Delaunay neighbourhoods in the tangent planes.
+  smoothNoise (samples, options, finder, report);
   clock.start (Stage::STARS);
-  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
-  std::vector<Eigen::Vector3f> planes = fitTangentPlanes (positions, samples.near, options.threads);
-  samples.stars =
-      asksForDisc (options)
-          ? makeStars (positions, samples.near, planes, options.filter_sheets, options.threads)
-          : makeStarsOf (Selection::all (positions.size ()), positions, samples.near, planes,
-                         options.filter_sheets, options.threads);
+  if (!finder.isInBlocks ())
+    findStars (samples, options);
   return {};
 }
 

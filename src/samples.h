@@ -5,6 +5,7 @@
 #include "common/problem.h"
 #include "common/stage_clock.h"
 #include "common/types.h"
+#include "complex/candidate_triangles.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -18,7 +19,10 @@ struct Samples
   WorkingSet set; ///< where noise is strong, with positions in the local planes ...
   std::vector<Eigen::Vector3d> noisy; ///< ... and these are the points' own; else empty
   FlatLists near;                     ///< the nearest neighbours, or those in a ball
-  Stars stars; ///< Delaunay stars; offsets in the plane only for the disc method
+  Stars stars;                        ///< Delaunay stars; for a surface only their normals
+  std::vector<float> spacing;         ///< for a surface: see BlockSurface, also for the following
+  std::vector<Eigen::Vector3f> crease;
+  std::vector<CandidateLists> candidates;
 
   /// Where the points are in the user's cloud, but for centre and scale.
   const std::vector<Eigen::Vector3d>& ownPositions () const
@@ -31,8 +35,10 @@ struct Samples
 bool
 asksForDisc (const Options& options);
 
-/// Working set, neighbours without outliers, noise, and stars. Books stages WORKING_SET, NEIGHBORS
-/// and STARS, and reports what was found. \param input its positions are consumed
+/// Working set, neighbours without outliers, noise, and stars; for a surface also the triangles
+/// that these propose, block by block where the cloud is large. Books stages WORKING_SET, NEIGHBORS
+/// and STARS (blocks: all of it), and reports what was found. \param input its positions are
+/// consumed
 /// \return TOO_FEW_POINTS or DEGENERATE
 Problem
 prepareSamples (Input& input, const Options& options, StageClock& clock, Samples& samples,

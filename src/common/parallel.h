@@ -22,35 +22,30 @@ resolveThreads (int threads)
                      : std::max (1, static_cast<int> (std::thread::hardware_concurrency ()));
 }
 
-/// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
-constexpr std::size_t RANGE_LENGTH = 1024;
-
-/// Calls body (first, last) for consecutive ranges that cover 0 to count. Ranges are handed out to
-/// `threads` threads in any order, so body must write only to places that belong to its range. The
-/// first exception thrown by a body is rethrown here.
+/// Calls body (i) for i from 0 to count - 1, by `threads` threads and in any order, so body must
+/// write only to places that belong to i. The first exception thrown by a body is rethrown here.
 template <typename Body>
 void
-parallelRanges (std::size_t count, int threads, Body&& body)
+parallelTasks (std::size_t count, int threads, Body&& body)
 {
-  const std::size_t chunks = (count + RANGE_LENGTH - 1) / RANGE_LENGTH;
   std::atomic<std::size_t> next{0};
   std::exception_ptr error;
   std::mutex error_mutex;
   const auto work = [&] {
     try {
-      for (std::size_t c = next++; c < chunks; c = next++)
-        body (c * RANGE_LENGTH, std::min (count, (c + 1) * RANGE_LENGTH));
+      for (std::size_t i = next++; i < count; i = next++)
+        body (i);
     }
     catch (...) {
       const std::lock_guard<std::mutex> lock (error_mutex);
       if (!error)
         error = std::current_exception ();
-      next = chunks;
+      next = count;
     }
   };
   std::vector<std::thread> helpers;
   const std::size_t wanted =
-      std::min<std::size_t> (static_cast<std::size_t> (resolveThreads (threads)), chunks);
+      std::min<std::size_t> (static_cast<std::size_t> (resolveThreads (threads)), count);
   try {
     for (std::size_t t = 1; t < wanted; ++t)
       helpers.emplace_back (work);
@@ -63,6 +58,19 @@ parallelRanges (std::size_t count, int threads, Body&& body)
     helper.join ();
   if (error)
     std::rethrow_exception (error);
+}
+
+/// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
+constexpr std::size_t RANGE_LENGTH = 1024;
+
+/// The same for consecutive ranges that cover 0 to count: body (first, last).
+template <typename Body>
+void
+parallelRanges (std::size_t count, int threads, Body&& body)
+{
+  parallelTasks ((count + RANGE_LENGTH - 1) / RANGE_LENGTH, threads, [&] (std::size_t range) {
+    body (range * RANGE_LENGTH, std::min (count, (range + 1) * RANGE_LENGTH));
+  });
 }
 
 } // namespace floater

@@ -43,20 +43,28 @@ struct FlatLists
   Row row (std::size_t p) const { return {ids.data () + offsets[p], ids.data () + offsets[p + 1]}; }
 };
 
-/// Rows of a table to work on, ascending: those listed, or all.
+/// Rows of a table to work on, ascending: those listed, or a range of them.
 class Selection
 {
 public:
-  static Selection all (std::size_t rows) { return {nullptr, rows}; }
-  static Selection of (const std::vector<Index>& rows) { return {rows.data (), rows.size ()}; }
+  static Selection all (std::size_t rows) { return {nullptr, 0, rows}; }
+  static Selection range (Index first, Index last) { return {nullptr, first, last - first}; }
+  static Selection of (const std::vector<Index>& rows) { return {rows.data (), 0, rows.size ()}; }
 
   std::size_t size () const { return count_; }
-  Index operator[] (std::size_t i) const { return rows_ ? rows_[i] : static_cast<Index> (i); }
+  Index operator[] (std::size_t i) const
+  {
+    return rows_ ? rows_[i] : first_ + static_cast<Index> (i);
+  }
 
 private:
-  Selection (const Index* rows, std::size_t count) : rows_ (rows), count_ (count) {}
+  Selection (const Index* rows, Index first, std::size_t count)
+      : rows_ (rows), first_ (first), count_ (count)
+  {
+  }
 
   const Index* rows_;
+  Index first_;
   std::size_t count_;
 };
 

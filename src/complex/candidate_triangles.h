@@ -15,12 +15,12 @@ namespace floater
 /// A triangle of one, two or three stars.
 struct Candidate
 {
-  Triangle corners;   ///< the first is the smallest point whose star has the triangle;
-                      ///< anti-clockwise seen along that point's normal
-  std::uint8_t votes; ///< stars of its corners that have it, 1 to 3
+  Triangle corners;       ///< the first is the smallest point whose star has the triangle;
+                          ///< anti-clockwise seen along that point's normal
+  std::uint8_t votes;     ///< stars of its corners that have it, 1 to 3
   std::uint8_t clockwise; ///< bit i: it runs clockwise seen along the normal of corner i
-  float size;         ///< circumradius in mean spacings of its corners
-  float agreement;    ///< smallest |cosine| between its normal and those of its corners
+  float size;             ///< circumradius in mean spacings of its corners
+  float agreement;        ///< smallest |cosine| between its normal and those of its corners
 };
 
 /// A candidate of three votes whose normal agrees so well with those of its corners that only a

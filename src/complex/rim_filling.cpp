@@ -137,7 +137,7 @@ private:
 
 std::size_t
 fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const std::vector<Eigen::Vector3d>& positions,
-          const TriangleCost& cost)
+          const TriangleCost& cost, int threads)
 {
   RimFiller filler (mesh, positions, cost);
   std::size_t filled = 0;
@@ -151,7 +151,9 @@ fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const std::vector<Eigen::Ve
   }
   mesh.triangles.insert (mesh.triangles.end (), filler.triangles ().begin (),
                          filler.triangles ().end ());
-  if (!mesh.connect (mesh.triangle_of.size ()))
+  if (filler.triangles ().empty ())
+    return filled;
+  if (!mesh.connect (mesh.triangle_of.size (), threads))
     throw std::logic_error ("a hole was filled by triangles that do not fit");
   return filled;
 }

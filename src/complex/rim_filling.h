@@ -16,7 +16,7 @@ namespace floater
 /// \return number of rims filled
 std::size_t
 fillRims (SurfaceMesh& mesh, std::vector<Rim>& rims, const std::vector<Eigen::Vector3d>& positions,
-          const TriangleCost& cost);
+          const TriangleCost& cost, int threads);
 
 } // namespace floater
 } // namespace pcl

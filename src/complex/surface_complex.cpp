@@ -177,9 +177,8 @@ private:
                               b = sides_.find (candidate.corners[j]);
       if (a.root == b.root)
         continue;
-      const bool opposite =
-          (runsClockwise (candidate.clockwise, i) != runsClockwise (candidate.clockwise, j)) !=
-          (a.flipped != b.flipped);
+      const bool opposite = (runsClockwise (candidate.clockwise, i) !=
+                             runsClockwise (candidate.clockwise, j)) != (a.flipped != b.flipped);
       ballots.push_back ({std::min (a.root, b.root), std::max (a.root, b.root),
                           opposite ? -candidate.votes : candidate.votes});
     }

@@ -4,12 +4,11 @@
 #include "complex/complex_mesh.h"
 #include "complex/one_sided.h"
 #include "complex/rim_filling.h"
-#include "neighborhoods/stars.h"
-#include "triangulation/flips.h"
 #include "triangulation/insertion.h"
 #include "triangulation/outward.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl
 {
@@ -35,30 +34,34 @@ isDisc (const SurfaceMesh& mesh, std::size_t pieces)
 } // namespace
 
 Surface
-makeSurface (const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<Eigen::Vector3d>& final_positions, const FlatLists& near,
-             Stars& stars, double unit, const Options& options, StageClock& clock)
+makeSurface (Samples& samples, const Options& options, StageClock& clock)
 {
+  const std::vector<Eigen::Vector3d>& positions = samples.set.positions;
+  const FlatLists& near = samples.near;
+  std::vector<Eigen::Vector3f>& normals = samples.stars.normals;
   Surface surface;
   clock.start (Stage::COMPLEX);
-  const std::vector<float> spacing = localSpacing (positions, near, options.threads);
-  ComplexMesh complex =
-      makeComplexMesh (positions, near, stars, spacing, options.threads, stars.normals);
+  ComplexMesh complex = makeComplexMesh (positions, near, std::move (samples.candidates),
+                                         std::move (samples.crease), options.threads, normals);
   surface.mesh = std::move (complex.mesh);
   surface.cut = longestRow (complex.misfits);
 
   clock.start (Stage::HOLES);
   Index count = 0;
-  const std::vector<Index> pieces = findPieces (surface.mesh, count);
-  surface.rims = findRims (surface.mesh, pieces, positions, near, stars.normals, spacing);
-  chooseRims (surface.rims, pointsOfPieces (surface.mesh, pieces, count), options, unit);
-  const TriangleCost cost (positions, stars.normals);
-  surface.holes_filled = fillRims (surface.mesh, surface.rims, positions, cost);
-  orientMissingNormals (surface.mesh, near, stars.normals);
+  {
+    const std::vector<Index> pieces = findPieces (surface.mesh, count);
+    const std::vector<float> spacing = std::move (samples.spacing);
+    surface.rims = findRims (surface.mesh, pieces, positions, near, normals, spacing);
+    chooseRims (surface.rims, pointsOfPieces (surface.mesh, pieces, count), options,
+                1.0 / samples.set.scale);
+  }
+  const TriangleCost cost (positions, normals);
+  surface.holes_filled = fillRims (surface.mesh, surface.rims, positions, cost, options.threads);
+  orientMissingNormals (surface.mesh, near, normals);
 
   clock.start (Stage::FLIPS);
-  surface.finish = finishSurface (surface.mesh, final_positions, near, stars.normals, options);
-  faceOutwards (surface.mesh, final_positions);
+  surface.finish = finishSurface (surface.mesh, samples.ownPositions (), near, normals, options);
+  faceOutwards (surface.mesh, samples.ownPositions ());
   surface.pieces = count;
   surface.is_one_disc = isDisc (surface.mesh, count);
   return surface;

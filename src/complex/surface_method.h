@@ -5,6 +5,7 @@
 #include "common/problem.h"
 #include "common/stage_clock.h"
 #include "complex/rims.h"
+#include "samples.h"
 #include "triangulation/surface_finish.h"
 
 namespace pcl
@@ -24,13 +25,10 @@ struct Surface
 };
 
 /// Complex, holes, left-over points, flips and repair. Books stages COMPLEX, HOLES and FLIPS.
-/// O(n log n). \param positions where stars and complex were made \param final_positions of the
-/// same points, where edges are flipped and folds repaired: other than these where noise was taken
-/// out \param stars their normals get consistent signs \param unit see chooseRims
+/// O(n log n). Edges are flipped and folds repaired where the user's points are. \param samples
+/// candidates, crease normals and spacings are consumed; normals get consistent signs
 Surface
-makeSurface (const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<Eigen::Vector3d>& final_positions, const FlatLists& near,
-             Stars& stars, double unit, const Options& options, StageClock& clock);
+makeSurface (Samples& samples, const Options& options, StageClock& clock);
 
 } // namespace floater
 } // namespace pcl

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "neighborhoods/kd_tree.h"
 
+#include "common/parallel.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 
 namespace pcl
 {
@@ -11,25 +14,26 @@ namespace floater
 {
 namespace
 {
-constexpr Index BUCKET = 12; // points in a leaf, at most
-}
+constexpr Index BUCKET = 12;     // points in a leaf, at most
+constexpr Index PARALLEL = 8192; // points from which on halves are built at the same time
+} // namespace
 
-KdTree::KdTree (const std::vector<Eigen::Vector3d>& positions)
+KdTree::KdTree (const std::vector<Eigen::Vector3d>& positions, int threads)
 {
   items_.reserve (positions.size ());
   for (std::size_t p = 0; p < positions.size (); ++p)
     items_.push_back ({positions[p], static_cast<Index> (p)});
   if (!items_.empty ()) {
     nodes_.reserve (4 * items_.size () / BUCKET + 1);
-    build (0, static_cast<Index> (items_.size ()));
+    build (0, static_cast<Index> (items_.size ()), resolveThreads (threads), nodes_);
   }
 }
 
 void
-KdTree::build (Index first, Index last)
+KdTree::build (Index first, Index last, int threads, std::vector<Node>& nodes)
 {
-  const std::size_t self = nodes_.size ();
-  nodes_.push_back ({0.0, first, last, NONE, 0});
+  const std::size_t self = nodes.size ();
+  nodes.push_back ({0.0, first, last, NONE, 0});
   if (last - first <= BUCKET)
     return;
   Eigen::AlignedBox3d box;
@@ -44,11 +48,29 @@ KdTree::build (Index first, Index last)
                                  ? a.position[axis] < b.position[axis]
                                  : a.point < b.point;
                     });
-  nodes_[self].split = items_[middle].position[axis];
-  nodes_[self].axis = static_cast<std::uint8_t> (axis);
-  build (first, middle);
-  nodes_[self].right = static_cast<Index> (nodes_.size ());
-  build (middle, last);
+  nodes[self].split = items_[middle].position[axis];
+  nodes[self].axis = static_cast<std::uint8_t> (axis);
+  if (threads < 2 || last - first < PARALLEL) {
+    build (first, middle, 1, nodes);
+    nodes[self].right = static_cast<Index> (nodes.size ());
+    build (middle, last, 1, nodes);
+    return;
+  }
+  std::array<std::vector<Node>, 2> halves;
+  parallelTasks (2, 2, [&] (std::size_t half) {
+    const int share = half == 0 ? threads - threads / 2 : threads / 2;
+    build (half == 0 ? first : middle, half == 0 ? middle : last, share, halves[half]);
+  });
+  for (std::vector<Node>& half : halves) {
+    const auto offset = static_cast<Index> (nodes.size ());
+    if (&half == &halves[1])
+      nodes[self].right = offset;
+    for (Node& node : half) {
+      if (node.right != NONE)
+        node.right += offset;
+      nodes.push_back (node);
+    }
+  }
 }
 
 // `sqr_offsets` holds, per axis, the squared distance from the query to the node's slab, so that

@@ -23,12 +23,13 @@ struct Neighbor
   }
 };
 
-/// kd-tree with buckets at its leaves. Built by medians: O(n log n), 40 bytes per point. Queries
-/// are exact, ties in distance are broken by index, and any number of threads may query at once.
+/// kd-tree with buckets at its leaves. Built by medians: O(n log n), 40 bytes per point, the same
+/// for any number of threads. Queries are exact, ties in distance are broken by index, and any
+/// number of threads may query at once.
 class KdTree
 {
 public:
-  explicit KdTree (const std::vector<Eigen::Vector3d>& positions);
+  explicit KdTree (const std::vector<Eigen::Vector3d>& positions, int threads = 1);
 
   /// The k nearest points to `query`, nearest first; fewer if the tree holds fewer. The result is
   /// overwritten. O(k + log n) on clouds of bounded density.
@@ -54,7 +55,7 @@ private:
   template <typename Visit>
   void search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_offsets,
                double sqr_box_distance, Visit& visit) const;
-  void build (Index first, Index last);
+  void build (Index first, Index last, int threads, std::vector<Node>& nodes);
 
   std::vector<Item> items_; // in the order of the leaves
   std::vector<Node> nodes_;

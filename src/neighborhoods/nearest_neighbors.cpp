@@ -22,7 +22,7 @@ byKdTree (const WorkingSet& set, std::size_t k, int threads)
   for (std::size_t p = 0; p <= n; ++p)
     lists.offsets[p] = static_cast<Index> (p * k);
   lists.ids.resize (n * k);
-  const KdTree tree (set.positions);
+  const KdTree tree (set.positions, threads);
   parallelRanges (n, threads, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     found.reserve (k + 2);

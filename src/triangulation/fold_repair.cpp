@@ -17,7 +17,7 @@ namespace
 {
 constexpr double FOLD_COSINE = -0.5; // 120 degrees between the normals of neighbours
 constexpr int PASSES = 12;
-constexpr std::size_t PLACES = 16; // cheapest triangles into which a vertex is tried
+constexpr std::size_t PLACES = 4;  // cheapest triangles into which a vertex is tried
 constexpr std::uint8_t KICKS = 16; // places to which a vertex of a fold is forced
 constexpr std::size_t PLACES_AFTER_KICK = 3;
 constexpr int PASSES_AFTER_KICK = 2;
@@ -50,6 +50,9 @@ public:
       }
       vertices.swap (mover_.touched ());
       makeSet (vertices);
+      vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
+                                      [this] (Index v) { return !isBad (v); }),
+                      vertices.end ());
     }
     return moves;
   }
@@ -81,17 +84,32 @@ public:
   }
 
 private:
-  // Corners of the triangles that are penalized or folded against a neighbour.
+  // True if a triangle is penalized or folded against a neighbour.
+  bool isBad (const Triangle& corners, Index t)
+  {
+    if (cost_.plain ().isTurned (corners))
+      return true;
+    const Eigen::Vector3d normal = cost_ (corners).unit_normal;
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (normal.dot (normalBehind (mesh_, cost_, {t, side})) < 0.0)
+        return true;
+    return false;
+  }
+
+  // True if that is so of a triangle around a vertex: others hardly ever gain by a move.
+  bool isBad (Index v)
+  {
+    mesh_.fan (v, fan_);
+    return std::any_of (fan_.begin (), fan_.end (),
+                        [this] (Index t) { return isBad (mesh_.triangles[t], t); });
+  }
+
   std::vector<Index> badVertices ()
   {
     std::vector<Index> vertices;
     for (Index t = 0; t < mesh_.triangles.size (); ++t) {
       const Triangle& corners = mesh_.triangles[t];
-      const Eigen::Vector3d normal = cost_ (corners).unit_normal;
-      bool bad = cost_.plain ().isTurned (corners);
-      for (std::uint8_t side = 0; side < 3 && !bad; ++side)
-        bad = normal.dot (normalBehind (mesh_, cost_, {t, side})) < 0.0;
-      if (bad)
+      if (isBad (corners, t))
         vertices.insert (vertices.end (), corners.begin (), corners.end ());
     }
     makeSet (vertices);
@@ -145,6 +163,8 @@ private:
       mover_.touched ().clear ();
       makeSet (around_);
       for (Index w : around_) {
+        if (!isBad (w))
+          continue;
         change += mover_.move (w, PLACES_AFTER_KICK);
         if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
           return change; // all is as it was

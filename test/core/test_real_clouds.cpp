@@ -245,6 +245,27 @@ TEST (RealClouds, HaveTheirBoundaryOnARimOfTheComplex)
   }
 }
 
+TEST (RealClouds, AreTheSameInAnyNumberOfBlocksAndThreads)
+{
+  for (const char* name : {"bunny", "igea", "hill_lidar", "fertility_closed", "raw_slope_lidar"}) {
+    SCOPED_TRACE (name);
+    const std::string base = dataFolder () + "/" + name;
+    if (!std::ifstream (base + ".pcd"))
+      GTEST_SKIP () << "no " << name << ".pcd in " << dataFolder ();
+    const Positions cloud = readPcd (base + ".pcd");
+    Options options;
+    options.blocks = 1;
+    options.threads = 1;
+    const Result whole = reconstruct (samples::asInput (cloud), options);
+    ASSERT_EQ (whole.report.status, Status::OK) << whole.report.message;
+    options.blocks = 64;
+    options.threads = 2;
+    const Result blocks = reconstruct (samples::asInput (cloud), options);
+    EXPECT_EQ (blocks.triangles, whole.triangles);
+    EXPECT_EQ (blocks.report.warnings, whole.report.warnings);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P (Discs, RealCloud,
                           testing::Values (Case{"snail", 0.99, 0.985}, Case{"lilium", 0.99, 0.99},
                                            Case{"tum_rabbit", 0.98, 0.95},

@@ -148,6 +148,8 @@ struct Options
   double ilut_drop = 1e-2;   ///< 1e-2: BICGSTAB_ILUT: entries dropped, share of their row, 0 to 1
   bool filter_sheets = true; ///< true: drop neighbours that lie on another sheet of the surface
   bool flip_edges = true;    ///< true: Delaunay flips on the surface after lifting
+  int blocks = 0;            ///< 0: pieces in which a surface of nearest neighbours is made, 0 to
+                             ///< choose; does not change the result
   int threads = 0;           ///< 0: number of threads, 0 for all cores; does not change the result
 
   /// The boundary loop as cloud indices in order, which makes the surface a disc; empty: find it.
