@@ -30,6 +30,9 @@ public:
     for (Index p = 0; p < mesh_.triangle_of.size (); ++p)
       if (mesh_.triangle_of[p] == NONE)
         missing.push_back (p);
+    if (missing.empty ())
+      return 0;
+    seen_.assign (mesh_.triangles.size () + 2 * missing.size (), 0); // each adds two triangles
     findAwaiting (missing);
     for (Index p : missing)
       offer (p);
@@ -90,9 +93,13 @@ private:
   Place cheapest (Index p)
   {
     Place best{0.0, p, NONE};
+    ++search_;
     for (Index q : near_.row (p)) {
       mesh_.fan (q, fan_);
       for (Index t : fan_) {
+        if (seen_[t] == search_)
+          continue;
+        seen_[t] = search_;
         const double limit =
             best.triangle == NONE ? std::numeric_limits<double>::infinity () : best.added;
         const double added = splitCost (mesh_, cost_, t, p, limit);
@@ -128,6 +135,8 @@ private:
   std::vector<std::pair<Index, Index>> awaiting_; // (missing point, one that has it as neighbour)
   std::priority_queue<Place> queue_;
   std::vector<std::uint8_t> queued_; // per point
+  std::vector<Index> seen_;          // per triangle: the search for a place that saw it last
+  Index search_ = 0;
   std::vector<Index> fan_;
 };
 
