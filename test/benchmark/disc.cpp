@@ -29,7 +29,7 @@ makeDisc (const std::string& name, const Cloud& cloud, const Options& options)
 
   StageClock clock (disc.statistics, options.progress);
   clock.start (Stage::WORKING_SET);
-  disc.set = makeWorkingSet (cloud.positions, cloud_index, options.threads);
+  disc.set = makeWorkingSet (cloud.positions (), cloud_index, options.threads);
   clock.start (Stage::NEIGHBORS);
   disc.near = findNearestNeighbors (disc.set, options.k, nullptr, options.threads);
   clock.start (Stage::STARS);

@@ -45,7 +45,7 @@ Result
 run (const Cloud& cloud, const Options& options)
 {
   Input input;
-  input.positions = cloud.positions;
+  input.positions = cloud.positions ();
   input.cloud_index.resize (cloud.size ());
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
   input.cloud_size = cloud.size ();
@@ -71,7 +71,7 @@ public:
     const auto turned = [&] (const Result& result) {
       return truth.empty ()
                  ? std::string ("-")
-                 : percent (turnedTriangles (result.triangles, truth, sample.cloud.positions),
+                 : percent (turnedTriangles (result.triangles, truth, sample.cloud.positions ()),
                             result.triangles.size (), 3);
     };
     bool first = true;

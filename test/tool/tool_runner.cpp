@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -104,9 +105,37 @@ ToolTest::run (const std::vector<std::string>& arguments,
   if (child == 0)
     become (arguments, folder_, logs_, file_limit);
   int status = 0;
+  return child > 0 && ::waitpid (child, &status, 0) == child ? outcomeOf (status) : Outcome ();
+}
+
+Outcome
+ToolTest::interrupt (const std::vector<std::string>& arguments, int signal,
+                     const std::function<bool ()>& is_time) const
+{
+  const pid_t child = ::fork ();
+  if (child == 0)
+    become (arguments, folder_, logs_, std::nullopt);
+  if (child < 0)
+    return {};
+  int status = 0;
+  pid_t ended = 0;
+  while (ended == 0 && !is_time ())
+    ended = ::waitpid (child, &status, WNOHANG);
+  if (ended == 0) {
+    ::kill (child, signal);
+    ended = ::waitpid (child, &status, 0);
+  }
+  return ended == child ? outcomeOf (status) : Outcome ();
+}
+
+Outcome
+ToolTest::outcomeOf (int status) const
+{
   Outcome outcome;
-  if (child > 0 && ::waitpid (child, &status, 0) == child && WIFEXITED (status))
+  if (WIFEXITED (status))
     outcome.code = WEXITSTATUS (status);
+  else if (WIFSIGNALED (status))
+    outcome.code = -WTERMSIG (status);
   outcome.out = readWhole (logs_ / "out");
   outcome.err = readWhole (logs_ / "err");
   return outcome;

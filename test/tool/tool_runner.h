@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,7 +18,7 @@ namespace floater
 /// How a run ended and what it printed.
 struct Outcome
 {
-  int code = -1; ///< exit code; -1 if a signal ended it
+  int code = -1; ///< exit code; of a signal that ended it, its number, negative
   std::string out;
   std::string err;
 };
@@ -44,12 +45,20 @@ protected:
   Outcome run (const std::vector<std::string>& arguments,
                std::optional<std::size_t> file_limit = std::nullopt) const;
 
+  /// Starts the tool and sends it a signal as soon as `is_time ()`, which is asked again and again
+  /// until the tool ends by itself.
+  Outcome interrupt (const std::vector<std::string>& arguments, int signal,
+                     const std::function<bool ()>& is_time) const;
+
   /// Runs the tool, which must end with `code`, name `cause` on the standard error stream, print
   /// nothing else, and leave the folder as it was.
   void expectFailure (const std::vector<std::string>& arguments, int code, const std::string& cause,
                       std::optional<std::size_t> file_limit = std::nullopt) const;
 
 private:
+  /// \param status as from waitpid
+  Outcome outcomeOf (int status) const;
+
   std::filesystem::path folder_;
   std::filesystem::path logs_; // beside the folder, so that names () does not see them
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "atomic_file.h"
 
+#include "file_bytes.h"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,6 +13,7 @@
 #include <charconv>
 #include <climits>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 namespace pcl
@@ -30,13 +33,33 @@ struct TemporaryName
 };
 std::array<TemporaryName, MOST_FILES> temporary_names;
 
-extern "C" void
-removeTemporaryFiles (int signal_number)
+int exit_code_of_shrunk_input = EXIT_FAILURE;
+
+void
+removeTemporaryFiles ()
 {
   for (TemporaryName& temporary : temporary_names)
     if (temporary.in_use)
       ::unlink (temporary.name.data ());
+}
+
+extern "C" void
+endOnSignal (int signal_number)
+{
+  removeTemporaryFiles ();
   // The handler was reset (SA_RESETHAND): end as the signal alone would have ended the program.
+  ::raise (signal_number);
+}
+
+extern "C" void
+endOnBusError (int signal_number, siginfo_t* info, void* /*context*/)
+{
+  static constexpr char MESSAGE[] = "\nthe input file got shorter while it was in use\n";
+  removeTemporaryFiles ();
+  if (isInMappedFile (info->si_addr)) {
+    [[maybe_unused]] const ssize_t written = ::write (STDERR_FILENO, MESSAGE, sizeof MESSAGE - 1);
+    ::_exit (exit_code_of_shrunk_input);
+  }
   ::raise (signal_number);
 }
 
@@ -103,12 +126,12 @@ requireWritable (const std::filesystem::path& path)
 }
 
 void
-handleSignals ()
+handleSignals (int input_failed)
 {
   struct sigaction action = {};
   action.sa_handler = SIG_IGN;
   ::sigaction (SIGXFSZ, &action, nullptr);
-  action.sa_handler = removeTemporaryFiles;
+  action.sa_handler = endOnSignal;
   action.sa_flags = static_cast<int> (SA_RESETHAND);
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
@@ -116,6 +139,10 @@ handleSignals ()
     if (::sigaction (signal_number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
       ::sigaction (signal_number, &action, nullptr);
   }
+  exit_code_of_shrunk_input = input_failed;
+  action.sa_sigaction = endOnBusError;
+  action.sa_flags = static_cast<int> (SA_RESETHAND) | SA_SIGINFO;
+  ::sigaction (SIGBUS, &action, nullptr);
 }
 
 AtomicFile::AtomicFile (const std::filesystem::path& path)

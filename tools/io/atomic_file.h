@@ -29,8 +29,9 @@ requireWritable (const std::filesystem::path& path);
 
 /// Sees to it that interrupting the program (SIGINT, SIGTERM, SIGHUP) leaves no temporary file, and
 /// that running into a limit on file sizes is an error of the write, not the end of the program.
+/// \param input_failed exit code if a file that is mapped (FileBytes) gets shorter under our eyes
 void
-handleSignals ();
+handleSignals (int input_failed = 1);
 
 /// Writes a temporary file in the folder of the final one, whose name it takes at the very end. If
 /// it is destroyed before that, the temporary file is removed and what was there before stays. A

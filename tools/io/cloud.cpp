@@ -52,15 +52,15 @@ coordinateField (const std::vector<Field>& fields, const std::string& name)
 void
 unpackColor (const Field& packed, bool with_alpha, std::vector<Field>& fields)
 {
-  const std::size_t size = packed.bytes.size () / sizeof (std::uint32_t);
   const std::array<const char*, 4> names{"red", "green", "blue", "alpha"};
-  const std::array<unsigned, 4> shifts{16, 8, 0, 24};
+  const std::array<std::size_t, 4> bytes_from_lowest{2, 1, 0, 3};
   for (std::size_t channel = 0; channel < (with_alpha ? 4U : 3U); ++channel) {
+    const std::size_t offset = packed.order == ByteOrder::LITTLE
+                                   ? bytes_from_lowest[channel]
+                                   : sizeof (std::uint32_t) - 1 - bytes_from_lowest[channel];
     Field field{names[channel], ScalarType::UINT8};
-    field.bytes.resize (size);
-    for (std::size_t i = 0; i < size; ++i)
-      field.bytes[i] =
-          static_cast<std::uint8_t> (packed.value<std::uint32_t> (i) >> shifts[channel]);
+    field.first = {packed.first, packed.first.get () + offset};
+    field.stride = packed.stride;
     fields.push_back (std::move (field));
   }
 }
@@ -104,16 +104,10 @@ makeCloud (std::vector<Field> fields, std::size_t size)
   const std::array<std::size_t, 3> columns{
       coordinateField (fields, "x"), coordinateField (fields, "y"), coordinateField (fields, "z")};
   Cloud cloud;
-  cloud.positions.resize (size);
+  cloud.rows = size;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Field& field = fields[columns[axis]];
-    cloud.single_precision &= field.type == ScalarType::FLOAT32;
-    visitType (field.type, [&] (auto tag) {
-      for (std::size_t i = 0; i < size; ++i)
-        cloud.positions[i][static_cast<Eigen::Index> (axis)] =
-            static_cast<double> (field.value<decltype (tag)> (i));
-    });
-    std::vector<std::uint8_t> ().swap (field.bytes);
+    cloud.coordinates[axis] = fields[columns[axis]];
+    cloud.single_precision &= fields[columns[axis]].type == ScalarType::FLOAT32;
   }
   std::set<std::string> names;
   for (std::size_t f = 0; f < fields.size (); ++f) {
@@ -136,34 +130,30 @@ makeCloud (std::vector<Field> fields, std::size_t size)
   return cloud;
 }
 
+std::vector<Eigen::Vector3d>
+Cloud::positions () const
+{
+  std::vector<Eigen::Vector3d> result (size ());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    visitType (coordinates[axis].type, [&] (auto tag) {
+      for (std::size_t i = 0; i < result.size (); ++i)
+        result[i][static_cast<Eigen::Index> (axis)] =
+            static_cast<double> (coordinates[axis].value<decltype (tag)> (row (i)));
+    });
+  return result;
+}
+
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 {
-  const std::size_t size = cloud.size ();
-  std::vector<std::uint32_t> new_index (size);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    new_index[i] = static_cast<std::uint32_t> (kept);
-    kept += cloud.positions[i].allFinite () ? 1 : 0;
-  }
-  if (kept == size)
+  cloud.kept = KeptPoints (
+      cloud.rows, [&cloud] (std::size_t row) { return cloud.positionOfRow (row).allFinite (); });
+  if (cloud.kept.areAll ())
     return 0;
-  const auto move_row = [&] (std::uint8_t* bytes, std::size_t row, std::size_t i) {
-    std::memmove (bytes + new_index[i] * row, bytes + i * row, row);
-  };
-  for (Field& field : cloud.fields) {
-    for (std::size_t i = 0; i < size; ++i)
-      if (cloud.positions[i].allFinite ())
-        move_row (field.bytes.data (), field.pointBytes (), i);
-    field.bytes.resize (kept * field.pointBytes ());
-  }
-  cloud.positions.erase (std::remove_if (cloud.positions.begin (), cloud.positions.end (),
-                                         [] (const Eigen::Vector3d& p) { return !p.allFinite (); }),
-                         cloud.positions.end ());
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
-      corner = new_index[corner];
-  return size - kept;
+      corner = cloud.kept.number (corner);
+  return cloud.rows - cloud.kept.size ();
 }
 
 } // namespace floater

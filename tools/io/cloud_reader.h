@@ -10,7 +10,6 @@
 #include "cloud.h"
 
 #include <filesystem>
-#include <string_view>
 
 namespace pcl
 {
@@ -20,12 +19,8 @@ namespace floater
 bool
 isCloudFile (const std::filesystem::path& path);
 
-/// Reads a whole file.
-/// \throws ReadError if it does not exist, is a folder, or cannot be read
-std::string
-readFile (const std::filesystem::path& path);
-
-/// Reads a cloud; the extension tells the format.
+/// Reads a cloud; the extension tells the format. Of binary files that are not compressed the
+/// fields stay where they are, in the mapped file.
 /// \throws ReadError with the cause if the file is not a whole and valid cloud
 Cloud
 readCloud (const std::filesystem::path& path);
@@ -33,17 +28,17 @@ readCloud (const std::filesystem::path& path);
 /// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
 /// skipped. The viewpoint is ignored: coordinates are taken as they stand.
 Cloud
-parsePcd (std::string_view bytes);
+parsePcd (const FileBytes& file);
 
 /// PLY, ascii and binary of both byte orders: the element "vertex". What follows it is ignored;
 /// lists among its properties are left out.
 Cloud
-parsePly (std::string_view bytes);
+parsePly (const FileBytes& file);
 
 /// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1). Normals
 /// are taken if there are as many "vn" as "v" lines. All else is ignored.
 Cloud
-parseObj (std::string_view bytes);
+parseObj (const FileBytes& file);
 
 } // namespace floater
 } // namespace pcl

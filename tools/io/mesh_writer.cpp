@@ -16,13 +16,13 @@ namespace
 const std::string COMMENT = "written by pcl_floater_reconstruct";
 
 void
-writeObjTriple (AtomicFile& file, const FieldTriple& fields, std::size_t i)
+writeObjTriple (AtomicFile& file, const FieldTriple& fields, std::size_t row)
 {
   visitType (fields[0]->type, [&] (auto tag) {
     using T = decltype (tag);
     std::array<double, 3> values{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-      values[axis] = static_cast<double> (fields[axis]->value<T> (i));
+      values[axis] = static_cast<double> (fields[axis]->value<T> (row));
     const bool are_finite =
         std::isfinite (values[0]) && std::isfinite (values[1]) && std::isfinite (values[2]);
     for (const double value : values) {
@@ -79,7 +79,7 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   file.write ("# " + COMMENT + "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.write ("v");
-    for (const double coordinate : cloud.positions[i]) {
+    for (const double coordinate : cloud.position (i)) {
       file.write (" ");
       if (cloud.single_precision)
         file.writeDecimal (static_cast<float> (coordinate));
@@ -90,14 +90,15 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
       for (const Field* channel : colors) {
         constexpr float WHITE = 255.0F;
         file.write (" ");
-        file.writeDecimal (static_cast<float> (channel->value<std::uint8_t> (i)) / WHITE);
+        file.writeDecimal (static_cast<float> (channel->value<std::uint8_t> (cloud.row (i))) /
+                           WHITE);
       }
     file.write ("\n");
   }
   if (normals[0])
     for (std::size_t i = 0; i < cloud.size (); ++i) {
       file.write ("vn");
-      writeObjTriple (file, normals, i);
+      writeObjTriple (file, normals, cloud.row (i));
       file.write ("\n");
     }
   for (const auto& triangle : triangles) {
@@ -124,13 +125,14 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   file.write (header);
   file.writeNumber (static_cast<std::uint32_t> (triangles.size ()), ByteOrder::LITTLE);
   for (const auto& triangle : triangles) {
-    const Eigen::Vector3d& p = cloud.positions[triangle[0]];
+    const std::array<Eigen::Vector3d, 3> corners{
+        cloud.position (triangle[0]), cloud.position (triangle[1]), cloud.position (triangle[2])};
     const Eigen::Vector3d normal =
-        (cloud.positions[triangle[1]] - p).cross (cloud.positions[triangle[2]] - p).normalized ();
+        (corners[1] - corners[0]).cross (corners[2] - corners[0]).normalized ();
     for (const double value : normal)
       file.writeNumber (static_cast<float> (value), ByteOrder::LITTLE);
-    for (const std::uint32_t corner : triangle)
-      for (const double value : cloud.positions[corner])
+    for (const Eigen::Vector3d& corner : corners)
+      for (const double value : corner)
         file.writeNumber (static_cast<float> (value), ByteOrder::LITTLE);
     file.writeNumber (std::uint16_t{0}, ByteOrder::LITTLE);
   }

@@ -10,16 +10,19 @@ namespace floater
 {
 namespace
 {
+/// Values of all points, three for each, as three fields.
 template <typename T>
-Field
-makeField (const char* name, ScalarType type, const std::vector<T>& values, std::size_t stride,
-           std::size_t first)
+void
+addFields (std::vector<T>&& values, ScalarType type, const std::array<const char*, 3>& names,
+           std::vector<Field>& fields)
 {
-  Field field{name, type};
-  field.bytes.resize (values.size () / stride * sizeof (T));
-  for (std::size_t i = first, at = 0; i < values.size (); i += stride, at += sizeof (T))
-    std::memcpy (field.bytes.data () + at, &values[i], sizeof (T));
-  return field;
+  const auto kept = std::make_shared<const std::vector<T>> (std::move (values));
+  for (std::size_t i = 0; i < 3; ++i) {
+    Field field{names[i], type};
+    field.first = {kept, reinterpret_cast<const char*> (kept->data () + i)};
+    field.stride = 3 * sizeof (T);
+    fields.push_back (std::move (field));
+  }
 }
 
 std::uint8_t
@@ -47,14 +50,14 @@ readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
 } // namespace
 
 Cloud
-parseObj (std::string_view bytes)
+parseObj (const FileBytes& file)
 {
   constexpr std::size_t WITH_COLOR = 6;
   std::vector<double> coordinates;
   std::vector<double> normals;
   std::vector<std::uint8_t> colors;
   std::array<double, WITH_COLOR> numbers{};
-  TextScanner scanner (bytes);
+  TextScanner scanner (file.view ());
   while (scanner.nextLine ()) {
     const std::string_view key = scanner.word ();
     if (key == "v") {
@@ -72,21 +75,19 @@ parseObj (std::string_view bytes)
       normals.insert (normals.end (), numbers.begin (), numbers.begin () + 3);
     }
   }
+  if (coordinates.empty ())
+    throw ReadError ("it holds no points");
+  const std::size_t size = coordinates.size () / 3;
   std::vector<Field> fields;
-  const auto add = [&fields] (const auto& values, ScalarType type,
-                              const std::array<const char*, 3>& names) {
-    for (std::size_t i = 0; i < 3; ++i)
-      fields.push_back (makeField (names[i], type, values, 3, i));
-  };
-  add (coordinates, ScalarType::FLOAT64, {"x", "y", "z"});
   std::vector<std::string> warnings;
-  if (colors.size () == coordinates.size ())
-    add (colors, ScalarType::UINT8, {"red", "green", "blue"});
+  addFields (std::move (coordinates), ScalarType::FLOAT64, {"x", "y", "z"}, fields);
+  if (colors.size () == 3 * size)
+    addFields (std::move (colors), ScalarType::UINT8, {"red", "green", "blue"}, fields);
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
-  if (normals.size () == coordinates.size ())
-    add (normals, ScalarType::FLOAT64, {"nx", "ny", "nz"});
-  Cloud cloud = makeCloud (std::move (fields), coordinates.size () / 3);
+  if (normals.size () == 3 * size)
+    addFields (std::move (normals), ScalarType::FLOAT64, {"nx", "ny", "nz"}, fields);
+  Cloud cloud = makeCloud (std::move (fields), size);
   cloud.warnings = std::move (warnings);
   return cloud;
 }

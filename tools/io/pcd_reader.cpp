@@ -165,12 +165,14 @@ requireSize (std::size_t points, std::size_t bytes_of_point, std::size_t bytes)
                      " bytes of data; the file is truncated or its header wrong");
 }
 
-void
-allocate (PcdHeader& header)
+std::vector<Field*>
+fieldsToKeep (PcdHeader& header)
 {
+  std::vector<Field*> fields;
   for (Field& field : header.fields)
     if (field.name != PADDING)
-      field.bytes.resize (header.points * field.pointBytes ());
+      fields.push_back (&field);
+  return fields;
 }
 
 bool
@@ -180,15 +182,16 @@ readAscii (TextScanner& scanner, PcdHeader& header)
   for (const Field& field : header.fields)
     words += field.count;
   requireSize (header.points, 2 * words, scanner.rest ().size () + 1);
-  allocate (header);
+  const std::shared_ptr<char> rows = allocateRows (fieldsToKeep (header), header.points);
+  char* to = rows.get ();
   for (std::size_t i = 0; i < header.points; ++i) {
     if (!scanner.nextFilledLine ())
       throw ReadError ("the header promises " + std::to_string (header.points) +
                        " points, but there are only " + std::to_string (i) +
                        "; the file is truncated or its header wrong");
-    for (Field& field : header.fields) {
+    for (const Field& field : header.fields) {
       if (field.name != PADDING)
-        scanField (scanner, field, i);
+        to = scanField (scanner, field, to);
       else
         for (std::size_t c = 0; c < field.count; ++c)
           scanner.word ();
@@ -200,27 +203,16 @@ readAscii (TextScanner& scanner, PcdHeader& header)
 }
 
 bool
-readBinary (std::string_view bytes, PcdHeader& header)
+readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
 {
   const std::size_t stride = pointBytes (header.fields, true);
-  requireSize (header.points, stride, bytes.size ());
-  allocate (header);
-  std::size_t offset = 0;
-  for (Field& field : header.fields) {
-    const std::size_t size = field.pointBytes ();
-    if (field.name != PADDING) {
-      visitType (field.type, [&] (auto tag) {
-        using T = decltype (tag);
-        for (std::size_t i = 0; i < header.points; ++i)
-          for (std::size_t c = 0; c < field.count; ++c)
-            copyNumber<T> (field.bytes.data () + i * size + c * sizeof (T),
-                           bytes.data () + i * stride + offset + c * sizeof (T), ByteOrder::LITTLE);
-      });
-    }
-    offset += size;
-  }
+  requireSize (header.points, stride, file.view ().size () - begin);
+  std::vector<Field*> all;
+  for (Field& field : header.fields)
+    all.push_back (&field);
+  viewRows (all, file.at (begin), ByteOrder::LITTLE);
   // PCL's own writer fills the last block of the disk with zeros.
-  const std::string_view rest = bytes.substr (header.points * stride);
+  const std::string_view rest = file.view ().substr (begin + header.points * stride);
   return rest.find_first_not_of ('\0') != std::string_view::npos;
 }
 
@@ -244,25 +236,24 @@ readCompressed (std::string_view bytes, PcdHeader& header)
   requireSize (header.points, point_bytes, expected);
   if (header.points * point_bytes != expected || expected / MOST_PER_BYTE > compressed)
     throw ReadError ("the size of the compressed data does not fit the number of points");
-  std::string values (expected, '\0');
-  if (lzf_decompress (bytes.data (), compressed, values.data (), expected) != expected)
+  const std::shared_ptr<char> values (new char[expected], std::default_delete<char[]> ());
+  if (lzf_decompress (bytes.data (), compressed, values.get (), expected) != expected)
     throw ReadError ("the compressed data are damaged");
-  allocate (header);
-  const char* from = values.data ();
-  for (Field& field : header.fields)
-    visitType (field.type, [&] (auto tag) {
-      using T = decltype (tag);
-      for (std::size_t at = 0; at < field.bytes.size (); at += sizeof (T), from += sizeof (T))
-        copyNumber<T> (field.bytes.data () + at, from, ByteOrder::LITTLE);
-    });
+  std::size_t offset = 0;
+  for (Field* field : fieldsToKeep (header)) {
+    field->first = {values, values.get () + offset};
+    field->stride = field->pointBytes ();
+    field->order = ByteOrder::LITTLE;
+    offset += header.points * field->stride;
+  }
 }
 
 } // namespace
 
 Cloud
-parsePcd (std::string_view bytes)
+parsePcd (const FileBytes& file)
 {
-  TextScanner scanner (bytes);
+  TextScanner scanner (file.view ());
   PcdHeader header = readHeader (scanner);
   bool has_more = false;
   if (header.points == 0)
@@ -270,7 +261,7 @@ parsePcd (std::string_view bytes)
   if (header.data == "ascii")
     has_more = readAscii (scanner, header);
   else if (header.data == "binary")
-    has_more = readBinary (scanner.rest (), header);
+    has_more = readBinary (file, file.view ().size () - scanner.rest ().size (), header);
   else if (header.data == "binary_compressed")
     readCompressed (scanner.rest (), header);
   else
@@ -280,6 +271,8 @@ parsePcd (std::string_view bytes)
                                        [] (const Field& field) { return field.name == PADDING; }),
                        header.fields.end ());
   Cloud cloud = makeCloud (std::move (header.fields), header.points);
+  if (header.data == "binary")
+    cloud.file = file;
   if (has_more)
     cloud.warnings.push_back ("the input file holds more data than the " +
                               std::to_string (header.points) +

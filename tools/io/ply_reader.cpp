@@ -134,18 +134,32 @@ failTruncated (const Element& element, std::size_t found)
                    "; the file is truncated or its header wrong");
 }
 
-/// Keeps the values of an element, but for lists, in its fields.
+std::vector<Field*>
+fieldsOf (Element& element)
+{
+  std::vector<Field*> fields;
+  for (Property& property : element.properties)
+    if (!property.is_list)
+      fields.push_back (&property.field);
+  return fields;
+}
+
+/// Keeps the values of an element, but for lists, in rows of its fields.
 void
 readAscii (TextScanner& scanner, Element& element, bool keep)
 {
+  std::shared_ptr<char> rows;
+  if (keep)
+    rows = allocateRows (fieldsOf (element), element.count);
+  char* to = rows.get ();
   for (std::size_t i = 0; i < element.count; ++i) {
     if (!scanner.nextFilledLine ())
       failTruncated (element, i);
     if (!keep)
       continue;
-    for (Property& property : element.properties) {
+    for (const Property& property : element.properties) {
       if (!property.is_list)
-        scanField (scanner, property.field, i);
+        to = scanField (scanner, property.field, to);
       else
         for (auto left = scanner.number<std::uint32_t> (); left > 0; --left)
           if (scanner.word ().empty ())
@@ -156,10 +170,14 @@ readAscii (TextScanner& scanner, Element& element, bool keep)
   }
 }
 
-/// As readAscii; returns the bytes that follow the element.
+/// As readAscii, for an element with lists; returns the bytes that follow it.
 std::string_view
-readBinary (std::string_view bytes, ByteOrder order, Element& element, bool keep)
+readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
 {
+  std::shared_ptr<char> rows;
+  if (keep)
+    rows = allocateRows (fieldsOf (element), element.count);
+  char* to = rows.get ();
   const auto take = [&bytes, &element] (std::size_t size, std::size_t row) {
     if (bytes.size () < size)
       failTruncated (element, row);
@@ -168,7 +186,7 @@ readBinary (std::string_view bytes, ByteOrder order, Element& element, bool keep
     return taken;
   };
   for (std::size_t i = 0; i < element.count; ++i)
-    for (Property& property : element.properties)
+    for (const Property& property : element.properties)
       visitType (property.field.type, [&] (auto tag) {
         using T = decltype (tag);
         if (property.is_list) {
@@ -182,11 +200,28 @@ readBinary (std::string_view bytes, ByteOrder order, Element& element, bool keep
         }
         else {
           const char* from = take (sizeof (T), i);
-          if (keep)
-            copyNumber<T> (property.field.bytes.data () + i * sizeof (T), from, order);
+          if (keep) {
+            copyNumber<T> (to, from, order);
+            to += sizeof (T);
+          }
         }
       });
   return bytes;
+}
+
+/// Where there are no lists the fields are views of the file. Returns the bytes that follow.
+std::string_view
+readBinary (const FileBytes& file, std::string_view bytes, ByteOrder order, Element& element,
+            bool keep)
+{
+  const std::vector<Field*> fields = fieldsOf (element);
+  if (fields.size () < element.properties.size ())
+    return readLists (bytes, order, element, keep);
+  std::size_t row = 0;
+  for (const Field* field : fields)
+    row += field->pointBytes ();
+  viewRows (fields, file.at (file.view ().size () - bytes.size ()), order);
+  return bytes.substr (element.count * row); // not more than there are: see checkCount
 }
 
 /// Rejects counts that the file cannot hold before anything is allocated or counted.
@@ -206,21 +241,17 @@ checkCount (const Element& element, bool is_ascii, std::size_t bytes)
 } // namespace
 
 Cloud
-parsePly (std::string_view bytes)
+parsePly (const FileBytes& file)
 {
-  TextScanner scanner (bytes);
+  TextScanner scanner (file.view ());
   PlyHeader header = readHeader (scanner);
   std::string_view rest = scanner.rest ();
   for (Element& element : header.elements) {
     const bool keep = element.name == "vertex";
     checkCount (element, !header.byte_order,
                 header.byte_order ? rest.size () : scanner.rest ().size ());
-    if (keep)
-      for (Property& property : element.properties)
-        if (!property.is_list)
-          property.field.bytes.resize (element.count * property.field.pointBytes ());
     if (header.byte_order)
-      rest = readBinary (rest, *header.byte_order, element, keep);
+      rest = readBinary (file, rest, *header.byte_order, element, keep);
     else
       readAscii (scanner, element, keep);
   }
@@ -234,6 +265,8 @@ parsePly (std::string_view bytes)
       fields.push_back (std::move (property.field));
   }
   Cloud cloud = makeCloud (std::move (fields), vertices.count);
+  if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())
+    cloud.file = file;
   cloud.warnings = std::move (warnings);
   return cloud;
 }

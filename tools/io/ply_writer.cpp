@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_writer.h"
 
+#include <algorithm>
+
 namespace pcl
 {
 namespace floater
@@ -56,35 +58,67 @@ writeHeader (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
               "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
+/// Values of points `first` to `last`, as doubles or as they are, into a column of rows.
+/// \return bytes of the column in a row
+std::size_t
+fillColumn (const Cloud& cloud, const Field& field, bool as_double, std::size_t first,
+            std::size_t last, char* to, std::size_t row_bytes)
+{
+  const auto fill = [&] (auto tag, auto out_tag) {
+    using T = decltype (tag);
+    using Out = decltype (out_tag);
+    for (std::size_t i = first; i < last; ++i, to += row_bytes)
+      for (std::size_t c = 0; c < field.count; ++c) {
+        const auto number = static_cast<Out> (field.value<T> (cloud.row (i), c));
+        copyNumber<Out> (to + c * sizeof (Out), &number, ByteOrder::LITTLE);
+      }
+    return field.count * sizeof (Out);
+  };
+  return visitType (field.type, [&] (auto tag) {
+    return as_double || isLong (field.type) ? fill (tag, double{}) : fill (tag, tag);
+  });
+}
+
+/// Through blocks of rows, so that the type of a field is looked at once for many points.
+void
+writePoints (AtomicFile& file, const Cloud& cloud)
+{
+  constexpr std::size_t BLOCK_POINTS = 1024;
+  std::size_t row_bytes = 3 * (cloud.single_precision ? sizeof (float) : sizeof (double));
+  for (const Field& field : cloud.fields)
+    row_bytes += isLong (field.type) ? field.count * sizeof (double) : field.pointBytes ();
+  std::vector<char> block (BLOCK_POINTS * row_bytes);
+  for (std::size_t first = 0; first < cloud.size (); first += BLOCK_POINTS) {
+    const std::size_t last = std::min (cloud.size (), first + BLOCK_POINTS);
+    char* to = block.data ();
+    for (const Field& field : cloud.coordinates)
+      to += fillColumn (cloud, field, !cloud.single_precision, first, last, to, row_bytes);
+    for (const Field& field : cloud.fields)
+      to += fillColumn (cloud, field, false, first, last, to, row_bytes);
+    file.write (block.data (), (last - first) * row_bytes);
+  }
+}
+
+void
+writeTriangles (AtomicFile& file, const Triangles& triangles)
+{
+  constexpr std::size_t CORNER = sizeof (std::int32_t);
+  std::array<char, 1 + 3 * CORNER> bytes{3};
+  for (const auto& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i)
+      copyNumber<std::uint32_t> (bytes.data () + 1 + i * CORNER, &triangle[i], ByteOrder::LITTLE);
+    file.write (bytes.data (), bytes.size ());
+  }
+}
+
 } // namespace
 
 std::vector<std::string>
 writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 {
   writeHeader (file, cloud, triangles);
-  for (std::size_t i = 0; i < cloud.size (); ++i) {
-    for (const double coordinate : cloud.positions[i]) {
-      if (cloud.single_precision)
-        file.writeNumber (static_cast<float> (coordinate), ByteOrder::LITTLE);
-      else
-        file.writeNumber (coordinate, ByteOrder::LITTLE);
-    }
-    for (const Field& field : cloud.fields)
-      visitType (field.type, [&] (auto tag) {
-        using T = decltype (tag);
-        for (std::size_t c = i * field.count; c < (i + 1) * field.count; ++c) {
-          if constexpr (std::is_integral_v<T> && sizeof (T) == sizeof (std::int64_t))
-            file.writeNumber (static_cast<double> (field.value<T> (c)), ByteOrder::LITTLE);
-          else
-            file.writeNumber (field.value<T> (c), ByteOrder::LITTLE);
-        }
-      });
-  }
-  for (const auto& triangle : triangles) {
-    file.writeNumber (std::uint8_t{3}, ByteOrder::LITTLE);
-    for (const std::uint32_t corner : triangle)
-      file.writeNumber (static_cast<std::int32_t> (corner), ByteOrder::LITTLE);
-  }
+  writePoints (file, cloud);
+  writeTriangles (file, triangles);
   std::vector<std::string> widened;
   for (const Field& field : cloud.fields)
     if (isLong (field.type))

@@ -138,11 +138,10 @@ private:
   std::size_t line_ = 0; // number of the line, from 1
 };
 
-/// Parses `field.count` words as values of point `i`.
-inline void
-scanField (TextScanner& scanner, Field& field, std::size_t i)
+/// Parses `field.count` words as values of a point, and returns where the next ones go.
+inline char*
+scanField (TextScanner& scanner, const Field& field, char* to)
 {
-  std::uint8_t* to = field.bytes.data () + i * field.pointBytes ();
   visitType (field.type, [&] (auto tag) {
     using T = decltype (tag);
     for (std::size_t c = 0; c < field.count; ++c, to += sizeof (T)) {
@@ -150,6 +149,7 @@ scanField (TextScanner& scanner, Field& field, std::size_t i)
       std::memcpy (to, &number, sizeof (T));
     }
   });
+  return to;
 }
 
 } // namespace floater

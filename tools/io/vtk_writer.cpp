@@ -58,25 +58,26 @@ encodeName (const std::string& name)
 }
 
 void
-writeTriple (AtomicFile& file, const FieldTriple& fields, std::size_t size)
+writeTriple (AtomicFile& file, const FieldTriple& fields, const Cloud& cloud)
 {
   visitType (fields[0]->type, [&] (auto tag) {
     using T = decltype (tag);
-    for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t i = 0; i < cloud.size (); ++i)
       for (const Field* field : fields)
-        file.writeNumber (field->value<T> (i), ByteOrder::BIG);
+        file.writeNumber (field->value<T> (cloud.row (i)), ByteOrder::BIG);
   });
   file.write ("\n");
 }
 
 void
-writeArray (AtomicFile& file, const Field& field, std::size_t size)
+writeArray (AtomicFile& file, const Field& field, const Cloud& cloud)
 {
   file.write (encodeName (field.name) + " " + std::to_string (field.count) + " " +
-              std::to_string (size) + " " + vtkTypeName (field.type) + "\n");
+              std::to_string (cloud.size ()) + " " + vtkTypeName (field.type) + "\n");
   visitType (field.type, [&] (auto tag) {
-    for (std::size_t i = 0; i < size * field.count; ++i)
-      file.writeNumber (field.value<decltype (tag)> (i), ByteOrder::BIG);
+    for (std::size_t i = 0; i < cloud.size (); ++i)
+      for (std::size_t c = 0; c < field.count; ++c)
+        file.writeNumber (field.value<decltype (tag)> (cloud.row (i), c), ByteOrder::BIG);
   });
   file.write ("\n");
 }
@@ -90,8 +91,8 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   file.write (
       "# vtk DataFile Version 3.0\nwritten by pcl_floater_reconstruct\nBINARY\nDATASET POLYDATA\n");
   file.write ("POINTS " + size + (cloud.single_precision ? " float\n" : " double\n"));
-  for (const Eigen::Vector3d& p : cloud.positions)
-    for (const double coordinate : p) {
+  for (std::size_t i = 0; i < cloud.size (); ++i)
+    for (const double coordinate : cloud.position (i)) {
       if (cloud.single_precision)
         file.writeNumber (static_cast<float> (coordinate), ByteOrder::BIG);
       else
@@ -117,16 +118,16 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
     file.write ("POINT_DATA " + size + "\n");
   if (colors[0]) {
     file.write ("COLOR_SCALARS RGB 3\n");
-    writeTriple (file, colors, cloud.size ());
+    writeTriple (file, colors, cloud);
   }
   if (normals[0]) {
     file.write (std::string ("NORMALS Normals ") + vtkTypeName (normals[0]->type) + "\n");
-    writeTriple (file, normals, cloud.size ());
+    writeTriple (file, normals, cloud);
   }
   if (!others.empty ()) {
     file.write ("FIELD FieldData " + std::to_string (others.size ()) + "\n");
     for (const Field* field : others)
-      writeArray (file, *field, cloud.size ());
+      writeArray (file, *field, cloud);
   }
 }
 

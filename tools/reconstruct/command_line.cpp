@@ -291,7 +291,7 @@ checkPaths (const CommandLine& line)
 std::vector<std::uint32_t>
 readLoop (const std::filesystem::path& path)
 {
-  std::string text = readFile (path);
+  std::string text (FileBytes (path).view ());
   std::replace (text.begin (), text.end (), ',', ' ');
   std::vector<std::uint32_t> loop;
   TextScanner scanner (text);

@@ -64,14 +64,22 @@ exitCode (const Report& report, const RunFigures& run)
   }
 }
 
-Result
-reconstructCloud (const Cloud& cloud, Options options, Progress& progress)
+/// The positions, which leave the rest of the cloud in its file until it is written.
+Input
+makeInput (const Cloud& cloud)
 {
   Input input;
-  input.positions = cloud.positions;
+  input.positions = cloud.positions ();
   input.cloud_size = cloud.size ();
   input.cloud_index.resize (cloud.size ());
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
+  cloud.file.giveBack ();
+  return input;
+}
+
+Result
+reconstructInput (Input input, Options options, Progress& progress)
+{
   options.progress = [&progress] (Stage stage) {
     progress.show ("[" + std::to_string (static_cast<int> (stage) + 1) + "/" +
                    std::to_string (static_cast<int> (Stage::COUNT)) + "] " + stageName (stage));
@@ -79,16 +87,25 @@ reconstructCloud (const Cloud& cloud, Options options, Progress& progress)
   return reconstruct (std::move (input), options);
 }
 
-/// The mesh in the plane: points at their parameters, without normals, for those are of the
-/// surface.
+/// The mesh in the plane: points at their parameters, which the cloud only looks at, without
+/// normals, for those are of the surface.
 std::pair<Cloud, Triangles>
 flatMesh (const Cloud& cloud, const Result& result)
 {
+  static const double zero = 0.0;
+  const std::vector<Eigen::Vector2d>& parameters = result.report.parameters;
   Cloud flat;
   flat.single_precision = false;
-  flat.positions.reserve (cloud.size ());
-  for (const Eigen::Vector2d& uv : result.report.parameters)
-    flat.positions.emplace_back (uv.x (), uv.y (), 0.0);
+  flat.rows = parameters.size ();
+  const auto view = [&flat] (std::size_t axis, const double* first, std::size_t stride) {
+    Field& field = flat.coordinates[axis];
+    field.type = ScalarType::FLOAT64;
+    field.first = {std::shared_ptr<const char> (), reinterpret_cast<const char*> (first)};
+    field.stride = stride;
+  };
+  view (0, parameters.front ().data (), sizeof (Eigen::Vector2d));
+  view (1, parameters.front ().data () + 1, sizeof (Eigen::Vector2d));
+  view (2, &zero, 0);
   const FieldTriple normals = normalFields (cloud);
   for (const Field& field : cloud.fields)
     if (std::find (normals.begin (), normals.end (), &field) == normals.end ())
@@ -98,7 +115,7 @@ flatMesh (const Cloud& cloud, const Result& result)
                 [&flat] (const auto& triangle) {
                   return std::all_of (
                       triangle.begin (), triangle.end (),
-                      [&flat] (std::uint32_t p) { return flat.positions[p].allFinite (); });
+                      [&flat] (std::uint32_t p) { return flat.position (p).allFinite (); });
                 });
   removeNonFinitePoints (flat, triangles);
   return {std::move (flat), std::move (triangles)};
@@ -138,6 +155,10 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
         "after them moved up");
   run.vertices = cloud.size ();
   stage (line.output, cloud, result.triangles);
+  if (cloud.file.hasChanged ())
+    result.report.warnings.emplace_back (
+        "the input file was written to while it was in use: what the mesh is made of may be a "
+        "mixture; keep the file as it is and run again");
 }
 
 /// Writes nothing but the report if there is no mesh, or one that --strict refuses.
@@ -231,6 +252,7 @@ run (CommandLine line)
   if (!line.loop.empty ())
     line.options.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input); });
+  Input input = makeInput (cloud);
   RunFigures figures;
   figures.read_seconds = secondsSince (start);
   figures.input_points = cloud.size ();
@@ -239,7 +261,7 @@ run (CommandLine line)
     figures.input_fields.push_back (field.name);
 
   start = std::chrono::steady_clock::now ();
-  Result result = reconstructCloud (cloud, line.options, progress);
+  Result result = reconstructInput (std::move (input), line.options, progress);
   figures.reconstruct_seconds = secondsSince (start);
   Report& report = result.report;
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
@@ -279,7 +301,7 @@ int
 runTool (int argc, char** argv)
 {
   try {
-    handleSignals ();
+    handleSignals (EXIT_INPUT);
     CommandLine line;
     if (const std::optional<int> done = parseCommandLine (argc, argv, line))
       return *done;

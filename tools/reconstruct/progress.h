@@ -24,22 +24,25 @@ public:
 
   void show (const std::string& step)
   {
-    if (is_shown_) {
+    if (is_shown_ && step != shown_) {
       std::fprintf (stderr, "\r\033[K%s ...", step.c_str ());
       std::fflush (stderr);
+      shown_ = step;
     }
   }
 
   void clear ()
   {
-    if (is_shown_) {
+    if (is_shown_ && !shown_.empty ()) {
       std::fputs ("\r\033[K", stderr);
       std::fflush (stderr);
+      shown_.clear ();
     }
   }
 
 private:
   bool is_shown_;
+  std::string shown_;
 };
 
 } // namespace floater

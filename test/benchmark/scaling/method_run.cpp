@@ -128,7 +128,7 @@ measure (const CommandLine& line, Method& method)
     const Cloud cloud = readPoints (line.cloud);
     figures.read_seconds = reading.seconds ();
     points = cloud.size ();
-    method.prepare (cloud.positions);
+    method.prepare (cloud.positions ());
   }
   figures.start_bytes = residentBytes ();
   const double cpu_before = cpuSeconds ();

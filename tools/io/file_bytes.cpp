@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_bytes.h"
+
+#include "read_error.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+/// Ranges of addresses, where a signal handler may read them. Files beyond these are merely not
+/// known to it.
+struct MappedRange
+{
+  std::atomic<std::uintptr_t> first{0}, last{0}; // both 0: free
+};
+constexpr std::size_t MOST_RANGES = 8;
+std::array<MappedRange, MOST_RANGES> mapped_ranges;
+
+bool
+isSameTime (const timespec& a, const timespec& b)
+{
+  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+}
+
+[[noreturn]] void
+failOnErrno ()
+{
+  throw ReadError (std::strerror (errno));
+}
+
+} // namespace
+
+struct FileBytes::Holder
+{
+  explicit Holder (const std::filesystem::path& path)
+  {
+    descriptor = ::open (path.c_str (), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0 || ::fstat (descriptor, &status) != 0)
+      failOnErrno ();
+  }
+
+  ~Holder ()
+  {
+    if (mapped != nullptr) {
+      for (MappedRange& range : mapped_ranges)
+        if (range.first == reinterpret_cast<std::uintptr_t> (mapped))
+          range.first = range.last = 0;
+      ::munmap (mapped, mapped_size);
+    }
+    if (descriptor >= 0)
+      ::close (descriptor);
+  }
+  Holder (const Holder&) = delete;
+  Holder& operator= (const Holder&) = delete;
+  Holder (Holder&&) = delete;
+  Holder& operator= (Holder&&) = delete;
+
+  bool map ()
+  {
+    const auto size = static_cast<std::size_t> (status.st_size);
+    if (!S_ISREG (status.st_mode) || size == 0)
+      return false;
+    void* const at = ::mmap (nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (at == MAP_FAILED)
+      return false;
+    mapped = at;
+    mapped_size = size;
+    ::madvise (mapped, mapped_size, MADV_SEQUENTIAL);
+    const auto first = reinterpret_cast<std::uintptr_t> (mapped);
+    for (MappedRange& range : mapped_ranges) {
+      std::uintptr_t free = 0;
+      if (range.first.compare_exchange_strong (free, first)) {
+        range.last = first + size;
+        break;
+      }
+    }
+    return true;
+  }
+
+  void readAll ()
+  {
+    constexpr std::size_t STEP = 1U << 16U;
+    for (;;) {
+      const std::size_t used = own.size ();
+      own.resize (used + std::max (STEP, used));
+      const ssize_t got = ::read (descriptor, own.data () + used, own.size () - used);
+      if (got < 0 && errno != EINTR)
+        failOnErrno ();
+      own.resize (used + static_cast<std::size_t> (std::max<ssize_t> (got, 0)));
+      if (got == 0)
+        return;
+    }
+  }
+
+  int descriptor = -1;
+  struct stat status = {}; // when the file was opened
+  void* mapped = nullptr;
+  std::size_t mapped_size = 0;
+  std::string own;
+};
+
+FileBytes::FileBytes (const std::filesystem::path& path)
+{
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status (path, error);
+  if (status.type () == std::filesystem::file_type::not_found)
+    throw ReadError ("there is no such file; check its name");
+  if (std::filesystem::is_directory (status))
+    throw ReadError ("it is a folder, not a file");
+  const auto holder = std::make_shared<Holder> (path);
+  if (holder->map ())
+    bytes_ = {static_cast<const char*> (holder->mapped), holder->mapped_size};
+  else {
+    holder->readAll ();
+    bytes_ = holder->own;
+  }
+  holder_ = holder;
+}
+
+void
+FileBytes::giveBack () const
+{
+  if (holder_ && holder_->mapped != nullptr)
+    ::madvise (holder_->mapped, holder_->mapped_size, MADV_DONTNEED);
+}
+
+bool
+FileBytes::hasChanged () const
+{
+  if (!holder_ || holder_->mapped == nullptr)
+    return false;
+  struct stat now = {};
+  return ::fstat (holder_->descriptor, &now) != 0 || now.st_size != holder_->status.st_size ||
+         !isSameTime (now.st_mtim, holder_->status.st_mtim);
+}
+
+bool
+isInMappedFile (const void* address)
+{
+  const auto at = reinterpret_cast<std::uintptr_t> (address);
+  for (const MappedRange& range : mapped_ranges)
+    if (at >= range.first && at < range.last)
+      return true;
+  return false;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which points of a cloud stay.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Some of the rows of a file, numbered anew. A fifth of a byte per row; nothing if all are kept.
+class KeptPoints
+{
+public:
+  /// All rows; takes no memory.
+  KeptPoints () = default;
+
+  /// Those for which keep (row) is true.
+  template <typename Keep>
+  KeptPoints (std::size_t rows, const Keep& keep)
+  {
+    std::vector<Word> words ((rows + WORD_ROWS - 1) / WORD_ROWS);
+    for (std::size_t row = 0; row < rows; ++row) {
+      Word& word = words[row / WORD_ROWS];
+      if (row % WORD_ROWS == 0)
+        word.before = static_cast<std::uint32_t> (kept_);
+      if (keep (row)) {
+        word.bits |= std::uint64_t{1} << row % WORD_ROWS;
+        ++kept_;
+      }
+    }
+    if (kept_ < rows)
+      words_ = std::move (words);
+  }
+
+  bool areAll () const { return words_.empty (); }
+
+  /// How many are kept, if not all.
+  std::size_t size () const { return kept_; }
+
+  /// The new number of a row that is kept.
+  std::uint32_t number (std::uint32_t row) const
+  {
+    if (areAll ())
+      return row;
+    const Word& word = words_[row / WORD_ROWS];
+    const std::uint64_t below = (std::uint64_t{1} << row % WORD_ROWS) - 1;
+    return word.before + static_cast<std::uint32_t> (__builtin_popcountll (word.bits & below));
+  }
+
+  /// The row of a new number, which should be below size (). O(log rows) if not all are kept.
+  std::size_t row (std::size_t number) const
+  {
+    if (areAll ())
+      return number;
+    std::size_t first = 0;
+    for (std::size_t last = words_.size (); last - first > 1;) {
+      const std::size_t middle = first + (last - first) / 2;
+      (words_[middle].before <= number ? first : last) = middle;
+    }
+    std::uint64_t bits = words_[first].bits;
+    for (std::size_t i = words_[first].before; i < number; ++i)
+      bits &= bits - 1; // without the lowest
+    if (bits == 0)
+      return 0; // beyond size ()
+    return first * WORD_ROWS + static_cast<std::size_t> (__builtin_ctzll (bits));
+  }
+
+private:
+  static constexpr std::size_t WORD_ROWS = 64;
+
+  struct Word
+  {
+    std::uint64_t bits = 0;   // kept rows
+    std::uint32_t before = 0; // kept rows of all words before
+  };
+
+  std::vector<Word> words_;
+  std::size_t kept_ = 0;
+};
+
+} // namespace floater
+} // namespace pcl

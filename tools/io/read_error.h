@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+/// A file cannot be used as input. The text names the cause, not the file.
+class ReadError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace floater
+} // namespace pcl
