@@ -74,14 +74,16 @@ public:
       return false;
     // The nearest ones may be of the same small cluster: the reach of the others tells what is far.
     const std::size_t beyond = std::min (HANDFUL, row.size () / 2);
+    const double to_others = distance (positions_, p, row[beyond]);
     scratch_.clear ();
     for (std::size_t i = beyond; i < row.size (); ++i)
       scratch_.push_back (reach_[row[i]]);
+    if (to_others <= OFF_PLANE * *std::min_element (scratch_.begin (), scratch_.end ()))
+      return false; // so are nearly all points, without a median
     const double usual = median ();
-    if (distance (positions_, p, row[beyond]) > FAR * usual)
+    if (to_others > FAR * usual)
       return true;
-    return distance (positions_, p, row[beyond]) > OFF_PLANE * usual &&
-           isOffPlane (p, row, OFF_PLANE * usual);
+    return to_others > OFF_PLANE * usual && isOffPlane (p, row, OFF_PLANE * usual);
   }
 
 private:

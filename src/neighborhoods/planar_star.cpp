@@ -30,17 +30,26 @@ pseudoAngle (const Eigen::Vector2d& v)
   return v.y () < 0.0 ? 4.0 + t : t;
 }
 
+// True if a cross product is as good as zero by the lengths of its factors, or negative. Compared
+// by squares: roots take longer than all the rest.
+bool
+isAtMostCollinear (double cross_product, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return cross_product <= 0.0 || cross_product * cross_product <=
+                                     COLLINEAR * COLLINEAR * a.squaredNorm () * b.squaredNorm ();
+}
+
 bool
 sameDirection (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
-  return a.dot (b) > 0.0 && std::abs (cross (a, b)) <= COLLINEAR * a.norm () * b.norm ();
+  return a.dot (b) > 0.0 && isAtMostCollinear (std::abs (cross (a, b)), a, b);
 }
 
 // Half a turn or more from a to b, anti-clockwise. Neighbours in one direction do not come here.
 bool
 spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
-  return cross (a, b) <= COLLINEAR * a.norm () * b.norm ();
+  return isAtMostCollinear (cross (a, b), a, b);
 }
 
 // True if b lies strictly outside the segment from a to c, walking anti-clockwise around the
@@ -51,18 +60,18 @@ isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
 {
   const Eigen::Vector2d ab = b - a;
   const Eigen::Vector2d bc = c - b;
-  const double tolerance = ab.dot (bc) > 0.0 ? COLLINEAR * ab.norm () * bc.norm () : 0.0;
-  return cross (ab, bc) > tolerance;
+  const double turn = cross (ab, bc);
+  return ab.dot (bc) > 0.0 ? !isAtMostCollinear (turn, ab, bc) : turn > 0.0;
 }
 
 void
 sortByAngle (std::vector<PlanarNeighbor>& neighbors)
 {
+  for (PlanarNeighbor& neighbor : neighbors)
+    neighbor.angle = pseudoAngle (neighbor.offset);
   std::sort (neighbors.begin (), neighbors.end (),
              [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
-               const double angle_a = pseudoAngle (a.offset);
-               const double angle_b = pseudoAngle (b.offset);
-               return angle_a != angle_b ? angle_a < angle_b : a.point < b.point;
+               return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
              });
 }
 
@@ -88,33 +97,40 @@ PlanarStar::keepNearest (const std::vector<PlanarNeighbor>& sorted)
 bool
 PlanarStar::beginAfterGap ()
 {
-  constexpr double TWO_PI = 6.283185307179586;
   const std::size_t count = hull_.size ();
   std::size_t gap = count;
   std::size_t nearest = 0;
-  double smallest_cosine = 1.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d& a = hull_[i].offset;
-    const Eigen::Vector2d& b = hull_[(i + 1) % count].offset;
-    const double cosine = a.dot (b) / (a.norm () * b.norm ());
-    if (count < 2 || spansHalfTurn (a, b)) {
+    if (count < 2 || spansHalfTurn (a, hull_[i + 1 == count ? 0 : i + 1].offset))
       gap = i;
-      opening_angle_ = count < 2 ? TWO_PI : TWO_PI - std::acos (std::clamp (cosine, -1.0, 1.0));
-    }
-    smallest_cosine = std::min (smallest_cosine, cosine);
     if (a.squaredNorm () < hull_[nearest].offset.squaredNorm ())
       nearest = i;
   }
-  const bool open = gap < count || count < 3;
-  if (!open)
-    opening_angle_ = std::acos (std::clamp (smallest_cosine, -1.0, 1.0));
-  else if (count == 0)
-    opening_angle_ = TWO_PI;
+  is_open_ = gap < count || count < 3;
+  const std::size_t begin = is_open_ ? (gap + 1 < count ? gap + 1 : (gap + 1) - count) : nearest;
   if (count > 0)
-    std::rotate (hull_.begin (),
-                 hull_.begin () + static_cast<std::ptrdiff_t> (open ? (gap + 1) % count : nearest),
+    std::rotate (hull_.begin (), hull_.begin () + static_cast<std::ptrdiff_t> (begin),
                  hull_.end ());
-  return open;
+  return is_open_;
+}
+
+double
+PlanarStar::openingAngle () const
+{
+  constexpr double TWO_PI = 6.283185307179586;
+  const auto cosine = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::clamp (a.dot (b) / std::sqrt (a.squaredNorm () * b.squaredNorm ()), -1.0, 1.0);
+  };
+  if (hull_.size () < 2)
+    return TWO_PI;
+  const Eigen::Vector2d &first = hull_.front ().offset, &last = hull_.back ().offset;
+  double smallest = cosine (last, first);
+  if (is_open_ && spansHalfTurn (last, first))
+    return TWO_PI - std::acos (smallest);
+  for (std::size_t i = 1; i < hull_.size (); ++i)
+    smallest = std::min (smallest, cosine (hull_[i - 1].offset, hull_[i].offset));
+  return std::acos (smallest);
 }
 
 bool

@@ -15,6 +15,7 @@ struct PlanarNeighbor
 {
   Eigen::Vector2d offset;
   Index point;
+  double angle = 0.0; ///< set by PlanarStar: grows with the angle of the offset, from 0 to 4
 };
 
 /// Turns neighbours into the Delaunay star of the origin, anti-clockwise. O(k log k).
@@ -36,19 +37,19 @@ public:
   bool order (std::vector<PlanarNeighbor>& neighbors);
 
   /// Widest sector, radians, without any of the neighbours given to make () or order ().
-  double openingAngle () const { return opening_angle_; }
+  double openingAngle () const;
 
 private:
   // The nearest neighbour in each direction, in anti-clockwise order, into hull_.
   void keepNearest (const std::vector<PlanarNeighbor>& sorted);
 
-  // Rotates hull_ to begin after the gap, or at the nearest if there is none; sets opening_angle_.
-  // Returns true if the star is open.
+  // Rotates hull_ to begin after the gap, or at the nearest if there is none. Returns true if the
+  // star is open.
   bool beginAfterGap ();
 
   std::vector<PlanarNeighbor> hull_;
   std::vector<Eigen::Vector2d> inverted_;
-  double opening_angle_ = 0.0;
+  bool is_open_ = true;
 };
 
 } // namespace floater
