@@ -71,6 +71,8 @@ checkOptions (const Options& options)
     return problem;
   if (options.threads < 0)
     return out_of_range ("the number of threads", "0 (all cores) or more");
+  if (options.blocks < 0)
+    return out_of_range ("the number of blocks", "0 (chosen by the points) or more");
   if (!options.loop.empty () && options.loop.size () < 3)
     return {Status::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
   return {};

@@ -54,6 +54,38 @@ struct Entry
   Index row;
 };
 
+// Both halves at the same time.
+template <typename Before>
+void
+sortInHalves (std::vector<Entry>& entries, int threads, const Before& before)
+{
+  const auto middle = entries.begin () + static_cast<std::ptrdiff_t> (entries.size () / 2);
+  parallelTasks (2, threads, [&] (std::size_t half) {
+    std::sort (half == 0 ? entries.begin () : middle, half == 0 ? middle : entries.end (), before);
+  });
+  std::inplace_merge (entries.begin (), middle, entries.end (), before);
+}
+
+// Equal points are neighbours in the order; the first of them, that of the smallest cloud index,
+// stands for the others.
+void
+leaveDuplicatesOut (WorkingSet& set)
+{
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < set.positions.size (); ++p) {
+    if (kept > 0 && set.positions[kept - 1] == set.positions[p]) {
+      set.duplicates.push_back ({set.cloud_index[p], set.cloud_index[kept - 1]});
+      continue;
+    }
+    set.positions[kept] = set.positions[p];
+    set.cloud_index[kept] = set.cloud_index[p];
+    ++kept;
+  }
+  set.positions.resize (kept);
+  set.cloud_index.resize (kept);
+  std::sort (set.duplicates.begin (), set.duplicates.end ());
+}
+
 } // namespace
 
 WorkingSet
@@ -110,20 +142,17 @@ makeWorkingSet (const std::vector<Eigen::Vector3d>& positions,
         return p[axis] < q[axis];
     return cloud_index[a.row] < cloud_index[b.row];
   };
-  std::sort (entries.begin (), entries.end (), before);
+  sortInHalves (entries, threads, before);
 
-  set.positions.reserve (entries.size ());
-  set.cloud_index.reserve (entries.size ());
-  for (const Entry& entry : entries) {
-    const Eigen::Vector3d position = scaled (entry.row);
-    if (!set.positions.empty () && set.positions.back () == position) {
-      set.duplicates.push_back ({cloud_index[entry.row], set.cloud_index.back ()});
-      continue;
+  set.positions.resize (entries.size ());
+  set.cloud_index.resize (entries.size ());
+  parallelRanges (entries.size (), threads, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) {
+      set.positions[e] = scaled (entries[e].row);
+      set.cloud_index[e] = cloud_index[entries[e].row];
     }
-    set.positions.push_back (position);
-    set.cloud_index.push_back (cloud_index[entry.row]);
-  }
-  std::sort (set.duplicates.begin (), set.duplicates.end ());
+  });
+  leaveDuplicatesOut (set);
   return set;
 }
 

@@ -80,6 +80,7 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
   EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
+  EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
   EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
   EXPECT_FALSE (floater.getProgressCallback ());
 
@@ -327,6 +328,7 @@ TEST_F (FloaterClass, ThreadsDoNotChangeTheResult)
   for (const int threads : {2, 5, 0}) {
     SCOPED_TRACE (threads);
     floater.setNumberOfThreads (threads);
+    floater.setNumberOfBlocks (threads);
     Polygons again;
     floater.reconstruct (points, again);
     ASSERT_EQ (again.size (), polygons.size ());

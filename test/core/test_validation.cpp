@@ -52,6 +52,7 @@ TEST (Validation, OptionsHaveRanges)
   expectRange (&Options::ilut_fill, {1, 15, 10000}, {0, -1, 10001});
   expectRange (&Options::ilut_drop, {0.0, 1e-2, 1.0}, {-1e-9, 1.1, NOT_A_NUMBER});
   expectRange (&Options::threads, {0, 1, 64}, {-1});
+  expectRange (&Options::blocks, {0, 1, 64}, {-1});
   expectRange (&Options::kept_loops, {0, 1, 1000}, {-1});
   expectRange (&Options::largest_hole, {0.0, 5.5, 1e6}, {-1e-9, NOT_A_NUMBER, INF});
   expectRange (&Options::largest_hole_length, {0.0, 1e-20, 1e20}, {-1e-9, NOT_A_NUMBER, INF});

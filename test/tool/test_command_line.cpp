@@ -38,6 +38,7 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"-k", ""}, "'' is not a whole number"},
       {{"-k"}, "--neighbors"},
       {{"--threads", "-1"}, "threads must be 0"},
+      {{"--blocks", "-1"}, "blocks must be 0"},
       {{"--opening-angle", "wide"}, "'wide' is not a number"},
       {{"--opening-angle", "nan"}, "opening angle must be"},
       {{"--cluster-tolerance", "0"}, "cluster tolerance must be"},
@@ -226,7 +227,8 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--ilut-drop", "0.001", "ilut_drop", 0.001},
       {"--ordering", "metis", "ordering", "metis"},
       {"--flips", "off", "flips", false},
-      {"--threads", "2", "threads", 2}};
+      {"--threads", "2", "threads", 2},
+      {"--blocks", "3", "blocks", 3}};
   for (const auto& [option, value, key, expected] : cases) {
     SCOPED_TRACE (option);
     EXPECT_NE (defaults.at (key), expected);

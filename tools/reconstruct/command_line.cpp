@@ -131,6 +131,8 @@ addOptions (CLI::App& app, CommandLine& line)
   Options& options = line.options;
   addNumber (app, "-j,--threads", options.threads,
              "threads, 0 for all cores; the result is the same", GENERAL);
+  addNumber (app, "--blocks", options.blocks,
+             "pieces in which a surface is made, 0 to choose;\nthe result is the same", GENERAL);
   app.add_flag ("--json", line.json, "print a summary as one line of JSON, the last")
       ->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only (and the line of --json)")

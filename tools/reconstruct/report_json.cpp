@@ -43,7 +43,8 @@ optionsJson (const Options& options)
           {"ilut_fill", options.ilut_fill},
           {"ilut_drop", options.ilut_drop},
           {"flips", options.flip_edges},
-          {"threads", options.threads}};
+          {"threads", options.threads},
+          {"blocks", options.blocks}};
 }
 
 Json

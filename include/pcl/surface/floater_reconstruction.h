@@ -211,6 +211,12 @@ public:
   void setNumberOfThreads (int threads = 0) { options_.threads = threads; }
   int getNumberOfThreads () const { return options_.threads; }
 
+  /** \brief Pieces in which a surface is made, each of nearest neighbours and a little around it;
+   * default 0: one up to 262144 points, then of at most 131072 points each. Changes time and memory
+   * only, not the result. With a search method of one's own, balls or a disc there is one. */
+  void setNumberOfBlocks (int blocks = 0) { options_.blocks = blocks; }
+  int getNumberOfBlocks () const { return options_.blocks; }
+
   /** \brief Called as each stage of a run begins, by the thread that called reconstruct(). An
    * exception from it ends the run with Status::INTERNAL_ERROR. Default: empty. */
   void setProgressCallback (std::function<void (floater::Stage)> callback)
