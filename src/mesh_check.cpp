@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_check.h"
 
+#include "common/monitor.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -70,11 +72,14 @@ public:
   {
     const std::size_t points = set_.positions.size ();
     indexCorners ();
-    for (Index p = 0; p < points; ++p)
+    MonitoredLoop progress (points);
+    for (Index p = 0; p < points; ++p) {
+      progress.next ();
       if (offsets_[p] == offsets_[p + 1])
         found_.unused.push_back (p);
       else
         lookAround (p);
+    }
     check_.euler_characteristic = static_cast<std::int64_t> (points - found_.unused.size ()) -
                                   static_cast<std::int64_t> (edges_) +
                                   static_cast<std::int64_t> (offsets_.back () / 3);

@@ -29,13 +29,16 @@ Problem
 examine (Samples& samples, const std::vector<Triangle>& triangles, const Options& options,
          StageClock& clock, Report& report)
 {
+  constexpr double AFTER_SPACING = 0.1; // of the time of this stage
   clock.start (Stage::CHECK);
+  StageClock::step (AFTER_SPACING);
   if (!samples.noisy.empty ())
     samples.set.positions.swap (samples.noisy);
   const std::vector<float> spacing =
       localSpacing (samples.set.positions, samples.near, options.threads);
   samples.near = {};
   samples.stars = {};
+  StageClock::step (1.0);
   const MeshExamination found = checkMesh (triangles, samples.set, spacing);
   report.statistics.folds = found.check.folds;
   return reportCheck (samples.set, found, options, report);
@@ -92,6 +95,7 @@ isDiscBetter (Samples& samples, const Surface& surface, const Options& options, 
       samples.set.positions.size () > LARGEST_SECOND_TRY)
     return false;
   const Report before = report;
+  StageClock::setMethod (Topology::DISC);
   clock.start (Stage::STARS);
   samples.stars = makeStars (samples.set.positions, samples.near, samples.stars.normals,
                              options.filter_sheets, options.threads);
@@ -117,6 +121,8 @@ reconstructAny (Input& input, const Options& options, Result& result)
   if (Problem problem = checkOptions (options))
     return problem;
   StageClock clock (report.statistics, options.progress);
+  if (asksForDisc (options))
+    StageClock::setMethod (Topology::DISC);
   Samples samples;
   if (Problem problem = prepareSamples (input, options, clock, samples, report))
     return problem;
@@ -147,7 +153,13 @@ reconstruct (Input input, const Options& options)
   Result result;
   Problem problem;
   try {
+    Monitor monitor (options);
     problem = reconstructAny (input, options, result);
+    if (!problem)
+      monitor.finish ();
+  }
+  catch (const Cancelled&) {
+    problem = {Status::CANCELLED, "the caller stopped the run"};
   }
   catch (const std::bad_alloc&) {
     problem = {Status::OUT_OF_MEMORY,
@@ -156,9 +168,14 @@ reconstruct (Input input, const Options& options)
   catch (const std::exception& error) {
     problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
   }
+  if (problem.status == Status::CANCELLED) {
+    Report stopped;
+    stopped.statistics = result.report.statistics;
+    result.report = std::move (stopped); // nothing that takes memory
+  }
   result.report.status = problem.status;
   if (problem) {
-    result.triangles.clear ();
+    result.triangles = {};
     result.report.message = std::move (problem.message);
   }
   return result;

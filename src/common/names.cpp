@@ -69,6 +69,8 @@ statusName (Status status)
     return "NOT_CONVERGED";
   case Status::SOLVER_UNAVAILABLE:
     return "SOLVER_UNAVAILABLE";
+  case Status::CANCELLED:
+    return "CANCELLED";
   case Status::OUT_OF_MEMORY:
     return "OUT_OF_MEMORY";
   case Status::INTERNAL_ERROR:

@@ -2,8 +2,12 @@
 // A parallel loop over ranges whose result cannot depend on the number of threads.
 #pragma once
 
+#include "common/monitor.h"
+
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -22,38 +26,70 @@ resolveThreads (int threads)
                      : std::max (1, static_cast<int> (std::thread::hardware_concurrency ()));
 }
 
-/// Calls body (i) for i from 0 to count - 1, by `threads` threads and in any order, so body must
-/// write only to places that belong to i. The first exception thrown by a body is rethrown here.
+/// Calls body (i) for every i below `count`. They are handed out one by one, to `threads` threads
+/// and in any order, so body must write only to places that belong to i. The first exception thrown
+/// by a body is rethrown here. Moves the fraction of the run that is done, and may be stopped
+/// (Monitor): then no more are handed out.
 template <typename Body>
 void
 parallelTasks (std::size_t count, int threads, Body&& body)
 {
+  constexpr std::chrono::milliseconds BETWEEN_LOOKS{50};
+  constexpr std::size_t FEW = 2; // tasks, within which there are loops that tell more
+  MonitoredLoop progress (count > FEW ? count : 0);
   std::atomic<std::size_t> next{0};
+  std::size_t running = 0;
   std::exception_ptr error;
-  std::mutex error_mutex;
-  const auto work = [&] {
+  std::mutex mutex;
+  std::condition_variable ended;
+  const auto guarded = [&] (const auto& work) {
     try {
-      for (std::size_t i = next++; i < count; i = next++)
-        body (i);
+      work ();
     }
     catch (...) {
-      const std::lock_guard<std::mutex> lock (error_mutex);
+      const std::lock_guard<std::mutex> lock (mutex);
       if (!error)
         error = std::current_exception ();
       next = count;
     }
   };
+  const auto help = [&, monitor = Monitor::current ()] {
+    const Monitor::Helper helper (monitor);
+    guarded ([&] {
+      for (std::size_t i = next++; i < count; i = next++)
+        body (i);
+    });
+    const std::lock_guard<std::mutex> lock (mutex);
+    --running;
+    ended.notify_one ();
+  };
   std::vector<std::thread> helpers;
   const std::size_t wanted =
       std::min<std::size_t> (static_cast<std::size_t> (resolveThreads (threads)), count);
   try {
-    for (std::size_t t = 1; t < wanted; ++t)
-      helpers.emplace_back (work);
+    for (std::size_t t = 1; t < wanted; ++t) {
+      helpers.reserve (wanted - 1);
+      const std::lock_guard<std::mutex> lock (mutex);
+      helpers.emplace_back (help);
+      ++running;
+    }
   }
   catch (const std::exception&) {
     // Fewer threads than asked for could be started; those that run do all the work.
   }
-  work ();
+  guarded ([&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      body (i);
+      progress.reach (i);
+    }
+  });
+  // Only this thread may be asked to stop, also while it waits for the last ones.
+  for (std::unique_lock<std::mutex> lock (mutex); running > 0;) {
+    ended.wait_for (lock, BETWEEN_LOOKS);
+    lock.unlock ();
+    guarded ([&] { progress.reach (0); });
+    lock.lock ();
+  }
   for (std::thread& helper : helpers)
     helper.join ();
   if (error)
@@ -63,13 +99,14 @@ parallelTasks (std::size_t count, int threads, Body&& body)
 /// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
 constexpr std::size_t RANGE_LENGTH = 1024;
 
-/// The same for consecutive ranges that cover 0 to count: body (first, last).
+/// Calls body (first, last) for consecutive ranges that cover 0 to count, as parallelTasks does.
 template <typename Body>
 void
 parallelRanges (std::size_t count, int threads, Body&& body)
 {
-  parallelTasks ((count + RANGE_LENGTH - 1) / RANGE_LENGTH, threads, [&] (std::size_t range) {
-    body (range * RANGE_LENGTH, std::min (count, (range + 1) * RANGE_LENGTH));
+  const std::size_t ranges = (count + RANGE_LENGTH - 1) / RANGE_LENGTH;
+  parallelTasks (ranges, threads, [&] (std::size_t r) {
+    body (r * RANGE_LENGTH, std::min (count, (r + 1) * RANGE_LENGTH));
   });
 }
 

@@ -2,6 +2,8 @@
 // Wall time by stage.
 #pragma once
 
+#include "common/monitor.h"
+
 #include <pcl/surface/floater/report.h>
 
 #include <chrono>
@@ -11,7 +13,7 @@ namespace pcl
 namespace floater
 {
 /// Books the time since the last start to the stage that was running, and tells the user's callback
-/// which one begins.
+/// and the monitor of the run, if there is one, which stage begins.
 class StageClock
 {
 public:
@@ -30,8 +32,24 @@ public:
     stop ();
     if (progress_)
       progress_ (stage);
+    if (Monitor* monitor = Monitor::current ())
+      monitor->enterStage (stage);
     stage_ = stage;
     begin_ = Clock::now ();
+  }
+
+  /// Tells the monitor which method makes the mesh from here on (Monitor::setMethod).
+  static void setMethod (Topology method)
+  {
+    if (Monitor* monitor = Monitor::current ())
+      monitor->setMethod (method);
+  }
+
+  /// Announces a step of the stage to the monitor (Monitor::enterStep).
+  static void step (double until)
+  {
+    if (Monitor* monitor = Monitor::current ())
+      monitor->enterStep (until);
   }
 
   void stop ()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/reachability.h"
 
+#include "common/monitor.h"
+
 #include <algorithm>
 
 namespace pcl
@@ -38,12 +40,15 @@ void
 search (const FlatLists& leading_to, std::vector<Index>& queue, std::size_t head,
         std::vector<std::uint8_t>& reachable)
 {
-  for (; head < queue.size (); ++head)
+  MonitoredLoop progress;
+  for (; head < queue.size (); ++head) {
+    progress.next ();
     for (const Index p : leading_to.row (queue[head]))
       if (reachable[p] == 0) {
         reachable[p] = 1;
         queue.push_back (p);
       }
+  }
 }
 
 // The links of point p to the nearest reached points, appended. Ties go to the smaller point.

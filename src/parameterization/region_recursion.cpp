@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/region_recursion.h"
 
+#include "common/monitor.h"
 #include "neighborhoods/stars.h"
 #include "parameterization/parameterize.h"
 #include "triangulation/planar_delaunay.h"
@@ -174,6 +175,7 @@ layOutCollapsedRegions (SurfaceMesh& mesh, const std::vector<Eigen::Vector2d>& u
   const std::vector<CollapsedRegion> regions = findCollapsedRegions (mesh, uv, positions, loop);
   if (regions.empty ())
     return {};
+  MonitoredLoop progress (1); // stages of the regions are none of the whole
   Recursion recursion (positions, near, normals, options);
   recursion.cut (mesh.triangles, nullptr, regions, 0);
   const RegionRecursion result = recursion.run ();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solvers/bicgstab_solver.h"
 
+#include "common/monitor.h"
 #include "solvers/both_sides.h"
 #include "solvers/iterative.h"
 
@@ -55,6 +56,7 @@ public:
   Vector solve (const Rhs& rhs) const
   {
     ++uses_;
+    Monitor::look ();
     return factors_->solve (rhs);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solvers/gauss_seidel_solver.h"
 
+#include "common/monitor.h"
 #include "solvers/iterative.h"
 
 #include <algorithm>
@@ -17,7 +18,9 @@ constexpr int SWEEPS_BETWEEN_LOOKS = 10;
 void
 sweep (const LinearSystem& system, std::vector<Eigen::Vector2d>& uv)
 {
+  MonitoredLoop progress;
   for (std::size_t i = 0; i < uv.size (); ++i) {
+    progress.next ();
     Eigen::Vector2d sum (system.rhs_u[i], system.rhs_v[i]);
     double diagonal = 0.0;
     const auto last = static_cast<std::size_t> (system.row_offsets[i + 1]);

@@ -14,6 +14,7 @@ namespace
 {
 constexpr double IMPROVES =
     1e-9; // relative gain below which the diagonals of a quad count as equal
+constexpr std::size_t EDGES_PER_LOOK = 256;
 
 } // namespace
 
@@ -22,7 +23,9 @@ orientNormals (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& posi
                std::vector<Eigen::Vector3f>& normals)
 {
   std::vector<Eigen::Vector3f> area (normals.size (), Eigen::Vector3f::Zero ());
+  MonitoredLoop progress;
   for (const Triangle& t : mesh.triangles) {
+    progress.next ();
     const Eigen::Vector3f area_vector = (positions[t[1]] - positions[t[0]])
                                             .cross (positions[t[2]] - positions[t[0]])
                                             .cast<float> ();
@@ -39,7 +42,9 @@ meshCost (const SurfaceMesh& mesh, const TriangleCost& cost)
 {
   RememberedCost remembered (cost);
   double sum = 0.0;
+  MonitoredLoop progress (mesh.triangles.size ());
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
     const TriangleCost::Value value = remembered (mesh.triangles[t]);
     sum += value.cost;
     for (std::uint8_t side = 0; side < 3; ++side)
@@ -80,7 +85,11 @@ double
 EdgeFlipper::run ()
 {
   double change = 0.0;
+  const std::size_t pushed = stack_.size ();
+  MonitoredLoop progress (pushed);
   while (!stack_.empty ()) {
+    if (stack_.size () % EDGES_PER_LOOK == 0)
+      progress.reach (pushed - std::min (pushed, stack_.size ()));
     const MeshEdge e = stack_.back ();
     stack_.pop_back ();
     const double gained = gain (e);

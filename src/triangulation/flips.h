@@ -2,6 +2,7 @@
 // Edge flips on the surface after lifting.
 #pragma once
 
+#include "common/monitor.h"
 #include "triangulation/surface_mesh.h"
 #include "triangulation/triangle_cost.h"
 

@@ -44,7 +44,9 @@ public:
     std::vector<Index> vertices = badVertices ();
     for (int pass = 0; pass < PASSES && !vertices.empty (); ++pass) {
       mover_.touched ().clear ();
+      MonitoredLoop progress (vertices.size ());
       for (Index v : vertices) {
+        progress.next ();
         mover_.start ();
         moves += mover_.move (v, PLACES) < 0.0 ? 1 : 0;
       }
@@ -62,10 +64,13 @@ public:
     std::size_t kept = 0;
     next_rank_.assign (mesh_.triangle_of.size (), 0);
     kicks_left_ = mesh_.triangle_of.size () / POINTS_PER_KICK + KICKS;
+    const std::size_t kicks = kicks_left_;
+    MonitoredLoop progress (kicks);
     while (!vertices.empty ()) {
       const std::size_t share = std::min<std::size_t> (KICKS, 1 + kicks_left_ / vertices.size ());
       std::vector<Index> again;
       for (Index v : vertices) {
+        progress.reach (kicks - kicks_left_);
         if (!isAtFold (v))
           continue;
         if (kick (v, share)) {
@@ -107,7 +112,9 @@ private:
   std::vector<Index> badVertices ()
   {
     std::vector<Index> vertices;
+    MonitoredLoop progress;
     for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+      progress.next ();
       const Triangle& corners = mesh_.triangles[t];
       if (isBad (corners, t))
         vertices.insert (vertices.end (), corners.begin (), corners.end ());
@@ -218,7 +225,9 @@ findFolds (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& position
     return (positions[t[1]] - positions[t[0]]).cross (positions[t[2]] - positions[t[0]]);
   };
   std::vector<MeshEdge> folds;
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
+  MonitoredLoop progress;
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
     for (std::uint8_t side = 0; side < 3; ++side) {
       const Index u = mesh.neighbors[t][side];
       if (u == NONE || u < t)
@@ -228,6 +237,7 @@ findFolds (const SurfaceMesh& mesh, const std::vector<Eigen::Vector3d>& position
       if (a.dot (b) < FOLD_COSINE * a.norm () * b.norm ())
         folds.push_back ({t, side});
     }
+  }
   return folds;
 }
 

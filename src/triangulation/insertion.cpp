@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triangulation/insertion.h"
 
+#include "common/monitor.h"
+
 #include <algorithm>
 #include <limits>
 #include <queue>
@@ -37,6 +39,7 @@ public:
     for (Index p : missing)
       offer (p);
     std::size_t inserted = 0;
+    MonitoredLoop progress (missing.size ());
     while (!queue_.empty ()) {
       const Place place = queue_.top ();
       queue_.pop ();
@@ -50,7 +53,7 @@ public:
         continue;
       }
       insert (now);
-      ++inserted;
+      progress.reach (++inserted);
     }
     return inserted;
   }

@@ -83,6 +83,8 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
   EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
   EXPECT_FALSE (floater.getProgressCallback ());
+  EXPECT_FALSE (floater.getAdvanceCallback ());
+  EXPECT_FALSE (floater.getCancelledCallback ());
 
   EXPECT_EQ (floater.getStatus (), Status::NOT_RUN);
   EXPECT_EQ (floater.getReport ().status, Status::NOT_RUN);
@@ -531,6 +533,27 @@ TEST_F (FloaterClass, TellsItsProgress)
   floater.setProgressCallback ([] (Stage) { throw 1; });
   expectFailure (floater, Status::INTERNAL_ERROR);
   floater.setProgressCallback (nullptr);
+  runWell (floater);
+}
+
+TEST_F (FloaterClass, TellsHowFarItIsAndStops)
+{
+  double done = -1.0;
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  floater.setAdvanceCallback ([&done] (double fraction) { done = fraction; });
+  ASSERT_TRUE (floater.getAdvanceCallback ());
+  runWell (floater);
+  EXPECT_EQ (done, 1.0);
+
+  floater.setCancelledCallback ([&done] { return done > 0.1; });
+  ASSERT_TRUE (floater.getCancelledCallback ());
+  done = 0.0;
+  expectFailure (floater, Status::CANCELLED);
+  EXPECT_GT (done, 0.0);
+  EXPECT_LT (done, 1.0);
+  EXPECT_NE (floater.getMessage ().find ("stopped"), std::string::npos);
+  floater.setCancelledCallback (nullptr);
   runWell (floater);
 }
 

@@ -228,6 +228,25 @@ public:
     return options_.progress;
   }
 
+  /** \brief Called with the share of the run that is done, from 0 to 1 and never less than before:
+   * when a stage begins, up to 20 times a second within it, and with 1 at the end. An estimate from
+   * typical runs; the solver of a disc is one step. Else as setProgressCallback(). */
+  void setAdvanceCallback (std::function<void (double fraction)> callback)
+  {
+    options_.advance = std::move (callback);
+  }
+  const std::function<void (double)>& getAdvanceCallback () const { return options_.advance; }
+
+  /** \brief Asked as often, whether the run is to be stopped: true ends it with Status::CANCELLED
+   * and an empty mesh, mostly within a tenth of a second; direct solvers, CGAL's triangulation and
+   * a search method of PCL are waited for. Another thread may set what it reads, if that is atomic.
+   * Else as setProgressCallback(). */
+  void setCancelledCallback (std::function<bool ()> callback)
+  {
+    options_.cancelled = std::move (callback);
+  }
+  const std::function<bool ()>& getCancelledCallback () const { return options_.cancelled; }
+
   /** \brief Outcome of the last run; NOT_RUN before the first. */
   floater::Status getStatus () const { return report_.status; }
 

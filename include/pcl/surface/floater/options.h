@@ -157,6 +157,16 @@ struct Options
 
   /// Called when a stage begins, from the thread that runs the reconstruction.
   std::function<void (Stage)> progress;
+
+  /// Called with the share of the whole run that is done, 0 to 1 and never less than before, when a
+  /// stage begins and up to 20 times a second within it; with 1 at the end. An estimate, by shares
+  /// of time in typical runs. The solver of the linear system is one step. Same thread as progress.
+  std::function<void (double)> advance;
+
+  /// Asked as often; true stops the run: Status::CANCELLED, no mesh, and all memory is freed.
+  /// Mostly within a tenth of a second; direct solvers, CGAL's triangulation and a search of the
+  /// caller's are not interrupted, but the run ends when they return. Same thread as progress.
+  std::function<bool ()> cancelled;
 };
 
 } // namespace floater

@@ -33,6 +33,7 @@ enum class Status
   SINGULAR,   ///< the linear system has no unique solution
   NOT_CONVERGED,      ///< an iterative solver did not reach its tolerance
   SOLVER_UNAVAILABLE, ///< this build is without the library of the solver
+  CANCELLED,          ///< stopped by Options::cancelled
   OUT_OF_MEMORY,      ///< an allocation failed
   INTERNAL_ERROR      ///< the result did not pass its own check; please report it
 };
