@@ -5,6 +5,7 @@
 #include "command_line.h"
 #include "mesh_writer.h"
 #include "progress.h"
+#include "remaining_time.h"
 #include "report_json.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -80,9 +81,14 @@ makeInput (const Cloud& cloud)
 Result
 reconstructInput (Input input, Options options, Progress& progress)
 {
-  options.progress = [&progress] (Stage stage) {
-    progress.show ("[" + std::to_string (static_cast<int> (stage) + 1) + "/" +
-                   std::to_string (static_cast<int> (Stage::COUNT)) + "] " + stageName (stage));
+  const auto start = std::chrono::steady_clock::now ();
+  RemainingTime remaining;
+  std::string name;
+  options.progress = [&name] (Stage stage) { name = stageName (stage); };
+  options.advance = [&] (double fraction) {
+    remaining.update (secondsSince (start), fraction);
+    const std::string text = remaining.text ();
+    progress.show (name + (text.empty () ? "" : ": " + text));
   };
   return reconstruct (std::move (input), options);
 }
