@@ -105,7 +105,7 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const FlatLists& ne
   statistics.nnz_matrix = system.nonzeros ();
 
   clock.start (Stage::SOLVE);
-  const Solution solution = solve (system, options);
+  const Solution solution = solve (system, options, &positions);
   statistics.nnz_factors = solution.nnz_factors;
   statistics.fill_in = system.nonzeros () == 0 ? 0.0
                                                : static_cast<double> (solution.nnz_factors) /

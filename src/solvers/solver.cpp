@@ -4,6 +4,7 @@
 #include "solvers/bicgstab_solver.h"
 #include "solvers/eigen_sparse_lu_solver.h"
 #include "solvers/gauss_seidel_solver.h"
+#include "solvers/nested_dissection.h"
 #include "solvers/ordering.h"
 #include "solvers/umfpack_solver.h"
 #ifdef PCL_FLOATER_HAS_SUPERLU
@@ -18,6 +19,10 @@ namespace floater
 {
 namespace
 {
+// From here on nested dissection is the faster one. Its factors are smaller than AMD's by a tenth
+// (127k, a closed shape with a hole) to a quarter (1M, a height field).
+constexpr std::size_t DISSECTION_UNKNOWNS = 100'000;
+
 const char*
 solverName (Solver solver)
 {
@@ -110,7 +115,8 @@ checkSolver (Solver solver, Ordering ordering)
 }
 
 Solution
-solve (const LinearSystem& system, const Options& options)
+solve (const LinearSystem& system, const Options& options,
+       const std::vector<Eigen::Vector3d>* positions)
 {
   Solution solution;
   if (const Problem problem = checkSolver (options.solver, options.ordering)) {
@@ -124,6 +130,10 @@ solve (const LinearSystem& system, const Options& options)
     solution.reciprocal_condition = 1.0;
     return solution;
   }
+  if (options.solver == Solver::UMFPACK && options.ordering == Ordering::AUTOMATIC &&
+      positions != nullptr && system.unknowns () > DISSECTION_UNKNOWNS)
+    return solveWithUmfpack (system, dissectUnknowns (system, *positions, options.threads),
+                             options.threads);
   if (ordersItself (options.solver, options.ordering))
     return solveAsItIs (system, options.ordering, options);
 

@@ -26,8 +26,10 @@ checkSolver (Solver solver, Ordering ordering);
 /// of rounding errors, the others look for islands first. An iterative solver that does not reach
 /// options.tolerance, as measured (see Residual::isWithin), returns NOT_CONVERGED and no solution.
 /// May throw std::bad_alloc. The result does not depend on options.threads.
+/// \param positions per point; nullptr: not known, and UMFPACK's automatic ordering is always AMD
 Solution
-solve (const LinearSystem& system, const Options& options);
+solve (const LinearSystem& system, const Options& options,
+       const std::vector<Eigen::Vector3d>* positions = nullptr);
 
 } // namespace floater
 } // namespace pcl

@@ -18,9 +18,6 @@ namespace floater
 {
 namespace
 {
-// AMD is faster up to here at least (1M: 7.8 s against 10 s of METIS); METIS needs a fifth less
-// memory, which counts for more above.
-constexpr std::size_t METIS_UNKNOWNS = 1000000;
 // The 32-bit interface holds factors of up to 2 GB, at about 1.2 kB per unknown, with an eighth
 // less memory than the 64-bit one.
 constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
@@ -98,9 +95,11 @@ struct Pattern<int>
   const std::vector<int>&offsets, &columns;
 };
 
+// \param order that of the unknowns; empty: as the ordering tells
 template <typename Interface>
 Solution
-solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, int threads)
+solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& order,
+       UmfpackStrategy strategy, int threads)
 {
   using Int = typename Interface::Int;
   Solution solution;
@@ -123,12 +122,14 @@ solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, 
   auto pattern = std::make_unique<const Pattern<Int>> (system);
   {
     void* handle = nullptr;
-    if (ordering == Ordering::NATURAL) {
-      std::vector<Int> identity (system.unknowns ());
-      std::iota (identity.begin (), identity.end (), Int{0});
+    if (!order.empty ()) {
+      const std::vector<Int> fixed (order.begin (), order.end ());
       control[UMFPACK_FIXQ] = 1.0;
+      // Without an estimate by AMD, UMFPACK takes far too much memory at once and tidies it up too
+      // late; from as little as it can do with, it grows in steps.
+      control[UMFPACK_ALLOC_INIT] = 0.0;
       Interface::QSYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
-                            system.values.data (), identity.data (), &handle, control.data (),
+                            system.values.data (), fixed.data (), &handle, control.data (),
                             info.data ());
     }
     else
@@ -187,11 +188,9 @@ solve (const LinearSystem& system, Ordering ordering, UmfpackStrategy strategy, 
   return solution;
 }
 
-} // namespace
-
 Solution
-solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads,
-                  UmfpackStrategy strategy)
+solveInOrder (const LinearSystem& system, Ordering ordering, const std::vector<int>& order,
+              int threads, UmfpackStrategy strategy)
 {
   Solution solution;
   if (system.unknowns () == 0) {
@@ -202,19 +201,36 @@ solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads,
   // With pivots off the diagonal, small ones do not tell of an island.
   if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseIslands (system, solution))
     return solution;
-  if (ordering == Ordering::AUTOMATIC && strategy == UmfpackStrategy::SYMMETRIC)
-    ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
   const SingleBlasThread single_blas_thread;
   if (system.unknowns () <= LONG_INDEX_UNKNOWNS)
-    solution = solve<IntInterface> (system, ordering, strategy, threads);
+    solution = solve<IntInterface> (system, ordering, order, strategy, threads);
   // Running out of 32-bit indices is reported as running out of memory.
   if (system.unknowns () > LONG_INDEX_UNKNOWNS ||
       solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
-    solution = solve<LongInterface> (system, ordering, strategy, threads);
-  if (solution.outcome != Solution::Outcome::OK)
-    return solution;
-  recordResidual (system, solution);
+    solution = solve<LongInterface> (system, ordering, order, strategy, threads);
+  if (solution.outcome == Solution::Outcome::OK)
+    recordResidual (system, solution);
   return solution;
+}
+
+} // namespace
+
+Solution
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads,
+                  UmfpackStrategy strategy)
+{
+  std::vector<int> order;
+  if (ordering == Ordering::NATURAL) {
+    order.resize (system.unknowns ());
+    std::iota (order.begin (), order.end (), 0);
+  }
+  return solveInOrder (system, ordering, order, threads, strategy);
+}
+
+Solution
+solveWithUmfpack (const LinearSystem& system, const std::vector<int>& order, int threads)
+{
+  return solveInOrder (system, Ordering::NATURAL, order, threads, UmfpackStrategy::SYMMETRIC);
 }
 
 } // namespace floater

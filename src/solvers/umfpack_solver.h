@@ -22,15 +22,19 @@ enum class UmfpackStrategy
 /// transpose and solved with UMFPACK_At. No scaling, one BLAS thread (of OpenBLAS; restored
 /// afterwards). The symmetric strategy needs no refinement and knows islands by their pivots; the
 /// unsymmetric one is refined in two steps, and islands are looked for before. Above a million
-/// unknowns, the automatic ordering of the symmetric strategy is METIS, and indices have 64 bits.
-/// An empty system is OK. May throw std::bad_alloc; UMFPACK's own failures are outcomes.
+/// unknowns, indices have 64 bits. An empty system is OK. May throw std::bad_alloc; UMFPACK's own
+/// failures are outcomes.
 ///
-/// \param ordering SYMMETRIC: AUTOMATIC, AMD, METIS or NATURAL; UNSYMMETRIC: AUTOMATIC, COLAMD,
-///        METIS (of A^T A) or NATURAL
+/// \param ordering SYMMETRIC: AMD or AUTOMATIC (the same), METIS or NATURAL; UNSYMMETRIC: COLAMD or
+///        AUTOMATIC (the same), METIS (of A^T A) or NATURAL
 /// \param threads 2 or more: the two right-hand sides are solved at the same time; same result
 Solution
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, int threads = 1,
                   UmfpackStrategy strategy = UmfpackStrategy::SYMMETRIC);
+
+/// The same with the symmetric strategy, unknown order[i] as the i-th pivot.
+Solution
+solveWithUmfpack (const LinearSystem& system, const std::vector<int>& order, int threads = 1);
 
 } // namespace floater
 } // namespace pcl

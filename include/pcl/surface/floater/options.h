@@ -88,8 +88,9 @@ enum class Solver
 /// is. COLAMD orders columns alone: only UMFPACK_UNSYMMETRIC, SUPERLU and EIGEN_SPARSE_LU take it.
 enum class Ordering
 {
-  AUTOMATIC, ///< UMFPACK: AMD up to a million unknowns, METIS above; SUPERLU: minimum degree;
-             ///< UMFPACK_UNSYMMETRIC and EIGEN_SPARSE_LU: COLAMD; iterative solvers: NATURAL
+  AUTOMATIC, ///< UMFPACK: AMD up to 100,000 unknowns, above nested dissection by where the points
+             ///< are; SUPERLU: minimum degree; UMFPACK_UNSYMMETRIC and EIGEN_SPARSE_LU: COLAMD;
+             ///< iterative solvers: NATURAL
   AMD,       ///< approximate minimum degree
   METIS,     ///< nested dissection
   COLAMD,    ///< column approximate minimum degree
