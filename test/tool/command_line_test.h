@@ -20,6 +20,7 @@ constexpr int USAGE = 1;
 constexpr int INPUT_FAILED = 2;
 constexpr int RECONSTRUCTION_FAILED = 3;
 constexpr int OUTPUT_FAILED = 4;
+constexpr int INTERNAL_ERROR = 5;
 constexpr int WARNINGS = 6;
 
 class CommandLineTest : public ToolTest

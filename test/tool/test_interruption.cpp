@@ -54,7 +54,7 @@ TEST_P (Interruption, AtWorkEndsAtOnce)
 {
   const auto start = std::chrono::steady_clock::now ();
   auto sent = start;
-  const Outcome outcome = interrupt ({"in.pcd", "out.obj"}, GetParam (), [&] {
+  const Outcome outcome = interrupt ({"in.pcd", "out.obj"}, GetParam (), [&] (int) {
     sent = std::chrono::steady_clock::now ();
     return sent - start > std::chrono::milliseconds (50);
   });
@@ -70,7 +70,7 @@ TEST_P (Interruption, WhileWritingLeavesNoPartOfAFile)
   constexpr int TRIES = 10;
   for (int i = 0; i < TRIES; ++i) {
     const Outcome outcome =
-        interrupt ({"in.pcd", "out.obj"}, GetParam (), [this] { return isWriting (); });
+        interrupt ({"in.pcd", "out.obj"}, GetParam (), [this] (int) { return isWriting (); });
     if (outcome.code == 0) {
       writeFile ("out.obj", "what was there before");
       continue;

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 namespace pcl
 {
@@ -110,7 +111,7 @@ ToolTest::run (const std::vector<std::string>& arguments,
 
 Outcome
 ToolTest::interrupt (const std::vector<std::string>& arguments, int signal,
-                     const std::function<bool ()>& is_time) const
+                     const std::function<bool (int)>& is_time) const
 {
   const pid_t child = ::fork ();
   if (child == 0)
@@ -119,7 +120,7 @@ ToolTest::interrupt (const std::vector<std::string>& arguments, int signal,
     return {};
   int status = 0;
   pid_t ended = 0;
-  while (ended == 0 && !is_time ())
+  while (ended == 0 && !is_time (child))
     ended = ::waitpid (child, &status, WNOHANG);
   if (ended == 0) {
     ::kill (child, signal);

@@ -45,10 +45,10 @@ protected:
   Outcome run (const std::vector<std::string>& arguments,
                std::optional<std::size_t> file_limit = std::nullopt) const;
 
-  /// Starts the tool and sends it a signal as soon as `is_time ()`, which is asked again and again
-  /// until the tool ends by itself.
+  /// Starts the tool and sends it a signal as soon as `is_time (its process)`, which is asked
+  /// again and again until the tool ends by itself.
   Outcome interrupt (const std::vector<std::string>& arguments, int signal,
-                     const std::function<bool ()>& is_time) const;
+                     const std::function<bool (int)>& is_time) const;
 
   /// Runs the tool, which must end with `code`, name `cause` on the standard error stream, print
   /// nothing else, and leave the folder as it was.

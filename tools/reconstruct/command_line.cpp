@@ -4,6 +4,7 @@
 #include "atomic_file.h"
 #include "cloud_reader.h"
 #include "format.h"
+#include "memory_limit.h"
 #include "mesh_writer.h"
 #include "text_scanner.h"
 #include "validation.h"
@@ -92,12 +93,50 @@ addNumber (CLI::App& app, const std::string& name, Number& value, const std::str
 
 void
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
-         const std::string& description, const std::string& group)
+         const std::string& description, const std::string& group, const char* kind = "FILE")
 {
   app.add_option_function<std::string> (
          name, [&path] (const std::string& word) { path = word; }, description)
-      ->option_text ("FILE")
+      ->option_text (kind)
       ->group (group);
+}
+
+void
+addMemoryLimit (CLI::App& app, CommandLine& line)
+{
+  const auto parse = [&line] (const std::string& word) {
+    if (!parseSize (word, line.max_memory))
+      throw CLI::ValidationError ("--max-memory",
+                                  "'" + word + "' is not a size, such as 500M or 2G");
+    if (line.max_memory < leastMemory (0))
+      throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
+                                                      formatSize (leastMemory (0)) + " or more");
+  };
+  app.add_option_function<std::string> (
+         "--max-memory", parse,
+         "stay below so many bytes of memory, and keep what\nis not in use on disk; not for discs")
+      ->option_text ("SIZE (no limit)")
+      ->group (GENERAL);
+  addPath (app, "--scratch", line.scratch,
+           "--max-memory: where that is; its files have no\nnames, and go with the run", GENERAL,
+           "FOLDER (that of OUTPUT)");
+}
+
+/// \throws UsageError
+void
+checkMemoryLimit (CommandLine& line)
+{
+  if (line.max_memory == 0) {
+    if (!line.scratch.empty ())
+      throw UsageError ("--scratch is for --max-memory, which is not given");
+    return;
+  }
+  // The factors of the linear system are the solver's own arrays, and the larger part.
+  if (line.options.topology == Topology::DISC)
+    throw UsageError ("--max-memory cannot limit what the linear system of a disc takes; use it "
+                      "with --topology surface or auto, without --loop and --parameterization");
+  if (line.scratch.empty ())
+    line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }
 
 void
@@ -133,6 +172,7 @@ addOptions (CLI::App& app, CommandLine& line)
              "threads, 0 for all cores; the result is the same", GENERAL);
   addNumber (app, "--blocks", options.blocks,
              "pieces in which a surface is made, 0 to choose;\nthe result is the same", GENERAL);
+  addMemoryLimit (app, line);
   app.add_flag ("--json", line.json, "print a summary as one line of JSON, the last")
       ->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only (and the line of --json)")
@@ -254,6 +294,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
     topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
     throw UsageError (problem.message);
+  checkMemoryLimit (command_line);
   return std::nullopt;
 }
 

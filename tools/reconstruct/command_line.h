@@ -41,7 +41,9 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  Options options; ///< but for the loop, which is still in its file
+  std::filesystem::path scratch; ///< folder, used with a limit only
+  std::size_t max_memory = 0;    ///< bytes; 0 for no limit
+  Options options;               ///< but for the loop, which is still in its file
   bool quiet = false;
   bool json = false;
   bool strict = false; ///< no mesh if there is a warning

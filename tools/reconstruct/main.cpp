@@ -3,6 +3,8 @@
 // through the PCL class, so that coordinates keep their double precision.
 #include "cloud_reader.h"
 #include "command_line.h"
+#include "large_arrays.h"
+#include "memory_limit.h"
 #include "mesh_writer.h"
 #include "progress.h"
 #include "remaining_time.h"
@@ -125,6 +127,34 @@ flatMesh (const Cloud& cloud, const Result& result)
                 });
   removeNonFinitePoints (flat, triangles);
   return {std::move (flat), std::move (triangles)};
+}
+
+/// \throws UsageError if so many points cannot be kept below the limit
+void
+checkMemory (const CommandLine& line, std::size_t points)
+{
+  const std::size_t least = leastMemory (points);
+  if (line.max_memory > 0 && line.max_memory < least)
+    throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
+                      std::to_string (points) + " points; use " + formatSize (least) + " or more");
+}
+
+/// Says what came of the limit and the scratch folder.
+void
+reportMemory (const CommandLine& line, Report& report)
+{
+  if (const std::string failure = largeArrayFailure ();
+      report.status == Status::OUT_OF_MEMORY && !failure.empty ())
+    report.message = failure;
+  if (line.max_memory == 0)
+    return;
+  if (liesInMemory (line.scratch))
+    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
+                               "' lies in memory itself; name one on a disk by --scratch");
+  const std::size_t peak = peakMemory ();
+  if (peak > line.max_memory)
+    report.warnings.push_back ("memory grew to " + formatSize (peak) + ", above --max-memory " +
+                               formatSize (line.max_memory) + "; use " + formatSize (peak));
 }
 
 using Files = std::vector<std::unique_ptr<AtomicFile>>;
@@ -252,12 +282,16 @@ int
 run (CommandLine line)
 {
   readNamed (line.input, [&] { checkPaths (line); });
+  std::optional<MemoryLimit> memory_limit;
+  if (line.max_memory > 0)
+    memory_limit.emplace (line.max_memory, line.scratch);
   Progress progress (!line.quiet);
   progress.show ("reading");
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
     line.options.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input); });
+  checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   RunFigures figures;
   figures.read_seconds = secondsSince (start);
@@ -271,6 +305,7 @@ run (CommandLine line)
   figures.reconstruct_seconds = secondsSince (start);
   Report& report = result.report;
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+  reportMemory (line, report);
 
   progress.show ("writing");
   start = std::chrono::steady_clock::now ();
@@ -323,7 +358,10 @@ runTool (int argc, char** argv)
     return fail (EXIT_OUTPUT, error.what ());
   }
   catch (const std::bad_alloc&) {
-    return fail (EXIT_INTERNAL, "not enough memory; use fewer points, or a machine with more");
+    const std::string failure = largeArrayFailure ();
+    return fail (EXIT_INTERNAL, failure.empty ()
+                                    ? "not enough memory; use fewer points, or a machine with more"
+                                    : failure.c_str ());
   }
   catch (const std::exception& error) {
     return fail (EXIT_INTERNAL, (std::string ("unexpected error: ") + error.what ()).c_str ());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
+#include "large_arrays.h"
+
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
@@ -127,6 +129,19 @@ fileName (const std::filesystem::path& path)
   return path.empty () ? Json () : Json (path.string ());
 }
 
+/// Nothing if there is none.
+Json
+memoryLimitJson (const CommandLine& line)
+{
+  if (line.max_memory == 0)
+    return {};
+  const ScratchUse use = scratchUse ();
+  return {{"bytes", line.max_memory},
+          {"scratch", fileName (line.scratch)},
+          {"scratch_peak_bytes", use.peak},
+          {"dropped_bytes", use.dropped}};
+}
+
 } // namespace
 
 std::size_t
@@ -172,6 +187,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},
                     {"peak_memory_bytes", peakMemory ()},
+                    {"memory_limit", memoryLimitJson (line)},
                     {"loop", report.loop},
                     {"unused", report.unused},
                     {"outliers", report.outliers},

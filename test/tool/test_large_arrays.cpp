@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The replaced operator new and delete, scratch files, and the limit on memory. State is that of
+// the process: with a scratch folder set, it stays set.
+#include "atomic_file.h"
+#include "large_arrays.h"
+#include "memory_limit.h"
+
+#include <gmock/gmock.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using testing::HasSubstr;
+
+// A sanitizer's own memory is resident, too.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool IS_SANITIZED = true;
+#else
+constexpr bool IS_SANITIZED = false;
+#endif
+
+constexpr std::size_t MEGABYTE = std::size_t{1} << 20U;
+
+/// Bytes of a field of /proc/self/status, which counts in kB.
+std::size_t
+memoryStatus (const std::string& field)
+{
+  std::ifstream file ("/proc/self/status");
+  std::string word;
+  while (file >> word)
+    if (word == field + ":") {
+      std::size_t kilobytes = 0;
+      file >> kilobytes;
+      return kilobytes * 1024;
+    }
+  return 0;
+}
+
+void
+dropAll ()
+{
+  while (dropNextPiece ()) {}
+  while (dropNextPiece ()) { // the first time round may have begun anywhere
+  }
+}
+
+class LargeArrays : public testing::Test
+{
+protected:
+  static void SetUpTestSuite ()
+  {
+    std::string name =
+        (std::filesystem::temp_directory_path () / "pcl_floater_test.XXXXXX").string ();
+    if (!::mkdtemp (name.data ()))
+      throw std::runtime_error ("cannot make a temporary folder");
+    folder_ = name;
+  }
+
+  static void TearDownTestSuite ()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all (folder_, ignored);
+  }
+
+  static std::filesystem::path folder_; // of all tests: arrays of one may outlive it
+};
+
+std::filesystem::path LargeArrays::folder_;
+
+/// Writes all bytes, so that an array that is too short or not writable is found out.
+void
+expectUsable (void* pointer, std::size_t size, std::size_t alignment)
+{
+  ASSERT_NE (pointer, nullptr);
+  EXPECT_EQ (reinterpret_cast<std::uintptr_t> (pointer) % alignment, 0U);
+  auto* bytes = static_cast<std::uint8_t*> (pointer);
+  std::iota (bytes, bytes + size, std::uint8_t{1});
+  EXPECT_EQ (bytes[size - 1], static_cast<std::uint8_t> (size));
+}
+
+/// Sizes on both sides of all limits, none of them whole pages.
+std::vector<std::size_t>
+someSizes ()
+{
+  return {1, 100, LARGE_ARRAY - 1, LARGE_ARRAY + 1, 9 * LARGE_ARRAY + 7};
+}
+
+void
+useAllForms ()
+{
+  const std::size_t usual = alignof (std::max_align_t);
+  for (const std::size_t size : someSizes ()) {
+    SCOPED_TRACE (size);
+    void* pointer = ::operator new (size);
+    expectUsable (pointer, size, usual);
+    ::operator delete (pointer);
+    pointer = ::operator new[] (size);
+    expectUsable (pointer, size, usual);
+    ::operator delete[] (pointer);
+    pointer = ::operator new (size, std::nothrow);
+    expectUsable (pointer, size, usual);
+    ::operator delete (pointer, size);
+    pointer = ::operator new[] (size, std::nothrow);
+    expectUsable (pointer, size, usual);
+    ::operator delete[] (pointer, size);
+    for (const std::size_t alignment : {std::size_t{64}, std::size_t{4096}, 4 * MEGABYTE}) {
+      const std::align_val_t aligned{alignment};
+      pointer = ::operator new (size, aligned);
+      expectUsable (pointer, size, alignment);
+      ::operator delete (pointer, aligned);
+      pointer = ::operator new[] (size, aligned);
+      expectUsable (pointer, size, alignment);
+      ::operator delete[] (pointer, size, aligned);
+      pointer = ::operator new (size, aligned, std::nothrow);
+      expectUsable (pointer, size, alignment);
+      ::operator delete (pointer, aligned, std::nothrow);
+    }
+  }
+  ::operator delete (nullptr);
+  ::operator delete (::operator new (0));
+}
+
+TEST_F (LargeArrays, AllFormsOfNewAndDelete)
+{
+  useAllForms ();
+  keepLargeArraysIn (folder_);
+  useAllForms ();
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+TEST_F (LargeArrays, SizesBeyondAllMemoryAreRefused)
+{
+  const volatile std::size_t most = PTRDIFF_MAX;
+  EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
+  EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
+  keepLargeArraysIn (folder_);
+  EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
+  EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+TEST_F (LargeArrays, ScratchFilesHaveNoNamesAndGoWithTheirArrays)
+{
+  keepLargeArraysIn (folder_);
+  {
+    const std::vector<char> small (LARGE_ARRAY / 2, 'a');
+    EXPECT_EQ (scratchUse ().bytes, 0U);
+    const std::vector<char> large (3 * LARGE_ARRAY + 1, 'b');
+    EXPECT_GT (scratchUse ().bytes, 3 * LARGE_ARRAY);
+    std::vector<char> other (5 * LARGE_ARRAY, 'c');
+    EXPECT_GT (scratchUse ().bytes, 8 * LARGE_ARRAY);
+    std::vector<char> ().swap (other);
+    EXPECT_LT (scratchUse ().bytes, 4 * LARGE_ARRAY);
+    EXPECT_TRUE (std::filesystem::is_empty (folder_));
+  }
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+TEST_F (LargeArrays, DroppedPagesComeBack)
+{
+  constexpr std::size_t COUNT = 64 * MEGABYTE / sizeof (std::uint64_t);
+  std::vector<std::uint64_t> before (COUNT / 8); // of malloc's, where dropping would lose it
+  std::iota (before.begin (), before.end (), 7U);
+  keepLargeArraysIn (folder_);
+  std::vector<std::uint64_t> numbers (COUNT);
+  std::iota (numbers.begin (), numbers.end (), 3U);
+  const std::size_t full = memoryStatus ("VmRSS");
+  dropAll ();
+  EXPECT_LT (memoryStatus ("VmRSS"), full - 60 * MEGABYTE);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < numbers.size (); ++i)
+    wrong += numbers[i] == i + 3 ? 0 : 1;
+  for (std::size_t i = 0; i < before.size (); ++i)
+    wrong += before[i] == i + 7 ? 0 : 1;
+  EXPECT_EQ (wrong, 0U);
+}
+
+/// Every round adds one to every number, in all threads, while pages are dropped all the time and
+/// other arrays come and go.
+TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
+{
+  constexpr std::size_t COUNT = 12 * MEGABYTE / sizeof (std::uint32_t);
+  constexpr int THREADS = 3, ROUNDS = 12;
+  keepLargeArraysIn (folder_);
+  std::vector<std::vector<std::uint32_t>> arrays (THREADS, std::vector<std::uint32_t> (COUNT, 0));
+  std::atomic<int> at_work{THREADS};
+  std::vector<std::thread> threads;
+  threads.reserve (THREADS);
+  for (int t = 0; t < THREADS; ++t)
+    threads.emplace_back ([&arrays, &at_work, t] {
+      for (int round = 0; round < ROUNDS; ++round) {
+        std::vector<std::uint32_t> copy (arrays[t]);
+        for (std::uint32_t& number : copy)
+          ++number;
+        arrays[t].swap (copy);
+      }
+      --at_work;
+    });
+  std::size_t pieces = 0;
+  while (at_work > 0)
+    pieces += dropNextPiece () ? 1 : 0;
+  for (std::thread& thread : threads)
+    thread.join ();
+  EXPECT_GT (pieces, 10U);
+  EXPECT_GT (scratchUse ().dropped, 10 * MEGABYTE);
+  for (const std::vector<std::uint32_t>& array : arrays)
+    EXPECT_EQ (std::count (array.begin (), array.end (), std::uint32_t{ROUNDS}),
+               static_cast<std::ptrdiff_t> (COUNT));
+}
+
+TEST_F (LargeArrays, FolderThatCannotBeUsed)
+{
+  const auto message = [] (const std::filesystem::path& folder) -> std::string {
+    try {
+      keepLargeArraysIn (folder);
+      return "";
+    }
+    catch (const WriteError& error) {
+      return error.what ();
+    }
+  };
+  EXPECT_THAT (message (folder_ / "missing"), HasSubstr ("No such file or directory"));
+  EXPECT_THAT (message (folder_ / "missing"), HasSubstr ((folder_ / "missing").string ()));
+  std::ofstream (folder_ / "file") << "text";
+  EXPECT_THAT (message (folder_ / "file"), HasSubstr ("Not a directory"));
+  EXPECT_EQ (message (folder_), "");
+}
+
+/// A limit on file sizes stands for a full disk.
+TEST_F (LargeArrays, NoRoomIsBadAllocAndIsDescribed)
+{
+  keepLargeArraysIn (folder_);
+  const std::vector<char> first (4 * LARGE_ARRAY, 'a');
+  ASSERT_EQ (scratchUse ().bytes, 4 * LARGE_ARRAY);
+  const auto before = std::signal (SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ (::getrlimit (RLIMIT_FSIZE, &limit), 0);
+  const rlimit lower{8 * LARGE_ARRAY, limit.rlim_max};
+  ASSERT_EQ (::setrlimit (RLIMIT_FSIZE, &lower), 0);
+  EXPECT_THROW (std::vector<char> (9 * LARGE_ARRAY), std::bad_alloc);
+  EXPECT_EQ (::operator new (9 * LARGE_ARRAY, std::nothrow), nullptr);
+  EXPECT_NO_THROW (std::vector<char> (7 * LARGE_ARRAY));
+  ASSERT_EQ (::setrlimit (RLIMIT_FSIZE, &limit), 0);
+  std::signal (SIGXFSZ, before);
+  EXPECT_THAT (largeArrayFailure (),
+               HasSubstr ("no room in the scratch folder '" + folder_.string () + "': File too"));
+  EXPECT_THAT (largeArrayFailure (), HasSubstr ("4 MB are there, 9 MB more are needed"));
+  EXPECT_NO_THROW (std::vector<char> (9 * LARGE_ARRAY));
+}
+
+TEST_F (LargeArrays, Sizes)
+{
+  const std::vector<std::pair<std::string, std::size_t>> good{
+      {"0", 0},       {"123456789", 123456789},  {"500M", 500'000'000}, {"2g", 2'000'000'000},
+      {"1.5k", 1500}, {"2T", 2'000'000'000'000}, {"1e9", 1'000'000'000}};
+  for (const auto& [word, expected] : good) {
+    std::size_t bytes = 1;
+    EXPECT_TRUE (parseSize (word, bytes)) << word;
+    EXPECT_EQ (bytes, expected) << word;
+  }
+  for (const std::string word :
+       {"", "G", "-1", "-1G", "1GG", "1 G", "2GB", "many", "nan", "inf", "1e30", "9999999999T"}) {
+    std::size_t bytes = 1;
+    EXPECT_FALSE (parseSize (word, bytes)) << word;
+    EXPECT_EQ (bytes, 1U) << word;
+  }
+  EXPECT_EQ (formatSize (500'000'000), "500M");
+  EXPECT_EQ (formatSize (500'000'001), "501M");
+  EXPECT_GT (leastMemory (0), 10 * MEGABYTE);
+  EXPECT_GT (leastMemory (10'000'000), leastMemory (1'000'000));
+}
+
+/// Two threads fill and read five times what fits.
+TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
+{
+  if (IS_SANITIZED)
+    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
+  constexpr std::size_t LIMIT = 160 * MEGABYTE;
+  constexpr int ARRAYS = 50;
+  constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
+  std::ofstream ("/proc/self/clear_refs") << 5; // the peak begins anew
+  if (memoryStatus ("VmHWM") > LIMIT / 2)
+    GTEST_SKIP () << "what the tests before took cannot be told apart";
+  const MemoryLimit limit (LIMIT, folder_);
+  std::vector<std::vector<std::uint64_t>> arrays (ARRAYS);
+  std::atomic<std::size_t> wrong{0};
+  const auto work = [&] (int first) {
+    for (int a = first; a < ARRAYS; a += 2) {
+      arrays[a].resize (COUNT);
+      std::iota (arrays[a].begin (), arrays[a].end (), a);
+    }
+    std::size_t errors = 0;
+    for (int a = first; a < ARRAYS; a += 2)
+      for (std::size_t i = 0; i < COUNT; ++i)
+        errors += arrays[a][i] == a + i ? 0 : 1;
+    wrong += errors;
+  };
+  std::thread other (work, 0);
+  work (1);
+  other.join ();
+  EXPECT_EQ (wrong, 0U);
+  EXPECT_GT (scratchUse ().bytes, 4 * LIMIT);
+  EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "memory_limit.h"
+
+#include "large_arrays.h"
+#include "text_scanner.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Room between the limit and the resident bytes above which pages are dropped. In it the other
+// threads go on while the watcher sleeps, waits for a processor or works: a share of the limit, and
+// more of a small one, for threads are no slower there.
+constexpr double ROOM = 0.20;
+constexpr double ROOM_OF_SMALL = 0.40;
+constexpr double MOST_ROOM_OF_SMALL = 80e6; // bytes; two threads fill that in some 10 ms
+constexpr double STEP = 0.10;               // share of the limit that is dropped at a time
+
+// Bytes that are in memory whatever is dropped: the program with its libraries and stacks, and
+// arrays that are not large. Measured on surfaces of 100 thousand to 10 million points.
+constexpr double FIXED = 16e6;
+constexpr double PER_POINT = 54.0;
+
+// Bytes per second by which the resident set is taken to grow at most: twice what two threads do
+// that fill arrays.
+constexpr double FASTEST_GROWTH = 16e9;
+constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.001};
+constexpr std::chrono::duration<double> LONGEST_SLEEP{0.020};
+
+} // namespace
+
+bool
+parseSize (std::string_view word, std::size_t& bytes)
+{
+  constexpr std::string_view UNITS = "kKmMgGtT";
+  double unit = 1.0;
+  if (!word.empty () && UNITS.find (word.back ()) != std::string_view::npos) {
+    unit = std::pow (1000.0, 1.0 + static_cast<double> (UNITS.find (word.back ()) / 2));
+    word.remove_suffix (1);
+  }
+  double number = 0.0;
+  constexpr double MOST = 9e18;
+  if (!parseNumber (word, number) || !(number >= 0.0) || number * unit > MOST)
+    return false;
+  bytes = static_cast<std::size_t> (std::llround (number * unit));
+  return true;
+}
+
+std::string
+formatSize (std::size_t bytes)
+{
+  constexpr std::size_t MEGABYTE = 1'000'000;
+  return std::to_string ((bytes + MEGABYTE - 1) / MEGABYTE) + "M";
+}
+
+std::size_t
+leastMemory (std::size_t points)
+{
+  // What stays in memory has to fit below the room and the step.
+  const double kept = FIXED + PER_POINT * static_cast<double> (points);
+  return static_cast<std::size_t> (kept / (1.0 - ROOM_OF_SMALL - STEP));
+}
+
+ResidentSet::ResidentSet (std::size_t limit)
+    : limit_ (static_cast<double> (limit)),
+      high_ (limit_ -
+             std::max (ROOM * limit_, std::min (ROOM_OF_SMALL * limit_, MOST_ROOM_OF_SMALL))),
+      low_ (high_ - STEP * limit_), statm_ (::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC))
+{
+}
+
+ResidentSet::~ResidentSet ()
+{
+  if (statm_ >= 0)
+    ::close (statm_);
+}
+
+double
+ResidentSet::resident () const
+{
+  std::array<char, 128> text{};
+  const ssize_t size = ::pread (statm_, text.data (), text.size () - 1, 0);
+  // The size of the program, then its resident part, in pages.
+  const std::string_view words (text.data (), size > 0 ? static_cast<std::size_t> (size) : 0);
+  const std::string_view rest = words.substr (std::min (words.find (' '), words.size ()));
+  TextScanner scanner (rest);
+  std::size_t pages = 0;
+  return scanner.nextLine () && parseNumber (scanner.word (), pages)
+             ? static_cast<double> (pages) * static_cast<double> (::sysconf (_SC_PAGESIZE))
+             : 0.0;
+}
+
+void
+ResidentSet::makeRoom (std::size_t bytes) const
+{
+  const auto wanted = static_cast<double> (bytes);
+  if (resident () + wanted <= high_)
+    return;
+  // Once round all arrays and no further: what is left then is not theirs.
+  const double enough = std::min (low_, high_ - wanted);
+  for (int ends = 0; ends < 2 && resident () > enough;)
+    ends += dropNextPiece () ? 0 : 1;
+}
+
+std::chrono::duration<double>
+ResidentSet::timeToSleep () const
+{
+  const std::chrono::duration<double> safe{(high_ - resident ()) / FASTEST_GROWTH};
+  return std::clamp (safe, SHORTEST_SLEEP, LONGEST_SLEEP);
+}
+
+MemoryLimit::MemoryLimit (std::size_t bytes, const std::filesystem::path& scratch_folder)
+    : resident_set_ (std::make_shared<ResidentSet> (bytes))
+{
+  keepLargeArraysIn (scratch_folder,
+                     [all = resident_set_] (std::size_t size) { all->makeRoom (size); });
+  watcher_ = std::thread ([this] { watch (); });
+}
+
+MemoryLimit::~MemoryLimit ()
+{
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    is_ending_ = true;
+  }
+  ended_.notify_all ();
+  watcher_.join ();
+}
+
+void
+MemoryLimit::watch ()
+{
+  std::unique_lock<std::mutex> lock (mutex_);
+  while (!is_ending_) {
+    resident_set_->makeRoom (0);
+    ended_.wait_for (lock, resident_set_->timeToSleep ());
+  }
+}
+
+} // namespace floater
+} // namespace pcl
