@@ -55,9 +55,8 @@ memoryStatus (const std::string& field)
 void
 dropAll ()
 {
-  while (dropNextPiece ()) {}
-  while (dropNextPiece ()) { // the first time round may have begun anywhere
-  }
+  for (std::size_t dropped = 0; dropped < scratchUse ().bytes;)
+    dropped += dropNextPiece ();
 }
 
 class LargeArrays : public testing::Test
@@ -147,8 +146,10 @@ TEST_F (LargeArrays, AllFormsOfNewAndDelete)
 TEST_F (LargeArrays, SizesBeyondAllMemoryAreRefused)
 {
   const volatile std::size_t most = PTRDIFF_MAX;
-  EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
-  EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
+  if (!IS_SANITIZED) { // whose malloc ends the program
+    EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
+    EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
+  }
   keepLargeArraysIn (folder_);
   EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
   EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
@@ -170,6 +171,7 @@ TEST_F (LargeArrays, ScratchFilesHaveNoNamesAndGoWithTheirArrays)
     EXPECT_TRUE (std::filesystem::is_empty (folder_));
   }
   EXPECT_EQ (scratchUse ().bytes, 0U);
+  EXPECT_EQ (dropNextPiece (), 0U);
 }
 
 TEST_F (LargeArrays, DroppedPagesComeBack)
@@ -196,7 +198,7 @@ TEST_F (LargeArrays, DroppedPagesComeBack)
 TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
 {
   constexpr std::size_t COUNT = 12 * MEGABYTE / sizeof (std::uint32_t);
-  constexpr int THREADS = 3, ROUNDS = 12;
+  constexpr int THREADS = 3, ROUNDS = 6;
   keepLargeArraysIn (folder_);
   std::vector<std::vector<std::uint32_t>> arrays (THREADS, std::vector<std::uint32_t> (COUNT, 0));
   std::atomic<int> at_work{THREADS};
@@ -214,7 +216,7 @@ TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
     });
   std::size_t pieces = 0;
   while (at_work > 0)
-    pieces += dropNextPiece () ? 1 : 0;
+    pieces += dropNextPiece () > 0 ? 1 : 0;
   for (std::thread& thread : threads)
     thread.join ();
   EXPECT_GT (pieces, 10U);
@@ -286,12 +288,12 @@ TEST_F (LargeArrays, Sizes)
   EXPECT_GT (leastMemory (10'000'000), leastMemory (1'000'000));
 }
 
-/// Two threads fill and read five times what fits.
+/// Two threads fill and read three times what fits.
 TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
 {
   if (IS_SANITIZED)
     GTEST_SKIP () << "a sanitizer's own memory is resident, too";
-  constexpr std::size_t LIMIT = 160 * MEGABYTE;
+  constexpr std::size_t LIMIT = 240 * MEGABYTE;
   constexpr int ARRAYS = 50;
   constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
   std::ofstream ("/proc/self/clear_refs") << 5; // the peak begins anew
@@ -315,7 +317,7 @@ TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
   work (1);
   other.join ();
   EXPECT_EQ (wrong, 0U);
-  EXPECT_GT (scratchUse ().bytes, 4 * LIMIT);
+  EXPECT_GT (scratchUse ().bytes, 3 * LIMIT);
   EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
 }
 

@@ -131,9 +131,9 @@ TEST_F (MaxMemory, NothingIsLeftAfterASignal)
   };
   for (const int signal_number : {SIGINT, SIGTERM, SIGKILL}) {
     SCOPED_TRACE (signal_number);
-    EXPECT_EQ (
-        interrupt ({"large.pcd", "out.ply", "--max-memory", "60M"}, signal_number, has_scratch),
-        signal_number);
+    const Outcome outcome =
+        interrupt ({"large.pcd", "out.ply", "--max-memory", "60M"}, signal_number, has_scratch);
+    EXPECT_EQ (outcome.code, -signal_number) << outcome.err;
     EXPECT_EQ (names (), before);
   }
 }

@@ -34,15 +34,19 @@ namespace
 // malloc's, so that all others are freed without a look at the table.
 constexpr std::size_t ALIGNMENT = std::size_t{1} << 21U;
 
-/// All arrays in files: bytes by address. The table's own nodes are small, and come from malloc.
+/// All arrays in files. Nothing may be freed under the lock of the table, for that may lead to the
+/// table again; allocating its nodes is harmless, they are small.
 struct ScratchArrays
 {
-  std::mutex mutex;
-  std::map<std::uintptr_t, std::size_t> at;
-  std::uintptr_t hand = 0; // dropNextPiece goes on here
+  std::mutex mutex;                         // of the next three
+  std::map<std::uintptr_t, std::size_t> at; // bytes by address
+  std::uintptr_t hand = 0;                  // dropNextPiece goes on here
   ScratchUse use;
-  std::string folder;
+
+  std::string folder;                          // set once, like the next
   std::function<void (std::size_t)> make_room; // before an array of so many bytes
+
+  std::mutex failure_mutex;
   std::string failure;
 };
 
@@ -114,16 +118,18 @@ mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
   return error;
 }
 
-std::string
-describeFailure (const ScratchArrays& all, std::size_t bytes, int error)
+void
+describeFailure (ScratchArrays& all, std::size_t bytes, int error)
 {
   const auto megabytes = [] (std::size_t count) {
     return std::to_string (count / 1'000'000) + " MB";
   };
-  return "no room in the scratch folder '" + all.folder + "': " + std::strerror (error) + "; " +
-         megabytes (all.use.bytes) + " are there, " + megabytes (bytes) + " more are needed" +
-         (error == EFBIG ? "; raise the limit on file sizes (ulimit -f)"
-                         : "; free some space or name another folder by --scratch");
+  const std::size_t there = scratchUse ().bytes;
+  const std::lock_guard<std::mutex> lock (all.failure_mutex);
+  all.failure = "no room in the scratch folder '" + all.folder + "': " + std::strerror (error) +
+                "; " + megabytes (there) + " are there, " + megabytes (bytes) + " more are needed" +
+                (error == EFBIG ? "; raise the limit on file sizes (ulimit -f)"
+                                : "; free some space or name another folder by --scratch");
 }
 
 /// \return nullptr if there is no room, which is then described
@@ -142,14 +148,14 @@ mapArray (std::size_t size)
     all.make_room (bytes);
   const int error = mapScratch (begin, bytes, all.folder);
   try {
-    const std::lock_guard<std::mutex> lock (all.mutex);
     if (error == 0) {
+      const std::lock_guard<std::mutex> lock (all.mutex);
       all.at.emplace (begin, bytes);
       all.use.bytes += bytes;
       all.use.peak = std::max (all.use.peak, all.use.bytes);
       return pointerTo (begin);
     }
-    all.failure = describeFailure (all, bytes, error);
+    describeFailure (all, bytes, error);
   }
   catch (const std::bad_alloc&) {
     // No room for the entry, or for the words: it is out of memory either way.
@@ -163,7 +169,7 @@ bool
 unmapArray (void* pointer)
 {
   ScratchArrays& all = scratchArrays ();
-  decltype (all.at)::node_type node; // freed without the lock, for that leads here again
+  decltype (all.at)::node_type node; // freed without the lock
   {
     const std::lock_guard<std::mutex> lock (all.mutex);
     node = all.at.extract (reinterpret_cast<std::uintptr_t> (pointer));
@@ -230,7 +236,6 @@ keepLargeArraysIn (const std::filesystem::path& scratch_folder,
                       "': " + std::strerror (errno));
   ::close (file);
   ScratchArrays& all = scratchArrays ();
-  const std::lock_guard<std::mutex> lock (all.mutex);
   all.folder = scratch_folder.string ();
   all.make_room = std::move (make_room);
   has_scratch = true;
@@ -246,18 +251,20 @@ liesInMemory (const std::filesystem::path& folder)
                     static_cast<unsigned long> (status.f_type)) != IN_MEMORY.end ();
 }
 
-bool
+std::size_t
 dropNextPiece ()
 {
   ScratchArrays& all = scratchArrays ();
   // Held throughout, so that the piece is not unmapped, and its addresses taken by something else.
   const std::lock_guard<std::mutex> lock (all.mutex);
+  if (all.at.empty ())
+    return 0;
   auto array = all.at.upper_bound (all.hand);
   if (array != all.at.begin () && all.hand < std::prev (array)->first + std::prev (array)->second)
     --array;
   if (array == all.at.end ()) {
+    array = all.at.begin ();
     all.hand = 0;
-    return false;
   }
   const std::uintptr_t begin = std::max (all.hand, array->first);
   const std::uintptr_t end = std::min (begin + DROPPED_PIECE, array->first + array->second);
@@ -265,7 +272,7 @@ dropNextPiece ()
   ::madvise (pointerTo (begin), end - begin, MADV_DONTNEED);
   all.use.dropped += end - begin;
   all.hand = end;
-  return true;
+  return end - begin;
 }
 
 ScratchUse
@@ -280,7 +287,7 @@ std::string
 largeArrayFailure ()
 {
   ScratchArrays& all = scratchArrays ();
-  const std::lock_guard<std::mutex> lock (all.mutex);
+  const std::lock_guard<std::mutex> lock (all.failure_mutex);
   return all.failure;
 }
 

@@ -39,8 +39,8 @@ liesInMemory (const std::filesystem::path& folder);
 /// Takes the next piece of the arrays in scratch files out of the resident set, going round them in
 /// the order of their addresses. What it holds stays in the file, or on its way there, and comes
 /// back when it is touched; other threads may read and write it meanwhile.
-/// \return false, without a piece, when all have had their turn; the next call begins again
-bool
+/// \return its bytes; 0 if there are no such arrays
+std::size_t
 dropNextPiece ();
 
 /// Bytes.

@@ -26,9 +26,10 @@ constexpr double MOST_ROOM_OF_SMALL = 80e6; // bytes; two threads fill that in s
 constexpr double STEP = 0.10;               // share of the limit that is dropped at a time
 
 // Bytes that are in memory whatever is dropped: the program with its libraries and stacks, and
-// arrays that are not large. Measured on surfaces of 100 thousand to 10 million points.
+// arrays that are not large. Measured on surfaces of 100 thousand to 10 million points: 12e6 and
+// 53, to which a third is added, for what is in use should not be dropped all the time.
 constexpr double FIXED = 16e6;
-constexpr double PER_POINT = 54.0;
+constexpr double PER_POINT = 70.0;
 
 // Bytes per second by which the resident set is taken to grow at most: twice what two threads do
 // that fill arrays.
@@ -44,7 +45,8 @@ parseSize (std::string_view word, std::size_t& bytes)
   constexpr std::string_view UNITS = "kKmMgGtT";
   double unit = 1.0;
   if (!word.empty () && UNITS.find (word.back ()) != std::string_view::npos) {
-    unit = std::pow (1000.0, 1.0 + static_cast<double> (UNITS.find (word.back ()) / 2));
+    const std::size_t power = UNITS.find (word.back ()) / 2 + 1;
+    unit = std::pow (1000.0, static_cast<double> (power));
     word.remove_suffix (1);
   }
   double number = 0.0;
@@ -65,9 +67,11 @@ formatSize (std::size_t bytes)
 std::size_t
 leastMemory (std::size_t points)
 {
-  // What stays in memory has to fit below the room and the step.
+  // It has to fit below the room and the step: the room of a large limit, or of a smaller one.
   const double kept = FIXED + PER_POINT * static_cast<double> (points);
-  return static_cast<std::size_t> (kept / (1.0 - ROOM_OF_SMALL - STEP));
+  return static_cast<std::size_t> (
+      std::max (kept / (1.0 - ROOM - STEP), std::min (kept / (1.0 - ROOM_OF_SMALL - STEP),
+                                                      (kept + MOST_ROOM_OF_SMALL) / (1.0 - STEP))));
 }
 
 ResidentSet::ResidentSet (std::size_t limit)
@@ -107,8 +111,13 @@ ResidentSet::makeRoom (std::size_t bytes) const
     return;
   // Once round all arrays and no further: what is left then is not theirs.
   const double enough = std::min (low_, high_ - wanted);
-  for (int ends = 0; ends < 2 && resident () > enough;)
-    ends += dropNextPiece () ? 0 : 1;
+  const std::size_t all = scratchUse ().bytes;
+  for (std::size_t dropped = 0; dropped < all && resident () > enough;) {
+    const std::size_t piece = dropNextPiece ();
+    if (piece == 0)
+      return;
+    dropped += piece;
+  }
 }
 
 std::chrono::duration<double>
