@@ -84,12 +84,12 @@ parallelTasks (std::size_t count, int threads, Body&& body)
     }
   });
   // Only this thread may be asked to stop, also while it waits for the last ones.
-  for (std::unique_lock<std::mutex> lock (mutex); running > 0;) {
-    ended.wait_for (lock, BETWEEN_LOOKS);
-    lock.unlock ();
+  const auto have_all_ended = [&] {
+    std::unique_lock<std::mutex> lock (mutex);
+    return ended.wait_for (lock, BETWEEN_LOOKS, [&running] { return running == 0; });
+  };
+  while (!have_all_ended ())
     guarded ([&] { progress.reach (0); });
-    lock.lock ();
-  }
   for (std::thread& helper : helpers)
     helper.join ();
   if (error)
