@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <mutex>
 #include <string>
 
 namespace pcl
@@ -29,6 +30,7 @@ struct MappedRange
 };
 constexpr std::size_t MOST_RANGES = 8;
 std::array<MappedRange, MOST_RANGES> mapped_ranges;
+std::mutex ranges_mutex; // held while one begins or ends
 
 bool
 isSameTime (const timespec& a, const timespec& b)
@@ -56,6 +58,7 @@ struct FileBytes::Holder
   ~Holder ()
   {
     if (mapped != nullptr) {
+      const std::lock_guard<std::mutex> lock (ranges_mutex);
       for (MappedRange& range : mapped_ranges)
         if (range.first == reinterpret_cast<std::uintptr_t> (mapped))
           range.first = range.last = 0;
@@ -81,6 +84,7 @@ struct FileBytes::Holder
     mapped_size = size;
     ::madvise (mapped, mapped_size, MADV_SEQUENTIAL);
     const auto first = reinterpret_cast<std::uintptr_t> (mapped);
+    const std::lock_guard<std::mutex> lock (ranges_mutex);
     for (MappedRange& range : mapped_ranges) {
       std::uintptr_t free = 0;
       if (range.first.compare_exchange_strong (free, first)) {
@@ -136,6 +140,16 @@ FileBytes::giveBack () const
 {
   if (holder_ && holder_->mapped != nullptr)
     ::madvise (holder_->mapped, holder_->mapped_size, MADV_DONTNEED);
+}
+
+void
+giveBackMappedFiles ()
+{
+  const std::lock_guard<std::mutex> lock (ranges_mutex);
+  for (const MappedRange& range : mapped_ranges)
+    if (range.first != 0)
+      ::madvise (reinterpret_cast<void*> (range.first.load ()), range.last - range.first,
+                 MADV_DONTNEED);
 }
 
 bool

@@ -49,6 +49,10 @@ private:
   std::string_view bytes_;
 };
 
+/// The same for all files that are mapped now. Any thread may call it at any time.
+void
+giveBackMappedFiles ();
+
 /// True if the address is in a file that is mapped now. For signal handlers.
 bool
 isInMappedFile (const void* address);

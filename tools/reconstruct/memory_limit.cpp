@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "memory_limit.h"
 
+#include "file_bytes.h"
 #include "large_arrays.h"
 #include "text_scanner.h"
 
@@ -21,21 +22,20 @@ namespace
 // threads go on while the watcher sleeps, waits for a processor or works: a share of the limit, and
 // more of a small one, for threads are no slower there.
 constexpr double ROOM = 0.20;
-constexpr double ROOM_OF_SMALL = 0.40;
-constexpr double MOST_ROOM_OF_SMALL = 80e6; // bytes; two threads fill that in some 10 ms
-constexpr double STEP = 0.10;               // share of the limit that is dropped at a time
+constexpr double ROOM_OF_SMALL = 0.50;
+constexpr double MOST_ROOM_OF_SMALL = 160e6; // bytes
+constexpr double STEP = 0.10;                // share of the limit that is dropped at a time
 
 // Bytes that are in memory whatever is dropped: the program with its libraries and stacks, and
-// arrays that are not large. Measured on surfaces of 100 thousand to 10 million points: 12e6 and
-// 53, to which a third is added, for what is in use should not be dropped all the time.
-constexpr double FIXED = 16e6;
-constexpr double PER_POINT = 70.0;
+// arrays that are not large; and what is in use, lest it be dropped all the time.
+constexpr double FIXED = 20e6;
+constexpr double PER_POINT = 25.0;
 
-// Bytes per second by which the resident set is taken to grow at most: twice what two threads do
-// that fill arrays.
-constexpr double FASTEST_GROWTH = 16e9;
-constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.001};
-constexpr std::chrono::duration<double> LONGEST_SLEEP{0.020};
+// Bytes per second by which the resident set grows at most. What was dropped comes back 16 pages at
+// a time, and faster than it can be read.
+constexpr double FASTEST_GROWTH = 100e9;
+constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.00025};
+constexpr std::chrono::duration<double> LONGEST_SLEEP{0.005};
 
 } // namespace
 
@@ -109,6 +109,7 @@ ResidentSet::makeRoom (std::size_t bytes) const
   const auto wanted = static_cast<double> (bytes);
   if (resident () + wanted <= high_)
     return;
+  giveBackMappedFiles ();
   // Once round all arrays and no further: what is left then is not theirs.
   const double enough = std::min (low_, high_ - wanted);
   const std::size_t all = scratchUse ().bytes;

@@ -41,8 +41,8 @@ public:
   ResidentSet (ResidentSet&&) = delete;
   ResidentSet& operator= (ResidentSet&&) = delete;
 
-  /// Drops pages of large arrays if with `bytes` more the limit would be near. Any thread may call
-  /// it at any time.
+  /// Drops pages of mapped files and large arrays if with `bytes` more the limit would be near. Any
+  /// thread may call it at any time.
   void makeRoom (std::size_t bytes) const;
 
   /// Time in which the limit cannot come near.
