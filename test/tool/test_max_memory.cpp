@@ -46,7 +46,7 @@ TEST_F (MaxMemory, SameMeshBelowTheLimit)
 {
   makeLarge (350);
   std::filesystem::create_directory (path ("scratch"));
-  const std::string refusal = run ({"large.pcd", "none.ply", "--max-memory", "33M"}).err;
+  const std::string refusal = run ({"large.pcd", "none.ply", "--max-memory", "52M"}).err;
   const std::string before = "122500 points; use ", after = "M or more";
   const std::size_t at = refusal.find (before), end = refusal.find (after);
   ASSERT_TRUE (at != std::string::npos && end != std::string::npos) << refusal;
@@ -95,8 +95,8 @@ TEST_F (MaxMemory, WhatIsRefused)
 TEST_F (MaxMemory, TooSmallForTheCloud)
 {
   makeLarge (300);
-  expectFailure ({"large.pcd", "out.ply", "--max-memory", "33M"}, USAGE,
-                 "--max-memory: 33M is too small for 90000 points; use ");
+  expectFailure ({"large.pcd", "out.ply", "--max-memory", "52M"}, USAGE,
+                 "--max-memory: 52M is too small for 90000 points; use ");
 }
 
 TEST_F (MaxMemory, ScratchFolderThatCannotBeUsed)
