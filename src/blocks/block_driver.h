@@ -52,8 +52,8 @@ private:
   int threads_;
 };
 
-/// How many blocks a cloud is worth: one up to 262144 points, else of at most 131072 points each and
-/// the same number for every thread. \param wanted 0: choose
+/// How many blocks a cloud is worth: one up to 262144 points, else of at most 131072 points each
+/// and the same number for every thread. \param wanted 0: choose
 std::size_t
 chooseBlocks (std::size_t points, int wanted, int threads);
 

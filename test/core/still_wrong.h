@@ -25,7 +25,7 @@ stillWrong ()
       // Outliers less than 10 spacings away in the plane of a sheet are not told from it.
       "sphere_outliers_near",
       // Close sheets, slits along sharp edges.
-      "parallel_2", "bracket", "wedge"};
+      "parallel_2", "wedge"};
   return names;
 }
 

@@ -155,13 +155,19 @@ AtomicFile::AtomicFile (const std::filesystem::path& path)
     const std::string name =
         ".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp";
     temporary_ = (folderOf (target_) / name).string ();
+    slot_ = remember (temporary_); // before it is there: a signal may come right after
     descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, FOR_ALL);
+    const int error = errno;
+    if (descriptor_ < 0)
+      forget (slot_);
+    errno = error;
     if (descriptor_ < 0 && errno != EEXIST)
       break;
   }
-  if (descriptor_ < 0)
+  if (descriptor_ < 0) {
+    slot_ = MOST_FILES;
     fail (errno);
-  slot_ = remember (temporary_);
+  }
   struct stat status = {};
   constexpr mode_t PERMISSIONS = 07777;
   if (::stat (target_.c_str (), &status) == 0)
