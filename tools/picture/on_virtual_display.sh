@@ -16,7 +16,8 @@ fi
 # Xvfb chooses a free display and writes its number when it is ready.
 coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null; }
 server_id=$!
-trap 'kill "$server_id" 2>/dev/null || true' EXIT
+# A server that is still going down may take the socket of the next one of its number with it.
+trap 'kill "$server_id" 2>/dev/null || true; wait "$server_id" 2>/dev/null || true' EXIT
 if ! read -r -t 60 display <&"${server[0]}"; then
   echo "on_virtual_display.sh: Xvfb did not start" >&2
   exit 1
