@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole way: samples, then a disc laid out in the plane or a surface of any topology out of
-// stars, then a last look at the mesh.
+// The whole way of a cloud: points, neighbours, outliers, noise, the geometry around each point;
+// then a disc laid out in the plane, or a surface of any topology out of stars; then one check.
 #include <pcl/surface/floater/reconstruct.h>
 
-#include "complex/surface_method.h"
-#include "disc_method.h"
-#include "mesh_check.h"
-#include "neighborhoods/stars.h"
-#include "report_builder.h"
-#include "triangulation/flips.h"
-#include "validation.h"
+#include "check_options.h"
+#include "consensus/consensus_loop.h"
+#include "consensus/consensus_method.h"
+#include "floater/floater_method.h"
+#include "mesh/check.h"
+#include "mesh/flips.h"
+#include "points/neighbors.h"
+#include "points/noise.h"
+#include "points/outliers.h"
+#include "report.h"
 
 #include <algorithm>
 #include <new>
@@ -21,128 +24,258 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t LARGEST_SECOND_TRY = 300'000; // points; a second and half a GB
+// Points up to which the disc method makes a surface that is a disc, too, if that came out with
+// folds; above, it would take more than a second and half a GB.
+constexpr std::size_t LARGEST_SECOND_TRY = 300'000;
 
-// Beyond the report: the mesh as it is, on the user's own points, whatever the stages think that
-// they made.
-Problem
-examine (Samples& samples, const std::vector<Triangle>& triangles, const Options& options,
-         StageClock& clock, Report& report)
+bool
+asksForDisc (const Options& options)
 {
-  constexpr double AFTER_SPACING = 0.1; // of the time of this stage
-  clock.start (Stage::CHECK);
-  StageClock::step (AFTER_SPACING);
-  if (!samples.noisy.empty ())
-    samples.set.positions.swap (samples.noisy);
-  const std::vector<float> spacing =
-      localSpacing (samples.set.positions, samples.near, options.threads);
-  samples.near = {};
-  samples.stars = {};
-  StageClock::step (1.0);
-  const MeshExamination found = checkMesh (triangles, samples.set, spacing);
-  report.statistics.folds = found.check.folds;
-  return reportCheck (samples.set, found, options, report);
+  return options.topology == Topology::DISC || !options.boundary.loop.empty ();
 }
 
-// Examines a mesh and makes it the result.
+NeighborSettings
+neighborSettings (const Options& options, NeighborSearch* search)
+{
+  // A disc takes the memory of one block many times over; there is nothing to be saved.
+  return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
+}
+
+DiscSettings
+discSettings (const Options& options)
+{
+  return {options.neighbors.kind,
+          options.filter_sheets,
+          {options.weighting, options.domain, options.solver},
+          options.flip_edges};
+}
+
+// Beyond TW 385: points that lie off any surface would be woven in as spikes. Those that the user's
+// loop names stay.
+void
+removeOutliers (Points& points, CsrLists& neighbors, const Options& options,
+                const NeighborSettings& settings, const RunContext& run, Report& report)
+{
+  std::vector<Index> given = options.boundary.loop;
+  std::sort (given.begin (), given.end ());
+  std::vector<Index> outliers = findOutliers (points.positions, neighbors, run);
+  const auto is_given = [&] (Index p) {
+    return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
+  };
+  outliers.erase (std::remove_if (outliers.begin (), outliers.end (), is_given), outliers.end ());
+  if (outliers.empty ())
+    return;
+  std::vector<Index> cloud_indices = removePoints (points, outliers);
+  reportOutliers (std::move (cloud_indices), points.size (), report);
+  neighbors = renewNeighbors (points, outliers, std::move (neighbors), settings, run);
+}
+
+// Beyond TW 385: where noise is strong, triangles join the points as they lie in their local
+// planes. The mesh is triangles only, so the user's points stay where they are.
+void
+projectNoise (Points& points, CsrLists& neighbors, const Options& options,
+              const NeighborSettings& settings, const RunContext& run, Report& report)
+{
+  const double noise = measureNoise (points.positions, neighbors, run);
+  const bool is_strong = options.denoise && isStrongNoise (noise, points.size ());
+  reportNoise (noise, is_strong, report);
+  if (!is_strong)
+    return;
+  points.projected = projectOntoPlanes (points.positions, neighbors, run);
+  neighbors = {};
+  neighbors = findNeighbors (points, settings, run);
+}
+
+// TW 385, section 3: boundary points as one ordered loop.
+Boundary
+findLoop (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
+          const RunContext& run)
+{
+  run.beginStage (Stage::BOUNDARY);
+  const bool is_given = !options.loop.empty ();
+  Boundary boundary = is_given || options.method != BoundaryMethod::CONSENSUS
+                          ? findBoundary (points, geometry, options, run)
+                          : consensusLoop (points.workingPositions (), geometry, run);
+  checkBoundary (points, geometry.spacing, is_given, boundary);
+  return boundary;
+}
+
+Disc
+layOutDisc (const Points& points, LocalGeometry& geometry, const Options& options,
+            const RunContext& run)
+{
+  Boundary boundary = findLoop (points, geometry, options.boundary, run);
+  if (boundary.problem) {
+    Disc none;
+    none.problem = boundary.problem;
+    none.boundary = std::move (boundary);
+    return none;
+  }
+  return makeDisc (points, geometry, std::move (boundary), discSettings (options), run);
+}
+
+// The mesh as it is, on the user's own points, whatever the stages think that they made.
+MeshExamination
+examine (const TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
+         const RunContext& run)
+{
+  run.beginStage (Stage::CHECK);
+  return checkMesh (mesh.triangles, points, spacing, run);
+}
+
+// A mesh that was laid out as a disc is one, and its boundary is the loop.
 Problem
-useMesh (Samples& samples, SurfaceMesh mesh, const SurfaceFinish& finish, const Options& options,
-         StageClock& clock, Result& result)
+checkDisc (const MeshExamination& found, std::vector<Index> loop)
+{
+  const auto turnToSmallest = [&loop] {
+    std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
+  };
+  turnToSmallest ();
+  bool is_right =
+      found.isManifold () && found.isDisc () && found.loops.front ().points.size () == loop.size ();
+  if (is_right && found.loops.front ().points != loop) {
+    std::reverse (loop.begin () + 1, loop.end ());
+    is_right = found.loops.front ().points == loop;
+  }
+  return is_right ? Problem{}
+                  : Problem{Status::INTERNAL_ERROR,
+                            "the result is not one manifold disc within the boundary loop; "
+                            "please report this with the cloud"};
+}
+
+double
+costOf (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+        const RunContext& run)
+{
+  std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
+  orientNormals (mesh, points.positions, normals, run);
+  return meshCost (mesh, TriangleCost (points.positions, normals, &geometry.spacing), run);
+}
+
+std::size_t
+countFlaws (const MeshExamination& found)
+{
+  return found.check.folds + found.unused.size ();
+}
+
+// Makes the result of a mesh. \return INTERNAL_ERROR if it is no oriented manifold
+Problem
+useMesh (TriangleMesh mesh, const MeshFinish& finish, const MeshExamination& found,
+         const Points& points, const Options& options, Result& result)
 {
   std::vector<Triangle> triangles = std::move (mesh.triangles);
   mesh = {};
-  Problem problem = examine (samples, triangles, options, clock, result.report);
-  result.triangles = reportMesh (samples.set, std::move (triangles), finish, result.report);
+  Problem problem = reportCheck (points, found, options, result.report);
+  result.triangles = reportMesh (points, std::move (triangles), finish, result.report);
   return problem;
 }
 
 Problem
-useDisc (Samples& samples, Disc disc, const Options& options, StageClock& clock, Result& result)
+reconstructDisc (const Points& points, LocalGeometry geometry, const Options& options,
+                 const RunContext& run, Result& result)
 {
   result.report.topology = Topology::DISC;
-  reportBoundary (samples.set, disc.boundary, result.report);
+  result.report.topology_reason =
+      options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
+  Disc disc = layOutDisc (points, geometry, options, run);
+  reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
-  return useMesh (samples, std::move (disc.mesh), disc.finish, options, clock, result);
-}
-
-std::size_t
-countFlaws (const SurfaceMesh& mesh, const SurfaceFinish& finish)
-{
-  return finish.folds.size () + static_cast<std::size_t> (std::count (
-                                    mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE));
-}
-
-double
-costOf (const Samples& samples, const SurfaceMesh& mesh, const Options& options)
-{
-  const std::vector<Eigen::Vector3d>& positions = samples.ownPositions ();
-  std::vector<Eigen::Vector3f> normals = samples.stars.normals;
-  orientNormals (mesh, positions, normals);
-  const std::vector<float> spacing = localSpacing (positions, samples.near, options.threads);
-  return meshCost (mesh, TriangleCost (positions, normals, &spacing));
+  const std::vector<float> spacing = std::move (geometry.spacing);
+  geometry = {};
+  const MeshExamination found = examine (disc.mesh, points, spacing, run);
+  if (Problem problem = checkDisc (found, disc.boundary.loop))
+    return problem;
+  return useMesh (std::move (disc.mesh), disc.finish, found, points, options, result);
 }
 
 // Topology::AUTO: where the surface is one disc but came out with folds or without points, and is
-// not too large for a second try, the disc method makes it, too. It is taken if that has fewer of
-// these, and is the smoother one.
+// not too large, the disc method makes it, too. That one is taken if it has fewer of these, and is
+// the smoother one.
+// \return whether it was taken
 bool
-isDiscBetter (Samples& samples, const Surface& surface, const Options& options, StageClock& clock,
-              Report& report, Disc& disc)
+tryDisc (const Points& points, LocalGeometry& geometry, const TriangleMesh& surface,
+         const MeshExamination& of_surface, const Options& options, const RunContext& run,
+         Disc& disc, MeshExamination& of_disc)
 {
-  const std::size_t flaws = countFlaws (surface.mesh, surface.finish);
-  if (options.topology != Topology::AUTO || !surface.is_one_disc || flaws == 0 ||
-      samples.set.positions.size () > LARGEST_SECOND_TRY)
+  run.setMethod (Topology::DISC);
+  run.beginStage (Stage::STARS);
+  geometry.stars = makeStars (points.workingPositions (), geometry.neighbors,
+                              geometry.stars.normals, {options.filter_sheets}, run);
+  disc = layOutDisc (points, geometry, options, run);
+  if (disc.problem)
     return false;
-  const Report before = report;
-  StageClock::setMethod (Topology::DISC);
-  clock.start (Stage::STARS);
-  samples.stars = makeStars (samples.set.positions, samples.near, samples.stars.normals,
-                             options.filter_sheets, options.threads);
-  disc = makeDisc (samples, options, clock, report);
-  clock.stop ();
-  if (!disc.problem && countFlaws (disc.mesh, disc.finish) < flaws &&
-      costOf (samples, disc.mesh, options) < costOf (samples, surface.mesh, options))
-    return true;
-  const auto seconds = report.statistics.seconds;
-  const double total_seconds = report.statistics.total_seconds;
-  report = before;
-  report.statistics.seconds = seconds;
-  report.statistics.total_seconds = total_seconds;
-  return false;
+  of_disc = examine (disc.mesh, points, geometry.spacing, run);
+  return !checkDisc (of_disc, disc.boundary.loop) &&
+         countFlaws (of_disc) < countFlaws (of_surface) &&
+         costOf (disc.mesh, points, geometry, run) < costOf (surface, points, geometry, run);
 }
 
 Problem
-reconstructAny (Input& input, const Options& options, Result& result)
+reconstructSurface (const Points& points, LocalGeometry geometry, const Options& options,
+                    const RunContext& run, Result& result)
+{
+  Report& report = result.report;
+  Surface surface = makeSurface (points, geometry, options.holes, options.flip_edges, run);
+  reportOrientationSeam (points, surface.orientation_seam, report);
+  const bool may_be_disc =
+      options.topology == Topology::AUTO && points.size () <= LARGEST_SECOND_TRY;
+  if (!may_be_disc) {
+    geometry.neighbors = {};
+    geometry.stars = {};
+  }
+  MeshExamination found = examine (surface.mesh, points, geometry.spacing, run);
+  Disc disc;
+  MeshExamination of_disc;
+  if (may_be_disc && found.isManifold () && found.isDisc () && countFlaws (found) > 0 &&
+      tryDisc (points, geometry, surface.mesh, found, options, run, disc, of_disc)) {
+    report.topology = Topology::DISC;
+    report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
+    reportDisc (points, disc, report);
+    return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, options, result);
+  }
+  report.topology = Topology::SURFACE;
+  report.statistics.holes_filled = surface.holes_filled;
+  return useMesh (std::move (surface.mesh), surface.finish, found, points, options, result);
+}
+
+Problem
+reconstructAny (Input& input, const Options& options, const RunContext& run, Result& result)
 {
   Report& report = result.report;
   report.statistics.cloud_points = input.cloud_size;
   report.statistics.selected_points = input.positions.size ();
   if (Problem problem = checkOptions (options))
     return problem;
-  StageClock clock (report.statistics, options.progress);
-  if (asksForDisc (options))
-    StageClock::setMethod (Topology::DISC);
-  Samples samples;
-  if (Problem problem = prepareSamples (input, options, clock, samples, report))
+  const bool as_disc = asksForDisc (options);
+  if (as_disc)
+    run.setMethod (Topology::DISC);
+
+  run.beginStage (Stage::WORKING_SET);
+  Points points = makePoints (input.positions, input.cloud_index, run);
+  std::vector<Eigen::Vector3d> ().swap (input.positions);
+  std::vector<Index> ().swap (input.cloud_index);
+  reportPoints (points, report);
+  if (Problem problem = checkPoints (points))
     return problem;
 
-  Disc disc;
-  if (asksForDisc (options)) {
-    report.topology_reason =
-        options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
-    disc = makeDisc (samples, options, clock, report);
-    return useDisc (samples, std::move (disc), options, clock, result);
-  }
-  Surface surface = makeSurface (samples, options, clock);
-  reportOneSided (samples.set, surface.cut, report);
-  if (isDiscBetter (samples, surface, options, clock, report, disc)) {
-    report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
-    return useDisc (samples, std::move (disc), options, clock, result);
-  }
-  report.topology = Topology::SURFACE;
-  report.statistics.holes_filled = surface.holes_filled;
-  return useMesh (samples, std::move (surface.mesh), surface.finish, options, clock, result);
+  run.beginStage (Stage::NEIGHBORS);
+  const NeighborSettings settings = neighborSettings (options, input.search);
+  CsrLists neighbors = findNeighbors (points, settings, run);
+  if (options.remove_outliers)
+    removeOutliers (points, neighbors, options, settings, run, report);
+  if (Problem problem = checkPoints (points))
+    return problem;
+  projectNoise (points, neighbors, options, settings, run, report);
+
+  run.beginStage (Stage::STARS);
+  StarSettings star_settings{options.filter_sheets};
+  star_settings.with_offsets = as_disc;
+  LocalGeometry geometry =
+      makeLocalGeometry (points.workingPositions (), std::move (neighbors), star_settings, run);
+
+  return as_disc ? reconstructDisc (points, std::move (geometry), options, run, result)
+                 : reconstructSurface (points, std::move (geometry), options, run, result);
 }
 
 } // namespace
@@ -153,13 +286,15 @@ reconstruct (Input input, const Options& options)
   Result result;
   Problem problem;
   try {
-    Monitor monitor (options);
-    problem = reconstructAny (input, options, result);
+    RunMonitor monitor (
+        {options.stage_callback, options.progress_callback, options.cancelled_callback},
+        result.report.statistics);
+    problem = reconstructAny (input, options, RunContext (options.threads, &monitor), result);
     if (!problem)
       monitor.finish ();
   }
   catch (const Cancelled&) {
-    problem = {Status::CANCELLED, "the caller stopped the run"};
+    problem = {Status::CANCELLED, "the run was cancelled by its caller"};
   }
   catch (const std::bad_alloc&) {
     problem = {Status::OUT_OF_MEMORY,
@@ -168,10 +303,13 @@ reconstruct (Input input, const Options& options)
   catch (const std::exception& error) {
     problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
   }
+  catch (...) {
+    problem = {Status::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
+  }
   if (problem.status == Status::CANCELLED) {
-    Report stopped;
-    stopped.statistics = result.report.statistics;
-    result.report = std::move (stopped); // nothing that takes memory
+    Report cancelled;
+    cancelled.statistics = result.report.statistics;
+    result.report = std::move (cancelled); // nothing that takes memory
   }
   result.report.status = problem.status;
   if (problem) {

@@ -2,10 +2,10 @@
 // A cloud taken through the stages up to the linear system, with all that lies on the way kept.
 #pragma once
 
-#include "boundary/boundary_loop.h"
+#include "floater/boundary/boundary.h"
 #include "cloud.h"
-#include "common/types.h"
-#include "parameterization/system.h"
+#include "core/types.h"
+#include "floater/solvers/linear_system.h"
 
 #include <pcl/surface/floater/options.h>
 #include <pcl/surface/floater/report.h>
@@ -21,8 +21,8 @@ namespace floater
 struct Disc
 {
   std::string name; ///< of the file, without its extension
-  WorkingSet set;
-  FlatLists near;
+  Points set;
+  CsrLists near;
   std::vector<Eigen::Vector3f> normals;
   Boundary boundary;
   std::vector<Eigen::Vector2d> loop_uv; ///< parallel to boundary.loop

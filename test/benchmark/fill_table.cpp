@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table 2 of TW 385: the fill-in factor gamma.
 #include "section.h"
-#include "solvers/ordering.h"
+#include "floater/solvers/ordering.h"
 #include "symbolic_factors.h"
 #include "umfpack_sizes.h"
 

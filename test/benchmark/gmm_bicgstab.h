@@ -2,7 +2,7 @@
 // The report's iterative solver: BiCGSTAB with an ILUT preconditioner, by GMM++.
 #pragma once
 
-#include "parameterization/system.h"
+#include "floater/solvers/linear_system.h"
 
 #include <array>
 #include <memory>

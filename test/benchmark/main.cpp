@@ -5,7 +5,7 @@
 #include "mesh_picture.h"
 #include "processor.h"
 #include "section.h"
-#include "solvers/solver.h"
+#include "floater/solvers/solver.h"
 #include "stopwatch.h"
 
 #include <CLI/CLI.hpp>
@@ -101,7 +101,7 @@ run (const CommandLine& line)
       std::fprintf (stderr, "%.1f s\n", stopwatch.seconds ());
     }
     clouds += (clouds.empty () ? "" : ", ") + sample.disc.name + " (" +
-              grouped (sample.disc.set.positions.size ()) + " points" +
+              grouped (sample.disc.points.positions.size ()) + " points" +
               (sample.disc.left_out > 0 ? ", " + std::to_string (sample.disc.left_out) +
                                               " of them without a way to the boundary and left out"
                                         : std::string ()) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table 1 of TW 385: bytes per point.
-#include "neighborhoods/kd_tree.h"
+#include "points/kd_tree.h"
 #include "section.h"
 #include "umfpack_sizes.h"
 
@@ -43,7 +43,7 @@ std::size_t
 searchStructureBytes (const Disc& disc)
 {
   const std::size_t before = heldBytes ();
-  const KdTree tree (disc.set.positions);
+  const KdTree tree (disc.points.positions);
   return heldBytes () - before;
 }
 
@@ -58,7 +58,7 @@ public:
 
   void measure (const Sample& sample) override
   {
-    const auto points = static_cast<double> (sample.disc.set.positions.size ());
+    const auto points = static_cast<double> (sample.disc.points.positions.size ());
     const UmfpackSizes sizes = measureUmfpack (sample.disc.system);
     const double gamma = static_cast<double> (sizes.nnz_factors) /
                          static_cast<double> (sample.disc.system.nonzeros ());

@@ -2,10 +2,10 @@
 // Figure 6 of TW 385: mesh, parameterization, and what it is like where it is densest.
 #include "mesh_measures.h"
 #include "mesh_picture.h"
-#include "neighborhoods/kd_tree.h"
+#include "points/kd_tree.h"
 #include "section.h"
-#include "triangulation/planar_delaunay.h"
-#include "triangulation/surface_finish.h"
+#include "floater/planar_delaunay.h"
+#include "mesh/finish.h"
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -109,11 +109,11 @@ public:
   void measure (const Sample& sample) override
   {
     const Disc& disc = sample.disc;
-    SurfaceMesh mesh = triangulatePlane (sample.direct, disc.boundary.loop);
+    TriangleMesh mesh = triangulatePlane (sample.direct, disc.boundary.loop);
     const std::vector<Triangle> in_plane = mesh.triangles;
     std::vector<Eigen::Vector3f> normals = disc.normals;
-    finishDisc (mesh, disc.set.positions, disc.near, normals, {});
-    faceOutwards (mesh.triangles, disc.set.positions);
+    finishDisc (mesh, disc.points.positions, disc.near, normals, {});
+    faceOutwards (mesh.triangles, disc.points.positions);
 
     // Points that the system leaves out are in no triangle of the plane; far away they do not
     // disturb.
@@ -139,12 +139,12 @@ public:
         window.extend (flat[p]);
 
     figures_.push_back ({"figure6_mesh_" + disc.name,
-                         picture (disc.set.positions, mesh.triangles, flat, in_plane),
+                         picture (disc.points.positions, mesh.triangles, flat, in_plane),
                          disc.name + ": mesh of " + grouped (mesh.triangles.size ()) +
                              " triangles, and its parameterization"});
     figures_.push_back (
         {"figure6_close_up_" + disc.name,
-         picture (disc.set.positions, closeUp (mesh.triangles), flat, closeUp (in_plane)),
+         picture (disc.points.positions, closeUp (mesh.triangles), flat, closeUp (in_plane)),
          disc.name + ": the " + std::to_string (CLOSE_UP) +
              " points where the plane is densest, on the surface and in the plane. The "
              "window in the plane is " +

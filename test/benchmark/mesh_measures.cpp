@@ -2,7 +2,7 @@
 #include "mesh_measures.h"
 
 #include "mesh_picture.h"
-#include "neighborhoods/kd_tree.h"
+#include "points/kd_tree.h"
 
 #include <vtkIdList.h>
 #include <vtkNew.h>

@@ -2,7 +2,7 @@
 // Figures that compare meshes over the same points.
 #pragma once
 
-#include "common/types.h"
+#include "core/types.h"
 
 #include <filesystem>
 #include <vector>

@@ -79,7 +79,7 @@ public:
       for (const Named<Weighting>& weighting : weightings ()) {
         Options options;
         options.topology = Topology::DISC;
-        options.neighborhood = neighborhood.choice;
+        options.neighbors.kind = neighborhood.choice;
         options.weighting = weighting.choice;
         options.threads = settings_.threads;
         options.flip_edges = false;

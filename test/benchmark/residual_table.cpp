@@ -3,8 +3,8 @@
 #include "gmm_bicgstab.h"
 #include "mesh_measures.h"
 #include "section.h"
-#include "triangulation/planar_delaunay.h"
-#include "triangulation/surface_finish.h"
+#include "floater/planar_delaunay.h"
+#include "mesh/finish.h"
 
 #include <algorithm>
 
@@ -26,10 +26,10 @@ MeshEdges
 meshOf (const Disc& disc, const std::vector<Eigen::Vector2d>& uv)
 {
   MeshEdges edges;
-  SurfaceMesh mesh = triangulatePlane (uv, disc.boundary.loop);
+  TriangleMesh mesh = triangulatePlane (uv, disc.boundary.loop);
   edges.in_plane = edgesOf (mesh.triangles);
   std::vector<Eigen::Vector3f> normals = disc.normals;
-  finishDisc (mesh, disc.set.positions, disc.near, normals, {});
+  finishDisc (mesh, disc.points.positions, disc.near, normals, {});
   edges.on_surface = edgesOf (mesh.triangles);
   return edges;
 }

@@ -2,7 +2,7 @@
 // Figure 4 of TW 385: where the matrix and its factors have their nonzeros.
 #include "picture_file.h"
 #include "section.h"
-#include "solvers/ordering.h"
+#include "floater/solvers/ordering.h"
 #include "symbolic_factors.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "symbolic_factors.h"
 
-#include "solvers/ordering.h"
+#include "floater/solvers/ordering.h"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ namespace floater
 namespace
 {
 // Neighbours of each unknown by the pattern of A + A^T, without the diagonal, ascending.
-FlatLists
+CsrLists
 symmetricPattern (const LinearSystem& system)
 {
   const std::size_t n = system.unknowns ();
@@ -25,7 +25,7 @@ symmetricPattern (const LinearSystem& system)
       lists[i].push_back (j);
       lists[j].push_back (i);
     }
-  FlatLists pattern;
+  CsrLists pattern;
   pattern.offsets.push_back (0);
   for (std::vector<Index>& list : lists) {
     std::sort (list.begin (), list.end ());
@@ -44,7 +44,7 @@ std::size_t
 symbolicFactors (const LinearSystem& system, const std::vector<int>& order,
                  const std::function<void (Index, Index)>& visit)
 {
-  const FlatLists pattern = symmetricPattern (permuteSystem (system, order));
+  const CsrLists pattern = symmetricPattern (permuteSystem (system, order));
   const std::size_t n = order.size ();
 
   // The elimination tree, with shortcuts to the roots so far.

@@ -2,7 +2,7 @@
 // Where an order of the unknowns makes the factors have their nonzeros.
 #pragma once
 
-#include "parameterization/system.h"
+#include "floater/solvers/linear_system.h"
 
 #include <functional>
 #include <vector>

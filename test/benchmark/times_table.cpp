@@ -3,12 +3,12 @@
 #include "gmm_bicgstab.h"
 #include "growth_chart.h"
 #include "section.h"
-#include "solvers/ordering.h"
-#include "solvers/residual.h"
-#include "solvers/solver.h"
+#include "floater/solvers/ordering.h"
+#include "floater/solvers/residual.h"
+#include "floater/solvers/solver.h"
 #include "stopwatch.h"
-#include "triangulation/planar_delaunay.h"
-#include "triangulation/surface_finish.h"
+#include "floater/planar_delaunay.h"
+#include "mesh/finish.h"
 
 #include <algorithm>
 #include <map>
@@ -101,7 +101,7 @@ public:
   void measure (const Sample& sample) override
   {
     const Disc& disc = sample.disc;
-    Measured measured{disc.name, static_cast<double> (disc.set.positions.size ()), {}};
+    Measured measured{disc.name, static_cast<double> (disc.points.positions.size ()), {}};
     ShortestTimes& times = measured.times;
     Options options;
     options.threads = settings_.threads;
@@ -109,7 +109,7 @@ public:
     superlu_options.solver = Solver::SUPERLU;
     Solution umfpack, superlu;
     IterativeSolution bicgstab;
-    SurfaceMesh mesh;
+    TriangleMesh mesh;
     for (int run = 0; run < settings_.repeats; ++run) {
       timeStages (sample, options, times);
       times.time ("UMFPACK", [&] { umfpack = solveOrThrow (disc.system, options); });
@@ -121,7 +121,7 @@ public:
       times.time ("Delaunay", [&] { mesh = triangulatePlane (sample.direct, disc.boundary.loop); });
       times.time ("flips", [&] {
         std::vector<Eigen::Vector3f> normals = disc.normals;
-        finishDisc (mesh, disc.set.positions, disc.near, normals, options);
+        finishDisc (mesh, disc.points.positions, disc.near, normals, options);
       });
     }
     addTimes (disc, times, mesh.triangles.size (), bicgstab);
@@ -181,7 +181,7 @@ private:
     };
     const double total =
         times["neighbours"] + times["boundary"] + times["weights"] + times["UMFPACK"];
-    table_.rows.push_back ({disc.name, grouped (disc.set.positions.size ()), grouped (triangles),
+    table_.rows.push_back ({disc.name, grouped (disc.points.positions.size ()), grouped (triangles),
                             text ("neighbours"), text ("boundary"), text ("weights"),
                             text ("UMFPACK"), text ("BiCGSTAB"), iterationsText (bicgstab),
                             fixed (times["BiCGSTAB"] / times["UMFPACK"], 1), text ("SuperLU"),

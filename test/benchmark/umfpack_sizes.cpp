@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "umfpack_sizes.h"
 
-#include "solvers/single_blas_thread.h"
+#include "floater/solvers/single_blas_thread.h"
 
 #include <umfpack.h>
 

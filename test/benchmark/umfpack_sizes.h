@@ -2,7 +2,7 @@
 // What UMFPACK keeps of a factorization.
 #pragma once
 
-#include "parameterization/system.h"
+#include "floater/solvers/linear_system.h"
 
 namespace pcl
 {

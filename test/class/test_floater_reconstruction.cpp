@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What goes into FloaterReconstruction and what comes out: clouds, indices, meshes, failures.
-#include "mesh_check.h"
+#include "mesh/check.h"
 
 #include <pcl/point_types.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Setters and getters of FloaterReconstruction, and what parameters and search methods do to a run.
-#include "mesh_check.h"
+#include "mesh/check.h"
 
 #include <pcl/point_types.h>
 #include <pcl/search/brute_force.h>
@@ -82,8 +82,8 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
   EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
   EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
+  EXPECT_FALSE (floater.getStageCallback ());
   EXPECT_FALSE (floater.getProgressCallback ());
-  EXPECT_FALSE (floater.getAdvanceCallback ());
   EXPECT_FALSE (floater.getCancelledCallback ());
 
   EXPECT_EQ (floater.getStatus (), Status::NOT_RUN);
@@ -104,7 +104,7 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndStays)
       CHOICE (LargestHoleLength, 0.5),
       CHOICE (RemoveOutliers, false),
       CHOICE (Denoise, false),
-      CHOICE (BoundaryMethod, BoundaryMethod::COMPLEX),
+      CHOICE (BoundaryMethod, BoundaryMethod::CONSENSUS),
       CHOICE (KNearest, 12),
       CHOICE (OpeningAngle, 150.0),
       CHOICE (ClusterTolerance, 0.07),
@@ -519,20 +519,20 @@ TEST_F (FloaterClass, TellsItsProgress)
   std::vector<Stage> stages;
   Floater floater;
   floater.setInputCloud (heightField ());
-  floater.setProgressCallback ([&stages] (Stage stage) { stages.push_back (stage); });
-  ASSERT_TRUE (floater.getProgressCallback ());
+  floater.setStageCallback ([&stages] (Stage stage) { stages.push_back (stage); });
+  ASSERT_TRUE (floater.getStageCallback ());
   runWell (floater);
   const std::vector<Stage> all{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
                                Stage::BOUNDARY,    Stage::WEIGHTS,   Stage::SOLVE,
                                Stage::DELAUNAY,    Stage::FLIPS,     Stage::CHECK};
   EXPECT_EQ (stages, all);
 
-  floater.setProgressCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
+  floater.setStageCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
   expectFailure (floater, Status::INTERNAL_ERROR);
   EXPECT_NE (floater.getMessage ().find ("enough of this"), std::string::npos);
-  floater.setProgressCallback ([] (Stage) { throw 1; });
+  floater.setStageCallback ([] (Stage) { throw 1; });
   expectFailure (floater, Status::INTERNAL_ERROR);
-  floater.setProgressCallback (nullptr);
+  floater.setStageCallback (nullptr);
   runWell (floater);
 }
 
@@ -541,8 +541,8 @@ TEST_F (FloaterClass, TellsHowFarItIsAndStops)
   double done = -1.0;
   Floater floater;
   floater.setInputCloud (heightField ());
-  floater.setAdvanceCallback ([&done] (double fraction) { done = fraction; });
-  ASSERT_TRUE (floater.getAdvanceCallback ());
+  floater.setProgressCallback ([&done] (double fraction) { done = fraction; });
+  ASSERT_TRUE (floater.getProgressCallback ());
   runWell (floater);
   EXPECT_EQ (done, 1.0);
 

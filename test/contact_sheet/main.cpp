@@ -131,7 +131,7 @@ addMesh (vtkPolyData* file, Cell& cell)
 
   const long handles = 2 * static_cast<long> (topology.components) - topology.euler -
                        static_cast<long> (topology.loops.size ());
-  cell.lines.push_back ({counted (topology.components, "piece") + ", " +
+  cell.lines.push_back ({counted (topology.components, "component") + ", " +
                              counted (topology.loops.size (), "loop") + ", genus " +
                              std::to_string (handles / 2) + ", " + counted (folded.size (), "fold"),
                          INK});

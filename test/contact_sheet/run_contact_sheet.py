@@ -41,7 +41,7 @@ class ContactSheet(unittest.TestCase):
         good, line = done.stdout.index("good\n"), done.stdout.index("line\n")
         self.assertLess(good, line)
         self.assertIn("500 points", done.stdout[good:line])
-        self.assertIn("1 piece, 1 loop, genus 0, 0 folds", done.stdout[good:line])
+        self.assertIn("1 component, 1 loop, genus 0, 0 folds", done.stdout[good:line])
         self.assertIn("DEGENERATE", done.stdout[line:])
         with open(os.path.join(self.folder, "floater_result", "contact_sheet.png"), "rb") as file:
             picture = file.read()

@@ -2,7 +2,7 @@
 // What a mesh is, topology and geometry; shares no code with the library.
 #pragma once
 
-#include "common/types.h"
+#include "core/types.h"
 
 #include <Eigen/Geometry>
 

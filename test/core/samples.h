@@ -2,12 +2,12 @@
 // Sheets with a known border, and an independent look at triangles, for the tests of the stages.
 #pragma once
 
-#include "common/types.h"
+#include "core/types.h"
 #include "mesh_oracle.h"
-#include "neighborhoods/nearest_neighbors.h"
-#include "neighborhoods/stars.h"
-#include "neighborhoods/tangent_planes.h"
-#include "neighborhoods/working_set.h"
+#include "points/nearest_neighbors.h"
+#include "local/stars.h"
+#include "local/tangent_planes.h"
+#include "points/points.h"
 #include "random_stream.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -150,8 +150,8 @@ disc (double step, std::uint64_t seed)
 /// The stages up to the stars.
 struct Neighborhoods
 {
-  WorkingSet set;
-  FlatLists near;
+  Points set;
+  CsrLists neighbors;
   Stars stars;
   std::vector<float> spacing;
 };
@@ -160,12 +160,12 @@ inline Neighborhoods
 makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int threads = 1)
 {
   Neighborhoods made;
-  made.set = makeWorkingSet (positions, indices (positions.size ()), threads);
-  made.near = findNearestNeighbors (made.set, 20, nullptr, threads);
+  made.set = makePoints (positions, indices (positions.size ()), threads);
+  made.neighbors = findNearestNeighbors (made.set, 20, nullptr, threads);
   made.stars =
-      makeStars (made.set.positions, made.near,
-                 fitTangentPlanes (made.set.positions, made.near, threads), filter_sheets, threads);
-  made.spacing = localSpacing (made.set.positions, made.near, threads);
+      makeStars (made.points.positions, made.neighbors,
+                 fitTangentPlanes (made.points.positions, made.neighbors, threads), filter_sheets, threads);
+  made.spacing = localSpacing (made.points.positions, made.neighbors, threads);
   return made;
 }
 

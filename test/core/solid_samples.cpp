@@ -40,7 +40,7 @@ generated (SurfaceKind kind, std::size_t points, double slenderness, std::uint64
 // Walls over an outline, a floor and perhaps a lid. Points of their own: the rim at floor and lid,
 // and uprights.
 KnownSurface
-prism (const Outline& corners, const Outline& rim, const Outline& uprights, double height,
+prism (const Outline& corners, const Outline& loop, const Outline& uprights, double height,
        bool with_lid, std::uint64_t seed)
 {
   const double walls = lengthOf (corners) * height, floor = areaOf (corners);
@@ -48,7 +48,7 @@ prism (const Outline& corners, const Outline& rim, const Outline& uprights, doub
   made.loops = with_lid ? 0 : 1;
   made.area = walls + (with_lid ? 2.0 : 1.0) * floor;
   std::vector<Dart> edges;
-  for (const Eigen::Vector2d& p : rim)
+  for (const Eigen::Vector2d& p : loop)
     for (const double z : {0.0, height})
       edges.push_back ({{p.x (), p.y (), z}});
   for (const Eigen::Vector2d& p : uprights)
@@ -105,18 +105,18 @@ sphereWithThreeHoles (std::uint64_t seed)
 {
   constexpr double RADIUS = 14.0, HOLE = 5.0;
   const double height = std::sqrt (RADIUS * RADIUS - HOLE * HOLE);
-  std::vector<Dart> rims;
+  std::vector<Dart> loops;
   for (const Eigen::Vector2d& p : circle (HOLE, 1.0)) {
-    rims.push_back ({{p.x (), p.y (), height}});
-    rims.push_back ({{p.y (), height, p.x ()}});
-    rims.push_back ({{-height, p.x (), p.y ()}});
+    loops.push_back ({{p.x (), p.y (), height}});
+    loops.push_back ({{p.y (), height, p.x ()}});
+    loops.push_back ({{-height, p.x (), p.y ()}});
   }
   KnownSurface made;
   made.loops = 3;
   made.area = 2.0 * PI * RADIUS * (2.0 * RADIUS - 3.0 * (RADIUS - height));
   RandomStream random (seed);
   made.points = throwDarts (
-      std::move (rims), made.area,
+      std::move (loops), made.area,
       [=] (RandomStream& stream) -> Dart {
         Eigen::Vector3d p;
         do {
@@ -216,10 +216,10 @@ cylinder (std::uint64_t seed)
 {
   constexpr double RADIUS = 10.0;
   const Outline fine = circle (RADIUS, 0.1);
-  Outline rim;
+  Outline loop;
   for (std::size_t i = 0; i < fine.size (); i += 10)
-    rim.push_back (fine[i]);
-  return prism (fine, rim, {}, 24.0, true, seed);
+    loop.push_back (fine[i]);
+  return prism (fine, loop, {}, 24.0, true, seed);
 }
 
 KnownSurface

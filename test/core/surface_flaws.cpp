@@ -8,7 +8,7 @@ namespace floater
 namespace samples
 {
 KnownSurface
-pieces (std::uint64_t seed)
+components (std::uint64_t seed)
 {
   return withPiece (withPiece (sphere (1500, seed), torus (1200, seed + 1), 3.0, {75.0, 0.0, 0.0}),
                     annulus (seed + 2), 2.0, {0.0, 110.0, 0.0});

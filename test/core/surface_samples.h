@@ -65,7 +65,7 @@ enum class Lattice
   SHEARED ///< parallelograms with an angle of 72 degrees
 };
 
-/// A flat piece of a regular lattice of 45 by 45 points.
+/// A flat component of a regular lattice of 45 by 45 points.
 KnownSurface
 lattice (Lattice kind);
 
@@ -110,7 +110,7 @@ parallelSheets (double gap, std::uint64_t seed);
 
 /// A sphere with spacing 1, a torus with spacing 3 and a sheet with spacing 2.
 KnownSurface
-pieces (std::uint64_t seed);
+components (std::uint64_t seed);
 
 // ---- flat faces and sharp edges
 

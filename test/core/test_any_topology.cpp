@@ -54,9 +54,9 @@ Options
 policy (HolePolicy holes, int kept_loops = 1, double largest_hole = 0.0)
 {
   Options options;
-  options.holes = holes;
-  options.kept_loops = kept_loops;
-  options.largest_hole = largest_hole;
+  options.holes.policy = holes;
+  options.holes.kept_loops = kept_loops;
+  options.holes.largest_hole = largest_hole;
   return options;
 }
 
@@ -156,7 +156,7 @@ expectGeometry (const Result& result, const KnownSurface& surface, const Case& o
   const Positions folds = foldsOf (result.triangles, surface.points);
   EXPECT_LE (static_cast<double> (folds.size ()), allowedFolds (surface)) << places (folds);
   EXPECT_GT (geometry.mean_edge, LEAST_MEAN_EDGE);
-  if (one.options.holes == HolePolicy::AUTO) {
+  if (one.options.holes.policy == HolePolicy::AUTO) {
     EXPECT_LT (geometry.mean_edge, LARGEST_MEAN_EDGE);
     EXPECT_LT (geometry.longest_edge, LONGEST_EDGE) << geometry.longest_at.transpose ();
   }
@@ -352,12 +352,12 @@ INSTANTIATE_TEST_SUITE_P (
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P (
-    Pieces, AnyTopology,
+    ComponentSets, AnyTopology,
     testing::Values (Case{"parallel_2", [] { return samples::parallelSheets (2.0, 1); }},
                      Case{"parallel_3", [] { return samples::parallelSheets (3.0, 3); }},
-                     Case{"pieces", [] { return samples::pieces (1); }},
+                     Case{"components", [] { return samples::components (1); }},
                      Case{"pieces_outliers",
-                          [] { return samples::withOutliers (samples::pieces (2), 10, 36.0, 3); }}),
+                          [] { return samples::withOutliers (samples::components (2), 10, 36.0, 3); }}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P (SharpEdges, AnyTopology,

@@ -3,7 +3,7 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "random_stream.h"
-#include "solvers/solver.h"
+#include "floater/solvers/solver.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
   Options options;
   options.topology = Topology::DISC;
   options.threads = 1;
-  options.loop = border ();
+  options.boundary.loop = border ();
   const Result expected = reconstruct (input, options);
   ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
   ASSERT_EQ (expected.triangles.size (), 2 * input.positions.size () - 2 - BORDER);
@@ -104,9 +104,9 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
       for (const Domain domain : {Domain::CIRCLE, Domain::OWN_SHAPE}) {
         SCOPED_TRACE (testing::Message () << "neighborhood " << static_cast<int> (neighborhood)
                                           << " weighting " << static_cast<int> (weighting));
-        options.neighborhood = neighborhood;
+        options.neighbors.kind = neighborhood;
         options.weighting = weighting;
-        options.domain = domain;
+        options.domain.curve = domain;
         const Result result = reconstruct (input, options);
         ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
         EXPECT_EQ (unordered (result), unordered (expected));
@@ -120,10 +120,10 @@ TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
   Options options;
   options.topology = Topology::DISC;
   options.threads = 1;
-  options.loop = border ();
+  options.boundary.loop = border ();
   for (const Neighborhood neighborhood : ALL_NEIGHBORHOODS)
     for (const Weighting weighting : {Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE}) {
-      options.neighborhood = neighborhood;
+      options.neighbors.kind = neighborhood;
       options.weighting = weighting;
       const Result result = reconstruct (input, options);
       ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
@@ -149,9 +149,9 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
       Options options;
       options.topology = Topology::DISC;
       options.threads = 1;
-      options.neighborhood = neighborhood;
+      options.neighbors.kind = neighborhood;
       options.weighting = weighting;
-      options.max_iterations = 100000;
+      options.solver.max_iterations = 100000;
       const Result expected = reconstruct (input, options);
       ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
       for (const Solver solver : ALL_SOLVERS)
@@ -162,8 +162,8 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
                         << "neighborhood " << static_cast<int> (neighborhood) << " weighting "
                         << static_cast<int> (weighting) << " solver " << static_cast<int> (solver)
                         << " ordering " << static_cast<int> (ordering));
-          options.solver = solver;
-          options.ordering = ordering;
+          options.solver.method = solver;
+          options.solver.ordering = ordering;
           const Result result = reconstruct (input, options);
           ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
           EXPECT_LT (farthest (result, expected), SAME);
@@ -180,9 +180,9 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
   const auto nonzeros = [&input] (Neighborhood neighborhood, double radius) {
     Options options;
     options.topology = Topology::DISC;
-    options.loop = border ();
-    options.neighborhood = neighborhood;
-    options.ball_radius = radius;
+    options.boundary.loop = border ();
+    options.neighbors.kind = neighborhood;
+    options.neighbors.ball_radius = radius;
     const Statistics statistics = reconstruct (input, options).report.statistics;
     return static_cast<double> (statistics.nnz_matrix) / static_cast<double> (statistics.unknowns);
   };
@@ -197,15 +197,15 @@ TEST (Choices, OfALimitThatIsTooLowAreTold)
 {
   Options options;
   options.topology = Topology::DISC;
-  options.solver = Solver::GAUSS_SEIDEL;
-  options.max_iterations = 10;
+  options.solver.method = Solver::GAUSS_SEIDEL;
+  options.solver.max_iterations = 10;
   const Result result = reconstruct (sheet (0.7), options);
   EXPECT_EQ (result.report.status, Status::NOT_CONVERGED);
   EXPECT_TRUE (result.triangles.empty ());
   EXPECT_NE (result.report.message.find ("Gauss-Seidel"), std::string::npos);
   EXPECT_EQ (result.report.statistics.iterations_u, 10U);
   EXPECT_EQ (result.report.statistics.iterations_v, 10U);
-  EXPECT_GT (result.report.statistics.relative_residual, options.tolerance);
+  EXPECT_GT (result.report.statistics.relative_residual, options.solver.tolerance);
 }
 
 TEST (Choices, ThatCannotBeAreRefused)

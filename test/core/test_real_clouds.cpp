@@ -164,7 +164,7 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
 struct Known
 {
   const char* name;
-  std::size_t pieces, loops;
+  std::size_t components, loops;
   std::int64_t genus;
   std::size_t most_folds; ///< what the ground truth has, but for none
   HolePolicy holes = HolePolicy::AUTO;
@@ -191,19 +191,19 @@ TEST_P (AnyRealCloud, IsWhatItIs)
   const Positions cloud = readPcd (base + ".pcd");
   ASSERT_FALSE (cloud.empty ()) << base << ".pcd is not what this test can read";
   Options options;
-  options.holes = known.holes;
-  options.kept_loops = known.kept_loops;
+  options.holes.policy = known.holes;
+  options.holes.kept_loops = known.kept_loops;
   const Result result = reconstruct (samples::asInput (cloud), options);
   ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, cloud.size ());
-  EXPECT_EQ (topology.components, known.pieces);
+  EXPECT_EQ (topology.components, known.components);
   EXPECT_EQ (topology.loops.size (), known.loops);
-  EXPECT_EQ (topology.euler, 2 * static_cast<long> (known.pieces) -
+  EXPECT_EQ (topology.euler, 2 * static_cast<long> (known.components) -
                                  static_cast<long> (known.loops) -
                                  2 * static_cast<long> (known.genus));
-  EXPECT_EQ (result.report.check.components, known.pieces);
+  EXPECT_EQ (result.report.check.components, known.components);
   EXPECT_EQ (result.report.check.loops.size (), known.loops);
   EXPECT_EQ (result.report.check.genus, known.genus);
   EXPECT_LE (result.report.check.folds, known.most_folds);
@@ -234,7 +234,7 @@ TEST (RealClouds, HaveTheirBoundaryOnARimOfTheComplex)
     if (!std::ifstream (base + ".pcd"))
       GTEST_SKIP () << "no " << cloud.name << ".pcd in " << dataFolder ();
     Options options = samples::discOptions ();
-    options.boundary = BoundaryMethod::COMPLEX;
+    options.boundary.method = BoundaryMethod::CONSENSUS;
     const Result result = reconstruct (samples::asInput (readPcd (base + ".pcd")), options);
     ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
     const std::vector<Index> truth = samples::topologyOf (readPly (base + ".gt.ply")).loops.at (0);

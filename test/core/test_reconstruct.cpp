@@ -93,7 +93,7 @@ TEST (Reconstruct, EveryChoiceMakesADisc)
   };
   for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON}) {
     Options options = discOptions ();
-    options.domain = domain;
+    options.domain.curve = domain;
     expectOk (options);
   }
   for (const Weighting weighting : {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
@@ -104,12 +104,12 @@ TEST (Reconstruct, EveryChoiceMakesADisc)
   }
   for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS}) {
     Options options = discOptions ();
-    options.ordering = ordering;
+    options.solver.ordering = ordering;
     expectOk (options);
   }
   for (const int k : {8, 12, 40}) {
     Options options = discOptions ();
-    options.k = k;
+    options.neighbors.k = k;
     expectOk (options);
   }
   Options options = discOptions ();
@@ -121,7 +121,7 @@ TEST (Reconstruct, TheReportsLoopMakesADisc)
 {
   const Positions cloud = samples::disc (0.07, 4).positions;
   Options options = discOptions ();
-  options.boundary = BoundaryMethod::TWO_SEGMENTS;
+  options.boundary.method = BoundaryMethod::TWO_SEGMENTS;
   expectDisc (reconstruct (asInput (cloud), options), cloud.size ());
 }
 
@@ -129,11 +129,11 @@ TEST (Reconstruct, TheUsersLoopIsTheBoundary)
 {
   samples::Sheet sheet = samples::disc (0.07, 5);
   Options options = discOptions ();
-  options.loop = samples::indices (sheet.border);
-  std::rotate (options.loop.begin (), options.loop.begin () + 11, options.loop.end ());
+  options.boundary.loop = samples::indices (sheet.border);
+  std::rotate (options.boundary.loop.begin (), options.boundary.loop.begin () + 11, options.boundary.loop.end ());
   const Result result = reconstruct (asInput (sheet.positions), options);
   expectDisc (result, sheet.positions.size ());
-  EXPECT_EQ (result.report.loop, options.loop);
+  EXPECT_EQ (result.report.loop, options.boundary.loop);
 }
 
 TEST (Reconstruct, ThreadsAndRunsChangeNothing)
@@ -268,7 +268,7 @@ TEST (Reconstruct, FewestPoints)
   const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}};
   expectDisc (reconstruct (asInput (square), discOptions ()), 4);
   Options options = discOptions ();
-  options.loop = {0, 1, 2, 3};
+  options.boundary.loop = {0, 1, 2, 3};
   expectDisc (reconstruct (asInput (square), options), 4);
   Positions with_middle = square;
   with_middle.emplace_back (0.4, 0.6, 0.1);

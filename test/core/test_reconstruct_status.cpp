@@ -109,11 +109,11 @@ TEST (Status, InvalidLoop)
 {
   const Positions cloud = samples::disc (0.1, 3).positions;
   Options options = discOptions ();
-  options.loop = {0, 10};
+  options.boundary.loop = {0, 10};
   expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "fewer than 3");
-  options.loop = {0, 10, 20, 10};
+  options.boundary.loop = {0, 10, 20, 10};
   expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "point 10");
-  options.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
+  options.boundary.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
   expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP,
                  std::to_string (cloud.size ()));
 }
@@ -122,10 +122,10 @@ TEST (Status, InvalidOption)
 {
   const Positions cloud = samples::disc (0.1, 4).positions;
   Options options = discOptions ();
-  options.k = 5;
+  options.neighbors.k = 5;
   const Result result = reconstruct (asInput (cloud), options);
   expectFailure (result, Status::INVALID_OPTION, "k must be from 6 to 200");
-  EXPECT_EQ (options.k, 5);
+  EXPECT_EQ (options.neighbors.k, 5);
 }
 
 // Throws what it was made with.
@@ -156,7 +156,7 @@ TEST (Progress, StagesComeInOrder)
   const Positions cloud = samples::disc (0.1, 6).positions;
   Options options = discOptions ();
   std::vector<Stage> stages;
-  options.progress = [&stages] (Stage stage) { stages.push_back (stage); };
+  options.stage_callback = [&stages] (Stage stage) { stages.push_back (stage); };
   const Result result = reconstruct (asInput (cloud), options);
   EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
                                          Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE,
@@ -177,11 +177,11 @@ TEST (Progress, StopsAtTheStageThatFails)
 {
   Options options = discOptions ();
   std::vector<Stage> stages;
-  options.progress = [&stages] (Stage stage) { stages.push_back (stage); };
+  options.stage_callback = [&stages] (Stage stage) { stages.push_back (stage); };
   reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);
   EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET}));
   stages.clear ();
-  options.k = 0;
+  options.neighbors.k = 0;
   const Result result = reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);
   EXPECT_TRUE (stages.empty ());
   EXPECT_EQ (result.report.statistics.total_seconds, 0.0);

@@ -2,7 +2,7 @@
 // A sheet whose stars are known without any search, for the tests of weights and linear system.
 #pragma once
 
-#include "common/types.h"
+#include "core/types.h"
 #include "random_stream.h"
 
 #include <array>

@@ -45,7 +45,7 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"--cluster-neighbors", "0"}, "must be 1 or more"},
       {{"--sides", "2"}, "3 or more"},
       {{"--domain", "disc"}, "'disc' is none of: circle, square, polygon"},
-      {{"--boundary", "none"}, "'none' is none of: spanning-tree, complex"},
+      {{"--boundary", "none"}, "'none' is none of: spanning-tree, consensus"},
       {{"--topology", "sphere"}, "'sphere' is none of: auto, disc, surface"},
       {{"--holes", "all"}, "'all' is none of: auto, close-all, keep-largest"},
       {{"--holes", "by-size"}, "need the largest hole"},
@@ -173,7 +173,7 @@ TEST_F (CommandLineTest, SummaryNamesFiguresAndFile)
   const Outcome outcome = run ({"in.pcd", "out.vtk"});
   EXPECT_EQ (outcome.code, 0);
   for (const char* part : {"points     144", "0 outliers", "triangles", "topology   ",
-                           "1 piece, genus 0, with boundary", "loops      1 of", "seconds",
+                           "1 component, genus 0, with boundary", "loops      1 of", "seconds",
                            "warnings   0", "mesh       out.vtk"})
     EXPECT_NE (outcome.out.find (part), std::string::npos) << part;
   EXPECT_EQ (outcome.out.find ('{'), std::string::npos);
@@ -207,7 +207,7 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--largest-hole-length", "0.25", "largest_hole_length", 0.25},
       {"--remove-outliers", "off", "remove_outliers", false},
       {"--denoise", "off", "denoise", false},
-      {"--boundary", "complex", "boundary", "complex"},
+      {"--boundary", "consensus", "boundary", "consensus"},
       {"--neighbors", "24", "neighbors", 24},
       {"--neighborhood", "ball", "neighborhood", "ball"},
       {"--ball-radius", "3", "ball_radius", 3.0},

@@ -214,12 +214,12 @@ TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
       }
       --at_work;
     });
-  std::size_t pieces = 0;
+  std::size_t components = 0;
   while (at_work > 0)
-    pieces += dropNextPiece () > 0 ? 1 : 0;
+    components += dropNextPiece () > 0 ? 1 : 0;
   for (std::thread& thread : threads)
     thread.join ();
-  EXPECT_GT (pieces, 10U);
+  EXPECT_GT (components, 10U);
   EXPECT_GT (scratchUse ().dropped, 10 * MEGABYTE);
   for (const std::vector<std::uint32_t>& array : arrays)
     EXPECT_EQ (std::count (array.begin (), array.end (), std::uint32_t{ROUNDS}),

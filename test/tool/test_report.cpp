@@ -96,7 +96,7 @@ TEST_F (ReportTest, ReportTellsWhatTheMeshIs)
   for (const char* figure : {"outlier_points", "holes_filled"})
     EXPECT_EQ (all.at ("statistics").at (figure), 0) << figure;
   EXPECT_LT (all.at ("statistics").at ("noise").get<double> (), 0.1);
-  for (const char* stage : {"complex", "holes", "check"})
+  for (const char* stage : {"consensus", "holes", "check"})
     EXPECT_GE (all.at ("seconds").at (stage).get<double> (), 0.0) << stage;
   const Json& check = all.at ("check");
   for (const char* flaw : {"nonmanifold_edges", "nonmanifold_vertices", "orientation_conflicts",

@@ -24,7 +24,7 @@ constexpr double MIN_HOLE = 4.0;      // radius in mean spacings from which a ho
 constexpr double TORUS_RADII = 2.5;   // great radius over small radius
 constexpr double MAX_DENSITY = 100.0; // density ratio up to which the lattice stays even
 
-// A surface as the image of the unit square, area for area: equal pieces of the square become equal
+// A surface as the image of the unit square, area for area: equal components of the square become equal
 // areas. Points slightly beyond the square are on the surface's continuation.
 struct Chart
 {

@@ -15,7 +15,7 @@ namespace floater
 {
 enum class SurfaceKind
 {
-  HEIGHT_FIELD, ///< square piece of rolling terrain, sampled evenly in plan view: a disc
+  HEIGHT_FIELD, ///< square component of rolling terrain, sampled evenly in plan view: a disc
   HEMISPHERE,   ///< half a sphere without its base: a disc
   FINGER,       ///< cylinder closed by a hemisphere at one end, open at the other: a disc
   FOLDED_SHEET, ///< two parallel flaps joined by a half turn: a disc

@@ -7,7 +7,7 @@
 #include "memory_limit.h"
 #include "mesh_writer.h"
 #include "text_scanner.h"
-#include "validation.h"
+#include "check_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,7 +23,7 @@ const char* const DESCRIPTION =
     "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of "
     "the\n"
     "cloud, in the same order and with all their fields. The surface may be open or closed, with\n"
-    "holes, handles or several pieces; a disc is made by Floater's meshless parameterization.\n"
+    "holes, handles or several components; a disc is made by Floater's meshless parameterization.\n"
     "Nothing needs to be tuned.\n";
 
 const char* const FOOTER =
@@ -146,15 +146,15 @@ addTopology (CLI::App& app, Options& options)
   addChoice (app, "--topology", options.topology, TOPOLOGY_CHOICES,
              "what is made: one disc, any surface, or what\nthe points tell", surface);
   addChoice (
-      app, "--holes", options.holes, HOLE_CHOICES,
-      "holes that stay open: those where the sampling\nends, none, the largest of each piece, "
+      app, "--holes", options.holes.policy, HOLE_CHOICES,
+      "holes that stay open: those where the sampling\nends, none, the largest of each component, "
       "some of\nthe largest, or those above a size",
       surface);
-  addNumber (app, "--kept-loops", options.kept_loops,
+  addNumber (app, "--kept-loops", options.holes.kept_loops,
              "keep-count: boundary loops that stay, 0 or more", surface);
-  addNumber (app, "--largest-hole", options.largest_hole,
+  addNumber (app, "--largest-hole", options.holes.largest_hole,
              "by-size: widest hole to close, in local spacings;\n0: not looked at", surface);
-  addNumber (app, "--largest-hole-length", options.largest_hole_length,
+  addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
              "by-size: the same in units of the cloud", surface);
   addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
              "leave points that lie off any surface out of\nthe mesh", surface);
@@ -171,7 +171,7 @@ addOptions (CLI::App& app, CommandLine& line)
   addNumber (app, "-j,--threads", options.threads,
              "threads, 0 for all cores; the result is the same", GENERAL);
   addNumber (app, "--blocks", options.blocks,
-             "pieces in which a surface is made, 0 to choose;\nthe result is the same", GENERAL);
+             "components in which a surface is made, 0 to choose;\nthe result is the same", GENERAL);
   addMemoryLimit (app, line);
   app.add_flag ("--json", line.json, "print a summary as one line of JSON, the last")
       ->group (GENERAL);
@@ -192,55 +192,55 @@ addOptions (CLI::App& app, CommandLine& line)
   addTopology (app, options);
 
   const std::string neighborhoods = "Neighbourhoods";
-  addNumber (app, "-k,--neighbors", options.k, "nearest neighbours of each point, 6 to 200",
+  addNumber (app, "-k,--neighbors", options.neighbors.k, "nearest neighbours of each point, 6 to 200",
              neighborhoods);
-  addChoice (app, "--neighborhood", options.neighborhood, NEIGHBORHOOD_CHOICES,
+  addChoice (app, "--neighborhood", options.neighbors.kind, NEIGHBORHOOD_CHOICES,
              "points that a point is a mean of", neighborhoods);
-  addNumber (app, "--ball-radius", options.ball_radius,
+  addNumber (app, "--ball-radius", options.neighbors.ball_radius,
              "ball, ball-delaunay: radius in mean distances\nto the 6 nearest, 1 to 10",
              neighborhoods);
   addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
              "leave out neighbours on another sheet", neighborhoods);
 
   const std::string boundary = "Boundary of a disc";
-  addChoice (app, "--boundary", options.boundary, BOUNDARY_CHOICES,
+  addChoice (app, "--boundary", options.boundary.method, BOUNDARY_CHOICES,
              "how the boundary loop is found: along a\nspanning tree of boundary points; as the "
-             "largest\nrim of triangles that stars agree on (complex); or\nas in the report "
+             "largest\nrim of triangles that stars agree on (consensus); or\nas in the report "
              "(two-segments)",
              boundary);
   addPath (app, "--loop", line.loop,
            "take the loop from this text file: indices of\npoints in order, from 0; makes a disc",
            boundary);
-  addNumber (app, "--opening-angle", options.opening_angle,
+  addNumber (app, "--opening-angle", options.boundary.opening_angle,
              "degrees: a boundary point sees a wider sector\nwithout neighbours", boundary);
-  addNumber (app, "--cluster-tolerance", options.cluster_tolerance,
+  addNumber (app, "--cluster-tolerance", options.boundary.cluster_tolerance,
              "two-segments: growing distance of clusters as\nfraction of the bounding box diagonal",
              boundary);
-  addNumber (app, "--cluster-neighbors", options.cluster_k,
+  addNumber (app, "--cluster-neighbors", options.boundary.cluster_k,
              "two-segments: nearest boundary points appended\nin cluster growing", boundary);
 
   const std::string parameterization = "Parameterization of a disc";
-  addChoice (app, "--domain", options.domain, DOMAIN_CHOICES,
+  addChoice (app, "--domain", options.domain.curve, DOMAIN_CHOICES,
              "convex curve on which the loop is laid", parameterization);
-  addNumber (app, "--sides", options.polygon_sides, "sides of the polygon, 3 or more",
+  addNumber (app, "--sides", options.domain.polygon_sides, "sides of the polygon, 3 or more",
              parameterization);
-  addChoice (app, "--spacing", options.loop_spacing, SPACING_CHOICES,
+  addChoice (app, "--spacing", options.domain.loop_spacing, SPACING_CHOICES,
              "how the points of the loop share that curve", parameterization);
   addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
              "weights of a point in its neighbours", parameterization);
 
   const std::string system = "Linear system";
-  addChoice (app, "--solver", options.solver, SOLVER_CHOICES, "what solves it", system);
-  addChoice (app, "--ordering", options.ordering, ORDERING_CHOICES, "order of the unknowns",
+  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "what solves it", system);
+  addChoice (app, "--ordering", options.solver.ordering, ORDERING_CHOICES, "order of the unknowns",
              system);
-  addNumber (app, "--tolerance", options.tolerance,
+  addNumber (app, "--tolerance", options.solver.tolerance,
              "bicgstab-ilut, gauss-seidel: relative residual\nto reach, above 0 and below 1",
              system);
-  addNumber (app, "--max-iterations", options.max_iterations,
+  addNumber (app, "--max-iterations", options.solver.max_iterations,
              "bicgstab-ilut, gauss-seidel: iterations to give\nup after, 1 or more", system);
-  addNumber (app, "--ilut-fill", options.ilut_fill,
+  addNumber (app, "--ilut-fill", options.solver.ilut_fill,
              "bicgstab-ilut: entries kept in a row of each\nfactor, 1 or more", system);
-  addNumber (app, "--ilut-drop", options.ilut_drop,
+  addNumber (app, "--ilut-drop", options.solver.ilut_drop,
              "bicgstab-ilut: entries dropped from the factors,\nas a share of their row, 0 to 1",
              system);
 

@@ -62,7 +62,7 @@ constexpr Choices<HolePolicy, 5> HOLE_CHOICES{{{"auto", HolePolicy::AUTO},
                                                {"by-size", HolePolicy::BY_SIZE}}};
 constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{
     {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
-     {"complex", BoundaryMethod::COMPLEX},
+     {"consensus", BoundaryMethod::CONSENSUS},
      {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
 constexpr Choices<Neighborhood, 4> NEIGHBORHOOD_CHOICES{
     {{"nearest-delaunay", Neighborhood::NEAREST_DELAUNAY},

@@ -255,7 +255,7 @@ std::size_t
 dropNextPiece ()
 {
   ScratchArrays& all = scratchArrays ();
-  // Held throughout, so that the piece is not unmapped, and its addresses taken by something else.
+  // Held throughout, so that the component is not unmapped, and its addresses taken by something else.
   const std::lock_guard<std::mutex> lock (all.mutex);
   if (all.at.empty ())
     return 0;

@@ -36,9 +36,9 @@ keepLargeArraysIn (const std::filesystem::path& scratch_folder,
 bool
 liesInMemory (const std::filesystem::path& folder);
 
-/// Takes the next piece of the arrays in scratch files out of the resident set, going round them in
+/// Takes the next component of the arrays in scratch files out of the resident set, going round them in
 /// the order of their addresses. What it holds stays in the file, or on its way there, and comes
-/// back when it is touched; other threads may read and write it meanwhile.
+/// back when it is dirty; other threads may read and write it meanwhile.
 /// \return its bytes; 0 if there are no such arrays
 std::size_t
 dropNextPiece ();

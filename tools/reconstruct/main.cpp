@@ -86,8 +86,8 @@ reconstructInput (Input input, Options options, Progress& progress)
   const auto start = std::chrono::steady_clock::now ();
   RemainingTime remaining;
   std::string name;
-  options.progress = [&name] (Stage stage) { name = stageName (stage); };
-  options.advance = [&] (double fraction) {
+  options.stage_callback = [&name] (Stage stage) { name = stageName (stage); };
+  options.progress_callback = [&] (double fraction) {
     remaining.update (secondsSince (start), fraction);
     const std::string text = remaining.text ();
     progress.show (name + (text.empty () ? "" : ": " + text));
@@ -229,7 +229,7 @@ printWarnings (const Report& report)
     std::fprintf (stderr, "warning: %s\n", warning.c_str ());
 }
 
-/// Method, pieces, handles and loops.
+/// Method, components, handles and loops.
 void
 printShape (const Report& report)
 {
@@ -237,7 +237,7 @@ printShape (const Report& report)
   std::printf ("topology   %s%s%s\n", choiceName (TOPOLOGY_CHOICES, report.topology),
                report.topology_reason.empty () ? "" : ": ", report.topology_reason.c_str ());
   std::printf ("shape      %zu %s, genus %lld, %s\n", check.components,
-               check.components == 1 ? "piece" : "pieces", static_cast<long long> (check.genus),
+               check.components == 1 ? "component" : "components", static_cast<long long> (check.genus),
                check.loops.empty () ? "closed" : "with boundary");
   if (check.loops.empty ())
     return;
@@ -289,7 +289,7 @@ run (CommandLine line)
   progress.show ("reading");
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
-    line.options.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
+    line.options.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input); });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);

@@ -114,10 +114,10 @@ ResidentSet::makeRoom (std::size_t bytes) const
   const double enough = std::min (low_, high_ - wanted);
   const std::size_t all = scratchUse ().bytes;
   for (std::size_t dropped = 0; dropped < all && resident () > enough;) {
-    const std::size_t piece = dropNextPiece ();
-    if (piece == 0)
+    const std::size_t component = dropNextPiece ();
+    if (component == 0)
       return;
-    dropped += piece;
+    dropped += component;
   }
 }
 

@@ -31,10 +31,11 @@ namespace pcl
  *   std::cerr << floater.getMessage () << '\n';
  * \endcode
  *
- * That is the method for a disc, one piece of surface with one border however it is bent. Any other
- * surface, closed or with holes, handles or several pieces, is made of the triangles on which the
- * Delaunay stars of neighbouring points agree, and holes are closed by the same parameterization of
- * a patch around them. Which of the two, setTopology() says; by default the points do.
+ * That is the method for a disc, one component of surface with one border however it is bent. Any
+ * other surface, closed or with holes, handles or several components, is made of the triangles on
+ * which the Delaunay stars of neighbouring points agree, and holes are closed by the same
+ * parameterization of a patch around them. Which of the two, setTopology() says; by default the
+ * points do.
  *
  * - \b Input: points of a surface. Only x, y, z are read. Points with a NaN or infinity, and all
  * but one of equal points, stay in the cloud but in no triangle. So do outliers, which
@@ -84,23 +85,23 @@ public:
 
   /** \brief Which holes of a surface stay open; default AUTO: those where the sampling ends. A disc
    * has none: with Topology::DISC only AUTO and KEEP_LARGEST are taken, which are then the same. */
-  void setHolePolicy (floater::HolePolicy policy) { options_.holes = policy; }
-  floater::HolePolicy getHolePolicy () const { return options_.holes; }
+  void setHolePolicy (floater::HolePolicy policy) { options_.holes.policy = policy; }
+  floater::HolePolicy getHolePolicy () const { return options_.holes.policy; }
 
   /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay, the largest ones of the whole
    * surface; 0 or more, default 1. */
-  void setKeptLoops (int loops) { options_.kept_loops = loops; }
-  int getKeptLoops () const { return options_.kept_loops; }
+  void setKeptLoops (int loops) { options_.holes.kept_loops = loops; }
+  int getKeptLoops () const { return options_.holes.kept_loops; }
 
   /** \brief HolePolicy::BY_SIZE: width of the widest hole that is closed, in local spacings;
    * default 0: not looked at. This or setLargestHoleLength() must be above 0; if both are, a hole
    * is closed that exceeds neither. */
-  void setLargestHole (double spacings) { options_.largest_hole = spacings; }
-  double getLargestHole () const { return options_.largest_hole; }
+  void setLargestHole (double spacings) { options_.holes.largest_hole = spacings; }
+  double getLargestHole () const { return options_.holes.largest_hole; }
 
   /** \brief HolePolicy::BY_SIZE: the same in units of the cloud; default 0: not looked at. */
-  void setLargestHoleLength (double length) { options_.largest_hole_length = length; }
-  double getLargestHoleLength () const { return options_.largest_hole_length; }
+  void setLargestHoleLength (double length) { options_.holes.largest_hole_length = length; }
+  double getLargestHoleLength () const { return options_.holes.largest_hole_length; }
 
   /** \brief Whether points that lie off any surface are left out of the mesh; default true. They
    * are in getOutlierIndices(). */
@@ -113,40 +114,40 @@ public:
   bool getDenoise () const { return options_.denoise; }
 
   /** \brief Nearest neighbours of each point, 6 to 200; default 20. */
-  void setKNearest (int k) { options_.k = k; }
-  int getKNearest () const { return options_.k; }
+  void setKNearest (int k) { options_.neighbors.k = k; }
+  int getKNearest () const { return options_.neighbors.k; }
 
   /** \brief Which points a point is a convex combination of; default NEAREST_DELAUNAY. Balls, of a
    * radius that follows the local density, replace the k nearest everywhere. */
   void setNeighborhood (floater::Neighborhood neighborhood)
   {
-    options_.neighborhood = neighborhood;
+    options_.neighbors.kind = neighborhood;
   }
-  floater::Neighborhood getNeighborhood () const { return options_.neighborhood; }
+  floater::Neighborhood getNeighborhood () const { return options_.neighbors.kind; }
 
   /** \brief Radius of balls in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
    * about 20 neighbours. */
-  void setBallRadius (double spacings) { options_.ball_radius = spacings; }
-  double getBallRadius () const { return options_.ball_radius; }
+  void setBallRadius (double spacings) { options_.neighbors.ball_radius = spacings; }
+  double getBallRadius () const { return options_.neighbors.ball_radius; }
 
   /** \brief Above 0 and below 360 degrees, default 160: a point of the boundary sees a wider sector
    * without neighbours. */
-  void setOpeningAngle (double degrees) { options_.opening_angle = degrees; }
-  double getOpeningAngle () const { return options_.opening_angle; }
+  void setOpeningAngle (double degrees) { options_.boundary.opening_angle = degrees; }
+  double getOpeningAngle () const { return options_.boundary.opening_angle; }
 
   /** \brief How boundary points become one loop; default SPANNING_TREE. */
-  void setBoundaryMethod (floater::BoundaryMethod method) { options_.boundary = method; }
-  floater::BoundaryMethod getBoundaryMethod () const { return options_.boundary; }
+  void setBoundaryMethod (floater::BoundaryMethod method) { options_.boundary.method = method; }
+  floater::BoundaryMethod getBoundaryMethod () const { return options_.boundary.method; }
 
   /** \brief Distance over which clusters of boundary points grow (BoundaryMethod::TWO_SEGMENTS), as
    * a fraction of the diagonal of the bounding box: above 0, at most 1; default 0.05. */
-  void setClusterTolerance (double fraction) { options_.cluster_tolerance = fraction; }
-  double getClusterTolerance () const { return options_.cluster_tolerance; }
+  void setClusterTolerance (double fraction) { options_.boundary.cluster_tolerance = fraction; }
+  double getClusterTolerance () const { return options_.boundary.cluster_tolerance; }
 
   /** \brief Nearest boundary points that such a cluster takes in at a time, 1 or more; default 10.
    */
-  void setClusterK (int k) { options_.cluster_k = k; }
-  int getClusterK () const { return options_.cluster_k; }
+  void setClusterK (int k) { options_.boundary.cluster_k = k; }
+  int getClusterK () const { return options_.boundary.cluster_k; }
 
   /** \brief Gives the boundary loop, which makes the surface a disc: cloud indices in order, either
    * way round, each once, 3 or more. Empty, the default: it is found from the points. Not for
@@ -155,16 +156,16 @@ public:
   const pcl::Indices& getPrescribedLoop () const { return prescribed_loop_; }
 
   /** \brief Convex curve on which the loop is laid; default CIRCLE. */
-  void setDomain (floater::Domain domain) { options_.domain = domain; }
-  floater::Domain getDomain () const { return options_.domain; }
+  void setDomain (floater::Domain domain) { options_.domain.curve = domain; }
+  floater::Domain getDomain () const { return options_.domain.curve; }
 
   /** \brief Sides of Domain::POLYGON, 3 or more; default 6. */
-  void setPolygonSides (int sides) { options_.polygon_sides = sides; }
-  int getPolygonSides () const { return options_.polygon_sides; }
+  void setPolygonSides (int sides) { options_.domain.polygon_sides = sides; }
+  int getPolygonSides () const { return options_.domain.polygon_sides; }
 
   /** \brief How the points of the loop share that curve; default CHORD_LENGTH. */
-  void setLoopSpacing (floater::LoopSpacing spacing) { options_.loop_spacing = spacing; }
-  floater::LoopSpacing getLoopSpacing () const { return options_.loop_spacing; }
+  void setLoopSpacing (floater::LoopSpacing spacing) { options_.domain.loop_spacing = spacing; }
+  floater::LoopSpacing getLoopSpacing () const { return options_.domain.loop_spacing; }
 
   /** \brief Weights of a point in its neighbours; default MEAN_VALUE. */
   void setWeighting (floater::Weighting weighting) { options_.weighting = weighting; }
@@ -172,32 +173,32 @@ public:
 
   /** \brief What solves the linear system; default UMFPACK. Status::SOLVER_UNAVAILABLE if the
    * library was built without it. */
-  void setSolver (floater::Solver solver) { options_.solver = solver; }
-  floater::Solver getSolver () const { return options_.solver; }
+  void setSolver (floater::Solver solver) { options_.solver.method = solver; }
+  floater::Solver getSolver () const { return options_.solver.method; }
 
   /** \brief Order of the unknowns; default AUTOMATIC. */
-  void setOrdering (floater::Ordering ordering) { options_.ordering = ordering; }
-  floater::Ordering getOrdering () const { return options_.ordering; }
+  void setOrdering (floater::Ordering ordering) { options_.solver.ordering = ordering; }
+  floater::Ordering getOrdering () const { return options_.solver.ordering; }
 
   /** \brief Relative residual |b - A u| / |b| at which iterative solvers stop, above 0 and below 1;
    * default 1e-15. A residual as small as rounding lets it be will do. */
-  void setTolerance (double tolerance) { options_.tolerance = tolerance; }
-  double getTolerance () const { return options_.tolerance; }
+  void setTolerance (double tolerance) { options_.solver.tolerance = tolerance; }
+  double getTolerance () const { return options_.solver.tolerance; }
 
   /** \brief Iterations of an iterative solver, 1 or more, after which it gives up with
    * Status::NOT_CONVERGED; default 1000. */
-  void setMaxIterations (int iterations) { options_.max_iterations = iterations; }
-  int getMaxIterations () const { return options_.max_iterations; }
+  void setMaxIterations (int iterations) { options_.solver.max_iterations = iterations; }
+  int getMaxIterations () const { return options_.solver.max_iterations; }
 
   /** \brief Entries kept in a row of each factor of Solver::BICGSTAB_ILUT, 1 or more; default 15.
    */
-  void setIlutFill (int entries) { options_.ilut_fill = entries; }
-  int getIlutFill () const { return options_.ilut_fill; }
+  void setIlutFill (int entries) { options_.solver.ilut_fill = entries; }
+  int getIlutFill () const { return options_.solver.ilut_fill; }
 
   /** \brief Share of their row, 0 to 1, below which entries of these factors are dropped; default
    * 1e-2. */
-  void setIlutDropTolerance (double share) { options_.ilut_drop = share; }
-  double getIlutDropTolerance () const { return options_.ilut_drop; }
+  void setIlutDropTolerance (double share) { options_.solver.ilut_drop = share; }
+  double getIlutDropTolerance () const { return options_.solver.ilut_drop; }
 
   /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
   void setFilterSheets (bool filter_sheets) { options_.filter_sheets = filter_sheets; }
@@ -211,41 +212,48 @@ public:
   void setNumberOfThreads (int threads = 0) { options_.threads = threads; }
   int getNumberOfThreads () const { return options_.threads; }
 
-  /** \brief Pieces in which a surface is made, each of nearest neighbours and a little around it;
-   * default 0: one up to 262144 points, then of at most 131072 points each. Changes time and memory
-   * only, not the result. With a search method of one's own, balls or a disc there is one. */
+  /** \brief ComponentSets in which a surface is made, each of nearest neighbours and a little
+   * around it; default 0: one up to 262144 points, then of at most 131072 points each. Changes time
+   * and memory only, not the result. With a search method of one's own, balls or a disc there is
+   * one. */
   void setNumberOfBlocks (int blocks = 0) { options_.blocks = blocks; }
   int getNumberOfBlocks () const { return options_.blocks; }
 
   /** \brief Called as each stage of a run begins, by the thread that called reconstruct(). An
    * exception from it ends the run with Status::INTERNAL_ERROR. Default: empty. */
-  void setProgressCallback (std::function<void (floater::Stage)> callback)
+  void setStageCallback (std::function<void (floater::Stage)> callback)
   {
-    options_.progress = std::move (callback);
+    options_.stage_callback = std::move (callback);
   }
-  const std::function<void (floater::Stage)>& getProgressCallback () const
+  const std::function<void (floater::Stage)>& getStageCallback () const
   {
-    return options_.progress;
+    return options_.stage_callback;
   }
 
   /** \brief Called with the share of the run that is done, from 0 to 1 and never less than before:
    * when a stage begins, up to 20 times a second within it, and with 1 at the end. An estimate from
-   * typical runs; the solver of a disc is one step. Else as setProgressCallback(). */
-  void setAdvanceCallback (std::function<void (double fraction)> callback)
+   * typical runs; the solver of a disc is one step. Else as setStageCallback(). */
+  void setProgressCallback (std::function<void (double fraction)> callback)
   {
-    options_.advance = std::move (callback);
+    options_.progress_callback = std::move (callback);
   }
-  const std::function<void (double)>& getAdvanceCallback () const { return options_.advance; }
+  const std::function<void (double)>& getProgressCallback () const
+  {
+    return options_.progress_callback;
+  }
 
   /** \brief Asked as often, whether the run is to be stopped: true ends it with Status::CANCELLED
    * and an empty mesh, mostly within a tenth of a second; direct solvers, CGAL's triangulation and
    * a search method of PCL are waited for. Another thread may set what it reads, if that is atomic.
-   * Else as setProgressCallback(). */
+   * Else as setStageCallback(). */
   void setCancelledCallback (std::function<bool ()> callback)
   {
-    options_.cancelled = std::move (callback);
+    options_.cancelled_callback = std::move (callback);
   }
-  const std::function<bool ()>& getCancelledCallback () const { return options_.cancelled; }
+  const std::function<bool ()>& getCancelledCallback () const
+  {
+    return options_.cancelled_callback;
+  }
 
   /** \brief Outcome of the last run; NOT_RUN before the first. */
   floater::Status getStatus () const { return report_.status; }
@@ -259,8 +267,8 @@ public:
   /** \brief Counts, times and figures of the solver. */
   const floater::Statistics& getStatistics () const { return report_.statistics; }
 
-  /** \brief What the mesh is, as examined at the end of the last run: pieces, genus, boundary loops
-   * with their sizes, folds and more. */
+  /** \brief What the mesh is, as examined at the end of the last run: components, genus, boundary
+   * loops with their sizes, folds and more. */
   const floater::MeshCheck& getMeshCheck () const { return report_.check; }
 
   /** \brief The longest boundary loop in order, each point once; empty if the surface is closed. */

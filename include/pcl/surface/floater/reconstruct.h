@@ -59,9 +59,9 @@ struct Result
 
 /// Triangulates a surface of any topology from the triangles on which neighbouring points agree, or
 /// one disc by Floater's meshless parameterization: the whole of TW 385, with edge flips on the
-/// surface after it. Every position that can be used is a vertex of the result. Pieces of the mesh
-/// face outwards: closed ones enclose a positive volume, bowls face away from their inside, and
-/// sheets and terrain face up (+z; +y or +x where they stand upright).
+/// surface after it. Every position that can be used is a vertex of the result. ComponentSets of
+/// the mesh face outwards: closed ones enclose a positive volume, bowls face away from their
+/// inside, and sheets and terrain face up (+z; +y or +x where they stand upright).
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
 /// on the number of threads nor on the order of the points. Of a disc about 5 microseconds and

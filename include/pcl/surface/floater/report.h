@@ -59,9 +59,9 @@ struct MeshCheck
   std::size_t nonmanifold_edges = 0;     ///< edges of three or more triangles; always 0
   std::size_t nonmanifold_vertices = 0;  ///< points with more than one fan of triangles; always 0
   std::size_t orientation_conflicts = 0; ///< edges that both triangles run along alike; always 0
-  std::size_t components = 0;            ///< pieces that hang together by edges
+  std::size_t components = 0;            ///< components that hang together by edges
   std::int64_t euler_characteristic = 0; ///< vertices - edges + triangles
-  std::int64_t genus = 0;                ///< handles of all pieces together
+  std::int64_t genus = 0;                ///< handles of all components together
   std::size_t folds = 0;                 ///< neighbouring triangles more than 120 degrees apart
   std::size_t degenerate_triangles = 0;  ///< no area in the precision of the coordinates
   double longest_edge = 0.0;             ///< in local spacings

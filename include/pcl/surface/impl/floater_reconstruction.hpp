@@ -211,7 +211,7 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
   }
 
   options = options_;
-  options.loop.assign (prescribed_loop_.begin (), prescribed_loop_.end ());
+  options.boundary.loop.assign (prescribed_loop_.begin (), prescribed_loop_.end ());
   return true;
 }
 
@@ -224,8 +224,8 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
   floater::Options options;
   if (!makeInput (input, options))
     return;
-  const bool takes_balls = options.neighborhood == floater::Neighborhood::BALL ||
-                           options.neighborhood == floater::Neighborhood::BALL_DELAUNAY;
+  const bool takes_balls = options.neighbors.kind == floater::Neighborhood::BALL ||
+                           options.neighbors.kind == floater::Neighborhood::BALL_DELAUNAY;
   floater::SearchMethod<PointT> search (
       tree_ || !takes_balls ? tree_ : floater::makeOctree<PointT> (input), input_);
   if (tree_ || takes_balls)

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "consensus/candidates.h"
+
+#include "core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// True if q and r are joined by a triangle of the star of p, in either order.
+bool
+starHas (const Stars& stars, Index p, Index q, Index r)
+{
+  const Row row = stars.neighbors.row (p);
+  const std::size_t count = row.size ();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (row[i] != q)
+      continue;
+    const bool last = i + 1 == count;
+    if (!(last && stars.open[p] != 0) && row[last ? 0 : i + 1] == r)
+      return true;
+    return !(i == 0 && stars.open[p] != 0) && row[i == 0 ? count - 1 : i - 1] == r;
+  }
+  return false;
+}
+
+// Sets the size.
+void
+setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
+                      const std::vector<float>& spacing, Candidate& candidate)
+{
+  const auto& [a, b, c] = candidate.corners;
+  const Eigen::Vector3d ab = positions[b] - positions[a];
+  const Eigen::Vector3d ac = positions[c] - positions[a];
+  const double mean_spacing = (spacing[a] + spacing[b] + spacing[c]) / 3.0;
+  const double circumradius = ab.norm () * ac.norm () * (positions[c] - positions[b]).norm () /
+                              (2.0 * ab.cross (ac).norm ());
+  candidate.circumradius_ratio = static_cast<float> (circumradius / mean_spacing);
+}
+
+void
+append (const Candidate& candidate, CandidateLists& lists)
+{
+  const std::size_t rank = normalAgreementRank (candidate);
+  if (candidate.votes == 3 && rank < SURE_RANKS)
+    lists.sure.push_back (
+        {candidate.corners, candidate.clockwise, static_cast<std::uint8_t> (rank), false});
+  else
+    lists.doubtful.push_back (candidate);
+}
+
+// The ranges' lists are freed one by one.
+CandidateLists
+concatenate (std::vector<CandidateLists>& ranges)
+{
+  if (ranges.size () == 1)
+    return std::move (ranges.front ());
+  std::size_t sure = 0, doubtful = 0;
+  for (const CandidateLists& range : ranges) {
+    sure += range.sure.size ();
+    doubtful += range.doubtful.size ();
+  }
+  CandidateLists all;
+  all.sure.reserve (sure);
+  all.doubtful.reserve (doubtful);
+  for (CandidateLists& range : ranges) {
+    all.sure.insert (all.sure.end (), range.sure.begin (), range.sure.end ());
+    all.doubtful.insert (all.doubtful.end (), range.doubtful.begin (), range.doubtful.end ());
+    range = {};
+  }
+  return all;
+}
+
+} // namespace
+
+void
+setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
+                    const std::vector<Eigen::Vector3f>& normals, Candidate& candidate)
+{
+  const auto& [a, b, c] = candidate.corners;
+  const Eigen::Vector3d normal = (positions[b] - positions[a]).cross (positions[c] - positions[a]);
+  const Eigen::Vector3f unit = (normal / normal.norm ()).cast<float> ();
+  candidate.normal_agreement = 1.0F;
+  candidate.clockwise = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3f& at_corner = normals[candidate.corners[i]];
+    candidate.normal_agreement =
+        std::min (candidate.normal_agreement, std::abs (unit.dot (at_corner)));
+    if (normal.dot (at_corner.cast<double> ()) < 0.0)
+      candidate.clockwise = static_cast<std::uint8_t> (candidate.clockwise | (1U << i));
+  }
+}
+
+CandidateLists
+findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
+                const CandidateLimits& limits, const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  std::vector<CandidateLists> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    CandidateLists& range = ranges[first / RANGE_LENGTH];
+    range.sure.reserve (2 * (last - first));
+    for (std::size_t point = first; point < last; ++point) {
+      const auto p = static_cast<Index> (point);
+      const Row row = stars.neighbors.row (p);
+      if (row.size () < 2)
+        continue;
+      const std::size_t sectors = stars.open[p] != 0 ? row.size () - 1 : row.size ();
+      for (std::size_t s = 0; s < sectors; ++s) {
+        const Index q = row[s], r = row[s + 1 == row.size () ? 0 : s + 1];
+        const bool in_q = starHas (stars, q, r, p), in_r = starHas (stars, r, p, q);
+        if ((in_q && q < p) || (in_r && r < p))
+          continue; // theirs to propose
+        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, 0.0F, 0.0F};
+        setCircumradiusRatio (positions, spacing, candidate);
+        setNormalAgreement (positions, normals, candidate);
+        const std::size_t rank = candidate.votes - 1U;
+        if (candidate.circumradius_ratio <= limits.circumradius_ratio[rank] &&
+            candidate.normal_agreement >= limits.normal_agreement[rank])
+          append (candidate, range);
+      }
+    }
+  });
+  return concatenate (ranges);
+}
+
+} // namespace floater
+} // namespace pcl

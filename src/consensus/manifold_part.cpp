@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "consensus/manifold_part.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Triangles by corner, and which of them are left.
+class FanPruner
+{
+public:
+  FanPruner (const Consensus& consensus, std::size_t points)
+      : triangles_ (consensus.triangles), votes_ (consensus.votes), kept_ (triangles_.size (), 1)
+  {
+    around_ = makeCsrLists (points, [this] (const auto& emit) {
+      for (Index t = 0; t < triangles_.size (); ++t)
+        for (const Index p : triangles_[t])
+          emit (p, t);
+    });
+  }
+
+  std::vector<Triangle> prune (const RunContext& run)
+  {
+    // A triangle dropped at one point may split the fan of another, which is looked at again: in
+    // the same round if it comes later.
+    std::set<Index> points = pointsToPrune (run);
+    while (!points.empty ()) {
+      dirty_.clear ();
+      for (auto p = points.begin (); p != points.end (); ++p) {
+        const std::size_t known = dirty_.size ();
+        keepLargestFan (*p);
+        for (std::size_t i = known; i < dirty_.size (); ++i)
+          if (dirty_[i] > *p)
+            points.insert (dirty_[i]);
+      }
+      points = std::set<Index> (dirty_.begin (), dirty_.end ());
+    }
+    std::vector<Triangle> left;
+    left.reserve (triangles_.size ());
+    for (Index t = 0; t < triangles_.size (); ++t)
+      if (kept_[t] != 0)
+        left.push_back (triangles_[t]);
+    return left;
+  }
+
+private:
+  // Points whose triangles are not just one fan.
+  std::set<Index> pointsToPrune (const RunContext& run) const
+  {
+    const std::size_t points = around_.rows ();
+    std::vector<std::vector<Index>> ranges ((points + RANGE_LENGTH - 1) / RANGE_LENGTH);
+    parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
+      for (std::size_t p = first; p < last; ++p)
+        if (!isOneFan (static_cast<Index> (p)))
+          ranges[first / RANGE_LENGTH].push_back (static_cast<Index> (p));
+    });
+    std::set<Index> found;
+    for (const std::vector<Index>& range : ranges)
+      found.insert (range.begin (), range.end ());
+    return found;
+  }
+
+  // True if the triangles around p follow each other edge by edge, once around or in one sector.
+  bool isOneFan (Index p) const
+  {
+    constexpr std::size_t MOST = 32; // longer rows are left to the slow way
+    const Row row = around_.row (p);
+    const std::size_t count = row.size ();
+    if (count == 0)
+      return true;
+    if (count > MOST)
+      return false;
+    std::array<Index, MOST> from{}, to{};
+    for (std::size_t i = 0; i < count; ++i) {
+      from[i] = after (row[i], p, 1);
+      to[i] = after (row[i], p, 2);
+      for (std::size_t j = 0; j < i; ++j)
+        if (from[j] == from[i] || to[j] == to[i])
+          return false; // two run along one edge alike
+    }
+    const auto find = [count] (const std::array<Index, MOST>& list, Index q) {
+      return static_cast<std::size_t> (std::find (list.begin (), list.begin () + count, q) -
+                                       list.begin ());
+    };
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < count && start == 0; ++i)
+      if (find (to, from[i]) == count)
+        start = i;
+    std::size_t walked = 0;
+    for (std::size_t i = start; i < count && walked < count; ++walked)
+      i = find (from, to[i]);
+    return walked == count;
+  }
+
+  void keepLargestFan (Index p)
+  {
+    ring_.clear ();
+    for (Index t : around_.row (p))
+      if (kept_[t] != 0)
+        ring_.push_back ({t, static_cast<Index> (ring_.size ())});
+    dropDoubleEdges (p);
+    if (ring_.size () < 2)
+      return;
+    // Label spreading over shared neighbours; rings are short.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (Spoke& a : ring_)
+        for (Spoke& b : ring_)
+          if (b.fan < a.fan && shareEdge (p, a.triangle, b.triangle)) {
+            a.fan = b.fan;
+            changed = true;
+          }
+    }
+    Index best = 0, best_weight = 0;
+    for (Index fan = 0; fan < ring_.size (); ++fan) {
+      Index weight = 0;
+      for (const Spoke& spoke : ring_)
+        if (spoke.fan == fan)
+          weight += votes_[spoke.triangle];
+      if (weight > best_weight) {
+        best = fan;
+        best_weight = weight;
+      }
+    }
+    for (const Spoke& spoke : ring_)
+      if (spoke.fan != best)
+        drop (spoke.triangle);
+  }
+
+  // Of triangles that run along one edge of p in the same direction only the one of most votes
+  // stays. On creases and between sheets, planes of two corners may disagree on what overlaps.
+  void dropDoubleEdges (Index p)
+  {
+    for (std::size_t i = 0; i < ring_.size (); ++i)
+      for (std::size_t j = i + 1; j < ring_.size () && kept_[ring_[i].triangle] != 0; ++j) {
+        const Index t = ring_[i].triangle, u = ring_[j].triangle;
+        if (kept_[u] != 0 &&
+            (after (t, p, 1) == after (u, p, 1) || after (t, p, 2) == after (u, p, 2)))
+          drop (votes_[u] > votes_[t] ? t : u);
+      }
+    ring_.erase (
+        std::remove_if (ring_.begin (), ring_.end (),
+                        [this] (const Spoke& spoke) { return kept_[spoke.triangle] == 0; }),
+        ring_.end ());
+    for (Index i = 0; i < ring_.size (); ++i)
+      ring_[i].fan = i;
+  }
+
+  // The corner of a triangle one or two steps after p.
+  Index after (Index t, Index p, std::size_t steps) const
+  {
+    const Triangle& c = triangles_[t];
+    const std::size_t at = c[0] == p ? 0 : c[1] == p ? 1 : 2;
+    return c[(at + steps) % 3];
+  }
+
+  void drop (Index t)
+  {
+    kept_[t] = 0;
+    dirty_.insert (dirty_.end (), triangles_[t].begin (), triangles_[t].end ());
+  }
+
+  bool shareEdge (Index p, Index t, Index u) const
+  {
+    for (Index q : triangles_[t])
+      if (q != p)
+        for (Index r : triangles_[u])
+          if (q == r)
+            return true;
+    return false;
+  }
+
+  struct Spoke
+  {
+    Index triangle, fan;
+  };
+
+  const std::vector<Triangle>& triangles_;
+  const std::vector<std::uint8_t>& votes_;
+  std::vector<std::uint8_t> kept_;
+  CsrLists around_;
+  std::vector<Spoke> ring_;
+  std::vector<Index> dirty_;
+};
+
+// Triangles of components that may stand alone.
+std::vector<Triangle>
+withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors)
+{
+  const MeshComponents components = findComponents (mesh);
+  const std::vector<Index>& component = components.of_triangle;
+  const Index count = components.count;
+  std::vector<std::size_t> size (count, 0);
+  std::vector<std::uint8_t> is_closed (count, 1), is_island (count, 0);
+  for (Index t = 0; t < component.size (); ++t) {
+    ++size[component[t]];
+    for (Index u : mesh.neighbors[t])
+      if (u == NONE)
+        is_closed[component[t]] = 0;
+  }
+  for (Index t = 0; t < component.size (); ++t) {
+    if (size[component[t]] >= ISLAND || is_closed[component[t]] != 0)
+      continue;
+    for (Index p : mesh.triangles[t])
+      for (Index q : neighbors.row (p))
+        if (mesh.triangle_of[q] != NONE &&
+            size[component[mesh.triangle_of[q]]] > size[component[t]])
+          is_island[component[t]] = 1;
+  }
+  std::vector<Triangle> left;
+  left.reserve (mesh.triangles.size ());
+  for (Index t = 0; t < component.size (); ++t)
+    if (is_island[component[t]] == 0)
+      left.push_back (mesh.triangles[t]);
+  return left;
+}
+
+} // namespace
+
+TriangleMesh
+manifoldPart (Consensus consensus, const CsrLists& neighbors, const RunContext& run)
+{
+  TriangleMesh mesh;
+  mesh.triangles = FanPruner (consensus, neighbors.rows ()).prune (run);
+  consensus = {};
+  bool is_manifold = mesh.connect (neighbors.rows (), run);
+  std::vector<Triangle> left = withoutIslands (mesh, neighbors);
+  if (is_manifold && left.size () < mesh.triangles.size ()) {
+    mesh.triangles.swap (left);
+    is_manifold = mesh.connect (neighbors.rows (), run);
+  }
+  if (!is_manifold)
+    throw std::logic_error ("the consensus is no manifold");
+  return mesh;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lists of indices in compressed sparse rows.
+#pragma once
+
+#include "core/types.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+/// A row of a table.
+struct Row
+{
+  const Index* first;
+  const Index* last;
+
+  const Index* begin () const { return first; }
+  const Index* end () const { return last; }
+  std::size_t size () const { return static_cast<std::size_t> (last - first); }
+  Index operator[] (std::size_t i) const { return first[i]; }
+};
+
+/// One list of indices for each row, all in one array: row r is ids[offsets[r]] to
+/// ids[offsets[r + 1]], the end not included.
+struct CsrLists
+{
+  std::vector<Index> offsets; ///< one more than there are rows; empty if there is no row
+  std::vector<Index> ids;
+
+  std::size_t rows () const { return offsets.empty () ? 0 : offsets.size () - 1; }
+  Row row (std::size_t r) const { return {ids.data () + offsets[r], ids.data () + offsets[r + 1]}; }
+
+  /// The first `count` entries of a row, or all of them if there are fewer.
+  Row first (std::size_t r, std::size_t count) const
+  {
+    const Row whole = row (r);
+    return {whole.first, whole.first + (count < whole.size () ? count : whole.size ())};
+  }
+};
+
+/// Lists by counting sort, O(rows + entries). `visit` is called twice. It has to call its argument
+/// `emit (row, id)` for each entry, both times in the same order; a row's entries keep that order.
+/// \throw std::length_error if there are 2^32 - 1 entries or more
+template <typename Visit>
+CsrLists
+makeCsrLists (std::size_t rows, Visit&& visit)
+{
+  CsrLists lists;
+  lists.offsets.assign (rows + 2, 0);
+  std::size_t entries = 0;
+  visit ([&] (std::size_t row, Index) {
+    ++lists.offsets[row + 2];
+    ++entries;
+  });
+  if (entries >= NONE)
+    throw std::length_error ("lists have more entries than 32-bit indices can count");
+  for (std::size_t r = 2; r < lists.offsets.size (); ++r)
+    lists.offsets[r] += lists.offsets[r - 1];
+  lists.ids.resize (entries);
+  // offsets[row + 1] is where the row's next entry goes. At the end it is where the row ends.
+  visit ([&] (std::size_t row, Index id) { lists.ids[lists.offsets[row + 1]++] = id; });
+  lists.offsets.pop_back ();
+  return lists;
+}
+
+/// Sets the offsets of rows whose lengths are given: offsets[r + 1] is the length of row r before,
+/// and the end of row r after the call. O(rows).
+inline void
+sumRowLengths (std::vector<Index>& offsets)
+{
+  for (std::size_t r = 1; r < offsets.size (); ++r)
+    offsets[r] += offsets[r - 1];
+}
+
+} // namespace floater
+} // namespace pcl

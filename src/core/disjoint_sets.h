@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Disjoint sets (union-find), and disjoint sets of elements with signs.
+#pragma once
+
+#include "core/types.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pcl
+{
+namespace floater
+{
+/// Disjoint sets of the elements 0 to size - 1. The smallest element of a set represents it, in
+/// whatever order the sets were joined. Amortized O(log size) for each call.
+class DisjointSets
+{
+public:
+  explicit DisjointSets (std::size_t size) : parent_ (size)
+  {
+    std::iota (parent_.begin (), parent_.end (), Index{0});
+  }
+
+  /// The representative of an element's set.
+  Index find (Index element)
+  {
+    while (parent_[element] != element)
+      element = parent_[element] = parent_[parent_[element]];
+    return element;
+  }
+
+  /// Joins the sets of two elements. \return false if they are in one set already
+  bool join (Index a, Index b)
+  {
+    a = find (a);
+    b = find (b);
+    parent_[std::max (a, b)] = std::min (a, b);
+    return a != b;
+  }
+
+private:
+  std::vector<Index> parent_;
+};
+
+/// Disjoint sets in which every element has a sign relative to its set's representative (union-find
+/// with parity). Amortized almost O(1) for each call.
+class SignedSets
+{
+public:
+  explicit SignedSets (std::size_t size) : parent_ (size), flipped_ (size, 0), rank_ (size, 0)
+  {
+    std::iota (parent_.begin (), parent_.end (), Index{0});
+  }
+
+  struct Place
+  {
+    Index root;
+    bool flipped; ///< the sign differs from that of the representative
+  };
+
+  Place find (Index element)
+  {
+    Index root = element;
+    bool flipped = false;
+    while (parent_[root] != root) {
+      flipped = flipped != (flipped_[root] != 0);
+      root = parent_[root];
+    }
+    // Path compression: all elements on the way become children of the root.
+    bool sign = flipped;
+    for (Index at = element; at != root;) {
+      const Index up = parent_[at];
+      const bool next = sign != (flipped_[at] != 0);
+      parent_[at] = root;
+      flipped_[at] = sign ? 1 : 0;
+      sign = next;
+      at = up;
+    }
+    return {root, flipped};
+  }
+
+  /// Joins the sets of a and b so that their signs are equal, or opposite.
+  /// \return false if they are in one set already and their signs contradict
+  bool join (Index a, Index b, bool opposite)
+  {
+    Place at_a = find (a), at_b = find (b);
+    const bool flip = (at_a.flipped != at_b.flipped) != opposite;
+    if (at_a.root == at_b.root)
+      return !flip;
+    if (rank_[at_a.root] < rank_[at_b.root])
+      std::swap (at_a, at_b);
+    if (rank_[at_a.root] == rank_[at_b.root])
+      ++rank_[at_a.root];
+    parent_[at_b.root] = at_a.root;
+    flipped_[at_b.root] = flip ? 1 : 0;
+    return true;
+  }
+
+private:
+  std::vector<Index> parent_;
+  std::vector<std::uint8_t> flipped_; // relative to the parent
+  std::vector<std::uint8_t> rank_;
+};
+
+} // namespace floater
+} // namespace pcl

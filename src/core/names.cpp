@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pcl/surface/floater/report.h>
+
+namespace pcl
+{
+namespace floater
+{
+const char*
+stageName (Stage stage)
+{
+  switch (stage) {
+  case Stage::WORKING_SET:
+    return "working set";
+  case Stage::NEIGHBORS:
+    return "neighbors";
+  case Stage::STARS:
+    return "stars";
+  case Stage::CONSENSUS:
+    return "consensus";
+  case Stage::BOUNDARY:
+    return "boundary";
+  case Stage::WEIGHTS:
+    return "weights";
+  case Stage::SOLVE:
+    return "solve";
+  case Stage::DELAUNAY:
+    return "delaunay";
+  case Stage::HOLES:
+    return "holes";
+  case Stage::FLIPS:
+    return "flips";
+  case Stage::CHECK:
+    return "check";
+  case Stage::COUNT:
+    break;
+  }
+  return "unknown";
+}
+
+const char*
+statusName (Status status)
+{
+  switch (status) {
+  case Status::NOT_RUN:
+    return "NOT_RUN";
+  case Status::OK:
+    return "OK";
+  case Status::NO_INPUT:
+    return "NO_INPUT";
+  case Status::INVALID_OPTION:
+    return "INVALID_OPTION";
+  case Status::INVALID_INDICES:
+    return "INVALID_INDICES";
+  case Status::TOO_FEW_POINTS:
+    return "TOO_FEW_POINTS";
+  case Status::DEGENERATE:
+    return "DEGENERATE";
+  case Status::NO_BOUNDARY:
+    return "NO_BOUNDARY";
+  case Status::INVALID_LOOP:
+    return "INVALID_LOOP";
+  case Status::UNREACHABLE:
+    return "UNREACHABLE";
+  case Status::NOT_A_DISC:
+    return "NOT_A_DISC";
+  case Status::SINGULAR:
+    return "SINGULAR";
+  case Status::NOT_CONVERGED:
+    return "NOT_CONVERGED";
+  case Status::SOLVER_UNAVAILABLE:
+    return "SOLVER_UNAVAILABLE";
+  case Status::CANCELLED:
+    return "CANCELLED";
+  case Status::OUT_OF_MEMORY:
+    return "OUT_OF_MEMORY";
+  case Status::INTERNAL_ERROR:
+    return "INTERNAL_ERROR";
+  }
+  return "UNKNOWN";
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A parallel loop over ranges whose result cannot depend on the number of threads.
+#pragma once
+
+#include "core/run_context.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Calls body (i) for every i below `count`. They are handed out one by one, to `threads` threads
+/// and in any order, so body must write only to places that belong to i. The first exception thrown
+/// by a body is rethrown here. Moves the fraction of the run that is done, and may be stopped
+/// (Monitor): then no more are handed out.
+template <typename Body>
+void
+parallelTasks (const RunContext& run, std::size_t count, Body&& body)
+{
+  constexpr std::chrono::milliseconds BETWEEN_LOOKS{50};
+  constexpr std::size_t FEW = 2; // tasks, within which there are loops that tell more
+  ProgressLoop progress (run, count > FEW ? count : 0);
+  std::atomic<std::size_t> next{0};
+  std::size_t running = 0;
+  std::exception_ptr error;
+  std::mutex mutex;
+  std::condition_variable ended;
+  const auto guarded = [&] (const auto& work) {
+    try {
+      work ();
+    }
+    catch (...) {
+      const std::lock_guard<std::mutex> lock (mutex);
+      if (!error)
+        error = std::current_exception ();
+      next = count;
+    }
+  };
+  const auto help = [&] {
+    guarded ([&] {
+      for (std::size_t i = next++; i < count; i = next++)
+        body (i);
+    });
+    const std::lock_guard<std::mutex> lock (mutex);
+    --running;
+    ended.notify_one ();
+  };
+  std::vector<std::thread> helpers;
+  const std::size_t wanted =
+      std::min<std::size_t> (static_cast<std::size_t> (run.threads ()), count);
+  try {
+    for (std::size_t t = 1; t < wanted; ++t) {
+      helpers.reserve (wanted - 1);
+      const std::lock_guard<std::mutex> lock (mutex);
+      helpers.emplace_back (help);
+      ++running;
+    }
+  }
+  catch (const std::exception&) {
+    // Fewer threads than asked for could be started; those that run do all the work.
+  }
+  guarded ([&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      body (i);
+      progress.reach (i);
+    }
+  });
+  // Only this thread may be asked to stop, also while it waits for the last ones.
+  const auto have_all_ended = [&] {
+    std::unique_lock<std::mutex> lock (mutex);
+    return ended.wait_for (lock, BETWEEN_LOOKS, [&running] { return running == 0; });
+  };
+  while (!have_all_ended ())
+    guarded ([&] { progress.reach (0); });
+  for (std::thread& helper : helpers)
+    helper.join ();
+  if (error)
+    std::rethrow_exception (error);
+}
+
+/// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
+constexpr std::size_t RANGE_LENGTH = 1024;
+
+/// Calls body (first, last) for consecutive ranges that cover 0 to count, as parallelTasks does.
+template <typename Body>
+void
+parallelRanges (const RunContext& run, std::size_t count, Body&& body)
+{
+  const std::size_t ranges = (count + RANGE_LENGTH - 1) / RANGE_LENGTH;
+  parallelTasks (run, ranges, [&] (std::size_t r) {
+    body (r * RANGE_LENGTH, std::min (count, (r + 1) * RANGE_LENGTH));
+  });
+}
+
+} // namespace floater
+} // namespace pcl

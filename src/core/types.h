@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Index types.
+//
+// There are three index spaces. A `cloud_index` counts in the user's cloud, a `point` is a row of
+// the working set, and an `unknown` is a row of the linear system.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+using Index = std::uint32_t;
+constexpr Index NONE = std::numeric_limits<Index>::max ();
+
+/// Corners of a triangle, anti-clockwise seen from the front.
+using Triangle = std::array<Index, 3>;
+
+} // namespace floater
+} // namespace pcl

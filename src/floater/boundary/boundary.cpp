@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/boundary/boundary.h"
+
+#include "core/geometry.h"
+#include "floater/boundary/clusters.h"
+#include "floater/boundary/opening_angle.h"
+#include "floater/boundary/spanning_tree_loop.h"
+#include "floater/boundary/two_segment_loop.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// A loop this short in a cloud of more than a few points is a gap in the sampling of a closed
+// surface.
+constexpr std::size_t SHORTEST_LOOP = 10;
+constexpr std::size_t FEW_POINTS = 100;
+
+// Cloud indices to points; a duplicate means the point that stands for it.
+Boundary
+fromUser (const Points& points, const std::vector<Index>& user_loop)
+{
+  Boundary boundary;
+  const auto invalid = [&] (const std::string& why) {
+    boundary.problem = {Status::INVALID_LOOP, "the given boundary loop " + why};
+    boundary.loop.clear ();
+    return boundary;
+  };
+  std::vector<std::pair<Index, Index>> point_of; // (cloud index, point), ascending
+  point_of.reserve (points.cloud_index.size () + points.duplicates.size ());
+  for (Index p = 0; p < points.cloud_index.size (); ++p)
+    point_of.emplace_back (points.cloud_index[p], p);
+  std::sort (point_of.begin (), point_of.end ());
+  const auto find = [&] (Index cloud_index) {
+    const auto at = std::lower_bound (point_of.begin (), point_of.end (),
+                                      std::make_pair (cloud_index, Index{0}));
+    return at != point_of.end () && at->first == cloud_index ? at->second : NONE;
+  };
+  std::vector<std::uint8_t> seen (points.positions.size (), 0);
+  for (Index cloud_index : user_loop) {
+    Index p = find (cloud_index);
+    if (p == NONE) {
+      const auto duplicate = std::lower_bound (points.duplicates.begin (), points.duplicates.end (),
+                                               std::array<Index, 2>{cloud_index, 0});
+      if (duplicate != points.duplicates.end () && (*duplicate)[0] == cloud_index)
+        p = find ((*duplicate)[1]);
+    }
+    if (p == NONE)
+      return invalid ("names point " + std::to_string (cloud_index) +
+                      ", which is not in the cloud, not selected, or not finite");
+    if (seen[p] != 0)
+      return invalid ("passes twice through point " + std::to_string (cloud_index));
+    seen[p] = 1;
+    boundary.loop.push_back (p);
+  }
+  if (boundary.loop.size () < 3)
+    return invalid ("has fewer than 3 points");
+  boundary.candidates = boundary.loop.size ();
+  return boundary;
+}
+
+Boundary
+byTwoSegments (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
+               const RunContext& run)
+{
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  Boundary boundary;
+  const std::vector<Index> candidates = openingAnglePoints (
+      positions, geometry.neighbors, geometry.stars.normals, options.opening_angle * DEGREE, run);
+  boundary.candidates = candidates.size ();
+  // The bounding box of the working set has diagonal 1, so xi D is xi.
+  const std::vector<std::vector<Index>> clusters =
+      clusterBoundaryPoints (positions, candidates, options.cluster_tolerance, options.cluster_k);
+  if (!clusters.empty ())
+    boundary.loop = twoSegmentLoop (positions, clusters.front ());
+  return boundary;
+}
+
+} // namespace
+
+Boundary
+findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
+              const RunContext& run)
+{
+  if (!options.loop.empty ())
+    return fromUser (points, options.loop);
+  if (options.method == BoundaryMethod::TWO_SEGMENTS)
+    return byTwoSegments (points, geometry, options, run);
+  LongestLoop found =
+      spanningTreeLoop (points.workingPositions (), geometry.stars, geometry.spacing);
+  Boundary boundary;
+  boundary.loop = std::move (found.points);
+  boundary.candidates = found.candidates;
+  return boundary;
+}
+
+void
+checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_given,
+               Boundary& boundary)
+{
+  if (boundary.problem)
+    return;
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const bool a_mere_gap =
+      !is_given && boundary.loop.size () < SHORTEST_LOOP && points.size () > FEW_POINTS;
+  if (boundary.loop.size () < 3 || a_mere_gap) {
+    boundary.loop.clear ();
+    boundary.problem = {
+        Status::NO_BOUNDARY,
+        "no boundary loop found among " + std::to_string (boundary.candidates) +
+            " boundary points: the surface seems closed or is not one disc; cut it open, "
+            "or give the loop"};
+    return;
+  }
+  for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
+    const Index p = boundary.loop[i];
+    const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
+    const double step = (positions[p] - positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
+    if (step > boundary.largest_step) {
+      boundary.largest_step = step;
+      boundary.longest_from = p;
+    }
+  }
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/boundary/loop_refinement.h"
+
+#include "points/kd_tree.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t WINDOW = 30; // 2-opt: farthest edges along the loop that are exchanged
+constexpr double DETOUR = 3.0;     // spacings: longest detour for a point beyond the loop
+constexpr double ON_EDGE = 0.1;    // of an edge's length: nearer to it counts as beyond
+constexpr std::size_t NEAR_LOOP_POINTS = 4;
+
+double
+distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
+{
+  return (positions[p] - positions[q]).norm ();
+}
+
+// Reverses stretches of the loop while that shortens it.
+void
+untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loop)
+{
+  const std::size_t n = loop.size ();
+  const std::size_t window = std::min (WINDOW, n - 2);
+  const auto at = [&] (std::size_t i) -> Index& { return loop[i % n]; };
+  bool changed = n > 4;
+  for (int pass = 0; changed && pass < 10; ++pass) {
+    changed = false;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 2; j <= i + window; ++j) {
+        // Edges (i, i + 1) and (j, j + 1) become (i, j) and (i + 1, j + 1).
+        if ((j + 1) % n == i)
+          continue;
+        const double now =
+            distance (positions, at (i), at (i + 1)) + distance (positions, at (j), at (j + 1));
+        const double then =
+            distance (positions, at (i), at (j)) + distance (positions, at (i + 1), at (j + 1));
+        if (then < now * (1.0 - 1e-9)) {
+          for (std::size_t a = i + 1, b = j; a < b; ++a, --b)
+            std::swap (at (a), at (b));
+          changed = true;
+        }
+      }
+  }
+}
+
+// Which side of the loop the surface is on. The normals of the loop points are turned to agree from
+// each to the next; then all edges vote on whether their stars lie to the left or to the right.
+class LoopSides
+{
+public:
+  LoopSides (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+             const std::vector<Index>& loop)
+      : positions_ (positions)
+  {
+    Eigen::Vector3d previous = stars.normals[loop.front ()].cast<double> ();
+    double vote = 0.0;
+    normals_.reserve (loop.size ());
+    for (std::size_t i = 0; i < loop.size (); ++i) {
+      Eigen::Vector3d normal = stars.normals[loop[i]].cast<double> ();
+      if (normal.dot (previous) < 0.0)
+        normal = -normal;
+      normals_.push_back (normal);
+      previous = normal;
+      const Index a = loop[i], b = loop[(i + 1) % loop.size ()];
+      const Eigen::Vector3d left = normal.cross (positions[b] - positions[a]).normalized ();
+      for (Index q : stars.neighbors.row (a)) {
+        const Eigen::Vector3d offset = positions[q] - positions[a];
+        vote += left.dot (offset) / offset.norm ();
+      }
+    }
+    if (vote < 0.0)
+      for (Eigen::Vector3d& normal : normals_)
+        normal = -normal;
+  }
+
+  /// Distance of c from the line through a and b, positive on the surface's side; `at` is a's place
+  /// in the loop that this was made for.
+  double inside (std::size_t at, Index a, Index b, Index c) const
+  {
+    return normals_[at]
+        .cross (positions_[b] - positions_[a])
+        .normalized ()
+        .dot (positions_[c] - positions_[a]);
+  }
+
+private:
+  const std::vector<Eigen::Vector3d>& positions_;
+  std::vector<Eigen::Vector3d> normals_;
+};
+
+// Inserts candidates that lie on or beyond an edge of the loop. Returns how many.
+std::size_t
+insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+              const std::vector<float>& spacing, const std::vector<Index>& candidates,
+              std::vector<Index>& loop)
+{
+  const LoopSides sides (positions, stars, loop);
+  std::vector<std::uint8_t> on_loop (positions.size (), 0);
+  std::vector<Eigen::Vector3d> places;
+  for (Index p : loop) {
+    on_loop[p] = 1;
+    places.push_back (positions[p]);
+  }
+  const KdTree tree (places, 1);
+  struct Insertion
+  {
+    std::size_t after; // place in the loop
+    double along;      // position along the edge, for several on one edge
+    Index point;
+  };
+  std::vector<Insertion> insertions;
+  std::vector<Neighbor> found;
+  for (Index c : candidates) {
+    if (on_loop[c] != 0)
+      continue;
+    tree.nearest (positions[c], NEAR_LOOP_POINTS, found);
+    double smallest = DETOUR * spacing[c];
+    Insertion best{0, 0.0, NONE};
+    for (const Neighbor& neighbor : found)
+      for (const std::size_t i :
+           {std::size_t{neighbor.point}, (neighbor.point + loop.size () - 1) % loop.size ()}) {
+        const Index a = loop[i], b = loop[(i + 1) % loop.size ()];
+        const double edge = distance (positions, a, b);
+        const double detour = distance (positions, a, c) + distance (positions, c, b) - edge;
+        if (detour >= smallest)
+          continue;
+        smallest = detour;
+        const bool beyond = sides.inside (i, a, b, c) < ON_EDGE * edge;
+        best = {i, (positions[c] - positions[a]).dot (positions[b] - positions[a]),
+                beyond ? c : NONE};
+      }
+    if (best.point != NONE)
+      insertions.push_back (best);
+  }
+  std::sort (insertions.begin (), insertions.end (), [] (const Insertion& x, const Insertion& y) {
+    return std::tie (x.after, x.along, x.point) < std::tie (y.after, y.along, y.point);
+  });
+  std::vector<Index> wider;
+  auto next = insertions.begin ();
+  for (std::size_t i = 0; i < loop.size (); ++i) {
+    wider.push_back (loop[i]);
+    for (; next != insertions.end () && next->after == i; ++next)
+      wider.push_back (next->point);
+  }
+  loop = std::move (wider);
+  return insertions.size ();
+}
+
+} // namespace
+
+void
+refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+            const std::vector<float>& spacing, const std::vector<Index>& candidates,
+            std::vector<Index>& loop)
+{
+  untangle (positions, loop);
+  for (int pass = 0; pass < 4 && insertBeyond (positions, stars, spacing, candidates, loop) > 0;
+       ++pass)
+    untangle (positions, loop);
+}
+
+} // namespace floater
+} // namespace pcl

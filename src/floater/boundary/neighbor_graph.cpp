@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/boundary/neighbor_graph.h"
+
+#include "core/disjoint_sets.h"
+#include "points/kd_tree.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+/// An edge from one component to another.
+struct Bridge
+{
+  double sqr_length = std::numeric_limits<double>::infinity ();
+  Index a = NONE, b = NONE;
+
+  bool operator<(const Bridge& other) const
+  {
+    return std::tie (sqr_length, a, b) < std::tie (other.sqr_length, other.a, other.b);
+  }
+};
+
+/// Finds the nearest point of another component. A node all of whose points are of one component
+/// bears its label and is passed over by queries from there.
+class ComponentTree
+{
+public:
+  explicit ComponentTree (const std::vector<Eigen::Vector3d>& points)
+      : points_ (points), ids_ (points.size ())
+  {
+    std::iota (ids_.begin (), ids_.end (), Index{0});
+    build (0, static_cast<Index> (ids_.size ()));
+  }
+
+  void setLabels (std::vector<Index> labels)
+  {
+    labels_ = std::move (labels);
+    for (std::size_t n = nodes_.size (); n-- > 0;) { // children come behind their parent
+      Node& node = nodes_[n];
+      node.label = node.right == NONE ? labels_[ids_[node.first]] : nodes_[n + 1].label;
+      const bool uniform = node.right == NONE
+                               ? std::all_of (ids_.begin () + node.first, ids_.begin () + node.last,
+                                              [&] (Index p) { return labels_[p] == node.label; })
+                               : node.label == nodes_[node.right].label;
+      if (!uniform)
+        node.label = NONE;
+    }
+  }
+
+  /// Replaces `shortest` by a shorter bridge from p, if there is one.
+  void shorten (Bridge& shortest, Index p) const { search (0, p, shortest); }
+
+private:
+  static constexpr Index LEAF_SIZE = 8;
+
+  struct Node
+  {
+    Eigen::AlignedBox3d box;
+    Index first, last;
+    Index right; // the left child is the next node; NONE at a leaf
+    Index label; // NONE if there are several
+  };
+
+  void build (Index first, Index last)
+  {
+    Eigen::AlignedBox3d box;
+    for (Index i = first; i < last; ++i)
+      box.extend (points_[ids_[i]]);
+    const std::size_t self = nodes_.size ();
+    nodes_.push_back ({box, first, last, NONE, NONE});
+    if (last - first <= LEAF_SIZE)
+      return;
+    Eigen::Index axis = 0;
+    box.sizes ().maxCoeff (&axis);
+    const Index middle = first + (last - first) / 2;
+    std::nth_element (
+        ids_.begin () + first, ids_.begin () + middle, ids_.begin () + last,
+        [this, axis] (Index p, Index q) { return points_[p][axis] < points_[q][axis]; });
+    build (first, middle);
+    nodes_[self].right = static_cast<Index> (nodes_.size ());
+    build (middle, last);
+  }
+
+  double sqrDistance (Index node, Index p) const
+  {
+    return nodes_[node].box.squaredExteriorDistance (points_[p]);
+  }
+
+  void search (Index n, Index p, Bridge& shortest) const
+  {
+    const Node& node = nodes_[n];
+    if (node.label == labels_[p] || sqrDistance (n, p) > shortest.sqr_length)
+      return;
+    if (node.right == NONE) {
+      for (Index i = node.first; i < node.last; ++i) {
+        const Index q = ids_[i];
+        if (labels_[q] != labels_[p])
+          shortest = std::min (shortest, Bridge{(points_[p] - points_[q]).squaredNorm (),
+                                                std::min (p, q), std::max (p, q)});
+      }
+      return;
+    }
+    Index near = n + 1;
+    Index far = node.right;
+    if (sqrDistance (far, p) < sqrDistance (near, p))
+      std::swap (near, far);
+    search (near, p, shortest);
+    search (far, p, shortest);
+  }
+
+  const std::vector<Eigen::Vector3d>& points_;
+  std::vector<Index> ids_; // in the order of the leaves
+  std::vector<Node> nodes_;
+  std::vector<Index> labels_;
+};
+
+/// Appends bridges until the graph is connected: in each round, the shortest from every component
+/// (Boruvka's algorithm).
+void
+connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points, Index rank)
+{
+  DisjointSets sets (points.size ());
+  std::size_t components = points.size ();
+  for (const NeighborEdge& edge : edges)
+    components -= sets.join (edge.a, edge.b) ? 1 : 0;
+  if (components < 2)
+    return;
+  ComponentTree tree (points);
+  while (components > 1) {
+    std::vector<Index> labels (points.size ());
+    for (Index p = 0; p < points.size (); ++p)
+      labels[p] = sets.find (p);
+    tree.setLabels (labels);
+    std::vector<Bridge> shortest (points.size ()); // used at the label of each component
+    for (Index p = 0; p < points.size (); ++p)
+      tree.shorten (shortest[labels[p]], p);
+    for (const Bridge& bridge : shortest)
+      if (bridge.a != NONE && sets.join (bridge.a, bridge.b)) {
+        edges.push_back ({bridge.a, bridge.b, rank, std::sqrt (bridge.sqr_length)});
+        --components;
+      }
+  }
+}
+
+} // namespace
+
+std::vector<NeighborEdge>
+neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k)
+{
+  const KdTree tree (points, 1);
+  std::vector<NeighborEdge> edges;
+  std::vector<Neighbor> nearest;
+  for (Index p = 0; p < points.size (); ++p) {
+    tree.nearest (points[p], std::size_t{k} + 1, nearest);
+    Index rank = 0;
+    for (const Neighbor& neighbor : nearest)
+      if (neighbor.point != p && rank < k)
+        edges.push_back ({std::min (p, neighbor.point), std::max (p, neighbor.point), rank++,
+                          std::sqrt (neighbor.sqr_distance)});
+  }
+  connect (edges, points, k);
+  std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
+    return std::tie (e.a, e.b, e.rank) < std::tie (f.a, f.b, f.rank);
+  });
+  const auto same = [] (const NeighborEdge& e, const NeighborEdge& f) {
+    return e.a == f.a && e.b == f.b;
+  };
+  edges.erase (std::unique (edges.begin (), edges.end (), same), edges.end ());
+  return edges;
+}
+
+std::vector<NeighborEdge>
+nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k)
+{
+  std::vector<NeighborEdge> part, others;
+  DisjointSets sets (size);
+  for (const NeighborEdge& edge : graph)
+    if (edge.rank < k) {
+      sets.join (edge.a, edge.b);
+      part.push_back (edge);
+    }
+    else
+      others.push_back (edge);
+  // Kruskal's algorithm.
+  std::sort (others.begin (), others.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
+    return std::tie (e.length, e.a, e.b) < std::tie (f.length, f.a, f.b);
+  });
+  for (const NeighborEdge& edge : others)
+    if (sets.join (edge.a, edge.b))
+      part.push_back (edge);
+  return part;
+}
+
+} // namespace floater
+} // namespace pcl

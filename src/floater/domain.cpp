@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/domain.h"
+
+#include "core/geometry.h"
+#include "floater/own_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+
+// Rounding moves a turn with steps g and h on a curve of curvature c out of convexity unless
+// c g h / 2 is well above the spacing of doubles near 1, 2e-16. With these two it is 8e-15 or more.
+constexpr double SHORTEST_STEP = 4e-6;
+constexpr double SIDE_CURVATURE = 1e-3;
+
+// chords[i] is the distance from loop point i to the next. Returns where the points first to last
+// (their chords are [first, last)) are on a curve of that length, as fractions of it.
+std::vector<double>
+spread (const std::vector<double>& chords, std::size_t first, std::size_t last, double curve_length)
+{
+  double total = 0.0;
+  for (std::size_t i = first; i < last; ++i)
+    total += chords[i];
+  const std::size_t steps = last - first;
+  const double shortest =
+      std::min (SHORTEST_STEP / curve_length, 0.5 / static_cast<double> (steps));
+  std::vector<double> fractions (steps);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < steps; ++i) {
+    fractions[i] = sum;
+    sum += total > 0.0 ? std::max (chords[first + i] / total, shortest) : 1.0;
+  }
+  for (double& fraction : fractions)
+    fraction /= sum;
+  return fractions;
+}
+
+// Loop points at the corners, ascending from point 0; as many as wanted.
+std::vector<std::size_t>
+cornerPoints (const std::vector<double>& chords, std::size_t corners)
+{
+  double total = 0.0;
+  for (const double chord : chords)
+    total += chord;
+  std::vector<std::size_t> points{0};
+  std::size_t i = 0;
+  double length = 0.0; // from point 0 to point i
+  for (std::size_t corner = 1; corner < corners; ++corner) {
+    const double wanted = total * static_cast<double> (corner) / static_cast<double> (corners);
+    const std::size_t last =
+        chords.size () - (corners - corner); // leaves a point for each later corner
+    while (i < last && (i <= points.back () || length + 0.5 * chords[i] < wanted))
+      length += chords[i++];
+    points.push_back (i);
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector2d>
+layOnCircle (const std::vector<double>& chords)
+{
+  std::vector<Eigen::Vector2d> uv;
+  uv.reserve (chords.size ());
+  for (const double fraction : spread (chords, 0, chords.size (), 2.0 * PI))
+    uv.emplace_back (std::cos (2.0 * PI * fraction), std::sin (2.0 * PI * fraction));
+  return uv;
+}
+
+// Corners in the order of the loop, each at the place given, and the points between two of them on
+// the side between their places. `places` goes anti-clockwise; the first corner is point 0.
+std::vector<Eigen::Vector2d>
+layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_points,
+            const std::vector<Eigen::Vector2d>& places)
+{
+  const std::size_t corners = corner_points.size ();
+  corner_points.push_back (chords.size ());
+  std::vector<Eigen::Vector2d> uv;
+  uv.reserve (chords.size ());
+  for (std::size_t c = 0; c < corners; ++c) {
+    const Eigen::Vector2d& from = places[c];
+    const Eigen::Vector2d side = places[c + 1 == corners ? 0 : c + 1] - from;
+    // A parabola through both corners; its slope stays far below the turn at the corners.
+    const Eigen::Vector2d bulge =
+        0.5 * SIDE_CURVATURE * side.norm () * Eigen::Vector2d (side.y (), -side.x ());
+    for (const double t : spread (chords, corner_points[c], corner_points[c + 1], side.norm ()))
+      uv.emplace_back (from + t * side + t * (1.0 - t) * bulge);
+  }
+  return uv;
+}
+
+std::vector<Eigen::Vector2d>
+layOnRegularPolygon (const std::vector<double>& chords, std::size_t corners)
+{
+  std::vector<Eigen::Vector2d> places;
+  for (std::size_t c = 0; c < corners; ++c) {
+    const double angle =
+        2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;
+    places.emplace_back (std::cos (angle), std::sin (angle));
+  }
+  return layOnSides (chords, cornerPoints (chords, corners), places);
+}
+
+// Empty if the loop has no shape of its own, or one that rounding would spoil.
+std::vector<Eigen::Vector2d>
+layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
+               std::vector<double> chords)
+{
+  OwnShape shape = findOwnShape (positions, loop, {SIDE_CURVATURE, SHORTEST_STEP});
+  if (shape.corners.empty ())
+    return {};
+  // Sides begin at the first corner, so turn the loop there, and back.
+  const auto turn = static_cast<std::ptrdiff_t> (shape.corners.front ());
+  for (std::size_t& corner : shape.corners)
+    corner -= static_cast<std::size_t> (turn);
+  std::rotate (chords.begin (), chords.begin () + turn, chords.end ());
+  std::vector<Eigen::Vector2d> uv = layOnSides (chords, shape.corners, shape.places);
+  std::rotate (uv.begin (), uv.end () - turn, uv.end ());
+  return isStrictlyConvex (uv) ? uv : std::vector<Eigen::Vector2d> ();
+}
+
+double
+stepLength (double distance, LoopSpacing spacing)
+{
+  switch (spacing) {
+  case LoopSpacing::CHORD_LENGTH:
+    break;
+  case LoopSpacing::CENTRIPETAL:
+    return std::sqrt (distance);
+  case LoopSpacing::UNIFORM:
+    return 1.0;
+  }
+  return distance;
+}
+
+} // namespace
+
+std::vector<Eigen::Vector2d>
+layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
+         const DomainOptions& options)
+{
+  const std::size_t count = loop.size ();
+  std::vector<double> chords (count);
+  for (std::size_t i = 0; i < count; ++i)
+    chords[i] =
+        stepLength ((positions[loop[i + 1 == count ? 0 : i + 1]] - positions[loop[i]]).norm (),
+                    options.loop_spacing);
+  if (options.curve == Domain::OWN_SHAPE) {
+    std::vector<Eigen::Vector2d> uv = layOnOwnShape (positions, loop, chords);
+    if (!uv.empty ())
+      return uv;
+  }
+  if (options.curve == Domain::CIRCLE || options.curve == Domain::OWN_SHAPE)
+    return layOnCircle (chords);
+  const int sides = options.curve == Domain::SQUARE ? 4 : std::max (3, options.polygon_sides);
+  return layOnRegularPolygon (chords, std::min (count, static_cast<std::size_t> (sides)));
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/parameterize.h"
+
+#include "floater/domain.h"
+#include "floater/reachability.h"
+#include "floater/solvers/linear_system.h"
+#include "floater/solvers/solver.h"
+#include "floater/weights.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Below this share of points on the loop's side the cloud is taken for several components.
+constexpr double ENOUGH_REACHED = 0.5;
+
+// Adds each link (ascending) as one more neighbour, with the weight of an average neighbour.
+void
+addLinks (const std::vector<std::array<Index, 2>>& links, CsrLists& neighbors,
+          std::vector<double>& weights)
+{
+  if (links.empty ())
+    return;
+  CsrLists wider;
+  std::vector<double> wider_weights;
+  wider.offsets.push_back (0);
+  auto link = links.begin ();
+  for (Index p = 0; p < neighbors.rows (); ++p) {
+    const Index first = neighbors.offsets[p], last = neighbors.offsets[p + 1];
+    wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first,
+                      neighbors.ids.begin () + last);
+    wider_weights.insert (wider_weights.end (), weights.begin () + first, weights.begin () + last);
+    for (; link != links.end () && (*link)[0] == p; ++link) {
+      wider.ids.push_back ((*link)[1]);
+      wider_weights.push_back (1.0 / std::max<double> (1.0, last - first));
+    }
+    wider.offsets.push_back (static_cast<Index> (wider.ids.size ()));
+  }
+  neighbors = std::move (wider);
+  weights = std::move (wider_weights);
+}
+
+Problem
+describeOutcome (const Solution& solution)
+{
+  switch (solution.outcome) {
+  case Solution::Outcome::OK:
+    return {};
+  case Solution::Outcome::SINGULAR:
+    return {Status::SINGULAR,
+            "the linear system is singular (" + solution.message + "); use a larger k"};
+  case Solution::Outcome::NOT_CONVERGED:
+    return {Status::NOT_CONVERGED,
+            solution.message + "; allow more iterations, or use a direct solver"};
+  case Solution::Outcome::UNAVAILABLE:
+    return {Status::SOLVER_UNAVAILABLE, solution.message};
+  case Solution::Outcome::OUT_OF_MEMORY:
+    return {Status::OUT_OF_MEMORY, "not enough memory for the factorization (" + solution.message +
+                                       "): use fewer points, or a machine with more memory"};
+  case Solution::Outcome::FAILED:
+    break;
+  }
+  return {Status::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
+}
+
+} // namespace
+
+Parameterization
+parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
+              const std::vector<Index>& loop, const ParameterizationSettings& settings,
+              const RunContext& run)
+{
+  Parameterization result;
+  run.beginStage (Stage::WEIGHTS);
+  std::vector<double> weights = computeWeights (stars, settings.weighting, run);
+  CsrLists neighbors = std::move (stars.neighbors);
+  stars = {};
+
+  const Reachability reach = reachLoop (neighbors, nearest, positions, loop, run);
+  addLinks (reach.links, neighbors, weights);
+  result.relinked = reach.linked_points;
+  result.unreachable =
+      static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
+  const double reached = static_cast<double> (positions.size () - result.unreachable);
+  if (reached < ENOUGH_REACHED * static_cast<double> (positions.size ())) {
+    result.problem = {
+        Status::UNREACHABLE,
+        std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
+            " points do not connect to the boundary loop: the cloud has several components, or "
+            "gaps "
+            "wider than its spacing; reconstruct its parts one by one, or use a larger k"};
+    return result;
+  }
+  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, settings.domain);
+  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable, run);
+  neighbors = {};
+  std::vector<double> ().swap (weights);
+  result.unknowns = system.unknowns ();
+  result.nonzeros = system.nonzeros ();
+
+  run.beginStage (Stage::SOLVE);
+  Solution solution = solve (system, settings.solver, &positions, run);
+  result.problem = describeOutcome (solution);
+  const std::vector<Eigen::Vector2d> solved = std::move (solution.uv);
+  solution.uv.clear ();
+  result.solution = std::move (solution);
+  if (result.problem)
+    return result;
+
+  result.uv.assign (positions.size (),
+                    Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    result.uv[loop[i]] = loop_uv[i];
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    result.uv[system.point_of_unknown[i]] = solved[i];
+  return result;
+}
+
+} // namespace floater
+} // namespace pcl

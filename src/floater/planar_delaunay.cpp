@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/planar_delaunay.h"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_2<Kernel,
+                                   CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+// Marks points that are not strictly inside the loop, which is a convex polygon around the origin,
+// anti-clockwise. Rounding may put a point between two loop points beyond the edge that joins them.
+std::vector<std::uint8_t>
+outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
+{
+  const std::size_t h = loop.size ();
+  // Inside the circle that touches the nearest edge there is nothing to check.
+  double sqr_safe = std::numeric_limits<double>::infinity ();
+  std::vector<std::pair<double, std::size_t>> corners; // direction, place in the loop; ascending
+  for (std::size_t i = 0; i < h; ++i) {
+    const Eigen::Vector2d& a = uv[loop[i]];
+    const Eigen::Vector2d edge = uv[loop[(i + 1) % h]] - a;
+    const double twice_area = a.x () * edge.y () - a.y () * edge.x ();
+    sqr_safe =
+        std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
+    corners.emplace_back (std::atan2 (a.y (), a.x ()), i);
+  }
+  std::sort (corners.begin (), corners.end ());
+  std::vector<std::uint8_t> outside (uv.size (), 0);
+  const auto point = [&] (Index p) { return Kernel::Point_2 (uv[p].x (), uv[p].y ()); };
+  for (Index p = 0; p < uv.size (); ++p) {
+    if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
+      continue;
+    // The edges at the corners around p's direction; one more on each side for rounding.
+    const auto after = static_cast<std::size_t> (
+        std::upper_bound (corners.begin (), corners.end (),
+                          std::make_pair (std::atan2 (uv[p].y (), uv[p].x ()), h)) -
+        corners.begin ());
+    for (std::size_t step = 0; step < 4; ++step) {
+      const std::size_t i = corners[(after + h + step - 2) % h].second;
+      if (CGAL::orientation (point (loop[i]), point (loop[(i + 1) % h]), point (p)) !=
+          CGAL::LEFT_TURN)
+        outside[p] = 1;
+    }
+  }
+  for (Index p : loop)
+    outside[p] = 0;
+  return outside;
+}
+
+// Numbers the faces inside the loop: a triangle behind a hull edge that is no loop edge is outside,
+// and so on inward.
+Index
+numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
+{
+  std::vector<Index> successor (points, NONE);
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    successor[loop[i]] = loop[(i + 1) % loop.size ()];
+  constexpr Index OUTSIDE = NONE;
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    face->info () = delaunay.is_infinite (face) ? OUTSIDE : 0;
+  std::vector<Delaunay::Face_handle> outside;
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    if (face->info () == OUTSIDE)
+      outside.push_back (face);
+  while (!outside.empty ()) {
+    const Delaunay::Face_handle face = outside.back ();
+    outside.pop_back ();
+    for (int i = 0; i < 3; ++i) {
+      const Delaunay::Face_handle inner = face->neighbor (i);
+      if (inner->info () == OUTSIDE)
+        continue;
+      const Index from = face->vertex (Delaunay::cw (i))->info ();
+      const Index to = face->vertex (Delaunay::ccw (i))->info ();
+      if (successor[from] == to || successor[to] == from)
+        continue;
+      inner->info () = OUTSIDE;
+      outside.push_back (inner);
+    }
+  }
+  Index count = 0;
+  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face)
+    if (face->info () != OUTSIDE)
+      face->info () = count++;
+  return count;
+}
+
+} // namespace
+
+TriangleMesh
+triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
+{
+  std::vector<std::pair<Kernel::Point_2, Index>> sites;
+  sites.reserve (uv.size ());
+  const std::vector<std::uint8_t> outside = outsideLoop (uv, loop);
+  for (Index p = 0; p < uv.size (); ++p)
+    if (uv[p].allFinite () && outside[p] == 0)
+      sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
+  Delaunay delaunay;
+  delaunay.insert (sites.begin (), sites.end ());
+  // Where points coincide, the vertex has the name of any of them: a loop point goes first.
+  if (delaunay.number_of_vertices () < sites.size ())
+    for (Index p : loop) {
+      Delaunay::Locate_type type{};
+      int side = 0;
+      const auto face = delaunay.locate (Kernel::Point_2 (uv[p].x (), uv[p].y ()), type, side);
+      if (type == Delaunay::VERTEX)
+        face->vertex (side)->info () = p;
+    }
+  std::vector<std::pair<Kernel::Point_2, Index>> ().swap (sites);
+
+  TriangleMesh mesh;
+  mesh.triangle_of.assign (uv.size (), NONE);
+  if (delaunay.dimension () < 2)
+    return mesh;
+  const Index count = numberFaces (delaunay, loop, uv.size ());
+  mesh.triangles.resize (count);
+  mesh.neighbors.resize (count);
+  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face) {
+    const Index t = face->info ();
+    if (t == NONE)
+      continue;
+    for (int i = 0; i < 3; ++i) {
+      const auto side = static_cast<std::size_t> (i);
+      mesh.triangles[t][side] = face->vertex (i)->info ();
+      mesh.neighbors[t][side] = face->neighbor (i)->info ();
+      mesh.triangle_of[mesh.triangles[t][side]] = t;
+    }
+  }
+  return mesh;
+}
+
+} // namespace floater
+} // namespace pcl

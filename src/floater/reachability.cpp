@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/reachability.h"
+
+#include "core/run_context.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Row q holds the points p, ascending, that have q in their row; only where use (p, q).
+template <typename Use>
+CsrLists
+reverse (const CsrLists& lists, Use&& use)
+{
+  return makeCsrLists (lists.rows (), [&] (const auto& emit) {
+    for (std::size_t p = 0; p < lists.rows (); ++p)
+      for (const Index q : lists.row (p))
+        if (use (p, q))
+          emit (q, static_cast<Index> (p));
+  });
+}
+
+// Marks all that lead to queue[head] and later, and appends them.
+void
+search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
+        std::vector<std::uint8_t>& reachable, const RunContext& run)
+{
+  ProgressLoop progress (run);
+  for (; head < queue.size (); ++head) {
+    progress.next ();
+    for (const Index p : leading_to.row (queue[head]))
+      if (reachable[p] == 0) {
+        reachable[p] = 1;
+        queue.push_back (p);
+      }
+  }
+}
+
+// The links of point p to the nearest reached points, appended. Ties go to the smaller point.
+void
+linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
+           const std::vector<Eigen::Vector3d>& positions,
+           const std::vector<std::uint8_t>& reachable, std::vector<std::array<Index, 2>>& links)
+{
+  std::vector<std::pair<double, Index>> candidates;
+  for (const Row row : {nearest.row (p), nearest_of.row (p)})
+    for (const Index q : row)
+      if (reachable[q] != 0)
+        candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
+  std::sort (candidates.begin (), candidates.end ());
+  candidates.erase (std::unique (candidates.begin (), candidates.end ()), candidates.end ());
+  candidates.resize (std::min (candidates.size (), LINKS_PER_POINT));
+  for (const auto& candidate : candidates)
+    links.push_back ({p, candidate.second});
+}
+
+} // namespace
+
+Reachability
+reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
+           const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
+           const RunContext& run)
+{
+  Reachability result;
+  std::vector<std::uint8_t>& reachable = result.reachable;
+  reachable.assign (positions.size (), 0);
+  std::vector<Index> queue;
+  queue.reserve (positions.size ());
+  for (const Index p : loop)
+    if (reachable[p] == 0) {
+      reachable[p] = 1;
+      queue.push_back (p);
+    }
+  const CsrLists leading_to =
+      reverse (neighbors, [&] (std::size_t p, Index) { return reachable[p] == 0; });
+  search (leading_to, queue, 0, reachable, run);
+  if (queue.size () == positions.size ())
+    return result;
+
+  // Entries between two points that are reached already serve nobody, and there are many.
+  const CsrLists nearest_of = reverse (
+      nearest, [&] (std::size_t p, Index q) { return reachable[p] == 0 || reachable[q] == 0; });
+  std::vector<std::uint8_t> waiting (positions.size (), 0); // in this round's list already
+  std::vector<Index> round;
+  for (std::size_t head = 0; head < queue.size ();) {
+    // Points not reached that are near a point reached since the round before.
+    round.clear ();
+    for (; head < queue.size (); ++head)
+      for (const Row row : {nearest.row (queue[head]), nearest_of.row (queue[head])})
+        for (const Index p : row)
+          if (reachable[p] == 0 && waiting[p] == 0) {
+            waiting[p] = 1;
+            round.push_back (p);
+          }
+    for (const Index p : round)
+      linkPoint (p, nearest, nearest_of, positions, reachable, result.links);
+    for (const Index p : round)
+      reachable[p] = 1;
+    queue.insert (queue.end (), round.begin (), round.end ());
+    result.linked_points += round.size ();
+    search (leading_to, queue, head, reachable, run);
+  }
+  std::sort (result.links.begin (), result.links.end ());
+  return result;
+}
+
+} // namespace floater
+} // namespace pcl

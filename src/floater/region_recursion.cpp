@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/region_recursion.h"
+
+#include "core/run_context.h"
+#include "floater/parameterize.h"
+#include "floater/planar_delaunay.h"
+#include "local/stars.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// A region as a cloud of its own, numbered from 0.
+struct Subproblem
+{
+  std::vector<Index> points; // of the whole cloud; ascending
+  std::vector<Index> loop;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector2d> uv;
+  TriangleMesh mesh;
+  std::size_t level = 0;
+};
+
+// True if the boundary of the mesh is the loop.
+bool
+fillsLoop (const TriangleMesh& mesh, const std::vector<Index>& loop)
+{
+  std::vector<Index> successor (mesh.triangle_of.size (), NONE);
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    successor[loop[i]] = loop[(i + 1) % loop.size ()];
+  std::size_t edges = 0;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE) {
+        if (successor[mesh.from ({t, side})] != mesh.to ({t, side}))
+          return false;
+        ++edges;
+      }
+  return edges == loop.size ();
+}
+
+// Makes subproblems of regions and collects the triangles of what is not cut out any more.
+class Recursion
+{
+public:
+  Recursion (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
+             const std::vector<Eigen::Vector3f>& normals, const StarSettings& star_settings,
+             const ParameterizationSettings& settings, const RunContext& run)
+      : positions_ (positions), nearest_ (nearest), normals_ (normals),
+        star_settings_ (star_settings), settings_ (settings), run_ (run.withinStage ()),
+        place_ (positions.size (), NONE)
+  {
+    settings_.domain.curve = Domain::CIRCLE;
+  }
+
+  /// Cuts the regions out of a mesh over `points` of the whole cloud (nullptr: all of them).
+  void cut (std::vector<Triangle> triangles, const std::vector<Index>* points,
+            const std::vector<CollapsedRegion>& regions, std::size_t level)
+  {
+    for (const CollapsedRegion& region : regions) {
+      Subproblem subproblem = makePiece (region, points);
+      subproblem.level = level + 1;
+      if (!solvePiece (subproblem))
+        continue;
+      waiting_.push_back (std::move (subproblem));
+      for (const Index t : region.triangles)
+        triangles[t][0] = NONE;
+    }
+    for (Triangle t : triangles) {
+      if (t[0] == NONE)
+        continue;
+      if (points != nullptr)
+        for (Index& p : t)
+          p = (*points)[p];
+      triangles_.push_back (t);
+    }
+  }
+
+  /// Goes on with the subproblems until none is left. \return levels
+  std::size_t solveAll ()
+  {
+    std::size_t levels = 0;
+    while (!waiting_.empty ()) {
+      Subproblem subproblem = std::move (waiting_.back ());
+      waiting_.pop_back ();
+      levels = std::max (levels, subproblem.level);
+      const std::vector<CollapsedRegion> regions = findCollapsedRegions (
+          subproblem.mesh, subproblem.uv, subproblem.positions, subproblem.loop);
+      cut (std::move (subproblem.mesh.triangles), &subproblem.points, regions, subproblem.level);
+    }
+    return levels;
+  }
+
+  std::vector<Triangle> takeTriangles () { return std::move (triangles_); }
+
+private:
+  static Subproblem makePiece (const CollapsedRegion& region, const std::vector<Index>* points)
+  {
+    Subproblem subproblem;
+    const auto name = [points] (Index p) { return points == nullptr ? p : (*points)[p]; };
+    for (const std::vector<Index>* part : {&region.loop, &region.interior})
+      for (const Index p : *part)
+        subproblem.points.push_back (name (p));
+    std::sort (subproblem.points.begin (), subproblem.points.end ());
+    for (const Index p : region.loop)
+      subproblem.loop.push_back (static_cast<Index> (
+          std::lower_bound (subproblem.points.begin (), subproblem.points.end (), name (p)) -
+          subproblem.points.begin ()));
+    return subproblem;
+  }
+
+  // Stars among the subproblem's own points: beyond the rim there is nothing to hang on.
+  CsrLists nearWithin (const Subproblem& subproblem)
+  {
+    for (std::size_t i = 0; i < subproblem.points.size (); ++i)
+      place_[subproblem.points[i]] = static_cast<Index> (i);
+    CsrLists nearest;
+    nearest.offsets.push_back (0);
+    for (const Index p : subproblem.points) {
+      for (const Index q : nearest_.row (p))
+        if (place_[q] != NONE)
+          nearest.ids.push_back (place_[q]);
+      nearest.offsets.push_back (static_cast<Index> (nearest.ids.size ()));
+    }
+    for (const Index p : subproblem.points)
+      place_[p] = NONE;
+    return nearest;
+  }
+
+  bool solvePiece (Subproblem& subproblem)
+  {
+    const CsrLists nearest = nearWithin (subproblem);
+    std::vector<Eigen::Vector3f> normals;
+    for (const Index p : subproblem.points) {
+      subproblem.positions.push_back (positions_[p]);
+      normals.push_back (normals_[p]);
+    }
+    Parameterization parameterization =
+        parameterize (subproblem.positions, nearest,
+                      makeStars (subproblem.positions, nearest, normals, star_settings_, run_),
+                      subproblem.loop, settings_, run_);
+    if (parameterization.problem)
+      return false;
+    subproblem.uv = std::move (parameterization.uv);
+    subproblem.mesh = triangulatePlane (subproblem.uv, subproblem.loop);
+    return fillsLoop (subproblem.mesh, subproblem.loop);
+  }
+
+  const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& nearest_;
+  const std::vector<Eigen::Vector3f>& normals_;
+  StarSettings star_settings_;
+  ParameterizationSettings settings_;
+  RunContext run_;
+  std::vector<Index> place_; // in the subproblem at hand, of each point of the whole cloud
+  std::vector<Subproblem> waiting_;
+  std::vector<Triangle> triangles_;
+};
+
+} // namespace
+
+std::size_t
+layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
+                        const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
+                        const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& loop,
+                        const StarSettings& star_settings, const ParameterizationSettings& settings,
+                        const RunContext& run)
+{
+  const std::vector<CollapsedRegion> regions = findCollapsedRegions (mesh, uv, positions, loop);
+  if (regions.empty ())
+    return 0;
+  Recursion recursion (positions, nearest, normals, star_settings, settings, run);
+  recursion.cut (mesh.triangles, nullptr, regions, 0);
+  const std::size_t levels = recursion.solveAll ();
+  TriangleMesh whole;
+  whole.triangles = recursion.takeTriangles ();
+  if (levels == 0 || !whole.connect (positions.size (), run))
+    return 0;
+  mesh = std::move (whole);
+  return levels;
+}
+
+} // namespace floater
+} // namespace pcl

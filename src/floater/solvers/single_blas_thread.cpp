@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/solvers/single_blas_thread.h"
+
+#include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <mutex>
+#include <new>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+struct OpenBlas
+{
+  using Get = int (*) ();
+  using Set = void (*) (int);
+  Get get = reinterpret_cast<Get> (dlsym (RTLD_DEFAULT, "openblas_get_num_threads"));
+  Set set = reinterpret_cast<Set> (dlsym (RTLD_DEFAULT, "openblas_set_num_threads"));
+  std::mutex mutex;
+  int users = 0;
+  int threads = 1; // before the first user
+
+  void change (int from, int to) const
+  {
+    if (set != nullptr && from != to)
+      set (to);
+  }
+};
+
+OpenBlas&
+openBlas ()
+{
+  static OpenBlas instance;
+  return instance;
+}
+
+// OpenBLAS maps a work buffer at its first use, and tries for ever if there is no room for it.
+bool
+hasRoomForBuffer ()
+{
+  constexpr std::size_t BUFFER_BYTES = std::size_t{128} << 20; // of OpenBLAS 0.3 on x86-64
+  void* const room = mmap (nullptr, BUFFER_BYTES, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  return room != MAP_FAILED && munmap (room, BUFFER_BYTES) == 0;
+}
+
+} // namespace
+
+SingleBlasThread::SingleBlasThread ()
+{
+  OpenBlas& blas = openBlas ();
+  if (blas.set != nullptr && !hasRoomForBuffer ())
+    throw std::bad_alloc ();
+  const std::lock_guard<std::mutex> lock (blas.mutex);
+  if (blas.users++ > 0)
+    return;
+  blas.threads = blas.get != nullptr ? blas.get () : 1;
+  blas.change (blas.threads, 1);
+}
+
+SingleBlasThread::~SingleBlasThread ()
+{
+  OpenBlas& blas = openBlas ();
+  const std::lock_guard<std::mutex> lock (blas.mutex);
+  if (--blas.users == 0)
+    blas.change (1, blas.threads);
+}
+
+} // namespace floater
+} // namespace pcl

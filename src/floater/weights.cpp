@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/weights.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// tan (alpha / 2) of a sector that is a half turn, or nearly: the centre lies on the segment
+// between two neighbours, whose weights then outdo the others without limit. Any large value
+// reproduces the centre to its reciprocal; a larger one would uncouple the two from the rest.
+constexpr double LARGEST_TANGENT = 1e8;
+
+// Sine and half tangent below which two neighbours are in one direction, or in opposite ones.
+constexpr double SAME_DIRECTION = 1e-9;
+
+// One star, copied next to each other; capacity is kept from star to star.
+struct LocalStar
+{
+  std::vector<Eigen::Vector2d> directions; // unit vectors
+  std::vector<double> lengths;             // relative to the longest, at least SMALLEST_WEIGHT
+  bool closed = false;
+
+  std::size_t size () const { return directions.size (); }
+  std::size_t next (std::size_t i) const { return i + 1 == size () ? 0 : i + 1; }
+  // Twice the area of the triangle of the centre and two neighbours.
+  double area (std::size_t i, std::size_t j) const
+  {
+    return lengths[i] * lengths[j] * cross (directions[i], directions[j]);
+  }
+
+  // False if the star has no extent.
+  bool assign (const Eigen::Vector2d* offsets, std::size_t count, bool is_closed)
+  {
+    closed = is_closed;
+    directions.resize (count);
+    lengths.resize (count);
+    double longest = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      lengths[i] = offsets[i].norm ();
+      longest = std::max (longest, lengths[i]);
+    }
+    if (!(longest > 0.0) || !std::isfinite (longest))
+      return false;
+    for (std::size_t i = 0; i < count; ++i) {
+      directions[i] =
+          lengths[i] > 0.0 ? Eigen::Vector2d (offsets[i] / lengths[i]) : Eigen::Vector2d::Zero ();
+      lengths[i] = std::max (lengths[i] / longest, SMALLEST_WEIGHT);
+    }
+    return true;
+  }
+};
+
+// Equation (3) without its loss of digits: tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin,
+// each where it does not cancel. The absolute value is there for sectors next to 0 or pi, whose
+// cross product may round to the wrong side.
+double
+halfTangent (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  const double sine = std::abs (cross (a, b));
+  const double cosine = a.dot (b);
+  if (cosine >= 0.0)
+    return sine / (1.0 + cosine);
+  return 1.0 - cosine < LARGEST_TANGENT * sine ? (1.0 - cosine) / sine : LARGEST_TANGENT;
+}
+
+void
+inverseDistance (const LocalStar& star, double* weights)
+{
+  for (std::size_t i = 0; i < star.size (); ++i)
+    weights[i] = 1.0 / star.lengths[i];
+}
+
+// Gives the mean to each of several neighbours in one direction. Their sum is what reproduces the
+// centre; by rounding alone it would fall to some of them, and the others be cut off.
+void
+shareInDirections (const LocalStar& star, double* weights)
+{
+  const std::size_t count = star.size ();
+  const auto same = [&star] (std::size_t i, std::size_t j) {
+    return halfTangent (star.directions[i], star.directions[j]) < SAME_DIRECTION;
+  };
+  std::size_t start = 0; // the first of its direction
+  while (start < count && same (start == 0 ? count - 1 : start - 1, start))
+    ++start;
+  for (std::size_t step = 0; step < count;) {
+    const std::size_t first = start + step;
+    std::size_t length = 1;
+    double sum = weights[first % count];
+    while (step + length < count && same ((first + length - 1) % count, (first + length) % count))
+      sum += weights[(first + length++) % count];
+    for (std::size_t i = 0; i < length; ++i)
+      weights[(first + i) % count] = sum / static_cast<double> (length);
+    step += length;
+  }
+}
+
+// Equation (2).
+void
+meanValue (const LocalStar& star, double* weights)
+{
+  const std::size_t count = star.size ();
+  std::fill (weights, weights + count, 0.0);
+  bool shared_direction = false;
+  for (std::size_t i = 0; i < (star.closed ? count : count - 1); ++i) {
+    const std::size_t j = star.next (i);
+    const double tangent = halfTangent (star.directions[i], star.directions[j]);
+    shared_direction = shared_direction || tangent < SAME_DIRECTION;
+    weights[i] += tangent;
+    weights[j] += tangent;
+  }
+  if (shared_direction)
+    shareInDirections (star, weights);
+  for (std::size_t i = 0; i < count; ++i)
+    weights[i] /= star.lengths[i];
+}
+
+bool
+isOpposite (const LocalStar& star, std::size_t i, std::size_t j)
+{
+  return star.directions[i].dot (star.directions[j]) < 0.0 &&
+         std::abs (cross (star.directions[i], star.directions[j])) < SAME_DIRECTION;
+}
+
+// Floater 1997, section 6: the ray from each neighbour through the centre leaves the star by an
+// edge; the weights are the mean over the neighbours of the centre's barycentric coordinates in
+// these triangles. Neighbours go round once while the edge opposite to them does, so this is
+// linear.
+void
+shapePreserving (const LocalStar& star, double* weights)
+{
+  const std::size_t count = star.size ();
+  std::fill (weights, weights + count, 0.0);
+  const auto behind = [&] (std::size_t i, std::size_t j) {
+    // True if j is not yet across the line through i and the centre.
+    const double sine = cross (star.directions[i], star.directions[j]);
+    return sine > 0.0 ||
+           (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);
+  };
+  // The opposite edge ends this many neighbours after i. Never at the next one: where that is
+  // exactly opposite, the triangle with the one after it gives the same coordinates and has an
+  // area.
+  std::size_t steps = 2;
+  for (std::size_t i = 0; i < count; ++i) {
+    steps = std::max<std::size_t> (steps, 3) - 1;
+    while (steps + 1 < count && behind (i, (i + steps) % count))
+      ++steps;
+    const std::size_t last = (i + steps) % count;
+    const std::size_t first = last == 0 ? count - 1 : last - 1;
+    // Where an end of the edge is exactly opposite, that edge may have no extent seen from the
+    // centre: its ends are in one direction.
+    const std::size_t across = isOpposite (star, i, last) ? last : first;
+    if (across != i && isOpposite (star, i, across)) {
+      const double whole = star.lengths[i] + star.lengths[across];
+      weights[i] += star.lengths[across] / whole;
+      weights[across] += star.lengths[i] / whole;
+      continue;
+    }
+    const double at_i = std::max (0.0, star.area (first, last));
+    const double at_first = std::max (0.0, star.area (last, i));
+    const double at_last = std::max (0.0, star.area (i, first));
+    const double sum = at_i + at_first + at_last;
+    if (!(sum > 0.0))
+      continue; // no area: all three on one line through the centre
+    weights[i] += at_i / sum;
+    weights[first] += at_first / sum;
+    weights[last] += at_last / sum;
+  }
+}
+
+// Positive, with sum 1.
+void
+normalize (double* weights, std::size_t count)
+{
+  const double largest = *std::max_element (weights, weights + count);
+  if (!(largest > 0.0)) {
+    std::fill (weights, weights + count, 1.0 / static_cast<double> (count));
+    return;
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    weights[i] = std::max (weights[i] / largest, SMALLEST_WEIGHT);
+    sum += weights[i];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    weights[i] /= sum;
+}
+
+void
+weighStar (const LocalStar& star, Weighting weighting, double* weights)
+{
+  switch (weighting) {
+  case Weighting::UNIFORM:
+    std::fill (weights, weights + star.size (), 1.0);
+    break;
+  case Weighting::INVERSE_DISTANCE:
+    inverseDistance (star, weights);
+    break;
+  case Weighting::SHAPE_PRESERVING:
+    if (star.closed && star.size () >= 3) {
+      shapePreserving (star, weights);
+      break;
+    }
+    meanValue (star, weights);
+    break;
+  case Weighting::MEAN_VALUE:
+    meanValue (star, weights);
+    break;
+  }
+  normalize (weights, star.size ());
+}
+
+} // namespace
+
+std::vector<double>
+computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)
+{
+  std::vector<double> weights (stars.neighbors.ids.size ());
+  parallelRanges (run, stars.neighbors.rows (), [&] (std::size_t begin, std::size_t end) {
+    LocalStar star;
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::size_t first = stars.neighbors.offsets[p];
+      const std::size_t count = stars.neighbors.offsets[p + 1] - first;
+      if (count == 0)
+        continue;
+      double* row = weights.data () + first;
+      if (star.assign (stars.offsets_in_plane.data () + first, count, stars.open[p] == 0))
+        weighStar (star, weighting, row);
+      else
+        std::fill (row, row + count, 1.0 / static_cast<double> (count));
+    }
+  });
+  return weights;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "local/planar_star.h"
+
+#include "core/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Relative to the lengths involved: below it, a cross product of neighbours reads as zero, so that
+// rounding on grids does not open a star or turn a straight line into a corner.
+constexpr double COLLINEAR = 1e-9;
+
+// Increases with the angle of v, from 0 to 4.
+double
+pseudoAngle (const Eigen::Vector2d& v)
+{
+  const double t = v.y () / (std::abs (v.x ()) + std::abs (v.y ()));
+  if (v.x () < 0.0)
+    return 2.0 - t;
+  return v.y () < 0.0 ? 4.0 + t : t;
+}
+
+// True if a cross product is as good as zero by the lengths of its factors, or negative. Compared
+// by squares: roots take longer than all the rest.
+bool
+isAtMostCollinear (double cross_product, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return cross_product <= 0.0 || cross_product * cross_product <=
+                                     COLLINEAR * COLLINEAR * a.squaredNorm () * b.squaredNorm ();
+}
+
+bool
+sameDirection (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return a.dot (b) > 0.0 && isAtMostCollinear (std::abs (cross (a, b)), a, b);
+}
+
+// Half a turn or more from a to b, anti-clockwise. Neighbours in one direction do not come here.
+bool
+spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return isAtMostCollinear (cross (a, b), a, b);
+}
+
+// True if b lies strictly outside the segment from a to c, walking anti-clockwise around the
+// origin. Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close
+// neighbour.
+bool
+isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+{
+  const Eigen::Vector2d ab = b - a;
+  const Eigen::Vector2d bc = c - b;
+  const double turn = cross (ab, bc);
+  return ab.dot (bc) > 0.0 ? !isAtMostCollinear (turn, ab, bc) : turn > 0.0;
+}
+
+void
+sortByAngle (std::vector<PlanarNeighbor>& neighbors)
+{
+  for (PlanarNeighbor& neighbor : neighbors)
+    neighbor.angle = pseudoAngle (neighbor.offset);
+  std::sort (neighbors.begin (), neighbors.end (),
+             [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
+               return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
+             });
+}
+
+} // namespace
+
+void
+PlanarStar::keepNearest (const std::vector<PlanarNeighbor>& sorted)
+{
+  hull_.clear ();
+  for (const PlanarNeighbor& neighbor : sorted) {
+    if (hull_.empty () || !sameDirection (hull_.back ().offset, neighbor.offset))
+      hull_.push_back (neighbor);
+    else if (neighbor.offset.squaredNorm () < hull_.back ().offset.squaredNorm ())
+      hull_.back () = neighbor;
+  }
+  while (hull_.size () > 1 && sameDirection (hull_.back ().offset, hull_.front ().offset)) {
+    if (hull_.back ().offset.squaredNorm () < hull_.front ().offset.squaredNorm ())
+      hull_.front () = hull_.back ();
+    hull_.pop_back ();
+  }
+}
+
+bool
+PlanarStar::beginAfterGap ()
+{
+  const std::size_t count = hull_.size ();
+  std::size_t gap = count;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector2d& a = hull_[i].offset;
+    if (count < 2 || spansHalfTurn (a, hull_[i + 1 == count ? 0 : i + 1].offset))
+      gap = i;
+    if (a.squaredNorm () < hull_[nearest].offset.squaredNorm ())
+      nearest = i;
+  }
+  is_open_ = gap < count || count < 3;
+  const std::size_t begin = is_open_ ? (gap + 1 < count ? gap + 1 : (gap + 1) - count) : nearest;
+  if (count > 0)
+    std::rotate (hull_.begin (), hull_.begin () + static_cast<std::ptrdiff_t> (begin),
+                 hull_.end ());
+  return is_open_;
+}
+
+double
+PlanarStar::openingAngle () const
+{
+  constexpr double TWO_PI = 6.283185307179586;
+  const auto cosine = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::clamp (a.dot (b) / std::sqrt (a.squaredNorm () * b.squaredNorm ()), -1.0, 1.0);
+  };
+  if (hull_.size () < 2)
+    return TWO_PI;
+  const Eigen::Vector2d &first = hull_.front ().offset, &last = hull_.back ().offset;
+  double smallest = cosine (last, first);
+  if (is_open_ && spansHalfTurn (last, first))
+    return TWO_PI - std::acos (smallest);
+  for (std::size_t i = 1; i < hull_.size (); ++i)
+    smallest = std::min (smallest, cosine (hull_[i - 1].offset, hull_[i].offset));
+  return std::acos (smallest);
+}
+
+bool
+PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
+{
+  sortByAngle (neighbors);
+
+  // Of several neighbours in one direction only the nearest can be in the star.
+  keepNearest (neighbors);
+  // A closed star begins at its nearest neighbour, which is farthest when inverted and so a hull
+  // vertex.
+  const bool open = beginAfterGap ();
+
+  // Graham scan in angular order. A closed star is scanned back to its first neighbour; the ends of
+  // an open one are hull vertices.
+  inverted_.clear ();
+  neighbors.clear ();
+  const std::size_t count = hull_.size ();
+  const std::size_t steps = open ? count : count + 1;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const bool closing = i == count;
+    const Eigen::Vector2d next =
+        closing ? inverted_.front ()
+                : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
+    while (inverted_.size () >= 2 &&
+           !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
+      inverted_.pop_back ();
+      neighbors.pop_back ();
+    }
+    if (!closing) {
+      inverted_.push_back (next);
+      neighbors.push_back (hull_[i]);
+    }
+  }
+  return open;
+}
+
+bool
+PlanarStar::order (std::vector<PlanarNeighbor>& neighbors)
+{
+  sortByAngle (neighbors);
+  keepNearest (neighbors); // gaps are between directions
+  const bool open = beginAfterGap ();
+  // Those in the first direction may lie at both ends of the list: at angles of 0 and 2 pi.
+  const auto is_first = [this] (const PlanarNeighbor& neighbor) {
+    return sameDirection (hull_.front ().offset, neighbor.offset);
+  };
+  auto begin = std::find_if (neighbors.begin (), neighbors.end (), is_first);
+  if (begin == neighbors.begin ()) {
+    const auto last = std::find_if_not (neighbors.rbegin (), neighbors.rend (), is_first).base ();
+    if (last != neighbors.begin ())
+      begin = last;
+  }
+  std::rotate (neighbors.begin (), begin, neighbors.end ());
+  return open;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Delaunay star of the origin among points in the plane.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// A neighbour in the tangent plane, relative to the centre of the star.
+struct PlanarNeighbor
+{
+  Eigen::Vector2d offset;
+  Index point;
+  double angle = 0.0; ///< set by PlanarStar: grows with the angle of the offset, from 0 to 4
+};
+
+/// Turns neighbours into the Delaunay star of the origin, anti-clockwise. O(k log k).
+///
+/// The neighbours of the origin in the Delaunay triangulation are the vertices of the convex hull
+/// of the inverted points q / |q|^2 and the origin: inversion turns an empty circle through the
+/// origin into a line with all points on the origin's side. A neighbour behind another in the same
+/// direction, or on the segment between two hull vertices (four points on a circle), is dropped.
+class PlanarStar
+{
+public:
+  /// \param neighbors in: any order, none on the origin; out: those of the star, in order
+  /// \return true if the star is open: from the last neighbour to the first it is half a turn or
+  ///         more, or there are fewer than three neighbours
+  bool make (std::vector<PlanarNeighbor>& neighbors);
+
+  /// Puts all neighbours in anti-clockwise order; an open star begins after its gap. O(k log k).
+  /// \return true if the star is open, as for make ()
+  bool order (std::vector<PlanarNeighbor>& neighbors);
+
+  /// Widest sector, radians, without any of the neighbours given to make () or order ().
+  double openingAngle () const;
+
+private:
+  // The nearest neighbour in each direction, in anti-clockwise order, into hull_.
+  void keepNearest (const std::vector<PlanarNeighbor>& sorted);
+
+  // Rotates hull_ to begin after the gap, or at the nearest if there is none. Returns true if the
+  // star is open.
+  bool beginAfterGap ();
+
+  std::vector<PlanarNeighbor> hull_;
+  std::vector<Eigen::Vector2d> inverted_;
+  bool is_open_ = true;
+};
+
+} // namespace floater
+} // namespace pcl

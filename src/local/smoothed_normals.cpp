@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "local/smoothed_normals.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double PERPENDICULAR = 0.1; // cosine below which it does not tell the side
+constexpr double CREASE = 0.9;        // cosine between own and mean normal
+} // namespace
+
+Eigen::Vector3d
+meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Eigen::Vector3f>& normals, Index p)
+{
+  const Eigen::Vector3d normal = normals[p].cast<double> ();
+  Eigen::Vector3d sum = normal;
+  const Row row = neighbors.row (p);
+  for (std::size_t i = 0; i < std::min (MEAN_OVER, row.size ()); ++i) {
+    const Eigen::Vector3d other = normals[row[i]].cast<double> ();
+    double same = normal.dot (other);
+    if (std::abs (same) < PERPENDICULAR) {
+      // Two faces at a right angle: each bends away from the other's normal, or both towards it.
+      const Eigen::Vector3d step = positions[row[i]] - positions[p];
+      same = -step.dot (normal) * step.dot (other);
+    }
+    sum += same < 0.0 ? Eigen::Vector3d (-other) : other;
+  }
+  const double length = sum.norm ();
+  return length > 0.0 ? Eigen::Vector3d (sum / length) : normal;
+}
+
+std::vector<Eigen::Vector3f>
+smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                 const std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+{
+  std::vector<Eigen::Vector3f> smoothed_normals (normals.size ());
+  parallelRanges (run, normals.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t point = first; point < last; ++point) {
+      const auto p = static_cast<Index> (point);
+      const Eigen::Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();
+      smoothed_normals[p] = std::abs (mean.dot (normals[p])) < CREASE ? mean : normals[p];
+    }
+  });
+  return smoothed_normals;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Distance scale of the sampling.
+#pragma once
+
+#include "core/csr_lists.h"
+#include "core/run_context.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
+/// triangulation that is the length of an edge. O(n). \param neighbors nearest first
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

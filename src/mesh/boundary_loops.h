@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Boundary loops of a mesh.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// A closed walk along boundary edges.
+struct BoundaryLoop
+{
+  std::vector<Index> points; ///< in order, the surface on the left, from the smallest point on
+  Index component = 0;       ///< of the mesh (see findComponents)
+  double length = 0.0;       ///< in the unit of the positions
+  double width = 0.0;        ///< largest distance between two of its points, same unit
+  double spacing = 0.0;      ///< mean local spacing of its points, same unit
+  bool keep_open = false;    ///< as a boundary of the surface
+};
+
+/// Sets length, width and spacing from the points. The width of a loop of up to 256 points is
+/// exact. A longer one is measured between 256 of its points, evenly taken, and so falls short by
+/// two of these steps at most. O(points).
+void
+measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
+             const std::vector<float>& spacing);
+
+/// All boundary loops of a mesh, measured, in the order of boundaryLoops ().
+std::vector<BoundaryLoop>
+findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
+                   const std::vector<Eigen::Vector3d>& positions,
+                   const std::vector<float>& spacing);
+
+} // namespace floater
+} // namespace pcl

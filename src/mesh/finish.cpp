@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/finish.h"
+
+#include "mesh/facing.h"
+#include "mesh/flips.h"
+#include "mesh/fold_repair.h"
+#include "mesh/insertion.h"
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Shares of the time of the stage that are behind then, on clean clouds.
+constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
+} // namespace
+
+MeshFinish
+finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
+{
+  MeshFinish finish;
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  orientNormals (mesh, positions, normals, run);
+  const TriangleCost cost (positions, normals, &geometry.spacing);
+  run.beginStep (AFTER_INSERTION);
+  insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
+  run.beginStep (AFTER_FLIPS);
+  if (settings.flip_edges)
+    finish.flips = flipEdges (mesh, cost, run);
+  finish.folds = finish.folds_after_flips = findFolds (mesh, positions, run).size ();
+  const double edges = 1.5 * static_cast<double> (mesh.triangles.size ());
+  finish.is_repairable = !settings.flip_edges ||
+                         static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
+  if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
+    // Flips have turned triangles round, so that some normals may have the wrong sign.
+    orientNormals (mesh, positions, normals, run);
+    moveVertices (mesh, geometry.neighbors, cost, positions, run);
+    finish.folds = findFolds (mesh, positions, run).size ();
+  }
+  finish.turned = faceOutwards (mesh, positions);
+  return finish;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/flips.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double IMPROVES =
+    1e-9; // relative gain below which the diagonals of a quad count as equal
+constexpr std::size_t EDGES_PER_LOOK = 256;
+
+} // namespace
+
+void
+orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+{
+  std::vector<Eigen::Vector3f> area (normals.size (), Eigen::Vector3f::Zero ());
+  ProgressLoop progress (run);
+  for (const Triangle& t : mesh.triangles) {
+    progress.next ();
+    const Eigen::Vector3f area_vector = (positions[t[1]] - positions[t[0]])
+                                            .cross (positions[t[2]] - positions[t[0]])
+                                            .cast<float> ();
+    for (Index p : t)
+      area[p] += area_vector;
+  }
+  for (std::size_t p = 0; p < normals.size (); ++p)
+    if (normals[p].dot (area[p]) < 0.0F)
+      normals[p] = -normals[p];
+}
+
+double
+meshCost (const TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
+{
+  CachedCost cached (cost);
+  double sum = 0.0;
+  ProgressLoop progress (run, mesh.triangles.size ());
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
+    const TriangleCost::Value value = cached (mesh.triangles[t]);
+    sum += value.cost;
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
+        sum += TriangleCost::ofFold (value.unit_normal, normalBehind (mesh, cached, {t, side}));
+  }
+  return sum;
+}
+
+double
+splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double limit)
+{
+  const auto [a, b, c] = mesh.triangles[t];
+  const TriangleCost::Value whole = cost (a, b, c);
+  double added = -whole.cost;
+  std::array<Eigen::Vector3d, 3> behind;
+  for (std::uint8_t side = 0; side < 3; ++side) {
+    behind[side] = normalBehind (mesh, cost, {t, side});
+    added -= TriangleCost::ofFold (whole.unit_normal, behind[side]);
+  }
+  // All that follows adds.
+  const std::array<Triangle, 3> corners{{{p, b, c}, {p, c, a}, {p, a, b}}};
+  std::array<Eigen::Vector3d, 3> part;
+  for (std::uint8_t side = 0; side < 3; ++side) {
+    const TriangleCost::Value& value = cost (corners[side]);
+    part[side] = value.unit_normal;
+    added += value.cost;
+    if (added > limit)
+      return added;
+  }
+  for (std::uint8_t side = 0; side < 3; ++side)
+    added += TriangleCost::ofFold (part[side], part[TriangleMesh::next (side)]) +
+             TriangleCost::ofFold (part[side], behind[side]);
+  return added;
+}
+
+double
+EdgeFlipper::run ()
+{
+  double change = 0.0;
+  const std::size_t pushed = stack_.size ();
+  ProgressLoop progress (run_, pushed);
+  while (!stack_.empty ()) {
+    if (stack_.size () % EDGES_PER_LOOK == 0)
+      progress.reach (pushed - std::min (pushed, stack_.size ()));
+    const MeshEdge e = stack_.back ();
+    stack_.pop_back ();
+    const double gained = gain (e);
+    if (gained >= 0.0)
+      continue;
+    const MeshEdge m = mesh_.mate (e);
+    mesh_.flip (e);
+    ++flips_;
+    change += gained;
+    for (const Index t : {e.triangle, m.triangle})
+      for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
+        if (mesh_.neighbors[t][side] != NONE)
+          stack_.push_back ({t, side});
+  }
+  return change;
+}
+
+double
+EdgeFlipper::gain (MeshEdge e) const
+{
+  const MeshEdge m = mesh_.mate (e);
+  if (m.triangle == NONE)
+    return 0.0;
+  const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
+  const TriangleCost::Value now_cab = cost_ (c, a, b), now_dba = cost_ (d, b, a);
+  const TriangleCost::Value then_cad = cost_ (c, a, d), then_dbc = cost_ (d, b, c);
+  const double now = now_cab.cost + now_dba.cost;
+  const double then = then_cad.cost + then_dbc.cost;
+  if (then >= now && now_cab.unit_normal.dot (now_dba.unit_normal) >= 0.0)
+    return 0.0;
+  // What is behind the other edges of the two triangles: at bc, ca, ad, db.
+  const auto behind = [this] (Index t, std::uint8_t side) {
+    return normalBehind (mesh_, cost_, {t, side});
+  };
+  const Eigen::Vector3d at_bc = behind (e.triangle, TriangleMesh::next (e.side));
+  const Eigen::Vector3d at_ca = behind (e.triangle, TriangleMesh::previous (e.side));
+  const Eigen::Vector3d at_ad = behind (m.triangle, TriangleMesh::next (m.side));
+  const Eigen::Vector3d at_db = behind (m.triangle, TriangleMesh::previous (m.side));
+  const auto fold = TriangleCost::ofFold;
+  const double total = now + fold (now_cab.unit_normal, now_dba.unit_normal) +
+                       fold (at_bc, now_cab.unit_normal) + fold (at_ca, now_cab.unit_normal) +
+                       fold (at_ad, now_dba.unit_normal) + fold (at_db, now_dba.unit_normal);
+  const double total_then = then + fold (then_cad.unit_normal, then_dbc.unit_normal) +
+                            fold (at_bc, then_dbc.unit_normal) +
+                            fold (at_ca, then_cad.unit_normal) +
+                            fold (at_ad, then_cad.unit_normal) + fold (at_db, then_dbc.unit_normal);
+  if (total_then >= total - IMPROVES * std::abs (total) || mesh_.hasEdge (c, d))
+    return 0.0;
+  return total_then - total;
+}
+
+std::size_t
+flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
+{
+  CachedCost cached (cost);
+  EdgeFlipper flipper (mesh, cached, run);
+  for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
+        flipper.push ({t, side});
+  flipper.run ();
+  return flipper.flips ();
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fold_repair.h"
+
+#include "core/geometry.h"
+#include "mesh/vertex_mover.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr int PASSES = 12;
+constexpr std::size_t PLACES = 4;  // cheapest triangles into which a vertex is tried
+constexpr std::uint8_t KICKS = 16; // places to which a vertex of a fold is forced
+constexpr std::size_t PLACES_AFTER_KICK = 3;
+constexpr int PASSES_AFTER_KICK = 2;
+constexpr std::size_t POINTS_PER_KICK = 16;
+
+void
+makeSet (std::vector<Index>& list)
+{
+  std::sort (list.begin (), list.end ());
+  list.erase (std::unique (list.begin (), list.end ()), list.end ());
+}
+
+class FoldRepair
+{
+public:
+  FoldRepair (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
+              const RunContext& run)
+      : mesh_ (mesh), run_ (run), mover_ (mesh, neighbors, cost, run)
+  {
+  }
+
+  std::size_t moveAll ()
+  {
+    std::size_t moves = 0;
+    std::vector<Index> vertices = badVertices ();
+    for (int pass = 0; pass < PASSES && !vertices.empty (); ++pass) {
+      mover_.dirty ().clear ();
+      ProgressLoop progress (run_, vertices.size ());
+      for (Index v : vertices) {
+        progress.next ();
+        mover_.start ();
+        moves += mover_.move (v, PLACES) < 0.0 ? 1 : 0;
+      }
+      vertices.swap (mover_.dirty ());
+      makeSet (vertices);
+      vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
+                                      [this] (Index v) { return !isBad (v); }),
+                      vertices.end ());
+    }
+    return moves;
+  }
+
+  std::size_t kickAll (std::vector<Index> vertices)
+  {
+    std::size_t kept = 0;
+    next_rank_.assign (mesh_.triangle_of.size (), 0);
+    kicks_left_ = mesh_.triangle_of.size () / POINTS_PER_KICK + KICKS;
+    const std::size_t kicks = kicks_left_;
+    ProgressLoop progress (run_, kicks);
+    while (!vertices.empty ()) {
+      const std::size_t share = std::min<std::size_t> (KICKS, 1 + kicks_left_ / vertices.size ());
+      std::vector<Index> again;
+      for (Index v : vertices) {
+        progress.reach (kicks - kicks_left_);
+        if (!isAtFold (v))
+          continue;
+        if (kick (v, share)) {
+          ++kept;
+          forgetKicksAround (again);
+        }
+        else if (next_rank_[v] < KICKS)
+          again.push_back (v);
+        if (kicks_left_ == 0)
+          return kept;
+      }
+      makeSet (again);
+      vertices.swap (again);
+    }
+    return kept;
+  }
+
+private:
+  // True if a triangle is penalized or folded against a neighbour.
+  bool isBad (const Triangle& corners, Index t)
+  {
+    if (cost_.plain ().isTurned (corners))
+      return true;
+    const Eigen::Vector3d normal = cost_ (corners).unit_normal;
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (normal.dot (normalBehind (mesh_, cost_, {t, side})) < 0.0)
+        return true;
+    return false;
+  }
+
+  // True if that is so of a triangle around a vertex: others hardly ever gain by a move.
+  bool isBad (Index v)
+  {
+    mesh_.fan (v, fan_);
+    return std::any_of (fan_.begin (), fan_.end (),
+                        [this] (Index t) { return isBad (mesh_.triangles[t], t); });
+  }
+
+  std::vector<Index> badVertices ()
+  {
+    std::vector<Index> vertices;
+    ProgressLoop progress (run_);
+    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+      progress.next ();
+      const Triangle& corners = mesh_.triangles[t];
+      if (isBad (corners, t))
+        vertices.insert (vertices.end (), corners.begin (), corners.end ());
+    }
+    makeSet (vertices);
+    return vertices;
+  }
+
+  // True if an edge of the triangles around a vertex is folded.
+  bool isAtFold (Index v)
+  {
+    mesh_.fan (v, fan_);
+    for (Index t : fan_) {
+      const Eigen::Vector3d normal = cost_ (mesh_.triangles[t]).unit_normal;
+      for (Index u : mesh_.neighbors[t])
+        if (u != NONE && isFold (normal, cost_ (mesh_.triangles[u]).unit_normal))
+          return true;
+    }
+    return false;
+  }
+
+  // Kicks a vertex to its next places, until one gains. Several places may come to the same when
+  // edges have been flipped, or to where the vertex was; the neighbours tell.
+  bool kick (Index v, std::size_t times)
+  {
+    rings_.clear ();
+    noteRing (v);
+    while (times > 0 && kicks_left_ > 0 && next_rank_[v] < KICKS) {
+      mover_.start ();
+      mover_.dirty ().clear ();
+      double change = 0.0;
+      if (!mover_.moveTo (v, next_rank_[v]++, change)) {
+        next_rank_[v] = KICKS;
+        return false;
+      }
+      if (noteRing (v)) {
+        --times;
+        --kicks_left_;
+        if (change + moveAfterKick (change) < -VertexMover::IMPROVES)
+          return true;
+      }
+      mover_.undo ();
+    }
+    return false;
+  }
+
+  // Moves the vertices around after a kick. Returns the change of cost.
+  double moveAfterKick (double change_by_kick)
+  {
+    double change = 0.0;
+    for (int pass = 0; pass < PASSES_AFTER_KICK; ++pass) {
+      around_.swap (mover_.dirty ());
+      mover_.dirty ().clear ();
+      makeSet (around_);
+      for (Index w : around_) {
+        if (!isBad (w))
+          continue;
+        change += mover_.move (w, PLACES_AFTER_KICK);
+        if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
+          return change; // all is as it was
+      }
+    }
+    return change;
+  }
+
+  // Notes who the neighbours of a vertex are. False if they have been the same before.
+  bool noteRing (Index v)
+  {
+    mesh_.fan (v, fan_);
+    std::vector<Index> ring;
+    for (Index t : fan_)
+      ring.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
+    std::sort (ring.begin (), ring.end ());
+    if (std::find (rings_.begin (), rings_.end (), ring) != rings_.end ())
+      return false;
+    rings_.push_back (std::move (ring));
+    return true;
+  }
+
+  // After a kick that is kept: the corners of all changed triangles may be kicked anew.
+  void forgetKicksAround (std::vector<Index>& again)
+  {
+    changed_.clear ();
+    mover_.journal ().appendTriangles (changed_);
+    makeSet (changed_);
+    for (Index t : changed_)
+      for (Index p : mesh_.triangles[t]) {
+        next_rank_[p] = 0;
+        again.push_back (p);
+      }
+  }
+
+  TriangleMesh& mesh_;
+  RunContext run_;
+  VertexMover mover_;
+  CachedCost& cost_ = mover_.cost ();
+  std::vector<std::uint8_t> next_rank_; // per point: the place to which it is kicked next
+  std::size_t kicks_left_ = 0;
+  std::vector<std::vector<Index>> rings_;
+  std::vector<Index> fan_, around_, changed_;
+};
+
+} // namespace
+
+std::vector<MeshEdge>
+findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           const RunContext& run)
+{
+  const auto areaVectorOf = [&] (Index t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return areaVector (positions[a], positions[b], positions[c]);
+  };
+  std::vector<MeshEdge> folds;
+  ProgressLoop progress (run);
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index u = mesh.neighbors[t][side];
+      if (u != NONE && t < u && isFold (areaVectorOf (t), areaVectorOf (u)))
+        folds.push_back ({t, side});
+    }
+  }
+  return folds;
+}
+
+std::size_t
+moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
+              const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+{
+  FoldRepair repair (mesh, neighbors, cost, run);
+  const std::size_t moves = repair.moveAll ();
+  std::vector<Index> vertices;
+  for (const MeshEdge& fold : findFolds (mesh, positions, run))
+    for (Index p :
+         {mesh.corner (fold), mesh.from (fold), mesh.to (fold), mesh.corner (mesh.mate (fold))})
+      vertices.push_back (p);
+  makeSet (vertices);
+  return moves + repair.kickAll (std::move (vertices));
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/insertion.h"
+
+#include "core/run_context.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Inserts points one by one, always the one that fits best next.
+class PointInserter
+{
+public:
+  PointInserter (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost, bool flip,
+                 const RunContext& run)
+      : mesh_ (mesh), neighbors_ (neighbors), cost_ (cost), run_ (run), flipper_ (mesh, cost_, run),
+        flip_ (flip), queued_ (mesh.triangle_of.size (), 0)
+  {
+  }
+
+  std::size_t run ()
+  {
+    std::vector<Index> missing;
+    for (Index p = 0; p < mesh_.triangle_of.size (); ++p)
+      if (mesh_.triangle_of[p] == NONE)
+        missing.push_back (p);
+    if (missing.empty ())
+      return 0;
+    seen_.assign (mesh_.triangles.size () + 2 * missing.size (), 0); // each adds two triangles
+    findAwaiting (missing);
+    for (Index p : missing)
+      offer (p);
+    std::size_t inserted = 0;
+    ProgressLoop progress (run_, missing.size ());
+    while (!queue_.empty ()) {
+      const Place place = queue_.top ();
+      queue_.pop ();
+      if (mesh_.triangle_of[place.point] != NONE)
+        continue;
+      const Place now = cheapest (place.point);
+      if (now.triangle == NONE)
+        continue;
+      if (now.added > place.added && !queue_.empty () && now.added > queue_.top ().added) {
+        queue_.push (now); // the mesh has changed there: another one is better now
+        continue;
+      }
+      insert (now);
+      progress.reach (++inserted);
+    }
+    return inserted;
+  }
+
+private:
+  struct Place
+  {
+    double added;
+    Index point, triangle;
+
+    bool operator<(const Place& other) const // the cheapest on top of the queue
+    {
+      return std::tie (other.added, other.point) < std::tie (added, point);
+    }
+  };
+
+  // Which missing points have a missing point among their neighbours: they may get a place with it.
+  void findAwaiting (const std::vector<Index>& missing)
+  {
+    for (Index p : missing)
+      for (Index q : neighbors_.row (p))
+        if (mesh_.triangle_of[q] == NONE)
+          awaiting_.emplace_back (q, p);
+    std::sort (awaiting_.begin (), awaiting_.end ());
+  }
+
+  // Queues a point once it has a place; a better one is found when its turn comes.
+  void offer (Index p)
+  {
+    if (queued_[p] != 0)
+      return;
+    const Place place = cheapest (p);
+    if (place.triangle == NONE)
+      return;
+    queue_.push (place);
+    queued_[p] = 1;
+  }
+
+  // The triangle around p's neighbours whose split at p adds the least cost.
+  Place cheapest (Index p)
+  {
+    Place best{0.0, p, NONE};
+    ++search_;
+    for (Index q : neighbors_.row (p)) {
+      mesh_.fan (q, fan_);
+      for (Index t : fan_) {
+        if (seen_[t] == search_)
+          continue;
+        seen_[t] = search_;
+        const double limit =
+            best.triangle == NONE ? std::numeric_limits<double>::infinity () : best.added;
+        const double added = splitCost (mesh_, cost_, t, p, limit);
+        if (best.triangle == NONE || added < best.added)
+          best = {added, p, t};
+      }
+    }
+    return best;
+  }
+
+  void insert (const Place& place)
+  {
+    mesh_.split (place.triangle, place.point);
+    if (flip_) {
+      mesh_.fan (place.point, fan_);
+      for (Index t : fan_)
+        for (std::uint8_t side = 0; side < 3; ++side)
+          flipper_.push ({t, side});
+      flipper_.run ();
+    }
+    for (auto at = std::lower_bound (awaiting_.begin (), awaiting_.end (),
+                                     std::make_pair (place.point, Index{0}));
+         at != awaiting_.end () && at->first == place.point; ++at)
+      if (mesh_.triangle_of[at->second] == NONE)
+        offer (at->second);
+  }
+
+  TriangleMesh& mesh_;
+  const CsrLists& neighbors_;
+  CachedCost cost_;
+  RunContext run_;
+  EdgeFlipper flipper_;
+  bool flip_;
+  std::vector<std::pair<Index, Index>> awaiting_; // (missing point, one that has it as neighbour)
+  std::priority_queue<Place> queue_;
+  std::vector<std::uint8_t> queued_; // per point
+  std::vector<Index> seen_;          // per triangle: the search for a place that saw it last
+  Index search_ = 0;
+  std::vector<Index> fan_;
+};
+
+} // namespace
+
+std::size_t
+insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
+                     bool flip, const RunContext& run)
+{
+  return PointInserter (mesh, neighbors, cost, flip, run).run ();
+}
+
+void
+orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
+                      std::vector<Eigen::Vector3f>& normals)
+{
+  for (Index p = 0; p < normals.size (); ++p) {
+    if (mesh.triangle_of[p] != NONE)
+      continue;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+    for (Index q : neighbors.row (p))
+      if (mesh.triangle_of[q] != NONE)
+        sum += normals[q];
+    if (normals[p].dot (sum) < 0.0F)
+      normals[p] = -normals[p];
+  }
+}
+
+} // namespace floater
+} // namespace pcl

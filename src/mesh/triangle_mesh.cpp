@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/triangle_mesh.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace pcl
+{
+namespace floater
+{
+void
+TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
+{
+  fan_triangles.clear ();
+  const Index start = triangle_of[p];
+  if (start == NONE)
+    return;
+  // Clockwise to the boundary, or once around.
+  Index first = start;
+  while (true) {
+    const Index clockwise = neighbors[first][previous (sideOf (first, p))];
+    if (clockwise == NONE || clockwise == start)
+      break;
+    first = clockwise;
+  }
+  if (neighbors[first][previous (sideOf (first, p))] != NONE)
+    first = start; // closed
+  for (Index t = first; t != NONE;) {
+    fan_triangles.push_back (t);
+    t = neighbors[t][next (sideOf (t, p))];
+    if (t == first)
+      break;
+  }
+}
+
+bool
+TriangleMesh::hasEdge (Index p, Index q) const
+{
+  const Index start = triangle_of[p];
+  for (Index t = start; t != NONE;) {
+    if (triangles[t][0] == q || triangles[t][1] == q || triangles[t][2] == q)
+      return true;
+    t = neighbors[t][next (sideOf (t, p))];
+    if (t == start)
+      return false;
+  }
+  for (Index t = start; t != NONE; t = neighbors[t][previous (sideOf (t, p))])
+    if (triangles[t][0] == q || triangles[t][1] == q || triangles[t][2] == q)
+      return true;
+  return false;
+}
+
+void
+TriangleMesh::note (Index t)
+{
+  if (journal.is_recording_)
+    journal.entries_.push_back ({t, triangles[t], neighbors[t]});
+}
+
+void
+TriangleMesh::set (Index t, const Triangle& corners)
+{
+  note (t);
+  triangles[t] = corners;
+}
+
+void
+TriangleMesh::setTriangleOf (Index p, Index t)
+{
+  if (journal.is_recording_)
+    journal.entries_.push_back ({NONE, {}, {p, triangle_of[p], NONE}});
+  triangle_of[p] = t;
+}
+
+void
+TriangleMesh::recordChanges (bool is_on)
+{
+  journal.entries_.clear ();
+  journal.is_recording_ = is_on;
+}
+
+void
+TriangleMesh::undo (std::size_t mark)
+{
+  std::vector<MeshJournal::Entry>& entries = journal.entries_;
+  for (; entries.size () > mark; entries.pop_back ()) {
+    const MeshJournal::Entry& entry = entries.back ();
+    if (entry.triangle == NONE) {
+      triangle_of[entry.neighbors[0]] = entry.neighbors[1];
+      continue;
+    }
+    triangles[entry.triangle] = entry.corners;
+    neighbors[entry.triangle] = entry.neighbors;
+  }
+}
+
+void
+TriangleMesh::link (Index t, std::uint8_t side, MeshEdge other)
+{
+  neighbors[t][side] = other.triangle;
+  if (other.triangle == NONE)
+    return;
+  note (other.triangle);
+  neighbors[other.triangle][other.side] = t;
+}
+
+void
+TriangleMesh::flip (MeshEdge e)
+{
+  const MeshEdge m = mate (e);
+  const Index c = corner (e), a = from (e), b = to (e), d = corner (m);
+  const Index t = e.triangle, u = m.triangle;
+  const MeshEdge across_bc = mate ({t, next (e.side)});     // opposite to a
+  const MeshEdge across_ca = mate ({t, previous (e.side)}); // opposite to b
+  const MeshEdge across_ad = mate ({u, next (m.side)});     // opposite to b in the neighbour
+  const MeshEdge across_db = mate ({u, previous (m.side)}); // opposite to a in the neighbour
+  set (t, {c, a, d});
+  set (u, {d, b, c});
+  link (t, 0, across_ad);
+  link (t, 2, across_ca);
+  link (u, 0, across_bc);
+  link (u, 2, across_db);
+  neighbors[t][1] = u;
+  neighbors[u][1] = t;
+  setTriangleOf (a, t);
+  setTriangleOf (c, t);
+  setTriangleOf (b, u);
+  setTriangleOf (d, u);
+}
+
+void
+TriangleMesh::split (Index t, Index p)
+{
+  const auto u = static_cast<Index> (triangles.size ());
+  triangles.resize (u + 2U);
+  neighbors.resize (u + 2U, {NONE, NONE, NONE});
+  split (t, p, u, u + 1);
+}
+
+void
+TriangleMesh::split (Index t, Index p, Index u, Index v)
+{
+  const Triangle corners = triangles[t];
+  const MeshEdge across_1 = mate ({t, 1}); // c a
+  const MeshEdge across_2 = mate ({t, 2}); // a b
+  const Index across_0 = neighbors[t][0];
+  set (t, {p, corners[1], corners[2]});
+  set (u, {p, corners[2], corners[0]});
+  set (v, {p, corners[0], corners[1]});
+  neighbors[t] = {across_0, u, v};
+  neighbors[u] = {NONE, v, t};
+  neighbors[v] = {NONE, t, u};
+  link (u, 0, across_1);
+  link (v, 0, across_2);
+  setTriangleOf (p, t);
+  setTriangleOf (corners[0], u);
+}
+
+void
+TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
+                          const std::vector<Triangle>& filling)
+{
+  // What is behind each edge of the polygon: from the first point of the edge to its mate.
+  std::vector<std::pair<Triangle, MeshEdge>> behind;
+  for (Index t : fan_triangles) {
+    const MeshEdge e{t, sideOf (t, p)};
+    behind.push_back ({{from (e), to (e), NONE}, mate (e)});
+  }
+  for (std::size_t i = 0; i < filling.size (); ++i)
+    set (fan_triangles[i], filling[i]);
+  for (std::size_t i = 0; i < filling.size (); ++i)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const MeshEdge e{fan_triangles[i], side};
+      const Index a = from (e), b = to (e);
+      setTriangleOf (a, e.triangle);
+      MeshEdge other{NONE, 0};
+      for (const auto& [edge, mate_of_edge] : behind)
+        if (edge[0] == a && edge[1] == b)
+          other = mate_of_edge;
+      for (std::size_t j = 0; j < filling.size () && other.triangle == NONE; ++j)
+        for (std::uint8_t other_side = 0; other_side < 3; ++other_side)
+          if (from ({fan_triangles[j], other_side}) == b &&
+              to ({fan_triangles[j], other_side}) == a)
+            other = {fan_triangles[j], other_side};
+      link (e.triangle, side, other);
+    }
+  setTriangleOf (p, NONE);
+}
+
+bool
+TriangleMesh::connect (std::size_t points, const RunContext& run)
+{
+  // Directed edges bucketed by their first point.
+  triangle_of.assign (points, NONE);
+  neighbors.resize (triangles.size ());
+  std::vector<Index> offsets (points + 2, 0);
+  for (const Triangle& corners : triangles)
+    for (Index p : corners)
+      ++offsets[p + 2];
+  for (std::size_t p = 0; p < points; ++p)
+    offsets[p + 2] += offsets[p + 1];
+  std::vector<Index> leaving (3 * triangles.size ()); // 3 t + side
+  for (Index t = 0; t < triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index p = from ({t, side});
+      leaving[offsets[p + 1]++] = 3 * t + side; // moves every offset to its place
+      triangle_of[p] = t;
+    }
+  std::atomic<bool> is_manifold{true};
+  parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last && is_manifold; ++p)
+      if (!connectFrom (static_cast<Index> (p), offsets, leaving))
+        is_manifold = false;
+  });
+  if (!is_manifold)
+    return false;
+  parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
+    std::vector<Index> fan_triangles;
+    for (std::size_t p = first; p < last && is_manifold; ++p) {
+      fan (static_cast<Index> (p), fan_triangles);
+      if (fan_triangles.size () != offsets[p + 1] - offsets[p])
+        is_manifold = false; // more than one fan
+    }
+  });
+  return is_manifold;
+}
+
+bool
+TriangleMesh::connectFrom (Index p, const std::vector<Index>& offsets,
+                           const std::vector<Index>& leaving)
+{
+  const auto edge = [&leaving] (Index i) {
+    return MeshEdge{leaving[i] / 3, static_cast<std::uint8_t> (leaving[i] % 3)};
+  };
+  for (Index i = offsets[p]; i < offsets[p + 1]; ++i) {
+    const MeshEdge e = edge (i);
+    const Index q = to (e);
+    if (q == p)
+      return false;
+    for (Index j = i + 1; j < offsets[p + 1]; ++j)
+      if (to (edge (j)) == q)
+        return false; // the same directed edge twice
+    neighbors[e.triangle][e.side] = NONE;
+    for (Index j = offsets[q]; j < offsets[q + 1]; ++j)
+      if (to (edge (j)) == p)
+        neighbors[e.triangle][e.side] = edge (j).triangle;
+  }
+  return true;
+}
+
+std::vector<std::vector<Index>>
+boundaryLoops (const TriangleMesh& mesh)
+{
+  std::vector<Index> successor (mesh.triangle_of.size (), NONE);
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE)
+        successor[mesh.from ({t, side})] = mesh.to ({t, side});
+  std::vector<std::vector<Index>> loops;
+  for (Index start = 0; start < successor.size (); ++start) {
+    if (successor[start] == NONE)
+      continue;
+    std::vector<Index> loop;
+    for (Index p = start; successor[p] != NONE;) {
+      loop.push_back (p);
+      const Index q = successor[p];
+      successor[p] = NONE;
+      p = q;
+    }
+    loops.push_back (std::move (loop));
+  }
+  return loops;
+}
+
+MeshComponents
+findComponents (const TriangleMesh& mesh)
+{
+  MeshComponents components;
+  std::vector<Index>& component = components.of_triangle;
+  component.assign (mesh.triangles.size (), NONE);
+  std::vector<Index> front;
+  for (Index start = 0; start < component.size (); ++start) {
+    if (component[start] != NONE)
+      continue;
+    component[start] = components.count;
+    front.assign (1, start);
+    while (!front.empty ()) {
+      const Index t = front.back ();
+      front.pop_back ();
+      for (Index u : mesh.neighbors[t])
+        if (u != NONE && component[u] == NONE) {
+          component[u] = components.count;
+          front.push_back (u);
+        }
+    }
+    ++components.count;
+  }
+  return components;
+}
+
+std::vector<std::size_t>
+countPoints (const TriangleMesh& mesh, const MeshComponents& components)
+{
+  std::vector<std::size_t> points (components.count, 0);
+  for (Index t : mesh.triangle_of)
+    if (t != NONE)
+      ++points[components.of_triangle[t]];
+  return points;
+}
+
+} // namespace floater
+} // namespace pcl

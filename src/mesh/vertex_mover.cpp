@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/vertex_mover.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t LARGEST_FAN = 16; // vertices of more triangles are not moved
+
+} // namespace
+
+// Cost of some triangles and all their edges, those between two of them once.
+double
+VertexMover::costOf (const Index* first, const Index* last)
+{
+  double sum = 0.0;
+  for (const Index* t = first; t != last; ++t) {
+    const auto [normal, own_cost] = cost_ (mesh_.triangles[*t]);
+    sum += own_cost;
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh_.neighbors[*t][side];
+      if (other != NONE && (std::find (first, last, other) == last || *t < other))
+        sum += TriangleCost::ofFold (normal, normalBehind (mesh_, cost_, {*t, side}));
+    }
+  }
+  return sum;
+}
+
+// Takes the vertex out, if that can be done. Returns the change of cost.
+bool
+VertexMover::takeOut (Index v, double& change)
+{
+  mesh_.fan (v, fan_);
+  if (fan_.size () < 3 || fan_.size () > LARGEST_FAN)
+    return false;
+  const Index last = fan_.back ();
+  if (mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, v))] != fan_.front ())
+    return false; // at the boundary
+  polygon_.clear ();
+  for (Index t : fan_)
+    polygon_.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
+  filled_ = filling_.fill (
+      polygon_, [this] (Index p, Index q, Index r) { return cost_ (p, q, r).cost; },
+      [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); });
+  if (filled_.empty () || (filled_.size () == 1 && isTriangle (filled_.front ())))
+    return false;
+  slots_ = fan_;
+  change = -costOf (slots_.data (), slots_.data () + slots_.size ());
+  mesh_.replaceFan (v, slots_, filled_);
+  change += costOf (slots_.data (), slots_.data () + filled_.size ());
+  return true;
+}
+
+double
+VertexMover::move (Index v, std::size_t tried)
+{
+  const std::size_t before = mesh_.mark ();
+  double change = 0.0;
+  if (!takeOut (v, change))
+    return 0.0;
+  const std::size_t without = mesh_.mark ();
+  double best = -IMPROVES;
+  Index best_place = NONE;
+  for (const auto& [added, t] : places (v, tried)) {
+    const double total = change + added + settleAt (v, t);
+    mesh_.undo (without);
+    if (total < best) {
+      best = total;
+      best_place = t;
+    }
+  }
+  if (best_place == NONE) {
+    mesh_.undo (before);
+    return 0.0;
+  }
+  settleAt (v, best_place);
+  touch (v);
+  return best;
+}
+
+bool
+VertexMover::moveTo (Index v, std::size_t rank, double& change)
+{
+  const std::size_t before = mesh_.mark ();
+  if (!takeOut (v, change))
+    return false;
+  places (v, rank + 1);
+  if (rank >= places_.size ()) {
+    mesh_.undo (before);
+    return false;
+  }
+  change += places_[rank].first + settleAt (v, places_[rank].second);
+  touch (v);
+  return true;
+}
+
+// Notes the old and the new neighbours of a vertex that has been moved.
+void
+VertexMover::touch (Index v)
+{
+  dirty_.insert (dirty_.end (), polygon_.begin (), polygon_.end ());
+  mesh_.fan (v, fan_);
+  for (Index u : fan_)
+    dirty_.insert (dirty_.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
+}
+
+// Splits a triangle at a vertex, in the slots that its fan has left, and flips edges from there
+// and from the filling. Returns the change of cost by the flips.
+double
+VertexMover::settleAt (Index v, Index t)
+{
+  mesh_.split (t, v, slots_[slots_.size () - 2], slots_.back ());
+  mesh_.fan (v, fan_);
+  fan_.insert (fan_.end (), slots_.begin (), slots_.end () - 2);
+  for (Index u : fan_)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh_.neighbors[u][side];
+      if (other != NONE &&
+          (u < other || std::find (fan_.begin (), fan_.end (), other) == fan_.end ()))
+        flipper_.push ({u, side});
+    }
+  return flipper_.run ();
+}
+
+// True if the mesh has a triangle of these corners, the other way round: the tetrahedron's last.
+bool
+VertexMover::isTriangle (const Triangle& corners)
+{
+  std::vector<Index> around;
+  mesh_.fan (corners[0], around);
+  return std::any_of (around.begin (), around.end (), [&] (Index t) {
+    const Triangle& c = mesh_.triangles[t];
+    return std::find (c.begin (), c.end (), corners[1]) != c.end () &&
+           std::find (c.begin (), c.end (), corners[2]) != c.end ();
+  });
+}
+
+// The triangles in which the vertex costs least, with the cost that its split adds.
+const std::vector<std::pair<double, Index>>&
+VertexMover::places (Index v, std::size_t most)
+{
+  places_.clear ();
+  ++search_;
+  for (std::size_t i = 0; i + 2 < slots_.size (); ++i)
+    offer (slots_[i], v, most);
+  for (Index q : neighbors_.row (v)) {
+    mesh_.fan (q, fan_);
+    for (Index t : fan_)
+      offer (t, v, most);
+  }
+  return places_;
+}
+
+// Adds a triangle to the cheapest places, if it is among them and has not been looked at.
+void
+VertexMover::offer (Index t, Index v, std::size_t most)
+{
+  if (offered_[t] == search_)
+    return;
+  offered_[t] = search_;
+  const double limit =
+      places_.size () < most ? std::numeric_limits<double>::infinity () : places_.back ().first;
+  const std::pair<double, Index> place (splitCost (mesh_, cost_, t, v, limit), t);
+  if (places_.size () == most) {
+    if (!(place < places_.back ()))
+      return;
+    places_.pop_back ();
+  }
+  places_.insert (std::upper_bound (places_.begin (), places_.end (), place), place);
+}
+
+} // namespace floater
+} // namespace pcl

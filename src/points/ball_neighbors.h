@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Balls whose radius follows the density (TW 385, section 6).
+#pragma once
+
+#include "core/csr_lists.h"
+#include "points/caller_search.h"
+#include "points/rows.h"
+
+namespace pcl
+{
+namespace floater
+{
+/// Neighbours of a point whose mean distance is its local spacing, and the fewest of a ball.
+constexpr int SPACING_NEIGHBORS = 6;
+/// The most neighbours taken from a ball: next to a jump in density it may hold any number.
+constexpr std::size_t MOST_IN_BALL = 200;
+
+/// All other points in a ball around each of some points, nearest first, ties by index. Row i of
+/// the result is that of rows[i]. The radius is `radius` times the mean distance of the point's
+/// SPACING_NEIGHBORS nearest. At least as many as these, and at most the MOST_IN_BALL nearest.
+/// O(n (log n + neighbours)). \throw std::length_error if there are 2^32 - 1 entries or more
+CsrLists
+findBallNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, double radius,
+                   const RunContext& run);
+
+/// The same by the caller's search structure, in one thread.
+CsrLists
+searchBallNeighbors (CallerSearch& search, const Rows& rows, double radius, const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The caller's search structure, asked for points of the working set.
+#pragma once
+
+#include "points/kd_tree.h"
+#include "points/points.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// Translates between points and cloud indices, and trusts no answer more than needed: what is
+/// answered twice, or outside of the set, is ignored; distances are measured here. For one thread.
+class CallerSearch
+{
+public:
+  /// Builds the search among the points of the set. O(n log n) and what the search takes.
+  CallerSearch (const Points& points, NeighborSearch& search);
+
+  /// The k nearest other points, nearest first, ties by index; fewer if the search finds fewer.
+  void nearest (Index p, std::size_t k, std::vector<Neighbor>& found);
+
+  /// The other points within `radius` (that distance included), nearest first, ties by index.
+  void within (Index p, double radius, std::vector<Neighbor>& found);
+
+private:
+  void translate (Index p, std::vector<Neighbor>& found) const;
+
+  const Points& points_;
+  NeighborSearch& search_;
+  std::vector<Index> point_of_;      // by cloud index
+  std::vector<Index> cloud_indices_; // scratch: the search's answer
+};
+
+} // namespace floater
+} // namespace pcl

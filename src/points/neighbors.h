@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Neighbours of the points, however they are searched.
+#pragma once
+
+#include "core/csr_lists.h"
+#include "core/run_context.h"
+#include "points/points.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// How neighbours are searched.
+struct NeighborSettings
+{
+  NeighborOptions options;
+  int blocks = 0;                   ///< 0: chosen by the number of points
+  NeighborSearch* search = nullptr; ///< of the caller's; nullptr: the core's kd-tree
+};
+
+/// Neighbours of every point, nearest first, by the working positions: the k nearest, or those in a
+/// ball (sections 5 and 6 of TW 385: the same serve boundary and weights).
+CsrLists
+findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run);
+
+/// Makes neighbour lists right again after points were removed: renumbers them, and searches anew
+/// only for points that had one of the removed as a neighbour. The same as findNeighbors (), but
+/// for ties that rounding breaks differently where removePoints () has scaled the points again.
+/// \param points    without those that were removed
+/// \param removed   rows before they were removed, ascending
+/// \param neighbors those before
+CsrLists
+renewNeighbors (const Points& points, const std::vector<Index>& removed, CsrLists neighbors,
+                const NeighborSettings& settings, const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

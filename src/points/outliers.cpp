@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/outliers.h"
+
+#include "core/disjoint_sets.h"
+#include "core/parallel.h"
+#include "core/plane_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t LOOKED_AT = 20; // nearest neighbours, however many there are
+constexpr std::size_t REACH_OF = 6;   // nearest neighbour whose distance is a point's reach
+constexpr std::size_t HANDFUL = 7;    // points of the largest cluster that may be left out
+constexpr double FAR = 5.0;           // reaches to the rest from which on such a cluster is apart
+constexpr double OFF_PLANE = 1.75;    // reaches above its neighbours' plane where a point is apart
+constexpr double FLAT = 0.25;         // neighbours' median distance to their plane, of that height
+constexpr double STRAY = 3.0;     // of these medians: neighbours that do not belong to the plane
+constexpr std::size_t OWN = 12;   // a point is one of another's own if among its 12 nearest
+constexpr std::uint8_t SOLID = 4; // so many have a point of a surface among their own
+
+using Arc = std::pair<Index, Index>; // a point and one of its own
+
+double
+distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
+{
+  return (positions[p] - positions[q]).norm ();
+}
+
+std::vector<float>
+findReaches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const RunContext& run)
+{
+  std::vector<float> reach (positions.size (), 0.0F);
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const Row row = neighbors.row (p);
+      if (row.size () > 0)
+        reach[p] = static_cast<float> (distance (positions, static_cast<Index> (p),
+                                                 row[std::min (REACH_OF, row.size ()) - 1]));
+    }
+  });
+  return reach;
+}
+
+// Tells whether a point lies apart; scratch is reused from point to point.
+class ApartTest
+{
+public:
+  ApartTest (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const std::vector<float>& reach)
+      : positions_ (positions), neighbors_ (neighbors), reach_ (reach)
+  {
+  }
+
+  bool isApart (Index p)
+  {
+    const Row row = neighbors_.first (p, LOOKED_AT);
+    if (row.size () < 4)
+      return false;
+    // The nearest ones may be of the same small cluster: the reach of the others tells what is far.
+    const std::size_t beyond = std::min (HANDFUL, row.size () / 2);
+    const double to_others = distance (positions_, p, row[beyond]);
+    scratch_.clear ();
+    for (std::size_t i = beyond; i < row.size (); ++i)
+      scratch_.push_back (reach_[row[i]]);
+    if (to_others <= OFF_PLANE * *std::min_element (scratch_.begin (), scratch_.end ()))
+      return false; // so are nearly all points, without a median
+    const double usual = median ();
+    if (to_others > FAR * usual)
+      return true;
+    return to_others > OFF_PLANE * usual && isOffPlane (p, row, OFF_PLANE * usual);
+  }
+
+private:
+  double median ()
+  {
+    const auto middle = scratch_.begin () + static_cast<std::ptrdiff_t> (scratch_.size () / 2);
+    std::nth_element (scratch_.begin (), middle, scratch_.end ());
+    return *middle;
+  }
+
+  // The plane of the neighbours without the point, fitted again without those that stray from it.
+  bool isOffPlane (Index p, Row row, double least_height)
+  {
+    double spread = std::numeric_limits<double>::infinity ();
+    Plane plane;
+    for (int pass = 0; pass < 2; ++pass) {
+      PlaneFit fit;
+      for (Index q : row) {
+        const Eigen::Vector3d offset = positions_[q] - positions_[p];
+        if (pass == 0 || std::abs (plane.height (offset)) <= STRAY * spread)
+          fit.add (offset);
+      }
+      plane = fit.plane ();
+      scratch_.clear ();
+      for (Index q : row)
+        scratch_.push_back (std::abs (plane.height (positions_[q] - positions_[p])));
+      spread = median ();
+    }
+    const double height = std::abs (plane.height (Eigen::Vector3d::Zero ()));
+    return height > least_height && spread < FLAT * height;
+  }
+
+  const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& neighbors_;
+  const std::vector<float>& reach_;
+  std::vector<double> scratch_;
+};
+
+// Arcs to points that lie apart, from points that enough others count among their own. An outlier
+// may well be nearest to another outlier; but few points are nearest to that one.
+std::vector<Arc>
+arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart)
+{
+  std::vector<std::uint8_t> owners (apart.size (), 0); // up to SOLID
+  for (std::size_t q = 0; q < apart.size (); ++q)
+    for (Index p : neighbors.first (q, OWN))
+      owners[p] = std::min<std::uint8_t> (SOLID, owners[p] + 1U);
+  std::vector<Arc> arcs;
+  for (std::size_t q = 0; q < apart.size (); ++q)
+    if (owners[q] >= SOLID)
+      for (Index p : neighbors.first (q, OWN))
+        if (apart[p] != 0)
+          arcs.emplace_back (static_cast<Index> (q), p);
+  return arcs; // ascending by q
+}
+
+// Clears the flag of what can be reached from the surface along arcs.
+void
+keepReached (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
+{
+  std::vector<Index> reached;
+  const auto reach = [&] (Index p) {
+    if (apart[p] != 0)
+      reached.push_back (p);
+    apart[p] = 0;
+  };
+  const std::vector<std::uint8_t> before = apart;
+  for (const Arc& arc : arcs)
+    if (before[arc.first] == 0)
+      reach (arc.second);
+  while (!reached.empty ()) {
+    const Index q = reached.back ();
+    reached.pop_back ();
+    for (auto arc = std::lower_bound (arcs.begin (), arcs.end (), Arc (q, 0));
+         arc != arcs.end () && arc->first == q; ++arc)
+      reach (arc->second);
+  }
+}
+
+// Clears the flag of points that hang together in more than a handful.
+void
+keepLargeClusters (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
+{
+  std::vector<Index> points;
+  for (std::size_t p = 0; p < apart.size (); ++p)
+    if (apart[p] != 0)
+      points.push_back (static_cast<Index> (p));
+  const auto slot = [&points] (Index p) {
+    return static_cast<Index> (std::lower_bound (points.begin (), points.end (), p) -
+                               points.begin ());
+  };
+  DisjointSets clusters (points.size ());
+  for (const Arc& arc : arcs)
+    if (apart[arc.first] != 0 && apart[arc.second] != 0)
+      clusters.join (slot (arc.first), slot (arc.second));
+  std::vector<std::size_t> size (points.size (), 0);
+  for (Index i = 0; i < points.size (); ++i)
+    ++size[clusters.find (i)];
+  for (Index i = 0; i < points.size (); ++i)
+    if (size[clusters.find (i)] > HANDFUL)
+      apart[points[i]] = 0;
+}
+
+} // namespace
+
+std::vector<Index>
+findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  std::vector<Index> outliers;
+  if (n < 3 * HANDFUL)
+    return outliers; // no telling which of them are the surface
+  const std::vector<float> reach = findReaches (positions, neighbors, run);
+  std::vector<std::uint8_t> apart (n, 0);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    ApartTest test (positions, neighbors, reach);
+    for (std::size_t p = first; p < last; ++p)
+      apart[p] = test.isApart (static_cast<Index> (p)) ? 1 : 0;
+  });
+  if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
+    return outliers;
+  const std::vector<Arc> arcs = arcsToApart (neighbors, apart);
+  keepReached (arcs, apart);
+  keepLargeClusters (arcs, apart);
+  for (std::size_t p = 0; p < n; ++p)
+    if (apart[p] != 0)
+      outliers.push_back (static_cast<Index> (p));
+  return outliers;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/points.h"
+
+#include "core/parallel.h"
+#include "core/plane_fit.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr int BITS = 21; // per axis, so that a code fits 64 bits
+
+// Position on a Hilbert curve through the grid of 2^BITS cells a side. The coordinates are turned
+// into the "transposed" code of Skilling (2004), "Programming the Hilbert curve": undo the excess
+// rotations from the highest bit down, Gray-encode, and interleave.
+std::uint64_t
+hilbertCode (std::array<std::uint32_t, 3> x)
+{
+  for (std::uint32_t bit = 1U << (BITS - 1); bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (std::uint32_t& axis : x) {
+      if (axis & bit) {
+        x[0] ^= below;
+      }
+      else {
+        const std::uint32_t swapped = (x[0] ^ axis) & below;
+        x[0] ^= swapped;
+        axis ^= swapped;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t parity = 0;
+  for (std::uint32_t bit = 1U << (BITS - 1); bit > 1; bit >>= 1)
+    if (x[2] & bit)
+      parity ^= bit - 1;
+  std::uint64_t code = 0;
+  for (int b = BITS - 1; b >= 0; --b)
+    for (std::uint32_t axis : x)
+      code = (code << 1) | (((axis ^ parity) >> b) & 1U);
+  return code;
+}
+
+struct Entry
+{
+  std::uint64_t code;
+  Index row;
+};
+
+// Both halves at the same time.
+template <typename Before>
+void
+sortInHalves (std::vector<Entry>& entries, const RunContext& run, const Before& before)
+{
+  const auto middle = entries.begin () + static_cast<std::ptrdiff_t> (entries.size () / 2);
+  parallelTasks (run, 2, [&] (std::size_t half) {
+    std::sort (half == 0 ? entries.begin () : middle, half == 0 ? middle : entries.end (), before);
+  });
+  std::inplace_merge (entries.begin (), middle, entries.end (), before);
+}
+
+// Equal points are neighbours in the order; the first of them, that of the smallest cloud index,
+// stands for the others.
+void
+leaveDuplicatesOut (Points& points)
+{
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < points.positions.size (); ++p) {
+    if (kept > 0 && points.positions[kept - 1] == points.positions[p]) {
+      points.duplicates.push_back ({points.cloud_index[p], points.cloud_index[kept - 1]});
+      continue;
+    }
+    points.positions[kept] = points.positions[p];
+    points.cloud_index[kept] = points.cloud_index[p];
+    ++kept;
+  }
+  points.positions.resize (kept);
+  points.cloud_index.resize (kept);
+  std::sort (points.duplicates.begin (), points.duplicates.end ());
+}
+
+} // namespace
+
+Points
+makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
+            const RunContext& run)
+{
+  Points points;
+  std::vector<Entry> entries;
+  entries.reserve (positions.size ());
+  Eigen::AlignedBox3d box;
+  for (std::size_t row = 0; row < positions.size (); ++row) {
+    if (positions[row].allFinite ()) {
+      box.extend (positions[row]);
+      entries.push_back ({0, static_cast<Index> (row)});
+    }
+    else {
+      points.non_finite.push_back (cloud_index[row]);
+    }
+  }
+  std::sort (points.non_finite.begin (), points.non_finite.end ());
+  if (entries.empty ())
+    return points;
+
+  points.centre = 0.5 * box.min () + 0.5 * box.max ();
+  // Both sides: the centre of a box as small as its digits may be rounded to one of its ends.
+  const Eigen::Vector3d half_size =
+      (box.max () - points.centre).cwiseMax (points.centre - box.min ());
+  const double diagonal = 2.0 * half_size.stableNorm ();
+  points.scale = diagonal > 0.0 ? diagonal : 1.0;
+
+  // One cell size for all axes: the curve is to follow distance, not the shape of the box.
+  const double cells = static_cast<double> (1U << BITS) - 1.0;
+  const auto scaled = [&] (Index row) -> Eigen::Vector3d {
+    return (positions[row] - points.centre) / points.scale;
+  };
+  parallelRanges (run, entries.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) {
+      std::array<std::uint32_t, 3> cell{};
+      const Eigen::Vector3d position = scaled (entries[e].row);
+      for (int axis = 0; axis < 3; ++axis)
+        cell[static_cast<std::size_t> (axis)] =
+            static_cast<std::uint32_t> (cells * (position[axis] + 0.5));
+      entries[e].code = hilbertCode (cell);
+    }
+  });
+
+  // Ties by coordinates, so that the order does not depend on that of the cloud.
+  const auto before = [&] (const Entry& a, const Entry& b) {
+    if (a.code != b.code)
+      return a.code < b.code;
+    const Eigen::Vector3d p = scaled (a.row);
+    const Eigen::Vector3d q = scaled (b.row);
+    for (int axis = 0; axis < 3; ++axis)
+      if (p[axis] != q[axis])
+        return p[axis] < q[axis];
+    return cloud_index[a.row] < cloud_index[b.row];
+  };
+  sortInHalves (entries, run, before);
+
+  points.positions.resize (entries.size ());
+  points.cloud_index.resize (entries.size ());
+  parallelRanges (run, entries.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) {
+      points.positions[e] = scaled (entries[e].row);
+      points.cloud_index[e] = cloud_index[entries[e].row];
+    }
+  });
+  leaveDuplicatesOut (points);
+  return points;
+}
+
+Problem
+checkPoints (const Points& points)
+{
+  constexpr std::size_t FEWEST = 4;
+  const std::size_t n = points.positions.size ();
+  if (n < FEWEST)
+    return {Status::TOO_FEW_POINTS, "only " + std::to_string (n) +
+                                        " distinct finite points; at least " +
+                                        std::to_string (FEWEST) + " are needed"};
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : points.positions)
+    mean += p;
+  mean /= static_cast<double> (n);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
+  for (const Eigen::Vector3d& p : points.positions)
+    covariance += (p - mean) * (p - mean).transpose ();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (covariance);
+  const Eigen::Vector3d spread = solver.eigenvalues ().cwiseMax (0.0).cwiseSqrt ();
+  // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
+  if (spread[1] < 1e-6 * spread[2])
+    return {Status::DEGENERATE,
+            "all points lie on one line; a surface needs points in two directions"};
+  return {};
+}
+
+std::vector<Index>
+removePoints (Points& points, const std::vector<Index>& removed)
+{
+  std::vector<Index> cloud_indices;
+  Eigen::AlignedBox3d before;
+  Eigen::AlignedBox3d after;
+  std::size_t kept = 0;
+  for (Index p = 0; p < points.positions.size (); ++p) {
+    before.extend (points.positions[p]);
+    if (cloud_indices.size () < removed.size () && removed[cloud_indices.size ()] == p) {
+      cloud_indices.push_back (points.cloud_index[p]);
+      continue;
+    }
+    after.extend (points.positions[p]);
+    points.positions[kept] = points.positions[p];
+    points.cloud_index[kept] = points.cloud_index[p];
+    ++kept;
+  }
+  points.positions.resize (kept);
+  points.cloud_index.resize (kept);
+  std::sort (cloud_indices.begin (), cloud_indices.end ());
+  const double diagonal = kept > 0 ? after.diagonal ().norm () : 0.0;
+  if (diagonal > 0.0 && (after.min () != before.min () || after.max () != before.max ())) {
+    const Eigen::Vector3d centre = after.center ();
+    for (Eigen::Vector3d& position : points.positions)
+      position = (position - centre) / diagonal;
+    points.centre += points.scale * centre;
+    points.scale *= diagonal;
+  }
+  return cloud_indices;
+}
+
+} // namespace floater
+} // namespace pcl

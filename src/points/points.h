@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The points that the stages work on.
+#pragma once
+
+#include "core/problem.h"
+#include "core/run_context.h"
+#include "core/types.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The working set: finite, distinct points in the order of a space-filling curve, so that near
+/// points are near in memory. The order depends on the coordinates only, not on that of the cloud.
+struct Points
+{
+  std::vector<Eigen::Vector3d> positions; ///< centred, diagonal of the bounding box 1
+  std::vector<Eigen::Vector3d> projected; ///< on local planes where noise is strong; else empty
+  std::vector<Index> cloud_index;         ///< of each point; of equal points the smallest
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
+  double scale = 1.0;
+  std::vector<Index> non_finite;                ///< cloud indices, ascending
+  std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, the equal point that
+                                                ///< stands for it), ascending
+
+  std::size_t size () const { return positions.size (); }
+
+  /// Positions by which points are connected. The mesh is on the positions themselves.
+  const std::vector<Eigen::Vector3d>& workingPositions () const
+  {
+    return projected.empty () ? positions : projected;
+  }
+
+  /// A position in the frame of the cloud.
+  Eigen::Vector3d inCloud (Index point) const { return centre + scale * positions[point]; }
+};
+
+/// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
+/// (the smallest cloud index stands for all), and sorts along a Hilbert curve. O(n log n). Points
+/// are equal if they are so after scaling. Points nearer to each other than 1e-16 of the diagonal
+/// may be, and no later stage could tell them apart.
+/// \param positions   any
+/// \param cloud_index of each position; distinct
+Points
+makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
+            const RunContext& run);
+
+/// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line.
+Problem
+checkPoints (const Points& points);
+
+/// Takes points out; the others keep their order. Where that shrinks the bounding box, positions
+/// are centred and scaled again. Duplicates of a point that is taken out stay listed. For points
+/// that have not been projected. O(n). \param removed points, ascending \return their cloud
+/// indices, ascending
+std::vector<Index>
+removePoints (Points& points, const std::vector<Index>& removed);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double LONG_STEP = 8.0;      // spacings: a longer edge of the loop is worth a warning
+constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
+constexpr std::size_t FEW_POINTS = 50; // a component of fewer points is hardly meant to be one ...
+constexpr std::size_t TINY_SHARE = 20; // ... if another one has this many times as many
+
+std::string
+place (const Points& points, Index p)
+{
+  std::ostringstream text;
+  text.precision (9); // tells all numbers of single precision apart
+  const Eigen::Vector3d at = points.inCloud (p);
+  text << "point " << points.cloud_index[p] << " (" << at.x () << ", " << at.y () << ", " << at.z ()
+       << ")";
+  return text.str ();
+}
+
+// "1 edge is", "2 edges are".
+std::string
+counted (std::size_t count, const char* one, const char* several)
+{
+  return std::to_string (count) + " " + (count == 1 ? one : several);
+}
+
+// Far fewer points than the border of a disc as large as its component has, and not wide: 3.5 sqrt
+// (n) if that were round.
+bool
+isSmallHole (const LoopSummary& loop, std::size_t component_points)
+{
+  return loop.width_spacings < SMALL_HOLE && loop.points * loop.points < component_points;
+}
+
+void
+warnOfShape (const Points& points, const MeshExamination& found, Report& report)
+{
+  std::vector<std::string>& warnings = report.warnings;
+  const MeshCheck& check = found.check;
+  if (check.folds > 0)
+    warnings.push_back (counted (check.folds, "edge is", "edges are") +
+                        " folded by more than 120 degrees, one of them at " +
+                        place (points, found.fold_at) +
+                        ": sheets of the surface come close there, or a feature is thinly sampled");
+  if (found.long_edges > 0)
+    warnings.push_back (
+        counted (found.long_edges, "edge inside the surface is", "edges inside the surface are") +
+        " longer than 6 local spacings, the longest one of " +
+        std::to_string (static_cast<int> (found.longest_inside)) + " from " +
+        place (points, found.longest_inside_at.first) + " to " +
+        place (points, found.longest_inside_at.second) + ": a hole may be bridged there");
+  if (check.degenerate_triangles > 0)
+    warnings.push_back (counted (check.degenerate_triangles, "triangle has", "triangles have") +
+                        " no area, one of them at " + place (points, found.degenerate_at) +
+                        ": points lie on one line there in the precision of the coordinates");
+  if (found.smallest_component < FEW_POINTS &&
+      found.largest_component > TINY_SHARE * found.smallest_component)
+    warnings.push_back ("the mesh has " + std::to_string (check.components) +
+                        " components, the smallest of " +
+                        std::to_string (found.smallest_component) + " points at " +
+                        place (points, found.smallest_component_at) +
+                        ": they may belong to a larger one, or be outliers");
+}
+
+// The user who chose how many holes stay, or which, gets what was asked for.
+void
+warnOfHoles (const Points& points, const MeshExamination& found, const Options& options,
+             Report& report)
+{
+  const bool close_all = options.holes.policy == HolePolicy::CLOSE_ALL;
+  if (options.topology == Topology::DISC ||
+      (!close_all && options.holes.policy != HolePolicy::AUTO))
+    return;
+  std::size_t holes = 0, largest = 0;
+  for (std::size_t i = found.loops.size (); i-- > 0;)
+    if (close_all ||
+        isSmallHole (found.check.loops[i], found.component_points[found.loops[i].component])) {
+      ++holes;
+      largest = i;
+    }
+  if (holes == 0)
+    return;
+  const std::string where =
+      ", the largest, of " + std::to_string (found.loops[largest].points.size ()) +
+      " points, around " + place (points, found.loops[largest].points.front ());
+  if (close_all)
+    report.warnings.push_back (counted (holes, "hole stays", "holes stay") +
+                               " open though all were to be closed" + where);
+  else
+    report.warnings.push_back (counted (holes, "small hole stays", "small holes stay") + " open" +
+                               where +
+                               ": the sampling may be thin there; the policy for holes decides");
+}
+
+// "2 components, 3 boundary loops", "closed, genus 4", "one disc".
+std::string
+inFewWords (const MeshCheck& check)
+{
+  std::string text = check.components > 1 ? std::to_string (check.components) + " components" : "";
+  const auto add = [&text] (const std::string& more) {
+    text += (text.empty () ? "" : ", ") + more;
+  };
+  if (check.loops.empty ())
+    add ("closed");
+  else if (check.loops.size () > 1)
+    add (std::to_string (check.loops.size ()) + " boundary loops");
+  if (check.genus > 0)
+    add ("genus " + std::to_string (check.genus));
+  return text.empty () ? "one disc" : text;
+}
+
+void
+reportUnused (const Points& points, const MeshExamination& found, Report& report)
+{
+  for (const Index p : found.unused)
+    if (!std::binary_search (report.outliers.begin (), report.outliers.end (),
+                             points.cloud_index[p]))
+      report.unused.push_back (points.cloud_index[p]);
+  std::sort (report.unused.begin (), report.unused.end ());
+  report.statistics.used_points = points.positions.size () - found.unused.size ();
+  if (report.unused.empty ())
+    return;
+  const auto first = std::find_if (found.unused.begin (), found.unused.end (), [&] (Index p) {
+    return points.cloud_index[p] == report.unused.front ();
+  });
+  report.warnings.push_back (counted (report.unused.size (), "point is", "points are") +
+                             " in no triangle, " + place (points, *first) + " among them: " +
+                             (report.unused.size () == 1 ? "it does" : "they do") +
+                             " not connect to the rest of the surface");
+}
+
+} // namespace
+
+void
+reportPoints (const Points& points, Report& report)
+{
+  report.non_finite = points.non_finite;
+  report.duplicates = points.duplicates;
+  report.statistics.non_finite_points = points.non_finite.size ();
+  report.statistics.duplicate_points = points.duplicates.size ();
+  report.statistics.working_points = points.positions.size ();
+}
+
+void
+reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report)
+{
+  report.outliers = std::move (outliers);
+  report.statistics.outlier_points = report.outliers.size ();
+  report.statistics.working_points = working_points;
+  if (!report.outliers.empty ())
+    report.warnings.push_back (
+        std::to_string (report.outliers.size ()) + " points lie off any surface, point " +
+        std::to_string (report.outliers.front ()) + " among them: they were left out");
+}
+
+void
+reportNoise (double noise, bool denoised, Report& report)
+{
+  report.statistics.noise = noise;
+  report.denoised = denoised;
+  if (denoised)
+    report.warnings.push_back ("the points are noisy, by " + std::to_string (noise) +
+                               " local spacings: they were connected as they lie in the planes of "
+                               "their neighbours; the mesh keeps them where they are");
+}
+
+namespace
+{
+void
+reportBoundary (const Points& points, const Boundary& boundary, Report& report)
+{
+  for (Index p : boundary.loop)
+    report.loop.push_back (points.cloud_index[p]);
+  report.statistics.boundary_candidates = boundary.candidates;
+  report.statistics.loop_points = boundary.loop.size ();
+  if (boundary.largest_step > LONG_STEP)
+    report.warnings.push_back ("the boundary loop has a step of " +
+                               std::to_string (boundary.largest_step) + " local spacings at " +
+                               place (points, boundary.longest_from) +
+                               ": it may cut across the surface there");
+}
+
+void
+reportSystem (const Parameterization& parameterization, Statistics& statistics)
+{
+  const Solution& solution = parameterization.solution;
+  statistics.unknowns = parameterization.unknowns;
+  statistics.nnz_matrix = parameterization.nonzeros;
+  statistics.nnz_factors = solution.nnz_factors;
+  statistics.fill_in = parameterization.nonzeros == 0
+                           ? 0.0
+                           : static_cast<double> (solution.nnz_factors) /
+                                 static_cast<double> (parameterization.nonzeros);
+  statistics.residual = solution.residual;
+  statistics.relative_residual = solution.relative_residual;
+  statistics.iterations_u = solution.iterations[0];
+  statistics.iterations_v = solution.iterations[1];
+  statistics.reciprocal_condition = solution.reciprocal_condition;
+  statistics.factorization_bytes = solution.peak_bytes;
+}
+
+} // namespace
+
+void
+reportDisc (const Points& points, const Disc& disc, Report& report)
+{
+  const Parameterization& parameterization = disc.parameterization;
+  reportBoundary (points, disc.boundary, report);
+  reportSystem (parameterization, report.statistics);
+  report.statistics.levels = disc.levels;
+  report.statistics.relinked_points = parameterization.relinked;
+  if (parameterization.relinked > 0)
+    report.warnings.push_back (
+        counted (parameterization.relinked, "point was", "points were") +
+        " not connected to the boundary loop through neighbours, and linked to the nearest points "
+        "that are");
+  if (parameterization.uv.empty ())
+    return;
+  const Eigen::Vector2d nowhere =
+      Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
+  const Eigen::Array2d mirror (1.0, disc.finish.turned > 0 ? -1.0 : 1.0);
+  report.parameters.assign (report.statistics.cloud_points, nowhere);
+  for (Index p = 0; p < points.cloud_index.size (); ++p)
+    report.parameters[points.cloud_index[p]] = parameterization.uv[p].array () * mirror;
+  for (const std::array<Index, 2>& duplicate : points.duplicates)
+    report.parameters[duplicate[0]] = report.parameters[duplicate[1]];
+}
+
+void
+reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, Report& report)
+{
+  if (!seam.empty ())
+    report.warnings.push_back (
+        "the surface seems to be one-sided, like a Moebius strip: it was cut "
+        "open along " +
+        std::to_string (seam.size ()) + " triangles near " + place (points, seam.front ()[0]));
+}
+
+std::vector<Triangle>
+reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFinish& finish,
+            Report& report)
+{
+  for (Triangle& triangle : triangles)
+    for (Index& p : triangle)
+      p = points.cloud_index[p];
+  report.statistics.flips = finish.flips;
+  report.statistics.triangles = triangles.size ();
+  return triangles;
+}
+
+Problem
+reportCheck (const Points& points, const MeshExamination& found, const Options& options,
+             Report& report)
+{
+  report.check = found.check;
+  if (report.topology == Topology::SURFACE)
+    report.topology_reason =
+        options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check);
+  report.statistics.folds = found.check.folds;
+  if (!found.isManifold ())
+    return {
+        Status::INTERNAL_ERROR,
+        "the result is no oriented manifold: " + std::to_string (found.check.nonmanifold_edges) +
+            " edges and " + std::to_string (found.check.nonmanifold_vertices) +
+            " points are not manifold, " + std::to_string (found.check.orientation_conflicts) +
+            " edges join triangles that face opposite ways" +
+            (found.broken_at == NONE ? "" : ", one at " + place (points, found.broken_at)) +
+            "; please report this with the cloud"};
+  if (report.loop.empty () && !found.loops.empty ()) {
+    for (const Index p : found.loops.front ().points)
+      report.loop.push_back (points.cloud_index[p]);
+    report.statistics.loop_points = report.loop.size ();
+  }
+  reportUnused (points, found, report);
+  warnOfShape (points, found, report);
+  warnOfHoles (points, found, options, report);
+  return {};
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From what the stages found to what the user reads: cloud indices, counts, warnings in words.
+#pragma once
+
+#include "core/problem.h"
+#include "core/types.h"
+#include "floater/floater_method.h"
+#include "mesh/check.h"
+#include "mesh/finish.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// Counts, non-finite points and duplicates.
+void
+reportPoints (const Points& points, Report& report);
+
+/// Points left out of the working set, of which `working_points` are left; a warning on them.
+/// \param outliers cloud indices, ascending
+void
+reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report);
+
+/// The noise, and a warning if points are connected as they lie in their local planes.
+void
+reportNoise (double noise, bool denoised, Report& report);
+
+/// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
+/// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.
+/// Warnings on linked points, and where the loop takes a long step.
+void
+reportDisc (const Points& points, const Disc& disc, Report& report);
+
+/// A warning if a surface was cut open since it seems one-sided.
+/// \param seam triangles left out for that
+void
+reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, Report& report);
+
+/// Triangles from working set to cloud indices, and counts.
+std::vector<Triangle>
+reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFinish& finish,
+            Report& report);
+
+/// What checkMesh () found: its figures, in a few words if they are why no disc was made, points
+/// that are in no triangle, but for those that the report lists as outliers, the longest loop if
+/// there is none yet, and warnings with places: on unused points, folds, long edges, triangles
+/// without area, components of a few points, and small holes that no option asked for. \return
+/// INTERNAL_ERROR if the mesh is no oriented manifold
+Problem
+reportCheck (const Points& points, const MeshExamination& found, const Options& options,
+             Report& report);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/weights.h"
+
+#include "random_stream.h"
+#include "triangulated_grid.h"
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Star = std::vector<Eigen::Vector2d>;
+constexpr double PI = 3.14159265358979323846;
+constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
+                                        Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE};
+
+std::vector<double>
+weigh (const Star& star, Weighting weighting, bool open = false)
+{
+  Stars stars;
+  stars.neighbors.offsets = {0, static_cast<Index> (star.size ())};
+  stars.neighbors.ids.resize (star.size ());
+  std::iota (stars.neighbors.ids.begin (), stars.neighbors.ids.end (), Index{1});
+  stars.offsets_in_plane = star;
+  stars.open = {static_cast<std::uint8_t> (open)};
+  return computeWeights (stars, weighting, 1);
+}
+
+Eigen::Vector2d
+direction (double angle)
+{
+  return {std::cos (angle), std::sin (angle)};
+}
+
+double
+cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return a.x () * b.y () - a.y () * b.x ();
+}
+
+// 3 to 12 neighbours at distances over two orders of magnitude; no sector next to a half turn.
+Star
+randomClosedStar (RandomStream& random)
+{
+  for (;;) {
+    std::vector<double> angles (3 + random.below (10));
+    for (double& angle : angles)
+      angle = 2.0 * PI * random.uniform ();
+    std::sort (angles.begin (), angles.end ());
+    double widest = angles.front () + 2.0 * PI - angles.back ();
+    for (std::size_t i = 1; i < angles.size (); ++i)
+      widest = std::max (widest, angles[i] - angles[i - 1]);
+    if (widest > PI - 0.05)
+      continue;
+    Star star;
+    for (const double angle : angles)
+      star.push_back (std::pow (10.0, -2.0 * random.uniform ()) * direction (angle));
+    return star;
+  }
+}
+
+void
+expectPositiveSummingToOne (const std::vector<double>& weights)
+{
+  double sum = 0.0;
+  for (const double weight : weights) {
+    EXPECT_GT (weight, 0.0);
+    EXPECT_TRUE (std::isfinite (weight));
+    sum += weight;
+  }
+  EXPECT_NEAR (sum, 1.0, 1e-15 * static_cast<double> (weights.size ()));
+}
+
+// Distance of the weighted mean of the neighbours from the centre, relative to the longest offset.
+double
+centreError (const Star& star, const std::vector<double>& weights)
+{
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero ();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < star.size (); ++i) {
+    mean += weights[i] * star[i];
+    longest = std::max (longest, star[i].norm ());
+  }
+  return mean.norm () / longest;
+}
+
+void
+normalize (std::vector<double>& weights)
+{
+  const double sum = std::accumulate (weights.begin (), weights.end (), 0.0);
+  for (double& weight : weights)
+    weight /= sum;
+}
+
+// Equations (2) and (3), as they are printed.
+std::vector<double>
+meanValueByTheReport (const Star& star, bool open)
+{
+  std::vector<double> weights (star.size (), 0.0);
+  for (std::size_t i = 0; i < star.size () - (open ? 1 : 0); ++i) {
+    const std::size_t j = (i + 1) % star.size ();
+    const double cosine = star[i].dot (star[j]) / (star[i].norm () * star[j].norm ());
+    const double tangent = std::sqrt ((1.0 - cosine) / (1.0 + cosine));
+    weights[i] += tangent / star[i].norm ();
+    weights[j] += tangent / star[j].norm ();
+  }
+  normalize (weights);
+  return weights;
+}
+
+// Floater 1997, by trying every edge for every neighbour.
+std::vector<double>
+shapePreservingBySearch (const Star& star)
+{
+  std::vector<double> weights (star.size (), 0.0);
+  for (std::size_t i = 0; i < star.size (); ++i) {
+    double best = -std::numeric_limits<double>::max ();
+    std::size_t best_r = 0;
+    Eigen::Vector3d best_coordinates = Eigen::Vector3d::Zero ();
+    for (std::size_t r = 0; r < star.size (); ++r) {
+      const std::size_t s = (r + 1) % star.size ();
+      if (r == i || s == i)
+        continue;
+      Eigen::Vector3d coordinates (cross (star[r], star[s]), cross (star[s], star[i]),
+                                   cross (star[i], star[r]));
+      coordinates /= coordinates.sum ();
+      if (coordinates.minCoeff () > best) {
+        best = coordinates.minCoeff ();
+        best_r = r;
+        best_coordinates = coordinates;
+      }
+    }
+    weights[i] += best_coordinates[0];
+    weights[best_r] += best_coordinates[1];
+    weights[(best_r + 1) % star.size ()] += best_coordinates[2];
+  }
+  normalize (weights);
+  return weights;
+}
+
+void
+expectNear (const std::vector<double>& actual, const std::vector<double>& expected,
+            double tolerance)
+{
+  ASSERT_EQ (actual.size (), expected.size ());
+  for (std::size_t i = 0; i < actual.size (); ++i)
+    EXPECT_NEAR (actual[i], expected[i], tolerance) << "neighbour " << i;
+}
+
+TEST (Weights, ArePositiveAndSumToOne)
+{
+  RandomStream random (1);
+  for (int round = 0; round < 500; ++round) {
+    const Star star = randomClosedStar (random);
+    for (const Weighting weighting : ALL_WEIGHTINGS)
+      for (const bool open : {false, true})
+        expectPositiveSummingToOne (weigh (star, weighting, open));
+  }
+}
+
+TEST (Weights, MeanValueAndShapePreservingReproduceTheCentre)
+{
+  RandomStream random (2);
+  for (int round = 0; round < 500; ++round) {
+    const Star star = randomClosedStar (random);
+    EXPECT_LT (centreError (star, weigh (star, Weighting::MEAN_VALUE)), 1e-9) << round;
+    EXPECT_LT (centreError (star, weigh (star, Weighting::SHAPE_PRESERVING)), 1e-9) << round;
+  }
+}
+
+TEST (Weights, MeanValueIsTheReportsFormula)
+{
+  RandomStream random (3);
+  for (int round = 0; round < 500; ++round) {
+    const Star star = randomClosedStar (random);
+    for (const bool open : {false, true})
+      expectNear (weigh (star, Weighting::MEAN_VALUE, open), meanValueByTheReport (star, open),
+                  1e-9);
+  }
+}
+
+TEST (Weights, ShapePreservingIsTheMeanOfBarycentricCoordinates)
+{
+  RandomStream random (4);
+  for (int round = 0; round < 500; ++round) {
+    const Star star = randomClosedStar (random);
+    expectNear (weigh (star, Weighting::SHAPE_PRESERVING), shapePreservingBySearch (star), 1e-9);
+  }
+}
+
+TEST (Weights, OfATriangleAreBarycentric)
+{
+  const Star star{{2.0, -0.5}, {-0.5, 1.0}, {-0.75, -1.25}};
+  std::vector<double> expected{cross (star[1], star[2]), cross (star[2], star[0]),
+                               cross (star[0], star[1])};
+  normalize (expected);
+  expectNear (weigh (star, Weighting::MEAN_VALUE), expected, 1e-15);
+  expectNear (weigh (star, Weighting::SHAPE_PRESERVING), expected, 1e-15);
+}
+
+TEST (Weights, OfARegularHexagonAreEqual)
+{
+  Star star;
+  for (int i = 0; i < 6; ++i)
+    star.push_back (0.01 * direction (0.3 + i * PI / 3.0));
+  for (const Weighting weighting : ALL_WEIGHTINGS)
+    expectNear (weigh (star, weighting), std::vector<double> (6, 1.0 / 6.0), 1e-15);
+}
+
+TEST (Weights, UniformIgnoresAndInverseDistanceUsesTheLengths)
+{
+  const Star star{{1.0, 0.0}, {0.0, 2.0}, {-4.0, 0.0}, {0.0, -8.0}};
+  expectNear (weigh (star, Weighting::UNIFORM), {0.25, 0.25, 0.25, 0.25}, 0.0);
+  expectNear (weigh (star, Weighting::INVERSE_DISTANCE),
+              {8.0 / 15.0, 4.0 / 15.0, 2.0 / 15.0, 1.0 / 15.0}, 1e-15);
+}
+
+TEST (Weights, DoNotDependOnScaleAndRotation)
+{
+  RandomStream random (5);
+  for (int round = 0; round < 100; ++round) {
+    const Star star = randomClosedStar (random);
+    const Eigen::Rotation2Dd turn (2.0 * PI * random.uniform ());
+    for (const Weighting weighting : ALL_WEIGHTINGS)
+      for (const double scale : {1e-120, 1e-9, 3.0, 1e120}) {
+        Star moved;
+        for (const Eigen::Vector2d& offset : star)
+          moved.emplace_back (turn * (scale * offset));
+        expectNear (weigh (moved, weighting), weigh (star, weighting), 1e-11);
+      }
+  }
+}
+
+TEST (Weights, OfASquareGridReproduceTheCentreThoughNeighborsAreOpposite)
+{
+  Star cross_star{{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
+  const Star eight{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  for (const Star& star : {cross_star, eight})
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING})
+      EXPECT_LT (centreError (star, weigh (star, weighting)), 1e-9);
+}
+
+// The centre on the segment between two neighbours, or next to it on either side by rounding.
+TEST (Weights, StayFiniteInASectorOfHalfATurn)
+{
+  for (const double lift : {0.0, 1e-17, -1e-17, 1e-12, -1e-12}) {
+    const Star star{{1.0, 0.0}, {0.5, 1.0}, {-0.25, 0.75}, {-2.0, lift}};
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      EXPECT_LT (centreError (star, weights), 1e-7) << lift;
+      EXPECT_NEAR (weights[0], 2.0 / 3.0, 1e-7) << lift;
+      EXPECT_NEAR (weights[3], 1.0 / 3.0, 1e-7) << lift;
+      EXPECT_GE (*std::min_element (weights.begin (), weights.end ()), 1e-11) << lift;
+    }
+  }
+}
+
+TEST (Weights, TheGapOfAnOpenStarGivesNoTerm)
+{
+  // Half a regular octagon: three sectors of 45 degrees, ends with one of them, the others with
+  // two.
+  Star star;
+  for (int i = 0; i < 4; ++i)
+    star.push_back (direction (i * PI / 4.0));
+  const std::vector<double> expected{1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+  expectNear (weigh (star, Weighting::MEAN_VALUE, true), expected, 1e-15);
+  expectNear (weigh (star, Weighting::SHAPE_PRESERVING, true), expected, 1e-15);
+}
+
+TEST (Weights, OfDegenerateStarsArePositive)
+{
+  const double huge = 1e200, infinite = std::numeric_limits<double>::infinity ();
+  const std::vector<Star> degenerate{
+      {{1.0, 0.0}},                                       // one neighbour
+      {{1.0, 0.0}, {-1.0, 0.0}},                          // two, opposite
+      {{1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}},               // all in one direction
+      {{1.0, 0.0}, {-1.0, 0.0}, {-2.0, 0.0}},             // all on one line
+      {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}},               // no extent
+      {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, -1.0}}, // one on the centre
+      {{1e-300, 0.0}, {1.0, 1.0}, {-1.0, 0.5}, {0.0, -1.0}},
+      {{1e-200, 0.0}, {0.0, 1e-200}, {-1e-200, -1e-200}}, // squares underflow
+      {{huge, 0.0}, {0.0, huge}, {-huge, -huge}},         // squares overflow
+      {{infinite, 0.0}, {0.0, 1.0}, {-1.0, -1.0}}};
+  for (std::size_t i = 0; i < degenerate.size (); ++i)
+    for (const Weighting weighting : ALL_WEIGHTINGS)
+      for (const bool open : {false, true}) {
+        SCOPED_TRACE (testing::Message () << "star " << i << " weighting "
+                                          << static_cast<int> (weighting) << " open " << open);
+        expectPositiveSummingToOne (weigh (degenerate[i], weighting, open));
+      }
+}
+
+TEST (Weights, OfAnEmptyStarAreNone)
+{
+  for (const Weighting weighting : ALL_WEIGHTINGS)
+    EXPECT_TRUE (weigh ({}, weighting, true).empty ());
+  EXPECT_TRUE (computeWeights (Stars{}, Weighting::MEAN_VALUE, 2).empty ());
+}
+
+TEST (Weights, DoNotDependOnTheThreads)
+{
+  const TriangulatedGrid grid (60, 0.12, 6);
+  for (const Weighting weighting : ALL_WEIGHTINGS) {
+    const std::vector<double> one = computeWeights (grid.stars, weighting, 1);
+    EXPECT_EQ (one, computeWeights (grid.stars, weighting, 3));
+    for (std::size_t p = 0; p < grid.positions.size (); ++p)
+      EXPECT_NEAR (std::accumulate (one.begin () + grid.stars.neighbors.offsets[p],
+                                    one.begin () + grid.stars.neighbors.offsets[p + 1], 0.0),
+                   1.0, 1e-14);
+  }
+}
+
+// All points of a grid around its centre: up to three in one direction, others exactly opposite,
+// turned so that rounding puts either first.
+TEST (Weights, OfAllNeighborsOfAGridReproduceTheCentre)
+{
+  RandomStream random (7);
+  for (int round = 0; round < 50; ++round) {
+    const Eigen::Rotation2Dd turn (round == 0 ? 0.0 : 2.0 * PI * random.uniform ());
+    Star star;
+    for (int x = -3; x <= 3; ++x)
+      for (int y = -3; y <= 3; ++y)
+        if (x != 0 || y != 0)
+          star.emplace_back (turn * Eigen::Vector2d (x, y));
+    std::sort (star.begin (), star.end (), [] (const auto& a, const auto& b) {
+      return std::atan2 (a.y (), a.x ()) < std::atan2 (b.y (), b.x ());
+    });
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      EXPECT_LT (centreError (star, weights), 1e-8) << round;
+      EXPECT_GT (*std::min_element (weights.begin (), weights.end ()), 1e-3) << round;
+    }
+    // (1, 0), (2, 0) and (3, 0): as one over their distances.
+    const std::vector<double> weights = weigh (star, Weighting::MEAN_VALUE);
+    const auto of = [&] (double x) {
+      for (std::size_t i = 0; i < star.size (); ++i)
+        if ((star[i] - turn * Eigen::Vector2d (x, 0.0)).norm () < 1e-9)
+          return weights[i];
+      return 0.0;
+    };
+    EXPECT_NEAR (of (1.0), 2.0 * of (2.0), 1e-8);
+    EXPECT_NEAR (of (1.0), 3.0 * of (3.0), 1e-8);
+    EXPECT_NEAR (of (1.0), of (-1.0), 1e-8);
+  }
+}
+
+TEST (Weights, OfManyNeighborsReproduceTheCentre)
+{
+  RandomStream random (8);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<double> angles (20 + random.below (100));
+    for (double& angle : angles)
+      angle = 2.0 * PI * random.uniform ();
+    std::sort (angles.begin (), angles.end ());
+    Star star;
+    for (const double angle : angles)
+      star.push_back ((0.05 + random.uniform ()) * direction (angle));
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      EXPECT_LT (centreError (star, weights), 1e-8) << round;
+    }
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tangent planes, stars in them, and the spacing of the sampling.
+#include "local/stars.h"
+
+#include "samples.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::makeNeighborhoods;
+using samples::Neighborhoods;
+using samples::PI;
+using samples::Positions;
+using samples::Sheet;
+
+// Points of two parallel sheets of side 1, `gap` spacings apart. Heights stay on either side of 0.
+Positions
+twoSheets (double gap)
+{
+  const double step = 1.0 / 30.0;
+  Positions points;
+  for (const int side : {-1, 1}) {
+    const Sheet sheet =
+        samples::fillOutlines ({samples::resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step,
+                               0.35, static_cast<std::uint64_t> (10 + side));
+    for (const Eigen::Vector3d& p : sheet.positions)
+      points.emplace_back (p.x (), p.y (), 0.5 * side * gap * step);
+  }
+  return points;
+}
+
+// True if the whole neighbourhood is there, that is, the point is 2.5 spacings inside the sheet.
+bool
+isInner (const Neighborhoods& sheets, std::size_t p)
+{
+  const Eigen::Vector3d place = sheets.points.centre + sheets.points.scale * sheets.points.positions[p];
+  return (place - Eigen::Vector3d (0.5, 0.5, place.z ())).cwiseAbs ().maxCoeff () <
+         0.5 - 2.5 / 30.0;
+}
+
+// Share of star neighbours on the other sheet.
+double
+shareOfStrays (const Neighborhoods& sheets)
+{
+  std::size_t strays = 0;
+  std::size_t all = 0;
+  for (std::size_t p = 0; p < sheets.points.positions.size (); ++p) {
+    if (!isInner (sheets, p))
+      continue;
+    all += sheets.stars.neighbors.row (p).size ();
+    for (const Index q : sheets.stars.neighbors.row (p))
+      strays +=
+          (sheets.points.positions[p].z () > 0.0) != (sheets.points.positions[q].z () > 0.0) ? 1 : 0;
+  }
+  return static_cast<double> (strays) / static_cast<double> (all);
+}
+
+void
+expectSane (const Neighborhoods& made)
+{
+  const std::size_t n = made.points.positions.size ();
+  ASSERT_EQ (made.stars.neighbors.rows (), n);
+  ASSERT_EQ (made.stars.open.size (), n);
+  ASSERT_EQ (made.stars.normals.size (), n);
+  ASSERT_EQ (made.stars.offsets_in_plane.size (), made.stars.neighbors.ids.size ());
+  for (Index p = 0; p < n; ++p) {
+    EXPECT_NEAR (made.stars.normals[p].norm (), 1.0F, 1e-5F);
+    const Row star = made.stars.neighbors.row (p);
+    const Eigen::Vector2d* offsets =
+        made.stars.offsets_in_plane.data () + made.stars.neighbors.offsets[p];
+    EXPECT_EQ (std::set<Index> (star.begin (), star.end ()).size (), star.size ());
+    double turned = 0.0;
+    for (std::size_t i = 0; i < star.size (); ++i) {
+      const Eigen::Vector3d offset = made.points.positions[star[i]] - made.points.positions[p];
+      EXPECT_NE (star[i], p);
+      EXPECT_NE (std::find (made.neighbors.row (p).begin (), made.neighbors.row (p).end (), star[i]),
+                 made.neighbors.row (p).end ());
+      EXPECT_NEAR (offsets[i].norm (), offset.norm (), 1e-12);
+      const Eigen::Vector2d& next = offsets[(i + 1) % star.size ()];
+      double turn = std::atan2 (offsets[i].x () * next.y () - offsets[i].y () * next.x (),
+                                offsets[i].dot (next));
+      turned += turn < 0.0 ? turn + 2.0 * PI : turn;
+    }
+    EXPECT_TRUE (made.stars.open[p] != 0 || star.size () >= 3);
+    if (star.size () > 1) {
+      EXPECT_NEAR (turned, 2.0 * PI, 1e-6); // once around, anti-clockwise
+    }
+  }
+}
+
+TEST (TangentPlanes, OfANoisyPlane)
+{
+  Sheet sheet = samples::disc (0.05, 1);
+  RandomStream random (2);
+  const Eigen::Vector3d normal = Eigen::Vector3d (1, -2, 4).normalized ();
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), normal);
+  for (Eigen::Vector3d& p : sheet.positions) {
+    p.z () = 0.05 * 0.05 * random.normal (); // a twentieth of the spacing
+    p = turn * p;
+  }
+  const Neighborhoods made = makeNeighborhoods (sheet.positions);
+  expectSane (made);
+  double sum = 0.0;
+  for (const Eigen::Vector3f& n : made.stars.normals) {
+    const double cosine = std::abs (n.cast<double> ().dot (normal));
+    EXPECT_GT (cosine, std::cos (0.15));
+    sum += std::acos (std::min (1.0, cosine));
+  }
+  EXPECT_LT (sum / static_cast<double> (made.stars.normals.size ()), 0.03);
+}
+
+TEST (TangentPlanes, OfASphere)
+{
+  RandomStream random (3);
+  Positions sphere (3000);
+  for (std::size_t i = 0; i < sphere.size (); ++i) { // a spiral from pole to pole
+    const double z = 1.0 - 2.0 * (static_cast<double> (i) + 0.5) / 3000.0;
+    const double angle = 2.399963 * static_cast<double> (i);
+    sphere[i] = {std::sqrt (1.0 - z * z) * std::cos (angle),
+                 std::sqrt (1.0 - z * z) * std::sin (angle), z};
+  }
+  const Neighborhoods made = makeNeighborhoods (sphere);
+  expectSane (made);
+  for (std::size_t p = 0; p < sphere.size (); ++p) {
+    EXPECT_GT (
+        std::abs (made.stars.normals[p].cast<double> ().dot (made.points.positions[p].normalized ())),
+        0.99);
+    EXPECT_EQ (made.stars.open[p], 0);
+  }
+}
+
+TEST (TangentPlanes, ASecondSheetDoesNotTiltThem)
+{
+  const Neighborhoods made = makeNeighborhoods (twoSheets (2.0));
+  std::size_t inner = 0;
+  for (std::size_t p = 0; p < made.stars.normals.size (); ++p)
+    if (isInner (made, p)) {
+      ++inner;
+      EXPECT_GT (std::abs (made.stars.normals[p].z ()), 0.99F);
+    }
+  EXPECT_GT (inner, 1000U);
+}
+
+TEST (Stars, OpenAtTheBorderOnly)
+{
+  const Sheet sheet = samples::disc (0.05, 4);
+  const Neighborhoods made = makeNeighborhoods (sheet.positions);
+  expectSane (made);
+  for (std::size_t p = 0; p < made.points.positions.size (); ++p) {
+    const bool border = made.points.cloud_index[p] < sheet.border;
+    EXPECT_EQ (made.stars.open[p] != 0, border);
+  }
+}
+
+TEST (Stars, TheFilterKeepsSheetsApart)
+{
+  for (const double gap : {2.0, 1.7}) {
+    const Positions points = twoSheets (gap);
+    const Neighborhoods filtered = makeNeighborhoods (points, true);
+    expectSane (filtered);
+    EXPECT_LT (shareOfStrays (filtered), 0.001);
+  }
+  // At 2 spacings it is enough that offsets keep their length; nearer, the filter has to act.
+  const Neighborhoods plain = makeNeighborhoods (twoSheets (1.7), false);
+  expectSane (plain);
+  EXPECT_GT (shareOfStrays (plain), 0.004);
+}
+
+TEST (Stars, TheFilterLeavesASingleSheetAlone)
+{
+  const Sheet sheet = samples::disc (0.05, 5);
+  const Stars filtered = makeNeighborhoods (sheet.positions, true).stars;
+  const Stars plain = makeNeighborhoods (sheet.positions, false).stars;
+  EXPECT_EQ (filtered.neighbors.offsets, plain.neighbors.offsets);
+  EXPECT_EQ (filtered.neighbors.ids, plain.neighbors.ids);
+  EXPECT_EQ (filtered.open, plain.open);
+}
+
+TEST (Stars, ThreadsDoNotMatter)
+{
+  const Positions points = twoSheets (2.0);
+  const Stars expected = makeNeighborhoods (points, true, 1).stars;
+  for (const int threads : {0, 2, 3}) {
+    const Stars stars = makeNeighborhoods (points, true, threads).stars;
+    EXPECT_EQ (stars.neighbors.offsets, expected.neighbors.offsets);
+    EXPECT_EQ (stars.neighbors.ids, expected.neighbors.ids);
+    EXPECT_EQ (stars.offsets_in_plane, expected.offsets_in_plane);
+    EXPECT_EQ (stars.open, expected.open);
+    EXPECT_EQ (stars.normals, expected.normals);
+  }
+}
+
+TEST (Stars, RigidMotionTurnsThemOnly)
+{
+  Positions points = samples::disc (0.05, 7).positions;
+  for (Eigen::Vector3d& p : points)
+    p.z () = 0.3 * std::sin (3.0 * p.x ()) * std::cos (2.0 * p.y ());
+  const Eigen::Affine3d motion = Eigen::Translation3d (7, -3, 11) *
+                                 Eigen::AngleAxisd (1.1, Eigen::Vector3d (1, 2, 3).normalized ());
+  Positions moved;
+  for (const Eigen::Vector3d& p : points)
+    moved.push_back (motion * p);
+  // Cyclic neighbours by cloud index, whichever way the normal points.
+  const auto starsOf = [] (const Neighborhoods& made) {
+    std::vector<std::vector<Index>> stars (made.points.positions.size ());
+    for (std::size_t p = 0; p < stars.size (); ++p) {
+      std::vector<Index> star;
+      for (const Index q : made.stars.neighbors.row (p))
+        star.push_back (made.points.cloud_index[q]);
+      stars[made.points.cloud_index[p]] = samples::canonicalCycle (std::move (star));
+    }
+    return stars;
+  };
+  const auto expected = starsOf (makeNeighborhoods (points));
+  const auto found = starsOf (makeNeighborhoods (moved));
+  EXPECT_EQ (expected, found);
+}
+
+TEST (Stars, DegenerateNeighborhoods)
+{
+  Positions line;
+  for (int i = 0; i < 60; ++i)
+    line.emplace_back (1.0 * i, 2.0 * i, -0.5 * i);
+  const Neighborhoods on_line = makeNeighborhoods (line);
+  expectSane (on_line);
+  for (const std::uint8_t open : on_line.stars.open)
+    EXPECT_EQ (open, 1);
+  for (std::size_t count = 1; count <= 5; ++count)
+    for (const bool filter : {true, false})
+      expectSane (makeNeighborhoods (samples::randomPoints (count, 6), filter));
+  EXPECT_EQ (makeNeighborhoods ({}).stars.neighbors.rows (), 0U);
+}
+
+TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
+{
+  Positions grid;
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 20; ++y)
+      grid.emplace_back (x, y, 0);
+  const Neighborhoods made = makeNeighborhoods (grid);
+  for (std::size_t p = 0; p < grid.size (); ++p) {
+    const Eigen::Vector3d& place = grid[made.points.cloud_index[p]];
+    const double spacing = made.points.scale * static_cast<double> (made.spacing[p]);
+    const bool inner = place.head<2> ().minCoeff () > 0.0 && place.head<2> ().maxCoeff () < 19.0;
+    if (inner) {
+      EXPECT_NEAR (spacing, (4.0 + 2.0 * std::sqrt (2.0)) / 6.0, 1e-5);
+    }
+    else {
+      EXPECT_GT (spacing, 1.1 * (4.0 + 2.0 * std::sqrt (2.0)) / 6.0);
+    }
+  }
+  EXPECT_NEAR (makeNeighborhoods ({{0, 0, 0}, {1, 0, 0}}).spacing[0], 1.0, 1e-6);
+  EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).spacing[0], 0.0F);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The last look at a mesh, on meshes that are known, sound and broken; and what is told of it.
+#include "mesh/check.h"
+
+#include "report.h"
+#include "samples.h"
+#include "mesh/triangle_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::Positions;
+using Triangles = std::vector<Triangle>;
+
+struct Mesh
+{
+  Positions positions;
+  Triangles triangles;
+};
+
+// Points in the order given, as places of a cloud of another scale, of which they are every third.
+Points
+setOf (const Positions& positions)
+{
+  Points set;
+  points.positions = positions;
+  points.centre = {100.0, -20.0, 3.0};
+  points.scale = 10.0;
+  for (Index p = 0; p < positions.size (); ++p)
+    points.cloud_index.push_back (3 * p + 1);
+  return set;
+}
+
+MeshExamination
+check (const Mesh& mesh, float spacing = 0.1F)
+{
+  return checkMesh (mesh.triangles, setOf (mesh.positions),
+                    std::vector<float> (mesh.positions.size (), spacing));
+}
+
+// A grid of cells, each cut in two; vertex (x, y) is `index (x, y)` at `place (x, y)`.
+Mesh
+grid (Index columns, Index rows, std::size_t points,
+      const std::function<Index (Index, Index)>& index,
+      const std::function<Eigen::Vector3d (Index, Index)>& place)
+{
+  Mesh mesh;
+  mesh.positions.resize (points);
+  for (Index y = 0; y <= rows; ++y)
+    for (Index x = 0; x <= columns; ++x)
+      mesh.positions[index (x, y)] = place (x, y);
+  for (Index y = 0; y < rows; ++y)
+    for (Index x = 0; x < columns; ++x) {
+      const Index a = index (x, y), b = index (x + 1, y), c = index (x, y + 1),
+                  d = index (x + 1, y + 1);
+      mesh.triangles.push_back ({a, b, d});
+      mesh.triangles.push_back ({a, d, c});
+    }
+  return mesh;
+}
+
+Mesh
+sheet (Index side)
+{
+  return grid (
+      side, side, (side + 1) * (side + 1), [side] (Index x, Index y) { return y * (side + 1) + x; },
+      [] (Index x, Index y) { return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.0); });
+}
+
+Mesh
+torus (Index around, Index across)
+{
+  return grid (
+      around, across, around * across,
+      [=] (Index x, Index y) { return y % across * around + x % around; },
+      [=] (Index x, Index y) {
+        const double u = 2.0 * samples::PI * x / around, v = 2.0 * samples::PI * y / across;
+        return Eigen::Vector3d ((1.0 + 0.4 * std::cos (v)) * std::cos (u),
+                                (1.0 + 0.4 * std::cos (v)) * std::sin (u), 0.4 * std::sin (v));
+      });
+}
+
+// A ring of `around` cells between radius 0.5 and 1.
+Mesh
+annulus (Index around)
+{
+  return grid (
+      around, 4, 5 * around, [=] (Index x, Index y) { return y * around + x % around; },
+      [=] (Index x, Index y) {
+        const double u = 2.0 * samples::PI * x / around, r = 1.0 - 0.125 * y;
+        return Eigen::Vector3d (r * std::cos (u), r * std::sin (u), 0.0);
+      });
+}
+
+Mesh
+tetrahedron (double size = 1.0)
+{
+  return {{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+// Both, side by side.
+Mesh
+beside (Mesh a, const Mesh& b)
+{
+  const auto first = static_cast<Index> (a.positions.size ());
+  for (const Eigen::Vector3d& p : b.positions)
+    a.positions.emplace_back (p + Eigen::Vector3d (5.0, 0.0, 0.0));
+  for (const Triangle& t : b.triangles)
+    a.triangles.push_back ({t[0] + first, t[1] + first, t[2] + first});
+  return a;
+}
+
+// Sound, of this topology, and without anything odd.
+void
+expectSound (const Mesh& mesh, std::size_t components, std::int64_t euler, std::int64_t genus,
+             const std::vector<std::size_t>& loop_points)
+{
+  const MeshExamination found = check (mesh);
+  const MeshCheck& c = found.check;
+  EXPECT_TRUE (c.done);
+  EXPECT_TRUE (found.isManifold ());
+  EXPECT_EQ (found.broken_at, NONE);
+  EXPECT_EQ (c.components, components);
+  EXPECT_EQ (c.euler_characteristic, euler);
+  EXPECT_EQ (c.genus, genus);
+  ASSERT_EQ (c.loops.size (), loop_points.size ());
+  ASSERT_EQ (found.loops.size (), loop_points.size ());
+  for (std::size_t i = 0; i < loop_points.size (); ++i) {
+    EXPECT_EQ (c.loops[i].points, loop_points[i]);
+    EXPECT_EQ (found.loops[i].points.size (), loop_points[i]);
+  }
+  EXPECT_EQ (c.degenerate_triangles, 0U);
+  // The same as another count of it, and as the half-edges have it.
+  const samples::Topology topology = samples::topologyOf (mesh.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (c.components, topology.components);
+  EXPECT_EQ (c.euler_characteristic, topology.euler);
+  EXPECT_EQ (found.unused.size (), mesh.positions.size () - topology.vertices);
+  TriangleMesh connected;
+  connected.triangles = mesh.triangles;
+  ASSERT_TRUE (connected.connect (mesh.positions.size ()));
+  std::vector<std::vector<Index>> loops = boundaryLoops (connected), loops;
+  for (const CheckedLoop& loop : found.loops)
+    loops.push_back (loop.points);
+  std::sort (loops.begin (), loops.end ());
+  std::sort (loops.begin (), loops.end ());
+  EXPECT_EQ (loops, loops);
+}
+
+TEST (MeshCheck, KnownSurfaces)
+{
+  expectSound (tetrahedron (), 1, 2, 0, {});
+  expectSound (torus (20, 9), 1, 0, 1, {});
+  expectSound (sheet (6), 1, 1, 0, {24});
+  expectSound (annulus (30), 1, 0, 0, {30, 30});
+  expectSound (beside (torus (12, 8), annulus (40)), 2, 0, 1, {40, 40});
+  expectSound (beside (sheet (3), tetrahedron ()), 2, 3, 0, {12});
+  Mesh holed = torus (20, 9); // without one triangle, and with a point that no triangle uses
+  holed.triangles.erase (holed.triangles.begin () + 100);
+  holed.positions.emplace_back (0, 0, 0);
+  expectSound (holed, 1, -1, 1, {3});
+  EXPECT_EQ (check (holed).unused, (std::vector<Index>{180}));
+  const Mesh nothing{{{0, 0, 0}, {1, 0, 0}}, {}};
+  expectSound (nothing, 0, 0, 0, {});
+  expectSound ({}, 0, 0, 0, {});
+}
+
+TEST (MeshCheck, ThePieceOfARim)
+{
+  const MeshExamination found = check (beside (sheet (3), annulus (40)));
+  ASSERT_EQ (found.loops.size (), 3U);
+  EXPECT_EQ (found.loops[0].component_points, 200U);
+  EXPECT_EQ (found.loops[1].component_points, 200U);
+  EXPECT_EQ (found.loops[2].component_points, 16U);
+  EXPECT_EQ (found.smallest_component, 16U);
+  EXPECT_EQ (found.smallest_component_at, 0U);
+  EXPECT_EQ (found.largest_component, 200U);
+}
+
+TEST (MeshCheck, LoopsHaveTheirSizeInTheCloud)
+{
+  // 100 and 500 points: the width of the short loops is exact, that of the long ones a bound.
+  for (const Index around : {100U, 500U}) {
+    const MeshExamination found = check (annulus (around));
+    ASSERT_EQ (found.check.loops.size (), 2U);
+    for (const std::size_t i : {0U, 1U}) {
+      const LoopSummary& loop = found.check.loops[i];
+      const double radius = i == 0 ? 1.0 : 0.5, chord = 2.0 * std::sin (samples::PI / around);
+      EXPECT_NEAR (loop.length, 10.0 * radius * around * chord, 1e-9);
+      EXPECT_NEAR (loop.width, 10.0 * radius * 2.0, 1e-9);
+      EXPECT_NEAR (loop.width_spacings, radius * 2.0 / 0.1, 1e-4);
+      EXPECT_EQ (loop.at, i == 0 ? 1U : 3 * 4 * around + 1);
+    }
+  }
+  // Of any long loop the bound is between 0.57 and 1 of the width.
+  RandomStream random (5);
+  Mesh ring = annulus (300);
+  for (Eigen::Vector3d& p : ring.positions)
+    p *= 0.2 + random.uniform ();
+  const MeshExamination found = check (ring);
+  for (const std::size_t i : {0U, 1U}) {
+    double width = 0.0;
+    for (const Index p : found.loops[i].points)
+      for (const Index q : found.loops[i].points)
+        width = std::max (width, 10.0 * (ring.positions[p] - ring.positions[q]).norm ());
+    EXPECT_LE (found.check.loops[i].width, width * (1.0 + 1e-12));
+    EXPECT_GE (found.check.loops[i].width, 0.57 * width);
+  }
+}
+
+TEST (MeshCheck, WhatIsBrokenIsCounted)
+{
+  struct Case
+  {
+    const char* what;
+    Triangles triangles;
+    std::size_t edges, vertices, conflicts, components;
+  };
+  const std::vector<Case> cases = {
+      {"three triangles at an edge", {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 1, 0, 0, 1},
+      {"wound against each other", {{0, 1, 2}, {0, 1, 3}}, 0, 0, 1, 1},
+      {"a bow tie", {{0, 1, 2}, {0, 3, 4}}, 0, 1, 0, 2},
+      {"two closed fans at a vertex",
+       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 5, 4}, {0, 4, 6}, {4, 5, 6}, {5, 0, 6}},
+       0,
+       1,
+       0,
+       2},
+      {"the same triangle twice", {{0, 1, 2}, {1, 2, 0}}, 0, 3, 3, 1},
+      {"a triangle and its back", {{0, 1, 2}, {0, 2, 1}}, 0, 3, 0, 1},
+      {"the same triangle twice in a mesh", {{0, 1, 2}, {1, 0, 3}, {0, 1, 2}}, 1, 1, 2, 1},
+      {"a corner twice", {{0, 1, 1}}, 1, 0, 0, 0},
+      {"a corner thrice", {{0, 1, 2}, {2, 2, 2}}, 1, 0, 0, 1},
+      {"points that are none", {{0, 1, 7}, {0, NONE, 2}}, 2, 0, 0, 0}};
+  RandomStream random (3);
+  Positions positions (7);
+  for (Eigen::Vector3d& p : positions)
+    p = {random.uniform (), random.uniform (), random.uniform ()};
+  for (const Case& broken : cases) {
+    SCOPED_TRACE (broken.what);
+    const MeshExamination found = check ({positions, broken.triangles});
+    EXPECT_FALSE (found.isManifold ());
+    EXPECT_EQ (found.check.nonmanifold_edges, broken.edges);
+    EXPECT_EQ (found.check.nonmanifold_vertices, broken.vertices);
+    EXPECT_EQ (found.check.orientation_conflicts, broken.conflicts);
+    EXPECT_EQ (found.check.components, broken.components);
+    EXPECT_EQ (found.broken_at, 0U + (std::string (broken.what) == "a corner thrice" ? 2U : 0U));
+    Report report;
+    const Problem problem = reportCheck (setOf (positions), found, {}, report);
+    EXPECT_EQ (problem.status, Status::INTERNAL_ERROR);
+    EXPECT_NE (problem.message.find ("no oriented manifold"), std::string::npos);
+    EXPECT_TRUE (report.check.done);
+  }
+}
+
+TEST (MeshCheck, AMoebiusStripIsWoundAgainstItself)
+{
+  constexpr Index AROUND = 40, ACROSS = 4;
+  const auto index = [] (Index x, Index y) { // the end is glued upside down
+    return x < AROUND ? y * AROUND + x : (ACROSS - y) * AROUND;
+  };
+  const Mesh strip = grid (AROUND, ACROSS, AROUND * (ACROSS + 1), index, [] (Index x, Index y) {
+    const double u = 2.0 * samples::PI * x / AROUND, v = 0.1 * (y - 0.5 * ACROSS);
+    return Eigen::Vector3d ((1.0 + v * std::cos (0.5 * u)) * std::cos (u),
+                            (1.0 + v * std::cos (0.5 * u)) * std::sin (u), v * std::sin (0.5 * u));
+  });
+  const MeshExamination found = check (strip);
+  EXPECT_EQ (found.check.orientation_conflicts, ACROSS);
+  EXPECT_EQ (found.check.nonmanifold_edges, 0U);
+  EXPECT_EQ (found.check.nonmanifold_vertices, 0U);
+  EXPECT_EQ (found.check.components, 1U);
+  EXPECT_EQ (found.check.euler_characteristic, 0);
+  EXPECT_FALSE (found.isManifold ());
+}
+
+// Nothing that triangles may be makes the check fail; it agrees with the half-edges on what is
+// sound.
+TEST (MeshCheck, AnyTriangles)
+{
+  RandomStream random (11);
+  std::size_t sound = 0;
+  for (int run = 0; run < 3000; ++run) {
+    constexpr std::size_t POINTS = 7;
+    Mesh mesh;
+    mesh.positions = samples::randomPoints (POINTS, static_cast<std::uint64_t> (run));
+    mesh.triangles.resize (1 + random.below (6));
+    for (Triangle& t : mesh.triangles)
+      for (Index& p : t)
+        p = static_cast<Index> (random.below (POINTS));
+    TriangleMesh connected;
+    connected.triangles = mesh.triangles;
+    const bool is_sound = connected.connect (POINTS);
+    const MeshExamination found = check (mesh);
+    // But for triangles back to back, which half-edges take for a sphere.
+    bool is_flat = false;
+    for (const Triangle& t : mesh.triangles)
+      is_flat |= std::count_if (mesh.triangles.begin (), mesh.triangles.end (),
+                                [&t] (const Triangle& other) {
+                                  return samples::unordered ({t}) == samples::unordered ({other});
+                                }) > 1;
+    EXPECT_EQ (found.isManifold (), is_sound && !is_flat);
+    sound += is_sound ? 1 : 0;
+  }
+  EXPECT_GT (sound, 100U);
+}
+
+TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
+{
+  // A row of three unit squares of which the last is folded back; and a far corner.
+  Mesh mesh = sheet (4);
+  MeshExamination found = check (mesh);
+  EXPECT_EQ (found.check.folds, 0U);
+  EXPECT_EQ (found.fold_at, NONE);
+  EXPECT_EQ (found.long_edges, 0U);
+  EXPECT_NEAR (found.check.longest_edge, std::sqrt (2.0), 1e-6);
+
+  // The last column laid back over the one before, turned by 130 degrees; then by 110.
+  for (const bool folded : {true, false}) {
+    const double angle = (folded ? 130.0 : 110.0) * samples::PI / 180.0;
+    for (Index y = 0; y < 5; ++y)
+      mesh.positions[5 * y + 4] = {0.3 + 0.1 * std::cos (angle), 0.1 * y, 0.1 * std::sin (angle)};
+    found = check (mesh);
+    EXPECT_EQ (found.check.folds, folded ? 4U : 0U);
+    EXPECT_EQ (found.fold_at, folded ? 3U : NONE);
+  }
+
+  // The corner, at which only boundary edges and a diagonal end, far away.
+  mesh = sheet (4);
+  mesh.positions[24] = {1.4, 1.4, 0.0};
+  found = check (mesh);
+  EXPECT_EQ (found.long_edges, 1U);
+  EXPECT_EQ (found.longest_inside_at, (std::pair<Index, Index>{18, 24}));
+  EXPECT_NEAR (found.longest_inside, 11.0 * std::sqrt (2.0), 1e-5);
+  EXPECT_EQ (found.check.longest_edge_at, (std::array<Index, 2>{3 * 18 + 1, 3 * 24 + 1}));
+
+  // Three points on a line, to a tenth of the precision of coordinates, and to ten times.
+  for (const bool flat : {true, false}) {
+    const Mesh line{{{0, 0, 0}, {0.5, 0, flat ? 1e-8 : 1e-6}, {1, 0, 0}, {0.5, 1, 0}},
+                    {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
+    found = check (line);
+    EXPECT_EQ (found.check.degenerate_triangles, flat ? 1U : 0U);
+    EXPECT_EQ (found.degenerate_at, flat ? 0U : NONE);
+    EXPECT_EQ (found.check.folds, 0U); // at right angles to the others, or none
+  }
+  // What is merely small is not degenerate.
+  EXPECT_EQ (check (tetrahedron (1e-9), 1e-10F).check.degenerate_triangles, 0U);
+}
+
+std::vector<std::string>
+warningsOf (const Mesh& mesh, const Options& options = {})
+{
+  Report report;
+  EXPECT_FALSE (reportCheck (setOf (mesh.positions), check (mesh), options, report));
+  return report.warnings;
+}
+
+void
+expectWarning (const std::vector<std::string>& warnings, const std::string& begin,
+               const std::string& place)
+{
+  ASSERT_EQ (warnings.size (), 1U) << testing::PrintToString (warnings);
+  EXPECT_EQ (warnings.front ().rfind (begin, 0), 0U) << warnings.front ();
+  EXPECT_NE (warnings.front ().find (place), std::string::npos) << warnings.front ();
+}
+
+TEST (MeshCheck, WarningsNameThePlace)
+{
+  for (const Mesh& mesh : {sheet (20), torus (20, 9), annulus (30)})
+    EXPECT_EQ (warningsOf (mesh), std::vector<std::string>{});
+
+  Mesh unused = sheet (4);
+  unused.positions.emplace_back (0.5, 0.25, 0.0);
+  expectWarning (warningsOf (unused), "1 point is in no triangle", "point 76 (105, -17.5, 3)");
+
+  Mesh folded = sheet (4);
+  for (Index y = 0; y < 5; ++y)
+    folded.positions[5 * y + 4].x () = 0.25;
+  expectWarning (warningsOf (folded), "4 edges are folded", "point 10 (103, -20, 3)");
+
+  Mesh with_long_edge = sheet (4);
+  with_long_edge.positions[24] = {1.4, 1.4, 0.0};
+  expectWarning (warningsOf (with_long_edge), "1 edge inside the surface is longer",
+                 "15 from point 55 (103, -17, 3) to point 73");
+
+  expectWarning (warningsOf (beside (sheet (40), sheet (1))), "the mesh has 2 components",
+                 "of 4 points at point 5044 (150");
+  EXPECT_TRUE (warningsOf (beside (sheet (4), sheet (4))).empty ());
+
+  const Mesh line{{{0, 0, 0}, {0.05, 0, 0}, {0.1, 0, 0}, {0.05, 0.1, 0}},
+                  {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
+  expectWarning (warningsOf (line), "1 triangle has no area", "point 1 (100, -20, 3)");
+}
+
+TEST (MeshCheck, SmallHolesAreToldIfNoOptionAsksForThem)
+{
+  Mesh holed = sheet (20);
+  for (const std::ptrdiff_t t : {610, 250, 100})
+    holed.triangles.erase (holed.triangles.begin () + t);
+  expectWarning (warningsOf (holed), "3 small holes stay open", "the largest, of 3 points");
+  Options options;
+  options.holes.policy = HolePolicy::CLOSE_ALL;
+  expectWarning (warningsOf (holed, options), "4 holes stay open though", "of 80 points, around");
+  for (const HolePolicy policy :
+       {HolePolicy::KEEP_COUNT, HolePolicy::BY_SIZE, HolePolicy::KEEP_LARGEST}) {
+    options.holes.policy = policy;
+    EXPECT_TRUE (warningsOf (holed, options).empty ());
+  }
+}
+
+TEST (MeshCheck, TheReportHasCloudIndicesAndTheLongestLoop)
+{
+  Mesh mesh = beside (sheet (3), annulus (30));
+  mesh.positions.emplace_back (0, 0, 1);
+  mesh.positions.emplace_back (0, 0, 2);
+  const MeshExamination found = check (mesh);
+  Report report;
+  report.outliers = {3 * 166 + 1};
+  ASSERT_FALSE (reportCheck (setOf (mesh.positions), found, {}, report));
+  EXPECT_EQ (report.unused, (std::vector<Index>{3 * 167 + 1}));
+  EXPECT_EQ (report.statistics.used_points, 166U);
+  ASSERT_EQ (report.loop.size (), 30U);
+  for (std::size_t i = 0; i < 30; ++i)
+    EXPECT_EQ (report.loop[i], 3 * found.loops.front ().points[i] + 1);
+  EXPECT_EQ (report.statistics.loop_points, 30U);
+  EXPECT_EQ (report.check.loops.size (), 3U);
+  // A loop that is there stays.
+  report.loop = {1, 2, 3};
+  ASSERT_FALSE (reportCheck (setOf (mesh.positions), found, {}, report));
+  EXPECT_EQ (report.loop, (std::vector<Index>{1, 2, 3}));
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/facing.h"
+
+#include "samples.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::PI;
+using samples::Positions;
+using Shape = std::function<Eigen::Vector3d (double, double)>;
+
+constexpr int SIDE = 40;
+
+double
+hills (double x, double y)
+{
+  return 0.1 * std::sin (9.0 * x) * std::cos (7.0 * y) + 0.3 * x;
+}
+
+// A unit square laid on a surface; u, or u and v, may close up.
+struct Patch
+{
+  Positions positions;
+  TriangleMesh mesh;
+
+  Patch (const Shape& shape, bool wraps_u, bool wraps_v, bool reversed = false)
+  {
+    const int columns = wraps_u ? SIDE : SIDE + 1, rows = wraps_v ? SIDE : SIDE + 1;
+    for (int v = 0; v < rows; ++v)
+      for (int u = 0; u < columns; ++u)
+        positions.push_back (
+            shape (static_cast<double> (u) / SIDE, static_cast<double> (v) / SIDE));
+    const auto at = [&] (int u, int v) {
+      return static_cast<Index> ((v % rows) * columns + u % columns);
+    };
+    for (int v = 0; v < SIDE; ++v)
+      for (int u = 0; u < SIDE; ++u) {
+        mesh.triangles.push_back ({at (u, v), at (u + 1, v), at (u + 1, v + 1)});
+        mesh.triangles.push_back ({at (u, v), at (u + 1, v + 1), at (u, v + 1)});
+      }
+    if (reversed)
+      for (Triangle& t : mesh.triangles)
+        std::swap (t[0], t[1]);
+    mesh.connect (positions.size ());
+  }
+};
+
+Eigen::Vector3d
+normalOf (const Triangle& t, const Positions& positions)
+{
+  return (positions[t[1]] - positions[t[0]]).cross (positions[t[2]] - positions[t[0]]);
+}
+
+// Share of the triangles that face as `outside` says for their centroids.
+double
+shareFacing (const std::vector<Triangle>& triangles, const Positions& positions,
+             const std::function<Eigen::Vector3d (const Eigen::Vector3d&)>& outside)
+{
+  std::size_t facing = 0;
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d centroid = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
+    facing += normalOf (t, positions).dot (outside (centroid)) > 0.0 ? 1 : 0;
+  }
+  return static_cast<double> (facing) / static_cast<double> (triangles.size ());
+}
+
+// The neighbours are those that the triangles tell.
+void
+expectConnected (const TriangleMesh& mesh)
+{
+  TriangleMesh fresh;
+  fresh.triangles = mesh.triangles;
+  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size ()));
+  EXPECT_EQ (mesh.neighbors, fresh.neighbors);
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p) {
+    const Triangle& t = mesh.triangles[mesh.triangle_of[p]];
+    EXPECT_EQ (std::count (t.begin (), t.end (), p), 1);
+  }
+}
+
+struct Form
+{
+  const char* name;
+  Shape shape;
+  std::function<Eigen::Vector3d (const Eigen::Vector3d&)> outside;
+  bool wraps_u = false, wraps_v = false;
+};
+
+Eigen::Vector3d
+awayFromRing (const Eigen::Vector3d& p)
+{
+  return p - Eigen::Vector3d (p.x (), p.y (), 0.0).normalized ();
+}
+
+Shape
+bowl (double share_of_sphere)
+{
+  return [share_of_sphere] (double u, double v) {
+    // A square laid on a disc, that on a cap of the sphere, open at the top.
+    const double x = 2.0 * u - 1.0, y = 2.0 * v - 1.0;
+    const Eigen::Vector2d disc (x * std::sqrt (1.0 - 0.5 * y * y),
+                                y * std::sqrt (1.0 - 0.5 * x * x));
+    const double angle = PI * share_of_sphere * disc.norm ();
+    const Eigen::Vector2d side = disc.norm () > 0.0 ? disc.normalized () : disc;
+    return Eigen::Vector3d (side.x () * std::sin (angle), side.y () * std::sin (angle),
+                            5.0 - std::cos (angle));
+  };
+}
+
+std::vector<Form>
+forms ()
+{
+  const auto fromMiddle = [] (const Eigen::Vector3d& p) {
+    return Eigen::Vector3d (p - Eigen::Vector3d (0.0, 0.0, 5.0));
+  };
+  const auto up = [] (const Eigen::Vector3d&) { return Eigen::Vector3d (0.0, 0.0, 1.0); };
+  return {
+      {"torus",
+       [] (double u, double v) {
+         const double radius = 1.0 + 0.3 * std::cos (2.0 * PI * v);
+         return Eigen::Vector3d (radius * std::cos (2.0 * PI * u), radius * std::sin (2.0 * PI * u),
+                                 0.3 * std::sin (2.0 * PI * v));
+       },
+       awayFromRing, true, true},
+      {"tube",
+       [] (double u, double v) {
+         return Eigen::Vector3d (std::cos (2.0 * PI * u), std::sin (2.0 * PI * u), 3.0 * v);
+       },
+       [] (const Eigen::Vector3d& p) { return Eigen::Vector3d (p.x (), p.y (), 0.0); }, true},
+      {"half sphere", bowl (0.5), fromMiddle},
+      {"nearly a sphere", bowl (0.9), fromMiddle},
+      {"bowl", bowl (0.35), fromMiddle},
+      {"flat", [] (double u, double v) { return Eigen::Vector3d (u, v, 1.0); }, up},
+      {"terrain", [] (double u, double v) { return Eigen::Vector3d (u, v, hills (u, v)); }, up},
+      {"shallow valley",
+       [] (double u, double v) {
+         return Eigen::Vector3d (u, v, 0.3 * (std::pow (u - 0.5, 2.0) + std::pow (v - 0.5, 2.0)));
+       },
+       up},
+      {"upright in y", [] (double u, double v) { return Eigen::Vector3d (u, 0.1 * u, v); },
+       [] (const Eigen::Vector3d&) { return Eigen::Vector3d (0.0, 1.0, 0.0); }},
+      {"upright in x", [] (double u, double v) { return Eigen::Vector3d (0.1 * u, u, v); },
+       [] (const Eigen::Vector3d&) { return Eigen::Vector3d (1.0, 0.0, 0.0); }},
+      {"of equal slope", [] (double u, double v) { return Eigen::Vector3d (u, v, u); }, up}};
+}
+
+TEST (Outward, EveryFormFacesOneWayWhateverItDidBefore)
+{
+  for (const Form& form : forms ()) {
+    SCOPED_TRACE (form.name);
+    std::size_t turned = 0;
+    for (const bool reversed : {false, true}) {
+      Patch patch (form.shape, form.wraps_u, form.wraps_v, reversed);
+      turned += faceOutwards (patch.mesh, patch.positions);
+      EXPECT_GT (shareFacing (patch.mesh.triangles, patch.positions, form.outside), 0.99);
+      expectConnected (patch.mesh);
+      EXPECT_EQ (faceOutwards (patch.mesh, patch.positions), 0U);
+    }
+    EXPECT_EQ (turned, 1U);
+  }
+}
+
+TEST (Outward, PiecesAreTurnedOneByOne)
+{
+  const std::vector<Form> all = forms ();
+  Patch patch (all[0].shape, true, true, true);
+  const Patch sheet (all[5].shape, false, false);
+  const auto offset = static_cast<Index> (patch.positions.size ());
+  for (Triangle t : sheet.mesh.triangles) {
+    for (Index& p : t)
+      p += offset;
+    patch.mesh.triangles.push_back (t);
+  }
+  patch.positions.insert (patch.positions.end (), sheet.positions.begin (), sheet.positions.end ());
+  patch.positions.emplace_back (9.0, 9.0, 9.0); // no vertex
+  patch.mesh.connect (patch.positions.size ());
+  TriangleMesh before = patch.mesh;
+  const bool torus_was_right =
+      shareFacing ({before.triangles[0]}, patch.positions, all[0].outside) == 1.0;
+  EXPECT_EQ (faceOutwards (patch.mesh, patch.positions), torus_was_right ? 0U : 1U);
+  for (std::size_t t = sheet.mesh.triangles.size (); t < before.triangles.size (); ++t)
+    EXPECT_EQ (patch.mesh.triangles[t], before.triangles[t]);
+}
+
+TEST (Outward, AMeshOfNothingStaysNothing)
+{
+  TriangleMesh mesh;
+  EXPECT_EQ (faceOutwards (mesh, {}), 0U);
+  mesh.triangles = {{0, 1, 2}}; // without area
+  ASSERT_TRUE (mesh.connect (3));
+  faceOutwards (mesh, Positions (3, Eigen::Vector3d::Zero ()));
+  EXPECT_EQ (mesh.triangles.size (), 1U);
+}
+
+// Both methods, on a half sphere of scattered points in two orders.
+TEST (Outward, IsHowEveryResultFaces)
+{
+  const samples::Sheet sheet = samples::disc (0.06, 3);
+  Positions points;
+  for (const Eigen::Vector3d& p : sheet.positions) {
+    const double angle = 0.5 * PI * p.norm ();
+    points.emplace_back (p.x () * std::sin (angle) / std::max (1e-9, p.norm ()),
+                         p.y () * std::sin (angle) / std::max (1e-9, p.norm ()), -std::cos (angle));
+  }
+  const auto outside = [] (const Eigen::Vector3d& p) { return p; };
+  for (const Topology method : {Topology::DISC, Topology::SURFACE})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      Positions permuted;
+      for (const Index p : samples::permutation (points.size (), seed))
+        permuted.push_back (points[p]);
+      Options options;
+      options.topology = method;
+      const Result result = reconstruct (samples::asInput (permuted), options);
+      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      EXPECT_EQ (shareFacing (result.triangles, permuted, outside), 1.0);
+      if (method == Topology::SURFACE)
+        continue;
+      // Seen from outside, the parameterization is no mirror image.
+      Positions flat;
+      for (const Eigen::Vector2d& uv : result.report.parameters)
+        flat.emplace_back (uv.x (), uv.y (), 0.0);
+      EXPECT_GT (shareFacing (result.triangles, flat,
+                              [] (const Eigen::Vector3d&) { return Eigen::Vector3d::UnitZ (); }),
+                 0.95);
+    }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

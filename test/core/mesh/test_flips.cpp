@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Insertion of missing points, edge flips and the repair of folds.
+#include "mesh/flips.h"
+
+#include "samples.h"
+#include "mesh/fold_repair.h"
+#include "mesh/insertion.h"
+#include "floater/planar_delaunay.h"
+#include "mesh/finish.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::Positions;
+using samples::Sheet;
+using samples::unordered;
+using Places = std::vector<Eigen::Vector2d>;
+
+Places
+planView (const Positions& positions, double stretch = 1.0)
+{
+  Places uv;
+  for (const Eigen::Vector3d& p : positions)
+    uv.emplace_back (p.x (), stretch * p.y ());
+  return uv;
+}
+
+std::vector<Eigen::Vector3f>
+upward (std::size_t count)
+{
+  std::vector<Eigen::Vector3f> normals (count, Eigen::Vector3f::UnitZ ());
+  return normals;
+}
+
+double
+totalCost (const TriangleMesh& mesh, const TriangleCost& cost)
+{
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    sum += cost (t);
+  return sum;
+}
+
+// A disc of all points with the sheet's border, whose neighbours are kept right.
+void
+expectDisc (const TriangleMesh& mesh, const Sheet& sheet)
+{
+  const samples::Topology topology = samples::topologyOf (mesh.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.euler, 1);
+  EXPECT_EQ (topology.vertices, sheet.positions.size ());
+  ASSERT_EQ (topology.loops.size (), 1U);
+  EXPECT_EQ (topology.loops.front (), samples::indices (sheet.border));
+  TriangleMesh fresh;
+  fresh.triangles = mesh.triangles;
+  ASSERT_TRUE (fresh.connect (sheet.positions.size ()));
+  EXPECT_EQ (fresh.neighbors, mesh.neighbors);
+}
+
+// Inside of the circle through the corners of a flat triangle, by how much of its squared radius.
+double
+depthInCircle (const Positions& at, const Triangle& t, Index p)
+{
+  const Eigen::Vector3d a = at[t[1]] - at[t[0]], b = at[t[2]] - at[t[0]];
+  const Eigen::Vector3d centre = (a.squaredNorm () * b - b.squaredNorm () * a).cross (a.cross (b)) /
+                                 (2.0 * a.cross (b).squaredNorm ());
+  return 1.0 - (at[p] - at[t[0]] - centre).squaredNorm () / centre.squaredNorm ();
+}
+
+TEST (Flips, AreDelaunayInThePlane)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Sheet sheet = samples::disc (0.07, seed);
+    const std::vector<Index> loop = samples::indices (sheet.border);
+    const std::vector<Eigen::Vector3f> normals = upward (sheet.positions.size ());
+    TriangleMesh mesh = triangulatePlane (planView (sheet.positions, 0.25), loop);
+    const std::set<Triangle> before = unordered (mesh.triangles);
+    const std::size_t flips = flipEdges (mesh, TriangleCost (sheet.positions, normals));
+    EXPECT_GT (flips, 100U);
+    EXPECT_NE (unordered (mesh.triangles), before);
+    expectDisc (mesh, sheet);
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const MeshEdge across = mesh.mate ({t, side});
+        if (across.triangle != NONE) {
+          EXPECT_LT (depthInCircle (sheet.positions, mesh.triangles[t], mesh.corner (across)),
+                     1e-6);
+        }
+      }
+    EXPECT_EQ (flipEdges (mesh, TriangleCost (sheet.positions, normals)), 0U);
+  }
+}
+
+TEST (Flips, NeverRaiseTheCost)
+{
+  Sheet sheet = samples::disc (0.07, 4);
+  RandomStream random (5);
+  for (Eigen::Vector3d& p : sheet.positions)
+    p.z () = 0.3 * std::sin (5.0 * p.x ()) + 0.03 * random.normal ();
+  std::vector<Eigen::Vector3f> normals = upward (sheet.positions.size ());
+  TriangleMesh mesh =
+      triangulatePlane (planView (sheet.positions, 0.4), samples::indices (sheet.border));
+  const TriangleCost cost (sheet.positions, normals);
+  const double before = totalCost (mesh, cost);
+  EXPECT_GT (flipEdges (mesh, cost), 0U);
+  EXPECT_LT (totalCost (mesh, cost), before);
+  expectDisc (mesh, sheet);
+}
+
+TEST (Flips, EndOnStraightLines)
+{
+  // Rows of a turned grid: along the border any two diagonals are as bad, up to rounding.
+  Sheet sheet;
+  const auto add = [&sheet] (int x, int y) {
+    sheet.positions.emplace_back (0.9 * x - 0.3 * y, 0.3 * x + 0.9 * y, 0.1 * x - 0.7 * y);
+  };
+  const int side = 15;
+  for (int i = 0; i < side; ++i)
+    add (i, 0);
+  for (int i = 0; i < side; ++i)
+    add (side, i);
+  for (int i = 0; i < side; ++i)
+    add (side - i, side);
+  for (int i = 0; i < side; ++i)
+    add (0, side - i);
+  sheet.border = sheet.positions.size ();
+  for (int x = 1; x < side; ++x)
+    for (int y = 1; y < side; ++y)
+      add (x, y);
+  // Laid on a circle, the border makes triangles of points on one line.
+  Places uv;
+  for (std::size_t i = 0; i < sheet.border; ++i) {
+    const double angle =
+        2.0 * samples::PI * static_cast<double> (i) / static_cast<double> (sheet.border);
+    uv.emplace_back (std::cos (angle), std::sin (angle));
+  }
+  for (int x = 1; x < side; ++x)
+    for (int y = 1; y < side; ++y)
+      uv.emplace_back (0.05 * (x - 7.5), 0.05 * (y - 7.5));
+  TriangleMesh mesh = triangulatePlane (uv, samples::indices (sheet.border));
+  std::vector<Eigen::Vector3f> normals (sheet.positions.size (),
+                                        Eigen::Vector3d (0.9, 0.3, 0.1)
+                                            .cross (Eigen::Vector3d (-0.3, 0.9, -0.7))
+                                            .normalized ()
+                                            .cast<float> ());
+  flipEdges (mesh, TriangleCost (sheet.positions, normals));
+  expectDisc (mesh, sheet);
+}
+
+TEST (Flips, UnfoldAPair)
+{
+  const Positions positions = {{0, 0, 0}, {0.5, -0.5, 0}, {1, 0, 0}, {0.5, -0.2, 0}};
+  TriangleMesh mesh;
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  ASSERT_TRUE (mesh.connect (4));
+  EXPECT_EQ (findFolds (mesh, positions).size (), 1U);
+  const std::vector<Eigen::Vector3f> normals = upward (4);
+  EXPECT_EQ (flipEdges (mesh, TriangleCost (positions, normals)), 1U);
+  EXPECT_TRUE (findFolds (mesh, positions).empty ());
+  EXPECT_EQ (unordered (mesh.triangles), (std::set<Triangle>{{0, 1, 3}, {1, 2, 3}}));
+}
+
+TEST (Flips, OrientNormalsLikeTheMesh)
+{
+  const Sheet sheet = samples::disc (0.1, 6);
+  std::vector<Eigen::Vector3f> normals = upward (sheet.positions.size ());
+  for (std::size_t p = 0; p < normals.size (); p += 3)
+    normals[p] = -normals[p];
+  TriangleMesh mesh = triangulatePlane (planView (sheet.positions), samples::indices (sheet.border));
+  orientNormals (mesh, sheet.positions, normals);
+  EXPECT_EQ (normals, upward (normals.size ()));
+}
+
+TEST (Insertion, PutsEveryPointIn)
+{
+  const Sheet sheet = samples::disc (0.07, 7);
+  const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
+  const Positions& positions = made.points.positions;
+  const std::vector<Eigen::Vector3f> normals = upward (positions.size ());
+  std::vector<Index> loop (sheet.border);
+  for (Index p = 0; p < positions.size (); ++p)
+    if (made.points.cloud_index[p] < sheet.border)
+      loop[made.points.cloud_index[p]] = p;
+  Places some = planView (positions);
+  RandomStream random (8);
+  std::size_t missing = 0;
+  for (std::size_t p = 0; p < some.size (); ++p)
+    if (made.points.cloud_index[p] >= sheet.border && random.uniform () < 0.2) {
+      some[p].setConstant (std::numeric_limits<double>::quiet_NaN ());
+      ++missing;
+    }
+  TriangleMesh mesh = triangulatePlane (some, loop);
+  const TriangleCost cost (positions, normals);
+  EXPECT_EQ (insertMissingPoints (mesh, made.neighbors, cost), missing);
+  EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 0);
+  const samples::Topology topology = samples::topologyOf (mesh.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.euler, 1);
+  EXPECT_EQ (insertMissingPoints (mesh, made.neighbors, cost), 0U);
+  EXPECT_EQ (samples::topologyOf (mesh.triangles).loops.size (), 1U);
+}
+
+TEST (Insertion, ARowOfPointsFindsItsWayIn)
+{
+  // Points 3 to 5 know only the one before.
+  const Positions positions = {{0, 0, 0},   {10, 0, 0},  {0, 10, 0},
+                               {3, 3.1, 0}, {2, 2.3, 0}, {2.5, 1.5, 0}};
+  const std::vector<Eigen::Vector3f> normals = upward (6);
+  CsrLists neighbors;
+  neighbors.offsets = {0, 0, 0, 0, 1, 2, 3};
+  neighbors.ids = {4, 5, 0};
+  TriangleMesh mesh;
+  mesh.triangles = {{0, 1, 2}};
+  ASSERT_TRUE (mesh.connect (6));
+  EXPECT_EQ (insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals)), 3U);
+  EXPECT_TRUE (samples::topologyOf (mesh.triangles).manifold);
+  EXPECT_EQ (mesh.triangles.size (), 7U);
+}
+
+TEST (Insertion, PointsWithoutVerticesNearbyStayOut)
+{
+  const Positions positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 0}, {9, 8, 0}};
+  const std::vector<Eigen::Vector3f> normals = upward (5);
+  CsrLists neighbors;
+  neighbors.offsets = {0, 0, 0, 0, 1, 2};
+  neighbors.ids = {4, 3};
+  TriangleMesh mesh;
+  mesh.triangles = {{0, 1, 2}};
+  ASSERT_TRUE (mesh.connect (5));
+  EXPECT_EQ (insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals)), 0U);
+  EXPECT_EQ (mesh.triangle_of[3], NONE);
+  EXPECT_EQ (mesh.triangles.size (), 1U);
+}
+
+TEST (TriangleCost, DoesNotDependOnTheFirstCorner)
+{
+  RandomStream random (12);
+  for (int i = 0; i < 2000; ++i) {
+    const double flatness = i % 2 == 0 ? 1.0 : 1e-8; // every other triangle is a needle
+    Positions positions;
+    for (int corner = 0; corner < 3; ++corner)
+      positions.emplace_back (random.uniform (), flatness * random.uniform (), 0.0);
+    const std::vector<Eigen::Vector3f> normals = upward (3);
+    const TriangleCost cost (positions, normals);
+    EXPECT_EQ (cost (0, 1, 2), cost (1, 2, 0));
+    EXPECT_EQ (cost (0, 1, 2), cost (2, 0, 1));
+    EXPECT_EQ (cost (0, 2, 1), cost (2, 1, 0));
+  }
+}
+
+TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
+{
+  const Sheet sheet = samples::disc (0.07, 9);
+  const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
+  std::vector<Index> loop (sheet.border);
+  for (Index p = 0; p < made.points.positions.size (); ++p)
+    if (made.points.cloud_index[p] < sheet.border)
+      loop[made.points.cloud_index[p]] = p;
+  Places mixed = planView (made.points.positions);
+  RandomStream random (10);
+  for (int i = 0; i < 6; ++i) {
+    const std::size_t p = random.below (mixed.size ());
+    const Index q = made.neighbors.row (p)[5];
+    if (made.points.cloud_index[p] >= sheet.border && made.points.cloud_index[q] >= sheet.border)
+      std::swap (mixed[p], mixed[q]);
+  }
+  Options options;
+  for (const bool flip : {false, true}) {
+    options.flip_edges = flip;
+    std::vector<Eigen::Vector3f> normals = made.stars.normals;
+    TriangleMesh mesh = triangulatePlane (mixed, loop);
+    const std::set<Triangle> before = unordered (mesh.triangles);
+    const SurfaceFinish finish = finishDisc (mesh, made.points.positions, made.neighbors, normals, options);
+    EXPECT_FALSE (finish.problem);
+    EXPECT_EQ (finish.folds.size (), findFolds (mesh, made.points.positions).size ());
+    const samples::Topology topology = samples::topologyOf (mesh.triangles);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.euler, 1);
+    EXPECT_EQ (topology.vertices, made.points.positions.size ());
+    if (flip) {
+      EXPECT_TRUE (finish.folds.empty ());
+      EXPECT_GT (finish.flips, 0U);
+    }
+    else {
+      EXPECT_FALSE (finish.folds.empty ());
+      EXPECT_EQ (finish.flips, 0U);
+      EXPECT_EQ (unordered (mesh.triangles), before);
+    }
+  }
+}
+
+TEST (SurfaceFinish, RefusesASurfaceFoldedAllOver)
+{
+  // Points of a flat sheet, joined at random: no flips can put that in order.
+  const samples::Neighborhoods made =
+      samples::makeNeighborhoods (samples::disc (0.07, 9).positions);
+  RandomStream random (11);
+  Places scattered;
+  for (Index p = 0; p < made.points.positions.size (); ++p) {
+    const double angle =
+        p < 3 ? 2.0 * samples::PI * p / 3.0 : 2.0 * samples::PI * random.uniform ();
+    const double radius = p < 3 ? 1.0 : 0.4 * random.uniform ();
+    scattered.emplace_back (radius * std::cos (angle), radius * std::sin (angle));
+  }
+  TriangleMesh mesh = triangulatePlane (scattered, {0, 1, 2});
+  std::vector<Eigen::Vector3f> normals = made.stars.normals;
+  const SurfaceFinish finish = finishDisc (mesh, made.points.positions, made.neighbors, normals, Options{});
+  EXPECT_EQ (finish.problem.status, Status::NOT_A_DISC);
+  EXPECT_NE (finish.problem.message.find ("folded"), std::string::npos);
+}
+
+} // namespace
+} // namespace floater
+
+} // namespace pcl

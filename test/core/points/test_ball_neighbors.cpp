@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Balls, and the order of all that is in them.
+#include "points/ball_neighbors.h"
+
+#include "points/kd_tree.h"
+#include "local/planar_star.h"
+#include "points/points.h"
+#include "random_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+std::vector<Eigen::Vector3d>
+plane (std::size_t count, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  std::vector<Eigen::Vector3d> points (count);
+  for (Eigen::Vector3d& p : points) {
+    const double x = random.uniform (), y = random.uniform ();
+    p = {40.0 * x * x, 40.0 * y, 0.0}; // denser at one side
+  }
+  return points;
+}
+
+Points
+setOf (const std::vector<Eigen::Vector3d>& positions)
+{
+  std::vector<Index> indices (positions.size ());
+  std::iota (indices.begin (), indices.end (), Index{0});
+  return makePoints (positions, indices, 1);
+}
+
+// By trying all points.
+std::vector<Index>
+ballBySearchingAll (const Points& points, Index p, double radius)
+{
+  std::vector<Neighbor> others;
+  for (Index q = 0; q < points.positions.size (); ++q)
+    if (q != p)
+      others.push_back ({(points.positions[q] - points.positions[p]).squaredNorm (), q});
+  std::sort (others.begin (), others.end ());
+  double spacing = 0.0;
+  for (std::size_t i = 0; i < 6; ++i)
+    spacing += std::sqrt (others[i].sqr_distance) / 6.0;
+  std::vector<Index> ball;
+  for (const Neighbor& neighbor : others)
+    if (ball.size () < 200 &&
+        (ball.size () < 6 || std::sqrt (neighbor.sqr_distance) <= radius * spacing))
+      ball.push_back (neighbor.point);
+  return ball;
+}
+
+// Answers in units of the cloud, with the point itself and one too far.
+class CloudSearch : public NeighborSearch
+{
+public:
+  CloudSearch (const std::vector<Eigen::Vector3d>& positions, bool knows_radii)
+      : positions_ (positions), tree_ (positions), knows_radii_ (knows_radii)
+  {
+  }
+  void build (const std::vector<std::uint32_t>& /*cloud_indices*/) override {}
+  void nearest (std::uint32_t cloud_index, int k, std::vector<std::uint32_t>& answer) override
+  {
+    tree_.nearest (positions_[cloud_index], static_cast<std::size_t> (k), found_);
+    hand (answer);
+  }
+  bool within (std::uint32_t cloud_index, double radius,
+               std::vector<std::uint32_t>& answer) override
+  {
+    if (!knows_radii_)
+      return false;
+    tree_.within (positions_[cloud_index], radius, found_);
+    hand (answer);
+    answer.push_back ((cloud_index + 17) % static_cast<std::uint32_t> (positions_.size ()));
+    return true;
+  }
+
+private:
+  void hand (std::vector<std::uint32_t>& answer) const
+  {
+    answer.clear ();
+    for (const Neighbor& neighbor : found_)
+      answer.push_back (neighbor.point);
+  }
+  const std::vector<Eigen::Vector3d>& positions_;
+  KdTree tree_;
+  bool knows_radii_;
+  std::vector<Neighbor> found_;
+};
+
+TEST (BallNeighbors, FollowTheDensity)
+{
+  const std::vector<Eigen::Vector3d> positions = plane (1500, 1);
+  const Points set = setOf (positions);
+  const CsrLists balls = findBallNeighbors (set, 2.5, nullptr, 2);
+  ASSERT_EQ (balls.rows (), points.positions.size ());
+  for (Index p = 0; p < balls.rows (); p += 7) {
+    const Row row = balls.row (p);
+    ASSERT_EQ (std::vector<Index> (row.begin (), row.end ()), ballBySearchingAll (set, p, 2.5));
+  }
+  const double mean = static_cast<double> (balls.ids.size ()) / 1500.0;
+  EXPECT_GT (mean, 15.0);
+  EXPECT_LT (mean, 25.0);
+}
+
+TEST (BallNeighbors, AreTheSameByTheCallersSearch)
+{
+  const std::vector<Eigen::Vector3d> positions = plane (800, 2);
+  const Points set = setOf (positions);
+  const CsrLists own = findBallNeighbors (set, 3.0, nullptr, 1);
+  for (const bool knows_radii : {true, false}) {
+    CloudSearch search (positions, knows_radii);
+    const CsrLists balls = findBallNeighbors (set, 3.0, &search, 2);
+    EXPECT_EQ (balls.offsets, own.offsets);
+    EXPECT_EQ (balls.ids, own.ids);
+  }
+}
+
+TEST (BallNeighbors, AreNeitherFewNorTooMany)
+{
+  // A crowd, and a few points from where all of it is in reach.
+  RandomStream random (3);
+  std::vector<Eigen::Vector3d> positions (1000);
+  for (Eigen::Vector3d& p : positions)
+    p = {1e-3 * random.uniform (), 1e-3 * random.uniform (), 0.0};
+  positions.emplace_back (1.0, 0.0, 0.0);
+  for (int i = 0; i < 5; ++i)
+    positions.emplace_back (1.0 + 1e-9 * (i + 1), 1e-9 * i * i, 0.0);
+  const Points set = setOf (positions);
+  const CsrLists balls = findBallNeighbors (set, 1.0, nullptr, 1);
+  for (Index p = 0; p < balls.rows (); ++p) {
+    EXPECT_GE (balls.row (p).size (), 6U);
+    EXPECT_LE (balls.row (p).size (), 200U);
+  }
+  const CsrLists few = findBallNeighbors (setOf (plane (4, 4)), 2.5, nullptr, 1);
+  for (Index p = 0; p < 4; ++p)
+    EXPECT_EQ (few.row (p).size (), 3U);
+}
+
+TEST (PlanarStarOfAll, GoesRoundAndBeginsAfterTheGap)
+{
+  RandomStream random (5);
+  for (int round = 0; round < 200; ++round) {
+    // Directions of a grid, several in one; in half of the rounds on one side only.
+    std::vector<PlanarNeighbor> neighbors;
+    for (Index i = 0; i < 30; ++i) {
+      const double x = static_cast<double> (random.below (7)) - 3.0;
+      const double y = static_cast<double> (random.below (7)) - 3.0;
+      if ((x != 0.0 || y != 0.0) && (round % 2 == 0 || y > 0.0))
+        neighbors.push_back ({{x, y}, i});
+    }
+    const std::size_t count = neighbors.size ();
+    ASSERT_GE (count, 5U);
+    PlanarStar star;
+    std::vector<PlanarNeighbor> delaunay = neighbors;
+    const bool open = star.order (neighbors);
+    EXPECT_EQ (neighbors.size (), count);
+    const double widest = star.openingAngle ();
+    EXPECT_EQ (open, star.make (delaunay));
+    EXPECT_EQ (widest, star.openingAngle ());
+    EXPECT_TRUE (open || round % 2 == 0);
+    double turn = 0.0;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const Eigen::Vector2d &a = neighbors[i].offset, &b = neighbors[i + 1].offset;
+      const double angle = std::atan2 (a.x () * b.y () - a.y () * b.x (), a.dot (b));
+      EXPECT_GE (angle, 0.0);
+      turn += angle;
+    }
+    EXPECT_LT (turn, 6.3);
+    if (open) {
+      EXPECT_NEAR (turn + widest, 6.283185307179586, 1e-12);
+    }
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

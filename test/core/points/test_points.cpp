@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/points.h"
+
+#include "samples.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::indices;
+using samples::Positions;
+
+constexpr double INF = std::numeric_limits<double>::infinity ();
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
+
+Points
+make (const Positions& positions, int threads = 1)
+{
+  return makePoints (positions, indices (positions.size ()), threads);
+}
+
+// Every input is a point, a duplicate of a point, or not finite; none is two of these.
+void
+expectPartition (const Points& points, std::size_t count)
+{
+  std::vector<Index> all = points.cloud_index;
+  all.insert (all.end (), points.non_finite.begin (), points.non_finite.end ());
+  for (const auto& duplicate : points.duplicates) {
+    all.push_back (duplicate[0]);
+    EXPECT_LT (duplicate[1], duplicate[0]);
+    EXPECT_NE (std::find (points.cloud_index.begin (), points.cloud_index.end (), duplicate[1]),
+               points.cloud_index.end ());
+  }
+  std::sort (all.begin (), all.end ());
+  EXPECT_EQ (all, indices (count));
+  EXPECT_TRUE (std::is_sorted (points.non_finite.begin (), points.non_finite.end ()));
+  EXPECT_TRUE (std::is_sorted (points.duplicates.begin (), points.duplicates.end ()));
+}
+
+// Stages rely on it: finite, distinct, in a box of diagonal 1 around the origin.
+void
+expectWorkable (const Points& points)
+{
+  Eigen::AlignedBox3d box;
+  std::set<std::array<double, 3>> distinct;
+  for (const Eigen::Vector3d& p : points.positions) {
+    ASSERT_TRUE (p.allFinite ());
+    box.extend (p);
+    EXPECT_TRUE (distinct.insert ({p.x (), p.y (), p.z ()}).second) << p.transpose ();
+  }
+  EXPECT_EQ (points.positions.size (), points.cloud_index.size ());
+  if (points.positions.size () > 1) {
+    EXPECT_NEAR (box.diagonal ().norm (), 1.0, 1e-12);
+    EXPECT_LT (box.center ().norm (), 1e-12);
+  }
+}
+
+TEST (Points, LeadsBackToTheCloud)
+{
+  Positions cloud = samples::randomPoints (2000, 1);
+  for (Eigen::Vector3d& p : cloud)
+    p = Eigen::Vector3d (3.0, 40.0, -7.0) + 25.0 * p;
+  const Points set = make (cloud);
+  expectPartition (set, cloud.size ());
+  expectWorkable (set);
+  for (std::size_t p = 0; p < points.positions.size (); ++p) {
+    const Eigen::Vector3d back = points.centre + points.scale * points.positions[p];
+    EXPECT_LT ((back - cloud[points.cloud_index[p]]).norm (), 1e-13 * points.scale);
+  }
+}
+
+TEST (Points, ConsecutivePointsAreNear)
+{
+  Positions cube;
+  for (int x = 0; x < 16; ++x)
+    for (int y = 0; y < 16; ++y)
+      for (int z = 0; z < 16; ++z)
+        cube.emplace_back (x, y, z);
+  const Points set = make (cube);
+  double sum = 0.0;
+  for (std::size_t p = 1; p < points.positions.size (); ++p)
+    sum += points.scale * (points.positions[p] - points.positions[p - 1]).norm ();
+  // A Hilbert curve whose cells are the grid's own has a mean of 1, Morton order one of 1.6.
+  EXPECT_LT (sum / static_cast<double> (cube.size () - 1), 1.35);
+}
+
+TEST (Points, OrderDependsOnPositionsOnly)
+{
+  Positions cloud = samples::randomPoints (5000, 2);
+  for (std::size_t i = 0; i < 500; ++i) // many in one cell of the curve
+    cloud.push_back (cloud[0] + 1e-9 * cloud[i]);
+  const Points expected = make (cloud);
+  const std::vector<Index> order = samples::permutation (cloud.size (), 3);
+  Positions permuted;
+  for (const Index i : order)
+    permuted.push_back (cloud[i]);
+  for (const int threads : {1, 2, 0}) {
+    const Points set = make (permuted, threads);
+    EXPECT_EQ (points.positions, expected.positions);
+    for (std::size_t p = 0; p < points.positions.size (); ++p)
+      ASSERT_EQ (order[points.cloud_index[p]], expected.cloud_index[p]);
+  }
+}
+
+TEST (Points, TheSmallestIndexStandsForDuplicates)
+{
+  Positions cloud = samples::randomPoints (100, 4);
+  for (const std::size_t i : {50U, 7U, 7U, 99U})
+    cloud.push_back (cloud[i]);
+  const Points set = make (cloud);
+  expectPartition (set, cloud.size ());
+  expectWorkable (set);
+  const std::vector<std::array<Index, 2>> expected = {{100, 50}, {101, 7}, {102, 7}, {103, 99}};
+  EXPECT_EQ (points.duplicates, expected);
+}
+
+TEST (Points, CloudIndicesNeedNotAscend)
+{
+  const Positions cloud = {{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {NOT_A_NUMBER, 0, 0}, {0, INF, 0}};
+  const Points set = makePoints (cloud, {9, 4, 6, 8, 2}, 1);
+  const std::vector<std::array<Index, 2>> duplicates = {{9, 6}};
+  EXPECT_EQ (points.duplicates, duplicates);
+  EXPECT_EQ (points.non_finite, (std::vector<Index>{2, 8}));
+  std::vector<Index> left = points.cloud_index;
+  std::sort (left.begin (), left.end ());
+  EXPECT_EQ (left, (std::vector<Index>{4, 6}));
+}
+
+TEST (Points, EveryNonFiniteCoordinateCounts)
+{
+  Positions cloud = samples::randomPoints (20, 5);
+  std::vector<Index> expected;
+  for (const double bad : {NOT_A_NUMBER, INF, -INF})
+    for (int axis = 0; axis < 3; ++axis) {
+      expected.push_back (static_cast<Index> (cloud.size ()));
+      cloud.emplace_back (0.5, 0.5, 0.5);
+      cloud.back ()[axis] = bad;
+    }
+  const Points set = make (cloud);
+  expectPartition (set, cloud.size ());
+  expectWorkable (set);
+  EXPECT_EQ (points.non_finite, expected);
+}
+
+TEST (Points, MayBeEmpty)
+{
+  EXPECT_TRUE (make ({}).positions.empty ());
+  const Points set = make (Positions (3, Eigen::Vector3d::Constant (NOT_A_NUMBER)));
+  EXPECT_TRUE (points.positions.empty ());
+  EXPECT_EQ (points.non_finite.size (), 3U);
+}
+
+TEST (Points, EqualPointsAreOne)
+{
+  const Points set = make (Positions (50, Eigen::Vector3d (1e7, -3.25, 1e-9)));
+  EXPECT_EQ (points.positions.size (), 1U);
+  EXPECT_EQ (points.cloud_index.front (), 0U);
+  EXPECT_EQ (points.duplicates.size (), 49U);
+  EXPECT_TRUE (points.positions.front ().allFinite ());
+  EXPECT_GT (points.scale, 0.0);
+}
+
+TEST (Points, NegativeZeroIsZero)
+{
+  const Points set = make ({{0.0, -0.0, 0.0}, {1, 1, 1}, {-0.0, 0.0, -0.0}});
+  EXPECT_EQ (points.positions.size (), 2U);
+  const std::vector<std::array<Index, 2>> expected = {{2, 0}};
+  EXPECT_EQ (points.duplicates, expected);
+}
+
+TEST (Points, AnyMagnitude)
+{
+  const Positions unit = samples::randomPoints (300, 6);
+  const Points expected = make (unit);
+  for (const double factor : {1e-300, 1e-30, 1e-3, 1e30, 1e300}) {
+    Positions scaled = unit;
+    for (Eigen::Vector3d& p : scaled)
+      p *= factor;
+    const Points set = make (scaled);
+    expectPartition (set, unit.size ());
+    expectWorkable (set);
+    ASSERT_EQ (points.cloud_index, expected.cloud_index) << factor;
+    for (std::size_t p = 0; p < points.positions.size (); ++p)
+      EXPECT_LT ((points.positions[p] - expected.positions[p]).norm (), 1e-12);
+  }
+}
+
+TEST (Points, MapCoordinatesKeepTheirDigits)
+{
+  // Centimetres on a grid far from the origin, exact in double precision.
+  Positions cloud;
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 20; ++y)
+      cloud.emplace_back (4194304.0 + x / 128.0, 5767168.0 + y / 128.0, 512.0);
+  const Points set = make (cloud);
+  ASSERT_EQ (points.positions.size (), cloud.size ());
+  expectWorkable (set);
+  for (std::size_t p = 0; p < points.positions.size (); ++p) {
+    const Eigen::Vector3d expected = (cloud[points.cloud_index[p]] - cloud[0]) / points.scale;
+    const Eigen::Vector3d corner = (cloud[0] - points.centre) / points.scale;
+    EXPECT_LT ((points.positions[p] - corner - expected).norm (), 1e-15);
+  }
+}
+
+TEST (Points, PointsThatScalingCannotTellApartAreOne)
+{
+  // Single precision tells these apart near the origin, which here is a corner of the box.
+  Positions cloud = {{0, 0, 0}, {1, 1, 1}, {1, 0, 0}};
+  for (int i = 1; i <= 40; ++i)
+    cloud.emplace_back (1e-30 * (i % 7), 1e-25 * (i % 5), 1e-20 * i);
+  const Points set = make (cloud);
+  expectPartition (set, cloud.size ());
+  expectWorkable (set);
+  EXPECT_EQ (points.positions.size (), 3U);
+  // Around its centre they stay apart.
+  for (Eigen::Vector3d& p : cloud)
+    p -= p.squaredNorm () < 0.5 ? Eigen::Vector3d::Zero () : Eigen::Vector3d (2.0 * p);
+  cloud.emplace_back (1, 1, 1);
+  cloud.emplace_back (-1, 1, 1);
+  const Points around_centre = make (cloud);
+  expectPartition (around_centre, cloud.size ());
+  expectWorkable (around_centre);
+  EXPECT_GT (around_centre.positions.size (), 40U);
+}
+
+TEST (Points, ABoxAsSmallAsOneDigit)
+{
+  const double two_to_52 = 4503599627370496.0; // the next double is one more, and so on
+  for (const double base : {two_to_52, two_to_52 + 1, -two_to_52 - 1}) {
+    const Points set = make ({{base, base, base},
+                                  {base + 1, base, base},
+                                  {base, base + 1, base},
+                                  {base + 1, base + 1, base + 1}});
+    EXPECT_EQ (points.positions.size (), 4U);
+    for (const Eigen::Vector3d& p : points.positions)
+      EXPECT_LE (p.cwiseAbs ().maxCoeff (), 1.0);
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
