@@ -149,7 +149,7 @@ costOf (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geo
 {
   std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
   orientNormals (mesh, points.positions, normals, run);
-  return meshCost (mesh, TriangleCost (points.positions, normals, &geometry.spacing), run);
+  return meshCost (mesh, TriangleCost (points.positions, normals, &geometry.meshSpacing ()), run);
 }
 
 std::size_t
@@ -181,9 +181,9 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Options& op
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
-  const std::vector<float> spacing = std::move (geometry.spacing);
-  geometry = {};
-  const MeshExamination found = examine (disc.mesh, points, spacing, run);
+  geometry.neighbors = {};
+  geometry.stars = {};
+  const MeshExamination found = examine (disc.mesh, points, geometry.meshSpacing (), run);
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
   return useMesh (std::move (disc.mesh), disc.finish, found, points, options, result);
@@ -205,7 +205,7 @@ tryDisc (const Points& points, LocalGeometry& geometry, const TriangleMesh& surf
   disc = layOutDisc (points, geometry, options, run);
   if (disc.problem)
     return false;
-  of_disc = examine (disc.mesh, points, geometry.spacing, run);
+  of_disc = examine (disc.mesh, points, geometry.meshSpacing (), run);
   return !checkDisc (of_disc, disc.boundary.loop) &&
          countFlaws (of_disc) < countFlaws (of_surface) &&
          costOf (disc.mesh, points, geometry, run) < costOf (surface, points, geometry, run);
@@ -224,7 +224,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Options&
     geometry.neighbors = {};
     geometry.stars = {};
   }
-  MeshExamination found = examine (surface.mesh, points, geometry.spacing, run);
+  MeshExamination found = examine (surface.mesh, points, geometry.meshSpacing (), run);
   Disc disc;
   MeshExamination of_disc;
   if (may_be_disc && found.isManifold () && found.isDisc () && countFlaws (found) > 0 &&
@@ -271,8 +271,7 @@ reconstructAny (Input& input, const Options& options, const RunContext& run, Res
   run.beginStage (Stage::STARS);
   StarSettings star_settings{options.filter_sheets};
   star_settings.with_offsets = as_disc;
-  LocalGeometry geometry =
-      makeLocalGeometry (points.workingPositions (), std::move (neighbors), star_settings, run);
+  LocalGeometry geometry = makeLocalGeometry (points, std::move (neighbors), star_settings, run);
 
   return as_disc ? reconstructDisc (points, std::move (geometry), options, run, result)
                  : reconstructSurface (points, std::move (geometry), options, run, result);

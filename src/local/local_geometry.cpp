@@ -11,12 +11,15 @@ namespace pcl
 namespace floater
 {
 LocalGeometry
-makeLocalGeometry (const std::vector<Eigen::Vector3d>& positions, CsrLists neighbors,
-                   const StarSettings& settings, const RunContext& run)
+makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
+                   const RunContext& run)
 {
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   LocalGeometry geometry;
   geometry.neighbors = std::move (neighbors);
   geometry.spacing = localSpacing (positions, geometry.neighbors, run);
+  if (!points.projected.empty ())
+    geometry.own_spacing = localSpacing (points.positions, geometry.neighbors, run);
   geometry.stars = makeStars (positions, geometry.neighbors,
                               fitTangentPlanes (positions, geometry.neighbors, run), settings, run);
   return geometry;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "local/stars.h"
+#include "points/points.h"
 
 #include <vector>
 
@@ -13,16 +14,23 @@ namespace floater
 /// What both methods know of the surface around each point.
 struct LocalGeometry
 {
-  CsrLists neighbors;         ///< nearest first
-  std::vector<float> spacing; ///< see localSpacing
-  Stars stars;                ///< with the normals of the points
+  CsrLists neighbors;             ///< nearest first
+  std::vector<float> spacing;     ///< see localSpacing; of the working positions
+  std::vector<float> own_spacing; ///< of the positions themselves if these are others; else empty
+  Stars stars;                    ///< with the normals of the points
+
+  /// Spacing on the mesh, whose vertices are the positions themselves.
+  const std::vector<float>& meshSpacing () const
+  {
+    return own_spacing.empty () ? spacing : own_spacing;
+  }
 };
 
 /// Tangent planes, spacing and stars by the working positions of the points. O(n k log k).
 /// \param neighbors of each point, nearest first
 LocalGeometry
-makeLocalGeometry (const std::vector<Eigen::Vector3d>& positions, CsrLists neighbors,
-                   const StarSettings& settings, const RunContext& run);
+makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
+                   const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

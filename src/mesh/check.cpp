@@ -158,7 +158,8 @@ private:
     const double sqr_longest =
         std::max ({ab.squaredNorm (), ac.squaredNorm (), (ac - ab).squaredNorm ()});
     const double sqr_height = ab.cross (ac).squaredNorm () / sqr_longest;
-    if (sqr_height > PRECISION * PRECISION || sqr_height > FLATTEST * FLATTEST * sqr_longest)
+    const double precision = PRECISION * points_.diagonal;
+    if (sqr_height > precision * precision || sqr_height > FLATTEST * FLATTEST * sqr_longest)
       return;
     ++check_.degenerate_triangles;
     note (found_.degenerate_at, a);

@@ -23,7 +23,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   MeshFinish finish;
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
-  const TriangleCost cost (positions, normals, &geometry.spacing);
+  const TriangleCost cost (positions, normals, &geometry.meshSpacing ());
   run.beginStep (AFTER_INSERTION);
   insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);

@@ -188,16 +188,14 @@ std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed)
 {
   std::vector<Index> cloud_indices;
-  Eigen::AlignedBox3d before;
-  Eigen::AlignedBox3d after;
+  Eigen::AlignedBox3d box;
   std::size_t kept = 0;
-  for (Index p = 0; p < points.positions.size (); ++p) {
-    before.extend (points.positions[p]);
+  for (Index p = 0; p < points.size (); ++p) {
     if (cloud_indices.size () < removed.size () && removed[cloud_indices.size ()] == p) {
       cloud_indices.push_back (points.cloud_index[p]);
       continue;
     }
-    after.extend (points.positions[p]);
+    box.extend (points.positions[p]);
     points.positions[kept] = points.positions[p];
     points.cloud_index[kept] = points.cloud_index[p];
     ++kept;
@@ -205,13 +203,18 @@ removePoints (Points& points, const std::vector<Index>& removed)
   points.positions.resize (kept);
   points.cloud_index.resize (kept);
   std::sort (cloud_indices.begin (), cloud_indices.end ());
-  const double diagonal = kept > 0 ? after.diagonal ().norm () : 0.0;
-  if (diagonal > 0.0 && (after.min () != before.min () || after.max () != before.max ())) {
-    const Eigen::Vector3d centre = after.center ();
-    for (Eigen::Vector3d& position : points.positions)
-      position = (position - centre) / diagonal;
-    points.centre += points.scale * centre;
-    points.scale *= diagonal;
+
+  // By a power of two, which is exact: distances compare as before.
+  const double diagonal = kept > 0 ? box.diagonal ().norm () : 0.0;
+  if (diagonal > 0.0) {
+    int exponent = 0;
+    points.diagonal = std::frexp (diagonal, &exponent);
+    if (exponent != 0)
+      for (Eigen::Vector3d& position : points.positions)
+        position = Eigen::Vector3d (std::ldexp (position.x (), -exponent),
+                                    std::ldexp (position.y (), -exponent),
+                                    std::ldexp (position.z (), -exponent));
+    points.scale = std::ldexp (points.scale, exponent);
   }
   return cloud_indices;
 }

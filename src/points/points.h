@@ -16,11 +16,13 @@ namespace floater
 /// points are near in memory. The order depends on the coordinates only, not on that of the cloud.
 struct Points
 {
-  std::vector<Eigen::Vector3d> positions; ///< centred, diagonal of the bounding box 1
+  std::vector<Eigen::Vector3d> positions; ///< centred, scaled to a bounding box diagonal of 1
   std::vector<Eigen::Vector3d> projected; ///< on local planes where noise is strong; else empty
   std::vector<Index> cloud_index;         ///< of each point; of equal points the smallest
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
+  double diagonal =
+      1.0; ///< of the bounding box of the positions; 1/2 to 1 after points were removed
   std::vector<Index> non_finite;                ///< cloud indices, ascending
   std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, the equal point that
                                                 ///< stands for it), ascending

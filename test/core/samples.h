@@ -3,10 +3,10 @@
 #pragma once
 
 #include "core/types.h"
-#include "mesh_oracle.h"
-#include "points/nearest_neighbors.h"
 #include "local/stars.h"
 #include "local/tangent_planes.h"
+#include "mesh_oracle.h"
+#include "points/nearest_neighbors.h"
 #include "points/points.h"
 #include "random_stream.h"
 
@@ -162,9 +162,9 @@ makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int th
   Neighborhoods made;
   made.set = makePoints (positions, indices (positions.size ()), threads);
   made.neighbors = findNearestNeighbors (made.set, 20, nullptr, threads);
-  made.stars =
-      makeStars (made.points.positions, made.neighbors,
-                 fitTangentPlanes (made.points.positions, made.neighbors, threads), filter_sheets, threads);
+  made.stars = makeStars (made.points.positions, made.neighbors,
+                          fitTangentPlanes (made.points.positions, made.neighbors, threads),
+                          filter_sheets, threads);
   made.spacing = localSpacing (made.points.positions, made.neighbors, threads);
   return made;
 }

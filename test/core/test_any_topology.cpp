@@ -357,7 +357,9 @@ INSTANTIATE_TEST_SUITE_P (
                      Case{"parallel_3", [] { return samples::parallelSheets (3.0, 3); }},
                      Case{"components", [] { return samples::components (1); }},
                      Case{"pieces_outliers",
-                          [] { return samples::withOutliers (samples::components (2), 10, 36.0, 3); }}),
+                          [] {
+                            return samples::withOutliers (samples::components (2), 10, 36.0, 3);
+                          }}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P (SharpEdges, AnyTopology,

@@ -105,8 +105,7 @@ TEST (Validation, ALoopHasThreePoints)
 Status
 statusOf (const Positions& positions)
 {
-  return checkPoints (makePoints (positions, samples::indices (positions.size ()), 1))
-      .status;
+  return checkPoints (makePoints (positions, samples::indices (positions.size ()), 1)).status;
 }
 
 TEST (Validation, FourDistinctFinitePoints)

@@ -2,8 +2,8 @@
 // Neighbourhoods, weights, domains, solvers and orderings with each other, on one small sheet.
 #include <pcl/surface/floater/reconstruct.h>
 
-#include "random_stream.h"
 #include "floater/solvers/solver.h"
+#include "random_stream.h"
 
 #include <gtest/gtest.h>
 

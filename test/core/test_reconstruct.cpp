@@ -130,7 +130,8 @@ TEST (Reconstruct, TheUsersLoopIsTheBoundary)
   samples::Sheet sheet = samples::disc (0.07, 5);
   Options options = discOptions ();
   options.boundary.loop = samples::indices (sheet.border);
-  std::rotate (options.boundary.loop.begin (), options.boundary.loop.begin () + 11, options.boundary.loop.end ());
+  std::rotate (options.boundary.loop.begin (), options.boundary.loop.begin () + 11,
+               options.boundary.loop.end ());
   const Result result = reconstruct (asInput (sheet.positions), options);
   expectDisc (result, sheet.positions.size ());
   EXPECT_EQ (result.report.loop, options.boundary.loop);

@@ -72,9 +72,8 @@ byTwoSegments (const Points& points, const LocalGeometry& geometry, const Bounda
   const std::vector<Index> candidates = openingAnglePoints (
       positions, geometry.neighbors, geometry.stars.normals, options.opening_angle * DEGREE, run);
   boundary.candidates = candidates.size ();
-  // The bounding box of the working set has diagonal 1, so xi D is xi.
-  const std::vector<std::vector<Index>> clusters =
-      clusterBoundaryPoints (positions, candidates, options.cluster_tolerance, options.cluster_k);
+  const std::vector<std::vector<Index>> clusters = clusterBoundaryPoints (
+      positions, candidates, options.cluster_tolerance * points.diagonal, options.cluster_k);
   if (!clusters.empty ())
     boundary.loop = twoSegmentLoop (positions, clusters.front ());
   return boundary;

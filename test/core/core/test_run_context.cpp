@@ -79,7 +79,9 @@ TEST (Monitor, CallbacksComeFromTheCallingThreadAndChangeNothing)
     options.threads = threads;
     bool is_elsewhere = false;
     const std::thread::id here = std::this_thread::get_id ();
-    options.progress_callback = [&] (double) { is_elsewhere |= std::this_thread::get_id () != here; };
+    options.progress_callback = [&] (double) {
+      is_elsewhere |= std::this_thread::get_id () != here;
+    };
     options.cancelled_callback = [&] {
       is_elsewhere |= std::this_thread::get_id () != here;
       return false;

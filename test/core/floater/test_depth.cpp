@@ -5,9 +5,9 @@
 
 #include "floater/boundary/boundary.h"
 #include "floater/parameterize.h"
+#include "floater/planar_delaunay.h"
 #include "samples.h"
 #include "surfaces.h"
-#include "floater/planar_delaunay.h"
 
 #include <gtest/gtest.h>
 
@@ -273,8 +273,8 @@ layOut (const Positions& cloud, const Options& options)
   layout.loop = findBoundary (made.set, made.neighbors, made.stars, options).loop;
   Statistics statistics;
   StageClock clock (statistics, options.stage_callback);
-  layout.uv = parameterize (made.points.positions, made.neighbors, made.stars, layout.loop, options, clock,
-                            statistics)
+  layout.uv = parameterize (made.points.positions, made.neighbors, made.stars, layout.loop, options,
+                            clock, statistics)
                   .uv;
   layout.mesh = triangulatePlane (layout.uv, layout.loop);
   return layout;
@@ -311,8 +311,9 @@ TEST (Depth, WhatCannotBeSolvedForStaysAsItWas)
   const std::vector<Triangle> before = layout.mesh.triangles;
   CsrLists nobody; // no point hangs together with another
   nobody.offsets.assign (made.points.positions.size () + 1, 0);
-  const RegionRecursion recursion = layOutCollapsedRegions (
-      layout.mesh, layout.uv, made.points.positions, nobody, made.stars.normals, layout.loop, options);
+  const RegionRecursion recursion =
+      layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, nobody,
+                              made.stars.normals, layout.loop, options);
   EXPECT_EQ (recursion.levels, 0U);
   EXPECT_EQ (recursion.regions, 0U);
   EXPECT_EQ (layout.mesh.triangles, before);

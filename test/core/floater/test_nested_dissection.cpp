@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/nested_dissection.h"
 
-#include "floater/weights.h"
 #include "floater/solvers/solver.h"
 #include "floater/solvers/umfpack_solver.h"
+#include "floater/weights.h"
 #include "triangulated_grid.h"
 
 #include <gtest/gtest.h>

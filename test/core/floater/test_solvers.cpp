@@ -2,10 +2,10 @@
 // All solvers in all orders, on systems whose solution is known.
 #include "floater/solvers/solver.h"
 
-#include "floater/weights.h"
 #include "floater/solvers/islands.h"
 #include "floater/solvers/ordering.h"
 #include "floater/solvers/residual.h"
+#include "floater/weights.h"
 #include "triangulated_grid.h"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 #include "floater/solvers/umfpack_solver.h"
 
 #include "floater/domain.h"
+#include "floater/solvers/single_blas_thread.h"
 #include "floater/weights.h"
 #include "random_stream.h"
-#include "floater/solvers/single_blas_thread.h"
 #include "triangulated_grid.h"
 
 #include <Eigen/SparseLU>

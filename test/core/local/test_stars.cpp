@@ -38,7 +38,8 @@ twoSheets (double gap)
 bool
 isInner (const Neighborhoods& sheets, std::size_t p)
 {
-  const Eigen::Vector3d place = sheets.points.centre + sheets.points.scale * sheets.points.positions[p];
+  const Eigen::Vector3d place =
+      sheets.points.centre + sheets.points.scale * sheets.points.positions[p];
   return (place - Eigen::Vector3d (0.5, 0.5, place.z ())).cwiseAbs ().maxCoeff () <
          0.5 - 2.5 / 30.0;
 }
@@ -54,8 +55,9 @@ shareOfStrays (const Neighborhoods& sheets)
       continue;
     all += sheets.stars.neighbors.row (p).size ();
     for (const Index q : sheets.stars.neighbors.row (p))
-      strays +=
-          (sheets.points.positions[p].z () > 0.0) != (sheets.points.positions[q].z () > 0.0) ? 1 : 0;
+      strays += (sheets.points.positions[p].z () > 0.0) != (sheets.points.positions[q].z () > 0.0)
+                    ? 1
+                    : 0;
   }
   return static_cast<double> (strays) / static_cast<double> (all);
 }
@@ -78,8 +80,9 @@ expectSane (const Neighborhoods& made)
     for (std::size_t i = 0; i < star.size (); ++i) {
       const Eigen::Vector3d offset = made.points.positions[star[i]] - made.points.positions[p];
       EXPECT_NE (star[i], p);
-      EXPECT_NE (std::find (made.neighbors.row (p).begin (), made.neighbors.row (p).end (), star[i]),
-                 made.neighbors.row (p).end ());
+      EXPECT_NE (
+          std::find (made.neighbors.row (p).begin (), made.neighbors.row (p).end (), star[i]),
+          made.neighbors.row (p).end ());
       EXPECT_NEAR (offsets[i].norm (), offset.norm (), 1e-12);
       const Eigen::Vector2d& next = offsets[(i + 1) % star.size ()];
       double turn = std::atan2 (offsets[i].x () * next.y () - offsets[i].y () * next.x (),
@@ -128,9 +131,9 @@ TEST (TangentPlanes, OfASphere)
   const Neighborhoods made = makeNeighborhoods (sphere);
   expectSane (made);
   for (std::size_t p = 0; p < sphere.size (); ++p) {
-    EXPECT_GT (
-        std::abs (made.stars.normals[p].cast<double> ().dot (made.points.positions[p].normalized ())),
-        0.99);
+    EXPECT_GT (std::abs (made.stars.normals[p].cast<double> ().dot (
+                   made.points.positions[p].normalized ())),
+               0.99);
     EXPECT_EQ (made.stars.open[p], 0);
   }
 }

@@ -2,9 +2,9 @@
 // The last look at a mesh, on meshes that are known, sound and broken; and what is told of it.
 #include "mesh/check.h"
 
+#include "mesh/triangle_mesh.h"
 #include "report.h"
 #include "samples.h"
-#include "mesh/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,11 @@
 // Insertion of missing points, edge flips and the repair of folds.
 #include "mesh/flips.h"
 
-#include "samples.h"
-#include "mesh/fold_repair.h"
-#include "mesh/insertion.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/finish.h"
+#include "mesh/fold_repair.h"
+#include "mesh/insertion.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -173,7 +173,8 @@ TEST (Flips, OrientNormalsLikeTheMesh)
   std::vector<Eigen::Vector3f> normals = upward (sheet.positions.size ());
   for (std::size_t p = 0; p < normals.size (); p += 3)
     normals[p] = -normals[p];
-  TriangleMesh mesh = triangulatePlane (planView (sheet.positions), samples::indices (sheet.border));
+  TriangleMesh mesh =
+      triangulatePlane (planView (sheet.positions), samples::indices (sheet.border));
   orientNormals (mesh, sheet.positions, normals);
   EXPECT_EQ (normals, upward (normals.size ()));
 }
@@ -277,7 +278,8 @@ TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
     std::vector<Eigen::Vector3f> normals = made.stars.normals;
     TriangleMesh mesh = triangulatePlane (mixed, loop);
     const std::set<Triangle> before = unordered (mesh.triangles);
-    const SurfaceFinish finish = finishDisc (mesh, made.points.positions, made.neighbors, normals, options);
+    const SurfaceFinish finish =
+        finishDisc (mesh, made.points.positions, made.neighbors, normals, options);
     EXPECT_FALSE (finish.problem);
     EXPECT_EQ (finish.folds.size (), findFolds (mesh, made.points.positions).size ());
     const samples::Topology topology = samples::topologyOf (mesh.triangles);
@@ -311,7 +313,8 @@ TEST (SurfaceFinish, RefusesASurfaceFoldedAllOver)
   }
   TriangleMesh mesh = triangulatePlane (scattered, {0, 1, 2});
   std::vector<Eigen::Vector3f> normals = made.stars.normals;
-  const SurfaceFinish finish = finishDisc (mesh, made.points.positions, made.neighbors, normals, Options{});
+  const SurfaceFinish finish =
+      finishDisc (mesh, made.points.positions, made.neighbors, normals, Options{});
   EXPECT_EQ (finish.problem.status, Status::NOT_A_DISC);
   EXPECT_NE (finish.problem.message.find ("folded"), std::string::npos);
 }

@@ -2,8 +2,8 @@
 // Vertices taken out and put back elsewhere: changes undone, moves, kicks.
 #include "mesh/fold_repair.h"
 
-#include "samples.h"
 #include "mesh/vertex_mover.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 

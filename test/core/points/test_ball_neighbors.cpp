@@ -2,8 +2,8 @@
 // Balls, and the order of all that is in them.
 #include "points/ball_neighbors.h"
 
-#include "points/kd_tree.h"
 #include "local/planar_star.h"
+#include "points/kd_tree.h"
 #include "points/points.h"
 #include "random_stream.h"
 

@@ -110,7 +110,8 @@ TEST (BlockCutter, PutsEveryPointOfHaloAndBallsIn)
 {
   const Points set = setOf (surface (SurfaceKind::TORUS, 20000));
   const BlockCutter cutter (points.positions, 9, 1);
-  const std::vector<Ball> balls{{points.positions[17], 0.02}, {Eigen::Vector3d (0.3, 0.0, 0.0), 0.05}};
+  const std::vector<Ball> balls{{points.positions[17], 0.02},
+                                {Eigen::Vector3d (0.3, 0.0, 0.0), 0.05}};
   for (std::size_t i = 0; i < cutter.blocks (); ++i) {
     const PointBlock block = cutter.cut (i, balls);
     ASSERT_GT (block.halo, 0.0);

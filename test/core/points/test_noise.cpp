@@ -35,7 +35,10 @@ struct Cloud
   {
   }
 
-  double noise (int threads = 1) const { return measureNoise (points.positions, neighbors, threads); }
+  double noise (int threads = 1) const
+  {
+    return measureNoise (points.positions, neighbors, threads);
+  }
   Positions projected (int threads = 1) const
   {
     return projectOntoPlanes (points.positions, neighbors, threads);
@@ -139,7 +142,8 @@ TEST (Projection, LeavesPlanesAndSharpEdges)
   const Cloud cloud (edge);
   const Positions projected = cloud.projected ();
   for (std::size_t p = 0; p < projected.size (); ++p) {
-    const Eigen::Vector3d before = cloud.points.centre + cloud.points.scale * cloud.points.positions[p];
+    const Eigen::Vector3d before =
+        cloud.points.centre + cloud.points.scale * cloud.points.positions[p];
     const double move = cloud.points.scale * (projected[p] - cloud.points.positions[p]).norm ();
     EXPECT_LT (move, std::max (before.y (), before.z ()) > 5.5 ? 1e-9 : 1.5);
   }

@@ -234,9 +234,9 @@ TEST (Points, ABoxAsSmallAsOneDigit)
   const double two_to_52 = 4503599627370496.0; // the next double is one more, and so on
   for (const double base : {two_to_52, two_to_52 + 1, -two_to_52 - 1}) {
     const Points set = make ({{base, base, base},
-                                  {base + 1, base, base},
-                                  {base, base + 1, base},
-                                  {base + 1, base + 1, base + 1}});
+                              {base + 1, base, base},
+                              {base, base + 1, base},
+                              {base + 1, base + 1, base + 1}});
     EXPECT_EQ (points.positions.size (), 4U);
     for (const Eigen::Vector3d& p : points.positions)
       EXPECT_LE (p.cwiseAbs ().maxCoeff (), 1.0);
