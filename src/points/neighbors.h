@@ -26,8 +26,8 @@ CsrLists
 findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run);
 
 /// Makes neighbour lists right again after points were removed: renumbers them, and searches anew
-/// only for points that had one of the removed as a neighbour. The same as findNeighbors (), but
-/// for ties that rounding breaks differently where removePoints () has scaled the points again.
+/// only for points that had one of the removed as a neighbour. The result is that of
+/// findNeighbors ().
 /// \param points    without those that were removed
 /// \param removed   rows before they were removed, ascending
 /// \param neighbors those before

@@ -54,9 +54,10 @@ Problem
 checkPoints (const Points& points);
 
 /// Takes points out; the others keep their order. Where that shrinks the bounding box, positions
-/// are centred and scaled again. Duplicates of a point that is taken out stay listed. For points
-/// that have not been projected. O(n). \param removed points, ascending \return their cloud
-/// indices, ascending
+/// are scaled again, by a power of two: distances compare as before, to the last bit. Duplicates of
+/// a point that is taken out stay listed. For points that have not been projected. O(n).
+/// \param removed points, ascending
+/// \return their cloud indices, ascending
 std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed);
 

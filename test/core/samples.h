@@ -3,11 +3,9 @@
 #pragma once
 
 #include "core/types.h"
-#include "local/stars.h"
-#include "local/tangent_planes.h"
+#include "local/local_geometry.h"
 #include "mesh_oracle.h"
-#include "points/nearest_neighbors.h"
-#include "points/points.h"
+#include "points/neighbors.h"
 #include "random_stream.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -147,25 +145,20 @@ disc (double step, std::uint64_t seed)
   return fillOutlines ({circle (1.0, step)}, step, 0.35, seed);
 }
 
-/// The stages up to the stars.
+/// Points and the geometry around each of them.
 struct Neighborhoods
 {
-  Points set;
-  CsrLists neighbors;
-  Stars stars;
-  std::vector<float> spacing;
+  Points points;
+  LocalGeometry geometry;
 };
 
 inline Neighborhoods
 makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int threads = 1)
 {
   Neighborhoods made;
-  made.set = makePoints (positions, indices (positions.size ()), threads);
-  made.neighbors = findNearestNeighbors (made.set, 20, nullptr, threads);
-  made.stars = makeStars (made.points.positions, made.neighbors,
-                          fitTangentPlanes (made.points.positions, made.neighbors, threads),
-                          filter_sheets, threads);
-  made.spacing = localSpacing (made.points.positions, made.neighbors, threads);
+  made.points = makePoints (positions, indices (positions.size ()), threads);
+  made.geometry = makeLocalGeometry (made.points, findNeighbors (made.points, {}, threads),
+                                     {filter_sheets}, threads);
   return made;
 }
 

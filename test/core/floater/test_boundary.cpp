@@ -21,7 +21,7 @@ using samples::Sheet;
 Boundary
 find (const Neighborhoods& made, const Options& options)
 {
-  return findBoundary (made.set, made.neighbors, made.stars, options);
+  return findBoundary (made.points, made.geometry.neighbors, made.geometry.stars, options);
 }
 
 std::vector<Index>
@@ -67,12 +67,12 @@ TEST (LongestLoop, TheComplexTellsTheBorderFromAHole)
   const Neighborhoods made = makeNeighborhoods (sheet.positions);
   Options options;
   options.boundary.method = BoundaryMethod::CONSENSUS;
-  const std::vector<Eigen::Vector3f> normals = made.stars.normals;
+  const std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
   const Boundary boundary = find (made, options);
   EXPECT_EQ (samples::canonicalCycle (inCloud (made, boundary)), samples::indices (sheet.border));
   EXPECT_GE (boundary.candidates, sheet.border + hole.size ());
   EXPECT_LT (boundary.largest_step, 2.0);
-  EXPECT_EQ (made.stars.normals, normals);
+  EXPECT_EQ (made.geometry.stars.normals, normals);
 }
 
 TEST (LongestLoop, TheUsersLoopIsTakenAsItIs)

@@ -270,11 +270,12 @@ layOut (const Positions& cloud, const Options& options)
   Layout layout;
   layout.made = samples::makeNeighborhoods (cloud);
   samples::Neighborhoods& made = layout.made;
-  layout.loop = findBoundary (made.set, made.neighbors, made.stars, options).loop;
+  layout.loop =
+      findBoundary (made.points, made.geometry.neighbors, made.geometry.stars, options).loop;
   Statistics statistics;
   StageClock clock (statistics, options.stage_callback);
-  layout.uv = parameterize (made.points.positions, made.neighbors, made.stars, layout.loop, options,
-                            clock, statistics)
+  layout.uv = parameterize (made.points.positions, made.geometry.neighbors, made.geometry.stars,
+                            layout.loop, options, clock, statistics)
                   .uv;
   layout.mesh = triangulatePlane (layout.uv, layout.loop);
   return layout;
@@ -294,9 +295,9 @@ TEST (Depth, PointsThatCoincideComeBack)
   const samples::Neighborhoods& made = layout.made;
   const std::size_t missing = missingPoints (layout.mesh);
   EXPECT_GT (missing, made.points.positions.size () / 20);
-  const RegionRecursion recursion =
-      layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, made.neighbors,
-                              made.stars.normals, layout.loop, options);
+  const RegionRecursion recursion = layOutCollapsedRegions (
+      layout.mesh, layout.uv, made.points.positions, made.geometry.neighbors,
+      made.geometry.stars.normals, layout.loop, options);
   EXPECT_GT (recursion.levels, 4U);
   EXPECT_EQ (missingPoints (layout.mesh), 0U);
   RecordProperty ("missing_before", static_cast<int> (missing));
@@ -313,7 +314,7 @@ TEST (Depth, WhatCannotBeSolvedForStaysAsItWas)
   nobody.offsets.assign (made.points.positions.size () + 1, 0);
   const RegionRecursion recursion =
       layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, nobody,
-                              made.stars.normals, layout.loop, options);
+                              made.geometry.stars.normals, layout.loop, options);
   EXPECT_EQ (recursion.levels, 0U);
   EXPECT_EQ (recursion.regions, 0U);
   EXPECT_EQ (layout.mesh.triangles, before);
@@ -327,9 +328,9 @@ TEST (Depth, ShallowSurfacesStayAsTheyAre)
   EXPECT_TRUE (
       findCollapsedRegions (layout.mesh, layout.uv, made.points.positions, layout.loop).empty ());
   const std::vector<Triangle> before = layout.mesh.triangles;
-  const RegionRecursion recursion =
-      layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, made.neighbors,
-                              made.stars.normals, layout.loop, options);
+  const RegionRecursion recursion = layOutCollapsedRegions (
+      layout.mesh, layout.uv, made.points.positions, made.geometry.neighbors,
+      made.geometry.stars.normals, layout.loop, options);
   EXPECT_EQ (recursion.levels, 0U);
   EXPECT_EQ (layout.mesh.triangles, before);
 }

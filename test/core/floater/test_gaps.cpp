@@ -105,7 +105,7 @@ TEST (Gaps, OfASheetAreItsBorder)
 {
   const samples::Sheet sheet = samples::disc (0.05, 1);
   const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
-  const std::vector<Gap> gaps = findGaps (made.stars, made.spacing, 2.0);
+  const std::vector<Gap> gaps = findGaps (made.geometry.stars, made.geometry.spacing, 2.0);
   const auto count = static_cast<Index> (sheet.border);
   ASSERT_EQ (gaps.size (), sheet.border);
   for (std::size_t i = 0; i < gaps.size (); ++i) {

@@ -24,7 +24,8 @@ std::vector<Index>
 loopOf (const Positions& positions, LongestLoop* details = nullptr)
 {
   const samples::Neighborhoods made = samples::makeNeighborhoods (positions);
-  const LongestLoop loop = spanningTreeLoop (made.points.positions, made.stars, made.spacing);
+  const LongestLoop loop =
+      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing);
   if (details != nullptr)
     *details = loop;
   std::vector<Index> cloud;

@@ -66,30 +66,31 @@ void
 expectSane (const Neighborhoods& made)
 {
   const std::size_t n = made.points.positions.size ();
-  ASSERT_EQ (made.stars.neighbors.rows (), n);
-  ASSERT_EQ (made.stars.open.size (), n);
-  ASSERT_EQ (made.stars.normals.size (), n);
-  ASSERT_EQ (made.stars.offsets_in_plane.size (), made.stars.neighbors.ids.size ());
+  ASSERT_EQ (made.geometry.stars.neighbors.rows (), n);
+  ASSERT_EQ (made.geometry.stars.open.size (), n);
+  ASSERT_EQ (made.geometry.stars.normals.size (), n);
+  ASSERT_EQ (made.geometry.stars.offsets_in_plane.size (),
+             made.geometry.stars.neighbors.ids.size ());
   for (Index p = 0; p < n; ++p) {
-    EXPECT_NEAR (made.stars.normals[p].norm (), 1.0F, 1e-5F);
-    const Row star = made.stars.neighbors.row (p);
+    EXPECT_NEAR (made.geometry.stars.normals[p].norm (), 1.0F, 1e-5F);
+    const Row star = made.geometry.stars.neighbors.row (p);
     const Eigen::Vector2d* offsets =
-        made.stars.offsets_in_plane.data () + made.stars.neighbors.offsets[p];
+        made.geometry.stars.offsets_in_plane.data () + made.geometry.stars.neighbors.offsets[p];
     EXPECT_EQ (std::set<Index> (star.begin (), star.end ()).size (), star.size ());
     double turned = 0.0;
     for (std::size_t i = 0; i < star.size (); ++i) {
       const Eigen::Vector3d offset = made.points.positions[star[i]] - made.points.positions[p];
       EXPECT_NE (star[i], p);
-      EXPECT_NE (
-          std::find (made.neighbors.row (p).begin (), made.neighbors.row (p).end (), star[i]),
-          made.neighbors.row (p).end ());
+      EXPECT_NE (std::find (made.geometry.neighbors.row (p).begin (),
+                            made.geometry.neighbors.row (p).end (), star[i]),
+                 made.geometry.neighbors.row (p).end ());
       EXPECT_NEAR (offsets[i].norm (), offset.norm (), 1e-12);
       const Eigen::Vector2d& next = offsets[(i + 1) % star.size ()];
       double turn = std::atan2 (offsets[i].x () * next.y () - offsets[i].y () * next.x (),
                                 offsets[i].dot (next));
       turned += turn < 0.0 ? turn + 2.0 * PI : turn;
     }
-    EXPECT_TRUE (made.stars.open[p] != 0 || star.size () >= 3);
+    EXPECT_TRUE (made.geometry.stars.open[p] != 0 || star.size () >= 3);
     if (star.size () > 1) {
       EXPECT_NEAR (turned, 2.0 * PI, 1e-6); // once around, anti-clockwise
     }
@@ -110,12 +111,12 @@ TEST (TangentPlanes, OfANoisyPlane)
   const Neighborhoods made = makeNeighborhoods (sheet.positions);
   expectSane (made);
   double sum = 0.0;
-  for (const Eigen::Vector3f& n : made.stars.normals) {
+  for (const Eigen::Vector3f& n : made.geometry.stars.normals) {
     const double cosine = std::abs (n.cast<double> ().dot (normal));
     EXPECT_GT (cosine, std::cos (0.15));
     sum += std::acos (std::min (1.0, cosine));
   }
-  EXPECT_LT (sum / static_cast<double> (made.stars.normals.size ()), 0.03);
+  EXPECT_LT (sum / static_cast<double> (made.geometry.stars.normals.size ()), 0.03);
 }
 
 TEST (TangentPlanes, OfASphere)
@@ -131,10 +132,10 @@ TEST (TangentPlanes, OfASphere)
   const Neighborhoods made = makeNeighborhoods (sphere);
   expectSane (made);
   for (std::size_t p = 0; p < sphere.size (); ++p) {
-    EXPECT_GT (std::abs (made.stars.normals[p].cast<double> ().dot (
+    EXPECT_GT (std::abs (made.geometry.stars.normals[p].cast<double> ().dot (
                    made.points.positions[p].normalized ())),
                0.99);
-    EXPECT_EQ (made.stars.open[p], 0);
+    EXPECT_EQ (made.geometry.stars.open[p], 0);
   }
 }
 
@@ -142,10 +143,10 @@ TEST (TangentPlanes, ASecondSheetDoesNotTiltThem)
 {
   const Neighborhoods made = makeNeighborhoods (twoSheets (2.0));
   std::size_t inner = 0;
-  for (std::size_t p = 0; p < made.stars.normals.size (); ++p)
+  for (std::size_t p = 0; p < made.geometry.stars.normals.size (); ++p)
     if (isInner (made, p)) {
       ++inner;
-      EXPECT_GT (std::abs (made.stars.normals[p].z ()), 0.99F);
+      EXPECT_GT (std::abs (made.geometry.stars.normals[p].z ()), 0.99F);
     }
   EXPECT_GT (inner, 1000U);
 }
@@ -157,7 +158,7 @@ TEST (Stars, OpenAtTheBorderOnly)
   expectSane (made);
   for (std::size_t p = 0; p < made.points.positions.size (); ++p) {
     const bool border = made.points.cloud_index[p] < sheet.border;
-    EXPECT_EQ (made.stars.open[p] != 0, border);
+    EXPECT_EQ (made.geometry.stars.open[p] != 0, border);
   }
 }
 
@@ -214,7 +215,7 @@ TEST (Stars, RigidMotionTurnsThemOnly)
     std::vector<std::vector<Index>> stars (made.points.positions.size ());
     for (std::size_t p = 0; p < stars.size (); ++p) {
       std::vector<Index> star;
-      for (const Index q : made.stars.neighbors.row (p))
+      for (const Index q : made.geometry.stars.neighbors.row (p))
         star.push_back (made.points.cloud_index[q]);
       stars[made.points.cloud_index[p]] = samples::canonicalCycle (std::move (star));
     }
@@ -249,7 +250,7 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
   const Neighborhoods made = makeNeighborhoods (grid);
   for (std::size_t p = 0; p < grid.size (); ++p) {
     const Eigen::Vector3d& place = grid[made.points.cloud_index[p]];
-    const double spacing = made.points.scale * static_cast<double> (made.spacing[p]);
+    const double spacing = made.points.scale * static_cast<double> (made.geometry.spacing[p]);
     const bool inner = place.head<2> ().minCoeff () > 0.0 && place.head<2> ().maxCoeff () < 19.0;
     if (inner) {
       EXPECT_NEAR (spacing, (4.0 + 2.0 * std::sqrt (2.0)) / 6.0, 1e-5);

@@ -199,12 +199,12 @@ TEST (Insertion, PutsEveryPointIn)
     }
   TriangleMesh mesh = triangulatePlane (some, loop);
   const TriangleCost cost (positions, normals);
-  EXPECT_EQ (insertMissingPoints (mesh, made.neighbors, cost), missing);
+  EXPECT_EQ (insertMissingPoints (mesh, made.geometry.neighbors, cost), missing);
   EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 0);
   const samples::Topology topology = samples::topologyOf (mesh.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.euler, 1);
-  EXPECT_EQ (insertMissingPoints (mesh, made.neighbors, cost), 0U);
+  EXPECT_EQ (insertMissingPoints (mesh, made.geometry.neighbors, cost), 0U);
   EXPECT_EQ (samples::topologyOf (mesh.triangles).loops.size (), 1U);
 }
 
@@ -268,18 +268,18 @@ TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
   RandomStream random (10);
   for (int i = 0; i < 6; ++i) {
     const std::size_t p = random.below (mixed.size ());
-    const Index q = made.neighbors.row (p)[5];
+    const Index q = made.geometry.neighbors.row (p)[5];
     if (made.points.cloud_index[p] >= sheet.border && made.points.cloud_index[q] >= sheet.border)
       std::swap (mixed[p], mixed[q]);
   }
   Options options;
   for (const bool flip : {false, true}) {
     options.flip_edges = flip;
-    std::vector<Eigen::Vector3f> normals = made.stars.normals;
+    std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
     TriangleMesh mesh = triangulatePlane (mixed, loop);
     const std::set<Triangle> before = unordered (mesh.triangles);
     const SurfaceFinish finish =
-        finishDisc (mesh, made.points.positions, made.neighbors, normals, options);
+        finishDisc (mesh, made.points.positions, made.geometry.neighbors, normals, options);
     EXPECT_FALSE (finish.problem);
     EXPECT_EQ (finish.folds.size (), findFolds (mesh, made.points.positions).size ());
     const samples::Topology topology = samples::topologyOf (mesh.triangles);
@@ -312,9 +312,9 @@ TEST (SurfaceFinish, RefusesASurfaceFoldedAllOver)
     scattered.emplace_back (radius * std::cos (angle), radius * std::sin (angle));
   }
   TriangleMesh mesh = triangulatePlane (scattered, {0, 1, 2});
-  std::vector<Eigen::Vector3f> normals = made.stars.normals;
+  std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
   const SurfaceFinish finish =
-      finishDisc (mesh, made.points.positions, made.neighbors, normals, Options{});
+      finishDisc (mesh, made.points.positions, made.geometry.neighbors, normals, Options{});
   EXPECT_EQ (finish.problem.status, Status::NOT_A_DISC);
   EXPECT_NE (finish.problem.message.find ("folded"), std::string::npos);
 }
