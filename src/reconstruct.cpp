@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way of a cloud: points, neighbours, outliers, noise, the geometry around each point;
 // then a disc laid out in the plane, or a surface of any topology out of stars; then one check.
-#include <pcl/surface/floater/reconstruct.h>
+#include "reconstruct.h"
 
 #include "check_options.h"
 #include "consensus/consensus_loop.h"
@@ -37,7 +37,7 @@ asksForDisc (const Options& options)
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search)
 {
-  // A disc takes the memory of one block many times over; there is nothing to be saved.
+  // The solver of a disc takes so much memory that blocks save nothing.
   return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
 }
 
@@ -54,11 +54,12 @@ discSettings (const Options& options)
 // loop names stay.
 void
 removeOutliers (Points& points, CsrLists& neighbors, const Options& options,
-                const NeighborSettings& settings, const RunContext& run, Report& report)
+                const NeighborSettings& settings, const OutlierLimits& limits,
+                const RunContext& run, Report& report)
 {
   std::vector<Index> given = options.boundary.loop;
   std::sort (given.begin (), given.end ());
-  std::vector<Index> outliers = findOutliers (points.positions, neighbors, run);
+  std::vector<Index> outliers = findOutliers (points.positions, neighbors, run, limits);
   const auto is_given = [&] (Index p) {
     return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
   };
@@ -74,10 +75,11 @@ removeOutliers (Points& points, CsrLists& neighbors, const Options& options,
 // planes. The mesh is triangles only, so the user's points stay where they are.
 void
 projectNoise (Points& points, CsrLists& neighbors, const Options& options,
-              const NeighborSettings& settings, const RunContext& run, Report& report)
+              const NeighborSettings& settings, const NoiseLimits& limits, const RunContext& run,
+              Report& report)
 {
   const double noise = measureNoise (points.positions, neighbors, run);
-  const bool is_strong = options.denoise && isStrongNoise (noise, points.size ());
+  const bool is_strong = options.denoise && isStrongNoise (noise, points.size (), limits);
   reportNoise (noise, is_strong, report);
   if (!is_strong)
     return;
@@ -240,7 +242,8 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Options&
 }
 
 Problem
-reconstructAny (Input& input, const Options& options, const RunContext& run, Result& result)
+reconstructAny (Input& input, const Options& options, const Limits& limits, const RunContext& run,
+                Result& result)
 {
   Report& report = result.report;
   report.statistics.cloud_points = input.cloud_size;
@@ -263,15 +266,18 @@ reconstructAny (Input& input, const Options& options, const RunContext& run, Res
   const NeighborSettings settings = neighborSettings (options, input.search);
   CsrLists neighbors = findNeighbors (points, settings, run);
   if (options.remove_outliers)
-    removeOutliers (points, neighbors, options, settings, run, report);
+    removeOutliers (points, neighbors, options, settings, limits.outliers, run, report);
   if (Problem problem = checkPoints (points))
     return problem;
-  projectNoise (points, neighbors, options, settings, run, report);
+  projectNoise (points, neighbors, options, settings, limits.noise, run, report);
 
   run.beginStage (Stage::STARS);
-  StarSettings star_settings{options.filter_sheets};
+  StarSettings star_settings;
+  star_settings.filter_sheets = options.filter_sheets;
   star_settings.with_offsets = as_disc;
-  LocalGeometry geometry = makeLocalGeometry (points, std::move (neighbors), star_settings, run);
+  star_settings.limits = limits.sheets;
+  LocalGeometry geometry =
+      makeLocalGeometry (points, std::move (neighbors), star_settings, run, limits.planes);
 
   return as_disc ? reconstructDisc (points, std::move (geometry), options, run, result)
                  : reconstructSurface (points, std::move (geometry), options, run, result);
@@ -282,13 +288,20 @@ reconstructAny (Input& input, const Options& options, const RunContext& run, Res
 Result
 reconstruct (Input input, const Options& options)
 {
+  return reconstruct (std::move (input), options, {});
+}
+
+Result
+reconstruct (Input input, const Options& options, const Limits& limits)
+{
   Result result;
   Problem problem;
   try {
     RunMonitor monitor (
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics);
-    problem = reconstructAny (input, options, RunContext (options.threads, &monitor), result);
+    problem =
+        reconstructAny (input, options, limits, RunContext (options.threads, &monitor), result);
     if (!problem)
       monitor.finish ();
   }
