@@ -2,7 +2,7 @@
 // The entry of the core with other limits than the usual ones, for benchmarks.
 #pragma once
 
-#include "limits.h"
+#include "stage_limits.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

@@ -2,7 +2,7 @@
 // All limits of the stages by name.
 #pragma once
 
-#include "limits.h"
+#include "stage_limits.h"
 
 #include <functional>
 #include <string>
