@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files and clouds that cannot be used: the exit code, a message that names the cause, nothing
-// left.
+// Files and clouds that cannot be used: exit code, a message that names the cause, and no output.
 #include "cloud_reader.h"
 #include "sample.h"
 #include "tool_runner.h"
@@ -153,7 +152,7 @@ TEST_F (BadInput, Folder)
   expectFailure ({"in.pcd", "out.ply"}, INPUT_FAILED, "it is a folder");
 }
 
-/// Reads the first and the last byte of every point: what is not there would be noticed.
+/// Reads the first and the last byte of every point, so that a sanitizer sees invalid memory.
 void
 touchAll (const Field& field, std::size_t points)
 {
@@ -166,15 +165,15 @@ touchAll (const Field& field, std::size_t points)
   testing::Test::RecordProperty (field.name, std::to_string (sum));
 }
 
-/// Every prefix of a file is refused with an error or is a valid cloud; none ends in a crash or
-/// takes what is not there. (The sanitizers look over the reader's shoulder.)
+/// Every prefix of a file is either a valid cloud or refused with an error. With the sanitizers,
+/// this also finds reads beyond its end.
 TEST_F (BadInput, EveryPrefixIsRefusedOrWhole)
 {
   const Sample sample = makeSample (true, 4);
   const auto check = [&sample] (const std::string& bytes, auto parse) {
     std::size_t read = 0;
     for (std::size_t length = 0; length <= bytes.size (); ++length) {
-      // A copy of its own, so that reading beyond it is noticed.
+      // A copy, so that a sanitizer notices reads beyond the prefix.
       const std::vector<char> prefix (bytes.begin (),
                                       bytes.begin () + static_cast<std::ptrdiff_t> (length));
       try {
