@@ -115,7 +115,7 @@ TEST_F (MappedCloud, AFileThatShrinksIsAnOrderlyEnd)
     cloud.file.giveBack ();
     return cloud.positions ();
   };
-  EXPECT_EXIT (read (), testing::ExitedWithCode (42), "the input file got shorter");
+  EXPECT_EXIT (read (), testing::ExitedWithCode (42), "the input file was truncated");
   EXPECT_EQ (names (), std::set<std::string>{"in.ply"});
 }
 

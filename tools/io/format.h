@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// File formats go by their extensions.
+// File formats are told by the extensions.
 #pragma once
 
 #include <algorithm>

@@ -171,15 +171,14 @@ addTopology (CLI::App& app, Options& options)
 }
 
 void
-addOptions (CLI::App& app, CommandLine& line)
+addGeneral (CLI::App& app, CommandLine& line)
 {
   Options& options = line.options;
   addNumber (app, "-j,--threads", options.threads,
              "threads, 0: one for each core; the result is the\nsame", GENERAL);
   addNumber (app, "--blocks", options.blocks,
              "blocks in which the nearest neighbours are searched,\n0: chosen by the number of "
-             "points; the "
-             "result is\nthe same",
+             "points; the result is\nthe same",
              GENERAL);
   addMemoryLimit (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
@@ -187,6 +186,11 @@ addOptions (CLI::App& app, CommandLine& line)
       ->group (GENERAL);
   app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
       ->group (GENERAL);
+}
+
+void
+addFiles (CLI::App& app, CommandLine& line)
+{
   const auto positional = [&app] (const std::string& name, std::filesystem::path& path,
                                   const std::string& text) {
     app.add_option_function<std::string> (
@@ -196,9 +200,16 @@ addOptions (CLI::App& app, CommandLine& line)
   };
   positional ("INPUT", line.input, "point cloud: .pcd, .ply or .obj");
   positional ("OUTPUT", line.output, "mesh to write: .vtk, .ply, .obj or .stl");
+  const std::string output = "More output";
+  addPath (app, "--report", line.report, "write a report on the run as JSON", output);
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh laid out in the plane z = 0, in any of\nthe mesh formats; makes a disc",
+           output);
+}
 
-  addTopology (app, options);
-
+void
+addNeighbors (CLI::App& app, Options& options)
+{
   const std::string neighborhoods = "Neighbourhoods";
   addNumber (app, "-k,--neighbors", options.neighbors.k,
              "nearest neighbours of each point, 6 to 200", neighborhoods);
@@ -211,7 +222,12 @@ addOptions (CLI::App& app, CommandLine& line)
              neighborhoods);
   addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
              "drop neighbours on another sheet of the surface", neighborhoods);
+}
 
+void
+addBoundary (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
   const std::string boundary = "Boundary of a disc";
   addChoice (app, "--boundary", options.boundary.method, BOUNDARY_CHOICES,
              "how the boundary loop is found: in a spanning tree of\nthe boundary points; as the "
@@ -231,7 +247,11 @@ addOptions (CLI::App& app, CommandLine& line)
   addNumber (app, "--cluster-neighbors", options.boundary.cluster_k,
              "two-segments: boundary points that a cluster takes in\nat a time, 1 or more",
              boundary);
+}
 
+void
+addParameterization (CLI::App& app, Options& options)
+{
   const std::string parameterization = "Parameterization of a disc";
   addChoice (app, "--domain", options.domain.curve, DOMAIN_CHOICES,
              "convex curve on which the loop is laid", parameterization);
@@ -241,7 +261,11 @@ addOptions (CLI::App& app, CommandLine& line)
              "how the points of the loop are spaced on that curve", parameterization);
   addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
              "weights of the neighbours of a point", parameterization);
+}
 
+void
+addSystem (CLI::App& app, Options& options)
+{
   const std::string system = "Linear system";
   addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "solver", system);
   addChoice (app, "--ordering", options.solver.ordering, ORDERING_CHOICES, "order of the unknowns",
@@ -259,12 +283,6 @@ addOptions (CLI::App& app, CommandLine& line)
       "bicgstab-ilut: entries of the factors below this\nfraction of their row are dropped, 0 "
       "to 1",
       system);
-
-  const std::string output = "More output";
-  addPath (app, "--report", line.report, "write a report on the run as JSON", output);
-  addPath (app, "--parameterization", line.parameterization,
-           "write the mesh laid out in the plane z = 0, in any of\nthe mesh formats; makes a disc",
-           output);
 }
 
 /// Whether two paths name the same file, which need not exist.
@@ -294,7 +312,13 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,
                         "print the version and exit")
       ->group (GENERAL);
-  addOptions (app, command_line);
+  addGeneral (app, command_line);
+  addTopology (app, command_line.options);
+  addNeighbors (app, command_line.options);
+  addBoundary (app, command_line);
+  addParameterization (app, command_line.options);
+  addSystem (app, command_line.options);
+  addFiles (app, command_line);
   try {
     app.parse (argc, argv);
   }
