@@ -134,7 +134,7 @@ private:
   std::string_view text_;
   std::size_t at_ = 0;   // next character
   std::size_t end_ = 0;  // end of the line
-  std::size_t next_ = 0; // begin of the next line
+  std::size_t next_ = 0; // start of the next line
   std::size_t line_ = 0; // number of the line, from 1
 };
 

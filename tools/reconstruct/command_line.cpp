@@ -267,7 +267,8 @@ void
 addSystem (CLI::App& app, Options& options)
 {
   const std::string system = "Linear system";
-  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "solver", system);
+  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "what solves the system",
+             system);
   addChoice (app, "--ordering", options.solver.ordering, ORDERING_CHOICES, "order of the unknowns",
              system);
   addNumber (app, "--tolerance", options.solver.tolerance,
