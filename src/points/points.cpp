@@ -202,12 +202,14 @@ removePoints (Points& points, const std::vector<Index>& removed)
   const double diagonal = kept > 0 ? box.diagonal ().norm () : 0.0;
   if (diagonal > 0.0) {
     int exponent = 0;
-    points.diagonal = std::frexp (diagonal, &exponent);
+    std::frexp (diagonal, &exponent);
+    exponent = std::min (exponent, 0); // a box of diagonal 1 stays as it is
     if (exponent != 0)
       for (Eigen::Vector3d& position : points.positions)
         position = Eigen::Vector3d (std::ldexp (position.x (), -exponent),
                                     std::ldexp (position.y (), -exponent),
                                     std::ldexp (position.z (), -exponent));
+    points.diagonal = std::ldexp (diagonal, -exponent);
     points.scale = std::ldexp (points.scale, exponent);
   }
   return cloud_indices;

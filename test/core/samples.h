@@ -2,6 +2,7 @@
 // Sheets with a known border, and an independent look at triangles, for the tests of the stages.
 #pragma once
 
+#include "core/geometry.h"
 #include "core/types.h"
 #include "local/local_geometry.h"
 #include "mesh_oracle.h"
@@ -29,7 +30,7 @@ namespace samples
 using Positions = std::vector<Eigen::Vector3d>;
 using Outline = std::vector<Eigen::Vector2d>;
 
-constexpr double PI = 3.14159265358979323846;
+using floater::PI;
 
 inline std::vector<Index>
 indices (std::size_t count)

@@ -197,8 +197,8 @@ parallelSheets (double gap, std::uint64_t seed)
 {
   const std::vector<Outline> square{resample (rectangle (36.0, 36.0), 1.0)};
   const Lift lift = [] (const Eigen::Vector2d& p) { return Eigen::Vector3d (p.x (), p.y (), 0.0); };
-  return withPiece (sheet (square, lift, false, seed), sheet (square, lift, false, seed + 1), 1.0,
-                    {0.3, 0.4, gap});
+  return withComponent (sheet (square, lift, false, seed), sheet (square, lift, false, seed + 1),
+                        1.0, {0.3, 0.4, gap});
 }
 
 } // namespace samples

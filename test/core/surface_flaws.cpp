@@ -10,13 +10,14 @@ namespace samples
 KnownSurface
 components (std::uint64_t seed)
 {
-  return withPiece (withPiece (sphere (1500, seed), torus (1200, seed + 1), 3.0, {75.0, 0.0, 0.0}),
-                    annulus (seed + 2), 2.0, {0.0, 110.0, 0.0});
+  return withComponent (
+      withComponent (sphere (1500, seed), torus (1200, seed + 1), 3.0, {75.0, 0.0, 0.0}),
+      annulus (seed + 2), 2.0, {0.0, 110.0, 0.0});
 }
 
 KnownSurface
-withPiece (KnownSurface surface, const KnownSurface& more, double scale,
-           const Eigen::Vector3d& place)
+withComponent (KnownSurface surface, const KnownSurface& more, double scale,
+               const Eigen::Vector3d& place)
 {
   for (const Eigen::Vector3d& p : more.points)
     surface.points.emplace_back (scale * p + place);

@@ -132,8 +132,8 @@ wedge (std::uint64_t seed);
 
 /// Adds another surface, scaled and moved.
 KnownSurface
-withPiece (KnownSurface surface, const KnownSurface& more, double scale,
-           const Eigen::Vector3d& place);
+withComponent (KnownSurface surface, const KnownSurface& more, double scale,
+               const Eigen::Vector3d& place);
 
 /// Moves every coordinate by a normal deviate; the points before that are the clean ones.
 KnownSurface

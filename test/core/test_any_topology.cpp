@@ -352,11 +352,11 @@ INSTANTIATE_TEST_SUITE_P (
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P (
-    ComponentSets, AnyTopology,
+    Components, AnyTopology,
     testing::Values (Case{"parallel_2", [] { return samples::parallelSheets (2.0, 1); }},
                      Case{"parallel_3", [] { return samples::parallelSheets (3.0, 3); }},
                      Case{"components", [] { return samples::components (1); }},
-                     Case{"pieces_outliers",
+                     Case{"components_outliers",
                           [] {
                             return samples::withOutliers (samples::components (2), 10, 36.0, 3);
                           }}),

@@ -216,13 +216,14 @@ TEST (Choices, ThatCannotBeAreRefused)
     change (options);
     return reconstruct (sheet (0.0), options).report.status;
   };
-  EXPECT_EQ (status ([] (Options& o) { o.ordering = Ordering::COLAMD; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.ball_radius = 0.9; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.tolerance = 0.0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.max_iterations = 0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.ilut_fill = 0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.ilut_drop = -1.0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver = Solver::SUPERLU; }),
+  EXPECT_EQ (status ([] (Options& o) { o.solver.ordering = Ordering::COLAMD; }),
+             Status::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.neighbors.ball_radius = 0.9; }), Status::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.tolerance = 0.0; }), Status::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.max_iterations = 0; }), Status::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_fill = 0; }), Status::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_drop = -1.0; }), Status::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.method = Solver::SUPERLU; }),
              isAvailable (Solver::SUPERLU) ? Status::OK : Status::SOLVER_UNAVAILABLE);
 }
 

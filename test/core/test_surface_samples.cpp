@@ -94,7 +94,7 @@ TEST (SurfaceSamples, FlawsAreWhatTheySay)
   for (std::size_t i = 0; i < noisy.points.size (); ++i)
     sum += (noisy.points[i] - noisy.clean[i]).squaredNorm ();
   EXPECT_NEAR (std::sqrt (sum / 3.0 / static_cast<double> (noisy.points.size ())), 0.3, 0.01);
-  const KnownSurface both = withPiece (clean, clean, 2.0, {100.0, 0.0, 0.0});
+  const KnownSurface both = withComponent (clean, clean, 2.0, {100.0, 0.0, 0.0});
   EXPECT_EQ (both.loops, 4U);
   EXPECT_DOUBLE_EQ (both.area, 5.0 * clean.area);
   EXPECT_EQ (eulerOf (both), 0);

@@ -2,7 +2,7 @@
 // A sheet whose stars are known without any search, for the tests of weights and linear system.
 #pragma once
 
-#include "core/types.h"
+#include "local/stars.h"
 #include "random_stream.h"
 
 #include <array>

@@ -38,8 +38,7 @@ twoSheets (double gap)
 bool
 isInner (const Neighborhoods& sheets, std::size_t p)
 {
-  const Eigen::Vector3d place =
-      sheets.points.centre + sheets.points.scale * sheets.points.positions[p];
+  const Eigen::Vector3d place = sheets.points.inCloud (static_cast<Index> (p));
   return (place - Eigen::Vector3d (0.5, 0.5, place.z ())).cwiseAbs ().maxCoeff () <
          0.5 - 2.5 / 30.0;
 }
@@ -53,8 +52,8 @@ shareOfStrays (const Neighborhoods& sheets)
   for (std::size_t p = 0; p < sheets.points.positions.size (); ++p) {
     if (!isInner (sheets, p))
       continue;
-    all += sheets.stars.neighbors.row (p).size ();
-    for (const Index q : sheets.stars.neighbors.row (p))
+    all += sheets.geometry.stars.neighbors.row (p).size ();
+    for (const Index q : sheets.geometry.stars.neighbors.row (p))
       strays += (sheets.points.positions[p].z () > 0.0) != (sheets.points.positions[q].z () > 0.0)
                     ? 1
                     : 0;
@@ -179,8 +178,8 @@ TEST (Stars, TheFilterKeepsSheetsApart)
 TEST (Stars, TheFilterLeavesASingleSheetAlone)
 {
   const Sheet sheet = samples::disc (0.05, 5);
-  const Stars filtered = makeNeighborhoods (sheet.positions, true).stars;
-  const Stars plain = makeNeighborhoods (sheet.positions, false).stars;
+  const Stars filtered = makeNeighborhoods (sheet.positions, true).geometry.stars;
+  const Stars plain = makeNeighborhoods (sheet.positions, false).geometry.stars;
   EXPECT_EQ (filtered.neighbors.offsets, plain.neighbors.offsets);
   EXPECT_EQ (filtered.neighbors.ids, plain.neighbors.ids);
   EXPECT_EQ (filtered.open, plain.open);
@@ -189,9 +188,9 @@ TEST (Stars, TheFilterLeavesASingleSheetAlone)
 TEST (Stars, ThreadsDoNotMatter)
 {
   const Positions points = twoSheets (2.0);
-  const Stars expected = makeNeighborhoods (points, true, 1).stars;
+  const Stars expected = makeNeighborhoods (points, true, 1).geometry.stars;
   for (const int threads : {0, 2, 3}) {
-    const Stars stars = makeNeighborhoods (points, true, threads).stars;
+    const Stars stars = makeNeighborhoods (points, true, threads).geometry.stars;
     EXPECT_EQ (stars.neighbors.offsets, expected.neighbors.offsets);
     EXPECT_EQ (stars.neighbors.ids, expected.neighbors.ids);
     EXPECT_EQ (stars.offsets_in_plane, expected.offsets_in_plane);
@@ -233,12 +232,12 @@ TEST (Stars, DegenerateNeighborhoods)
     line.emplace_back (1.0 * i, 2.0 * i, -0.5 * i);
   const Neighborhoods on_line = makeNeighborhoods (line);
   expectSane (on_line);
-  for (const std::uint8_t open : on_line.stars.open)
+  for (const std::uint8_t open : on_line.geometry.stars.open)
     EXPECT_EQ (open, 1);
   for (std::size_t count = 1; count <= 5; ++count)
     for (const bool filter : {true, false})
       expectSane (makeNeighborhoods (samples::randomPoints (count, 6), filter));
-  EXPECT_EQ (makeNeighborhoods ({}).stars.neighbors.rows (), 0U);
+  EXPECT_EQ (makeNeighborhoods ({}).geometry.stars.neighbors.rows (), 0U);
 }
 
 TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
@@ -259,8 +258,8 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
       EXPECT_GT (spacing, 1.1 * (4.0 + 2.0 * std::sqrt (2.0)) / 6.0);
     }
   }
-  EXPECT_NEAR (makeNeighborhoods ({{0, 0, 0}, {1, 0, 0}}).spacing[0], 1.0, 1e-6);
-  EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).spacing[0], 0.0F);
+  EXPECT_NEAR (makeNeighborhoods ({{0, 0, 0}, {1, 0, 0}}).geometry.spacing[0], 1.0, 1e-6);
+  EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).geometry.spacing[0], 0.0F);
 }
 
 } // namespace

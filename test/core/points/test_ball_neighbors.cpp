@@ -32,7 +32,7 @@ plane (std::size_t count, std::uint64_t seed)
 }
 
 Points
-setOf (const std::vector<Eigen::Vector3d>& positions)
+workingPoints (const std::vector<Eigen::Vector3d>& positions)
 {
   std::vector<Index> indices (positions.size ());
   std::iota (indices.begin (), indices.end (), Index{0});
@@ -97,15 +97,21 @@ private:
   std::vector<Neighbor> found_;
 };
 
+CsrLists
+findBalls (const Points& points, double radius, const RunContext& run = 1)
+{
+  return findBallNeighbors (points.positions, Rows::all (points.size ()), radius, run);
+}
+
 TEST (BallNeighbors, FollowTheDensity)
 {
   const std::vector<Eigen::Vector3d> positions = plane (1500, 1);
-  const Points set = setOf (positions);
-  const CsrLists balls = findBallNeighbors (set, 2.5, nullptr, 2);
+  const Points points = workingPoints (positions);
+  const CsrLists balls = findBalls (points, 2.5, 2);
   ASSERT_EQ (balls.rows (), points.positions.size ());
   for (Index p = 0; p < balls.rows (); p += 7) {
     const Row row = balls.row (p);
-    ASSERT_EQ (std::vector<Index> (row.begin (), row.end ()), ballBySearchingAll (set, p, 2.5));
+    ASSERT_EQ (std::vector<Index> (row.begin (), row.end ()), ballBySearchingAll (points, p, 2.5));
   }
   const double mean = static_cast<double> (balls.ids.size ()) / 1500.0;
   EXPECT_GT (mean, 15.0);
@@ -115,11 +121,12 @@ TEST (BallNeighbors, FollowTheDensity)
 TEST (BallNeighbors, AreTheSameByTheCallersSearch)
 {
   const std::vector<Eigen::Vector3d> positions = plane (800, 2);
-  const Points set = setOf (positions);
-  const CsrLists own = findBallNeighbors (set, 3.0, nullptr, 1);
+  const Points points = workingPoints (positions);
+  const CsrLists own = findBalls (points, 3.0);
   for (const bool knows_radii : {true, false}) {
     CloudSearch search (positions, knows_radii);
-    const CsrLists balls = findBallNeighbors (set, 3.0, &search, 2);
+    CallerSearch caller (points, search);
+    const CsrLists balls = searchBallNeighbors (caller, Rows::all (points.size ()), 3.0, 2);
     EXPECT_EQ (balls.offsets, own.offsets);
     EXPECT_EQ (balls.ids, own.ids);
   }
@@ -135,13 +142,13 @@ TEST (BallNeighbors, AreNeitherFewNorTooMany)
   positions.emplace_back (1.0, 0.0, 0.0);
   for (int i = 0; i < 5; ++i)
     positions.emplace_back (1.0 + 1e-9 * (i + 1), 1e-9 * i * i, 0.0);
-  const Points set = setOf (positions);
-  const CsrLists balls = findBallNeighbors (set, 1.0, nullptr, 1);
+  const Points points = workingPoints (positions);
+  const CsrLists balls = findBalls (points, 1.0);
   for (Index p = 0; p < balls.rows (); ++p) {
     EXPECT_GE (balls.row (p).size (), 6U);
     EXPECT_LE (balls.row (p).size (), 200U);
   }
-  const CsrLists few = findBallNeighbors (setOf (plane (4, 4)), 2.5, nullptr, 1);
+  const CsrLists few = findBalls (workingPoints (plane (4, 4)), 2.5);
   for (Index p = 0; p < 4; ++p)
     EXPECT_EQ (few.row (p).size (), 3U);
 }

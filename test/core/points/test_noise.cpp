@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/noise.h"
 
+#include "points/nearest_neighbors.h"
 #include "samples.h"
 #include "surfaces.h"
 
@@ -26,12 +27,12 @@ surface (SurfaceKind kind, std::size_t points, double noise)
 
 struct Cloud
 {
-  Points set;
+  Points points;
   CsrLists neighbors;
 
   explicit Cloud (const Positions& positions, int k = 20)
-      : set (makePoints (positions, samples::indices (positions.size ()), 1)),
-        neighbors (findNearestNeighbors (set, k, nullptr, 1))
+      : points (makePoints (positions, samples::indices (positions.size ()), 1)),
+        neighbors (findNearestNeighbors (points.positions, Rows::all (points.size ()), k, 1, 1))
   {
   }
 
@@ -126,8 +127,8 @@ TEST (Projection, TakesMostOfTheNoiseOut)
     p = p.normalized () +
         0.4 * spacing * Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
   const Cloud cloud (sphere);
-  EXPECT_LT (offSphere (cloud.projected (), cloud.set),
-             0.5 * offSphere (cloud.points.positions, cloud.set));
+  EXPECT_LT (offSphere (cloud.projected (), cloud.points),
+             0.5 * offSphere (cloud.points.positions, cloud.points));
   EXPECT_EQ (cloud.projected (3), cloud.projected (1));
 }
 

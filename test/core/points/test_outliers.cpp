@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/outliers.h"
 
+#include "points/nearest_neighbors.h"
 #include "samples.h"
 #include "surfaces.h"
 
@@ -29,9 +30,10 @@ surface (SurfaceKind kind, double noise, double density_ratio = 1.0)
 std::vector<Index>
 outliersOf (const Positions& positions, int k = 20, int threads = 1)
 {
-  Points set = makePoints (positions, samples::indices (positions.size ()), threads);
-  const CsrLists neighbors = findNearestNeighbors (set, k, nullptr, threads);
-  return removePoints (set, findOutliers (points.positions, neighbors, threads));
+  Points points = makePoints (positions, samples::indices (positions.size ()), threads);
+  const CsrLists neighbors =
+      findNearestNeighbors (points.positions, Rows::all (points.size ()), k, 1, threads);
+  return removePoints (points, findOutliers (points.positions, neighbors, threads));
 }
 
 // A square of `side` by `side` points, 1 apart but for the jitter.
@@ -146,7 +148,7 @@ TEST (Outliers, SmallClustersFarAway)
   }
 }
 
-TEST (Outliers, SmallPiecesStay)
+TEST (Outliers, SmallComponentsStay)
 {
   for (const std::size_t count : {10U, 15U, 20U})
     for (const double size : {1.0, 10.0, 100.0}) {
@@ -194,36 +196,6 @@ TEST (Outliers, DegenerateClouds)
   Positions few = square (4, 0.2, 1);
   few.emplace_back (0.0, 0.0, 1e3);
   EXPECT_TRUE (outliersOf (few).empty ()); // too few to tell
-}
-
-TEST (RemovePoints, KeepsOrderAndPlaces)
-{
-  Positions points = samples::randomPoints (200, 9);
-  points.emplace_back (100.0, 0.0, 0.0);
-  points.emplace_back (50.0, -70.0, 0.0);
-  const Points before = makePoints (points, samples::indices (points.size ()), 1);
-  Points set = before;
-  EXPECT_TRUE (removePoints (set, {}).empty ());
-  EXPECT_EQ (points.positions, before.positions);
-  std::vector<Index> rows;
-  for (Index p = 0; p < points.positions.size (); ++p)
-    if (points.cloud_index[p] >= 200 || points.cloud_index[p] == 17)
-      rows.push_back (p);
-  EXPECT_EQ (removePoints (set, rows), (std::vector<Index>{17, 200, 201}));
-  ASSERT_EQ (points.positions.size (), 199U);
-  ASSERT_EQ (points.cloud_index.size (), 199U);
-  Eigen::AlignedBox3d box;
-  for (Index p = 0, q = 0; p < points.positions.size (); ++p, ++q) {
-    while (std::binary_search (rows.begin (), rows.end (), q))
-      ++q;
-    EXPECT_EQ (points.cloud_index[p], before.cloud_index[q]);
-    const Eigen::Vector3d place = points.centre + points.scale * points.positions[p];
-    EXPECT_LT ((place - points[points.cloud_index[p]]).norm (), 1e-12);
-    box.extend (points.positions[p]);
-  }
-  EXPECT_NEAR (box.diagonal ().norm (), 1.0, 1e-12);
-  EXPECT_EQ (removePoints (set, samples::indices (199)).size (), 199U);
-  EXPECT_TRUE (points.positions.empty ());
 }
 
 TEST (Outliers, AreReportedAndLeftOut)

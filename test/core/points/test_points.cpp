@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace pcl
@@ -66,11 +67,11 @@ TEST (Points, LeadsBackToTheCloud)
   Positions cloud = samples::randomPoints (2000, 1);
   for (Eigen::Vector3d& p : cloud)
     p = Eigen::Vector3d (3.0, 40.0, -7.0) + 25.0 * p;
-  const Points set = make (cloud);
-  expectPartition (set, cloud.size ());
-  expectWorkable (set);
+  const Points points = make (cloud);
+  expectPartition (points, cloud.size ());
+  expectWorkable (points);
   for (std::size_t p = 0; p < points.positions.size (); ++p) {
-    const Eigen::Vector3d back = points.centre + points.scale * points.positions[p];
+    const Eigen::Vector3d back = points.inCloud (static_cast<Index> (p));
     EXPECT_LT ((back - cloud[points.cloud_index[p]]).norm (), 1e-13 * points.scale);
   }
 }
@@ -82,7 +83,7 @@ TEST (Points, ConsecutivePointsAreNear)
     for (int y = 0; y < 16; ++y)
       for (int z = 0; z < 16; ++z)
         cube.emplace_back (x, y, z);
-  const Points set = make (cube);
+  const Points points = make (cube);
   double sum = 0.0;
   for (std::size_t p = 1; p < points.positions.size (); ++p)
     sum += points.scale * (points.positions[p] - points.positions[p - 1]).norm ();
@@ -101,7 +102,7 @@ TEST (Points, OrderDependsOnPositionsOnly)
   for (const Index i : order)
     permuted.push_back (cloud[i]);
   for (const int threads : {1, 2, 0}) {
-    const Points set = make (permuted, threads);
+    const Points points = make (permuted, threads);
     EXPECT_EQ (points.positions, expected.positions);
     for (std::size_t p = 0; p < points.positions.size (); ++p)
       ASSERT_EQ (order[points.cloud_index[p]], expected.cloud_index[p]);
@@ -113,9 +114,9 @@ TEST (Points, TheSmallestIndexStandsForDuplicates)
   Positions cloud = samples::randomPoints (100, 4);
   for (const std::size_t i : {50U, 7U, 7U, 99U})
     cloud.push_back (cloud[i]);
-  const Points set = make (cloud);
-  expectPartition (set, cloud.size ());
-  expectWorkable (set);
+  const Points points = make (cloud);
+  expectPartition (points, cloud.size ());
+  expectWorkable (points);
   const std::vector<std::array<Index, 2>> expected = {{100, 50}, {101, 7}, {102, 7}, {103, 99}};
   EXPECT_EQ (points.duplicates, expected);
 }
@@ -123,7 +124,7 @@ TEST (Points, TheSmallestIndexStandsForDuplicates)
 TEST (Points, CloudIndicesNeedNotAscend)
 {
   const Positions cloud = {{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {NOT_A_NUMBER, 0, 0}, {0, INF, 0}};
-  const Points set = makePoints (cloud, {9, 4, 6, 8, 2}, 1);
+  const Points points = makePoints (cloud, {9, 4, 6, 8, 2}, 1);
   const std::vector<std::array<Index, 2>> duplicates = {{9, 6}};
   EXPECT_EQ (points.duplicates, duplicates);
   EXPECT_EQ (points.non_finite, (std::vector<Index>{2, 8}));
@@ -142,23 +143,23 @@ TEST (Points, EveryNonFiniteCoordinateCounts)
       cloud.emplace_back (0.5, 0.5, 0.5);
       cloud.back ()[axis] = bad;
     }
-  const Points set = make (cloud);
-  expectPartition (set, cloud.size ());
-  expectWorkable (set);
+  const Points points = make (cloud);
+  expectPartition (points, cloud.size ());
+  expectWorkable (points);
   EXPECT_EQ (points.non_finite, expected);
 }
 
 TEST (Points, MayBeEmpty)
 {
   EXPECT_TRUE (make ({}).positions.empty ());
-  const Points set = make (Positions (3, Eigen::Vector3d::Constant (NOT_A_NUMBER)));
+  const Points points = make (Positions (3, Eigen::Vector3d::Constant (NOT_A_NUMBER)));
   EXPECT_TRUE (points.positions.empty ());
   EXPECT_EQ (points.non_finite.size (), 3U);
 }
 
 TEST (Points, EqualPointsAreOne)
 {
-  const Points set = make (Positions (50, Eigen::Vector3d (1e7, -3.25, 1e-9)));
+  const Points points = make (Positions (50, Eigen::Vector3d (1e7, -3.25, 1e-9)));
   EXPECT_EQ (points.positions.size (), 1U);
   EXPECT_EQ (points.cloud_index.front (), 0U);
   EXPECT_EQ (points.duplicates.size (), 49U);
@@ -168,7 +169,7 @@ TEST (Points, EqualPointsAreOne)
 
 TEST (Points, NegativeZeroIsZero)
 {
-  const Points set = make ({{0.0, -0.0, 0.0}, {1, 1, 1}, {-0.0, 0.0, -0.0}});
+  const Points points = make ({{0.0, -0.0, 0.0}, {1, 1, 1}, {-0.0, 0.0, -0.0}});
   EXPECT_EQ (points.positions.size (), 2U);
   const std::vector<std::array<Index, 2>> expected = {{2, 0}};
   EXPECT_EQ (points.duplicates, expected);
@@ -182,9 +183,9 @@ TEST (Points, AnyMagnitude)
     Positions scaled = unit;
     for (Eigen::Vector3d& p : scaled)
       p *= factor;
-    const Points set = make (scaled);
-    expectPartition (set, unit.size ());
-    expectWorkable (set);
+    const Points points = make (scaled);
+    expectPartition (points, unit.size ());
+    expectWorkable (points);
     ASSERT_EQ (points.cloud_index, expected.cloud_index) << factor;
     for (std::size_t p = 0; p < points.positions.size (); ++p)
       EXPECT_LT ((points.positions[p] - expected.positions[p]).norm (), 1e-12);
@@ -198,9 +199,9 @@ TEST (Points, MapCoordinatesKeepTheirDigits)
   for (int x = 0; x < 20; ++x)
     for (int y = 0; y < 20; ++y)
       cloud.emplace_back (4194304.0 + x / 128.0, 5767168.0 + y / 128.0, 512.0);
-  const Points set = make (cloud);
+  const Points points = make (cloud);
   ASSERT_EQ (points.positions.size (), cloud.size ());
-  expectWorkable (set);
+  expectWorkable (points);
   for (std::size_t p = 0; p < points.positions.size (); ++p) {
     const Eigen::Vector3d expected = (cloud[points.cloud_index[p]] - cloud[0]) / points.scale;
     const Eigen::Vector3d corner = (cloud[0] - points.centre) / points.scale;
@@ -214,9 +215,9 @@ TEST (Points, PointsThatScalingCannotTellApartAreOne)
   Positions cloud = {{0, 0, 0}, {1, 1, 1}, {1, 0, 0}};
   for (int i = 1; i <= 40; ++i)
     cloud.emplace_back (1e-30 * (i % 7), 1e-25 * (i % 5), 1e-20 * i);
-  const Points set = make (cloud);
-  expectPartition (set, cloud.size ());
-  expectWorkable (set);
+  const Points points = make (cloud);
+  expectPartition (points, cloud.size ());
+  expectWorkable (points);
   EXPECT_EQ (points.positions.size (), 3U);
   // Around its centre they stay apart.
   for (Eigen::Vector3d& p : cloud)
@@ -233,14 +234,145 @@ TEST (Points, ABoxAsSmallAsOneDigit)
 {
   const double two_to_52 = 4503599627370496.0; // the next double is one more, and so on
   for (const double base : {two_to_52, two_to_52 + 1, -two_to_52 - 1}) {
-    const Points set = make ({{base, base, base},
-                              {base + 1, base, base},
-                              {base, base + 1, base},
-                              {base + 1, base + 1, base + 1}});
+    const Points points = make ({{base, base, base},
+                                 {base + 1, base, base},
+                                 {base, base + 1, base},
+                                 {base + 1, base + 1, base + 1}});
     EXPECT_EQ (points.positions.size (), 4U);
     for (const Eigen::Vector3d& p : points.positions)
       EXPECT_LE (p.cwiseAbs ().maxCoeff (), 1.0);
   }
+}
+
+Status
+statusOf (const Positions& positions)
+{
+  return checkPoints (make (positions)).status;
+}
+
+TEST (CheckPoints, FourDistinctFinitePoints)
+{
+  const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  EXPECT_EQ (statusOf (square), Status::OK);
+  EXPECT_EQ (statusOf ({}), Status::TOO_FEW_POINTS);
+  EXPECT_EQ (statusOf ({square[0], square[1], square[2]}), Status::TOO_FEW_POINTS);
+  EXPECT_EQ (statusOf ({square[0], square[1], square[2], square[1], square[0]}),
+             Status::TOO_FEW_POINTS);
+  EXPECT_EQ (statusOf ({square[0], square[1], square[2], {0, NOT_A_NUMBER, 0}}),
+             Status::TOO_FEW_POINTS);
+}
+
+TEST (CheckPoints, NotAllOnOneLine)
+{
+  for (const double scale : {1e-20, 1.0, 1e20}) {
+    Positions line;
+    for (int i = 0; i < 30; ++i) // rounded to single precision, as clouds are
+      line.emplace_back (static_cast<float> (scale * 0.1 * i), static_cast<float> (scale * 0.3 * i),
+                         static_cast<float> (scale * -0.7 * i));
+    EXPECT_EQ (statusOf (line), Status::DEGENERATE);
+    line.emplace_back (scale * 0.01, 0.0, 0.0);
+    EXPECT_EQ (statusOf (line), Status::OK);
+  }
+}
+
+// A cloud of random points in a cube, and two far away.
+Positions
+withFarPoints ()
+{
+  Positions cloud = samples::randomPoints (200, 9);
+  cloud.emplace_back (100.0, 0.0, 0.0);
+  cloud.emplace_back (50.0, -70.0, 0.0);
+  return cloud;
+}
+
+// Rows of the points from this cloud index on, and of a point in between.
+std::vector<Index>
+rowsFrom (const Points& points, Index cloud_index, Index one_more)
+{
+  std::vector<Index> rows;
+  for (Index p = 0; p < points.size (); ++p)
+    if (points.cloud_index[p] >= cloud_index || points.cloud_index[p] == one_more)
+      rows.push_back (p);
+  return rows;
+}
+
+TEST (RemovePoints, KeepsTheOrderAndThePlaceInTheCloud)
+{
+  const Points before = make (withFarPoints ());
+  Points points = before;
+  const std::vector<Index> rows = rowsFrom (points, 200, 17);
+  EXPECT_EQ (removePoints (points, rows), (std::vector<Index>{17, 200, 201}));
+  ASSERT_EQ (points.positions.size (), 199U);
+  ASSERT_EQ (points.cloud_index.size (), 199U);
+  for (Index p = 0, q = 0; p < points.size (); ++p, ++q) {
+    while (std::binary_search (rows.begin (), rows.end (), q))
+      ++q;
+    EXPECT_EQ (points.cloud_index[p], before.cloud_index[q]);
+    EXPECT_EQ (points.inCloud (p), before.inCloud (q));
+  }
+  EXPECT_EQ (removePoints (points, indices (199)).size (), 199U);
+  EXPECT_TRUE (points.positions.empty ());
+}
+
+TEST (RemovePoints, ScalesByAPowerOfTwo)
+{
+  const Points before = make (withFarPoints ());
+  Points points = before;
+  removePoints (points, rowsFrom (points, 200, NONE));
+  const double factor = before.scale / points.scale;
+  int exponent = 0;
+  EXPECT_EQ (std::frexp (factor, &exponent), 0.5);
+  EXPECT_GT (factor, 16.0);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points.positions)
+    box.extend (p);
+  EXPECT_NEAR (points.diagonal, box.diagonal ().norm (), 1e-15);
+  EXPECT_GE (points.diagonal, 0.5);
+  EXPECT_LE (points.diagonal, 1.0);
+  // So distances are the same numbers but for their exponents, and compare as before.
+  const std::vector<Index> kept = [&before] {
+    std::vector<Index> rows;
+    for (Index p = 0; p < before.size (); ++p)
+      if (before.cloud_index[p] < 200)
+        rows.push_back (p);
+    return rows;
+  }();
+  ASSERT_EQ (kept.size (), points.size ());
+  for (std::size_t p = 0; p < kept.size (); ++p)
+    for (std::size_t q = 0; q < p; ++q) {
+      const Eigen::Vector3d offset = before.positions[kept[p]] - before.positions[kept[q]];
+      ASSERT_EQ ((points.positions[p] - points.positions[q]).squaredNorm (),
+                 factor * factor * offset.squaredNorm ());
+    }
+}
+
+TEST (RemovePoints, LeavesTheScaleWhereTheBoxStays)
+{
+  const Points before = make (withFarPoints ());
+  Points points = before;
+  EXPECT_TRUE (removePoints (points, {}).empty ());
+  EXPECT_EQ (points.positions, before.positions);
+  EXPECT_EQ (points.scale, before.scale);
+  std::vector<Index> inner;
+  for (Index p = 0; p < points.size (); ++p)
+    if (points.cloud_index[p] == 17 || points.cloud_index[p] == 18)
+      inner.push_back (p);
+  EXPECT_EQ (removePoints (points, inner).size (), 2U);
+  EXPECT_EQ (points.scale, before.scale);
+  EXPECT_NEAR (points.diagonal, 1.0, 1e-12);
+}
+
+TEST (RemovePoints, DownToOnePlace)
+{
+  Points points = make (withFarPoints ());
+  std::vector<Index> all_but_one = indices (points.size ());
+  all_but_one.erase (all_but_one.begin () + 40);
+  const Index kept = points.cloud_index[40];
+  const Eigen::Vector3d place = points.inCloud (40);
+  EXPECT_EQ (removePoints (points, all_but_one).size (), 201U);
+  EXPECT_EQ (points.cloud_index, (std::vector<Index>{kept}));
+  EXPECT_EQ (points.inCloud (0), place);
+  EXPECT_TRUE (points.positions.front ().allFinite ());
 }
 
 } // namespace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/csr_lists.h"
+
+#include "random_stream.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+std::vector<Index>
+asVector (Row row)
+{
+  return {row.begin (), row.end ()};
+}
+
+TEST (CsrLists, OfOneListForEachRow)
+{
+  const std::vector<std::pair<std::size_t, Index>> entries{{2, 7}, {0, 5}, {2, 3}, {4, 9},
+                                                           {2, 7}, {0, 1}, {2, 0}};
+  const CsrLists lists = makeCsrLists (6, [&] (const auto& emit) {
+    for (const auto& [row, id] : entries)
+      emit (row, id);
+  });
+  ASSERT_EQ (lists.rows (), 6U);
+  EXPECT_EQ (lists.ids.size (), entries.size ());
+  EXPECT_EQ (asVector (lists.row (0)), (std::vector<Index>{5, 1}));
+  EXPECT_EQ (asVector (lists.row (2)), (std::vector<Index>{7, 3, 7, 0})) << "in the order given";
+  EXPECT_EQ (asVector (lists.row (4)), (std::vector<Index>{9}));
+  for (const std::size_t empty : {1U, 3U, 5U})
+    EXPECT_EQ (lists.row (empty).size (), 0U);
+  EXPECT_EQ (lists.row (2)[1], 3U);
+}
+
+TEST (CsrLists, WithoutEntriesAndWithoutRows)
+{
+  const auto nothing = [] (const auto& /*emit*/) {};
+  const CsrLists empty_rows = makeCsrLists (3, nothing);
+  EXPECT_EQ (empty_rows.rows (), 3U);
+  for (std::size_t row = 0; row < 3; ++row)
+    EXPECT_EQ (empty_rows.row (row).size (), 0U);
+  EXPECT_EQ (makeCsrLists (0, nothing).rows (), 0U);
+  EXPECT_EQ (CsrLists{}.rows (), 0U);
+}
+
+TEST (CsrLists, FirstEntriesOfARow)
+{
+  const CsrLists lists = makeCsrLists (2, [] (const auto& emit) {
+    for (Index id = 10; id < 14; ++id)
+      emit (1, id);
+  });
+  EXPECT_EQ (asVector (lists.first (1, 0)), std::vector<Index>{});
+  EXPECT_EQ (asVector (lists.first (1, 3)), (std::vector<Index>{10, 11, 12}));
+  EXPECT_EQ (asVector (lists.first (1, 4)), (std::vector<Index>{10, 11, 12, 13}));
+  EXPECT_EQ (asVector (lists.first (1, 100)), (std::vector<Index>{10, 11, 12, 13}));
+  EXPECT_EQ (lists.first (0, 5).size (), 0U);
+}
+
+TEST (CsrLists, AreWhatListsOfListsAre)
+{
+  RandomStream random (1);
+  for (int round = 0; round < 50; ++round) {
+    const std::size_t rows = 1 + random.below (30);
+    std::vector<std::pair<std::size_t, Index>> entries (random.below (200));
+    std::vector<std::vector<Index>> expected (rows);
+    for (auto& [row, id] : entries) {
+      row = random.below (rows);
+      id = static_cast<Index> (random.below (1000));
+      expected[row].push_back (id);
+    }
+    const CsrLists lists = makeCsrLists (rows, [&] (const auto& emit) {
+      for (const auto& [row, id] : entries)
+        emit (row, id);
+    });
+    ASSERT_EQ (lists.rows (), rows);
+    for (std::size_t row = 0; row < rows; ++row)
+      ASSERT_EQ (asVector (lists.row (row)), expected[row]);
+  }
+}
+
+TEST (CsrLists, RowLengthsBecomeOffsets)
+{
+  std::vector<Index> offsets{0, 3, 0, 2};
+  sumRowLengths (offsets);
+  EXPECT_EQ (offsets, (std::vector<Index>{0, 3, 3, 5}));
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

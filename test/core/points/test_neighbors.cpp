@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Neighbour lists after points were removed.
+#include "points/neighbors.h"
+
+#include "samples.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::Positions;
+
+// Answers by brute force, among the points that it was built with.
+class BruteForceSearch : public NeighborSearch
+{
+public:
+  explicit BruteForceSearch (Positions cloud) : cloud_ (std::move (cloud)) {}
+
+  void build (const std::vector<std::uint32_t>& cloud_indices) override { chosen_ = cloud_indices; }
+
+  void nearest (std::uint32_t cloud_index, int k,
+                std::vector<std::uint32_t>& cloud_indices) override
+  {
+    std::vector<std::pair<double, Index>> all;
+    for (const Index q : chosen_)
+      all.emplace_back ((cloud_[q] - cloud_[cloud_index]).squaredNorm (), q);
+    std::sort (all.begin (), all.end ());
+    all.resize (std::min (all.size (), static_cast<std::size_t> (k)));
+    cloud_indices.clear ();
+    for (const auto& neighbor : all)
+      cloud_indices.push_back (neighbor.second);
+  }
+
+private:
+  Positions cloud_;
+  std::vector<std::uint32_t> chosen_;
+};
+
+Points
+workingPoints (const Positions& positions)
+{
+  return makePoints (positions, samples::indices (positions.size ()), 1);
+}
+
+// Each point with the same probability; from `first_sure` on, in the order of the cloud, always.
+std::vector<Index>
+chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  std::vector<Index> removed;
+  for (Index p = 0; p < points.size (); ++p)
+    if (random.uniform () < share || points.cloud_index[p] >= first_sure)
+      removed.push_back (p);
+  return removed;
+}
+
+// Lists that are renewed after these points were removed are those that a search finds.
+// \return the points that are left
+Points
+expectRenewed (const Points& all, const std::vector<Index>& removed,
+               const NeighborSettings& settings)
+{
+  CsrLists before = findNeighbors (all, settings, 1);
+  Points left = all;
+  removePoints (left, removed);
+  const CsrLists expected = findNeighbors (left, settings, 1);
+  for (const int threads : {1, 3}) {
+    const CsrLists renewed = renewNeighbors (left, removed, before, settings, threads);
+    EXPECT_EQ (renewed.rows (), left.size ());
+    EXPECT_EQ (renewed.offsets, expected.offsets);
+    EXPECT_EQ (renewed.ids, expected.ids);
+  }
+  return left;
+}
+
+// The k nearest in one block and in several, and balls.
+std::vector<NeighborSettings>
+allSettings ()
+{
+  NeighborSettings nearest, few, blocks, balls;
+  few.options.k = 6;
+  blocks.blocks = 5;
+  balls.options.kind = Neighborhood::BALL_DELAUNAY;
+  return {nearest, few, blocks, balls};
+}
+
+TEST (RenewNeighbors, OfRandomPoints)
+{
+  const Points points = workingPoints (samples::randomPoints (1500, 1));
+  for (const NeighborSettings& settings : allSettings ())
+    for (const double share : {0.0, 0.001, 0.02, 0.3, 0.9})
+      for (std::uint64_t seed = 1; seed <= 3; ++seed)
+        expectRenewed (points, chooseRemoved (points, share, points.size (), seed), settings);
+}
+
+// A grid is full of equal distances: which of the equally near points are neighbours goes by index.
+TEST (RenewNeighbors, OfAGridWithTies)
+{
+  Positions grid;
+  for (const Index i : samples::permutation (1000, 2))
+    grid.emplace_back (i % 10, i / 10 % 10, i / 100); // NOLINT (bugprone-integer-division)
+  const Points points = workingPoints (grid);
+  for (const NeighborSettings& settings : allSettings ())
+    for (const double share : {0.01, 0.2})
+      for (std::uint64_t seed = 1; seed <= 3; ++seed)
+        expectRenewed (points, chooseRemoved (points, share, points.size (), seed), settings);
+}
+
+// With the outermost points the bounding box shrinks, and the rest is scaled again.
+TEST (RenewNeighbors, WhereTheBoxShrinks)
+{
+  for (const bool on_grid : {false, true}) {
+    Positions cloud;
+    for (int x = 0; x < 30; ++x)
+      for (int y = 0; y < 30; ++y)
+        cloud.emplace_back (x, y, 0.0);
+    RandomStream random (3);
+    for (Eigen::Vector3d& p : cloud)
+      if (!on_grid)
+        p += 0.3 * Eigen::Vector3d (random.uniform (), random.uniform (), random.uniform ());
+    const std::size_t surface = cloud.size ();
+    cloud.emplace_back (15.3, 14.8, 700.0);
+    cloud.emplace_back (-90.0, 14.8, 3.0);
+    cloud.emplace_back (15.1, 500.0, -33.0);
+    const Points points = workingPoints (cloud);
+    for (const NeighborSettings& settings : allSettings ())
+      for (const double share : {0.0, 0.05}) {
+        const std::vector<Index> removed = chooseRemoved (points, share, surface, 4);
+        const Points left = expectRenewed (points, removed, settings);
+        EXPECT_LT (left.scale, 0.1 * points.scale);
+      }
+  }
+}
+
+TEST (RenewNeighbors, ByTheCallersSearch)
+{
+  Positions cloud = samples::randomPoints (400, 5);
+  cloud.emplace_back (20.0, 0.0, 0.0);
+  BruteForceSearch search (cloud);
+  for (NeighborSettings settings : allSettings ()) {
+    settings.search = &search;
+    const Points points = workingPoints (cloud);
+    expectRenewed (points, chooseRemoved (points, 0.05, 400, 6), settings);
+  }
+}
+
+TEST (RenewNeighbors, OfFewPoints)
+{
+  for (const std::size_t count : {1U, 2U, 5U, 12U, 25U}) {
+    const Points points = workingPoints (samples::randomPoints (count, count));
+    for (const NeighborSettings& settings : allSettings ()) {
+      expectRenewed (points, chooseRemoved (points, 0.3, count, 7), settings);
+      expectRenewed (points, samples::indices (count), settings);
+    }
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
