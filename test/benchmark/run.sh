@@ -9,7 +9,7 @@ Usage: run.sh [CLOUD...]
 Writes floater_result/benchmark/report.md in the working directory, with pictures and CSV files.
 CLOUD: point clouds, each a disc (.pcd, .ply or .obj). Without one, those of the folder
        PCL_FLOATER_DATA (default: ../shared/data beside the project), and a generated finger, whose
-       tip is about as dense in the plane as the densest part of the report's largest model.
+       tip is about as dense in the plane as the densest part of the largest model of TW 385.
 END
 }
 
