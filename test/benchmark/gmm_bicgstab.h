@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's iterative solver: BiCGSTAB with an ILUT preconditioner, by GMM++.
+// The iterative solver of TW 385: BiCGSTAB with an ILUT preconditioner, by GMM++.
 #pragma once
 
 #include "floater/solvers/linear_system.h"
@@ -12,7 +12,7 @@ namespace pcl
 {
 namespace floater
 {
-/// ILUT(p, tau) of the report's section 5.
+/// ILUT(p, tau) of TW 385, section 5.
 constexpr int ILUT_FILL = 15;
 constexpr double ILUT_THRESHOLD = 1e-2;
 
@@ -23,8 +23,8 @@ struct IterativeSolution
   double setup_seconds = 0.0;              ///< of the preconditioner
   std::array<double, 2> seconds{};         ///< of the iterations, per right-hand side
   std::array<std::size_t, 2> iterations{}; ///< per right-hand side
-  bool converged = false; ///< both, by the residual that the method itself carries on
-  double residual = 0.0;  ///< max over both of |b - A u| / |b|, computed anew
+  bool converged = false;                  ///< both, by the residual that the method itself updates
+  double residual = 0.0;                   ///< max over both of |b - A u| / |b|, computed anew
 
   double totalSeconds () const { return setup_seconds + seconds[0] + seconds[1]; }
 };

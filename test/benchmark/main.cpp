@@ -2,10 +2,10 @@
 // pcl_floater_benchmark: makes the tables and figures of TW 385 again, from clouds of the user's.
 #include "atomic_file.h"
 #include "cloud_reader.h"
+#include "floater/solvers/solver.h"
 #include "mesh_picture.h"
 #include "processor.h"
 #include "section.h"
-#include "floater/solvers/solver.h"
 #include "stopwatch.h"
 
 #include <CLI/CLI.hpp>
@@ -77,8 +77,8 @@ makeSample (const std::filesystem::path& path, const Settings& settings)
   Options options;
   options.topology = Topology::DISC;
   options.threads = settings.threads;
-  sample.disc = makeDisc (path.stem ().string (), sample.cloud, options);
-  const Solution solution = solve (sample.disc.system, options);
+  sample.disc = runStages (path.stem ().string (), sample.cloud, options);
+  const Solution solution = solve (sample.disc.system, options.solver, nullptr, options.threads);
   if (solution.outcome != Solution::Outcome::OK)
     throw std::runtime_error (sample.disc.name + ": " + solution.message);
   sample.direct = parametersOf (sample.disc, solution.uv);
@@ -101,9 +101,9 @@ run (const CommandLine& line)
       std::fprintf (stderr, "%.1f s\n", stopwatch.seconds ());
     }
     clouds += (clouds.empty () ? "" : ", ") + sample.disc.name + " (" +
-              grouped (sample.disc.points.positions.size ()) + " points" +
+              grouped (sample.disc.points.size ()) + " points" +
               (sample.disc.left_out > 0 ? ", " + std::to_string (sample.disc.left_out) +
-                                              " of them without a way to the boundary and left out"
+                                              " left out, since they do not connect to the boundary"
                                         : std::string ()) +
               ")";
   }
@@ -130,7 +130,7 @@ main (int argc, char** argv)
   using namespace pcl::floater;
   CommandLine line;
   CLI::App app{
-      "Makes the tables and figures of the report TW 385 again: DIR/report.md, with CSV files and\n"
+      "Makes the tables and figures of TW 385 again: DIR/report.md, with CSV files and\n"
       "pictures beside it. A ground truth NAME.gt.ply beside NAME.pcd is used where it exists."};
   app.add_option ("--out", line.out, "folder for the report")->required ()->option_text ("DIR");
   app.add_option ("clouds", line.clouds, "clouds, each a disc: .pcd, .ply or .obj")

@@ -12,7 +12,7 @@ namespace floater
 {
 namespace
 {
-// The report's Table 1.
+// Bytes per point by TW 385, Table 1.
 constexpr double OCTREE_BYTES = 53.0, MATRIX_BYTES = 112.0, PERMUTATION_BYTES = 53.0,
                  FACTOR_BYTES = 84.0;
 
@@ -40,7 +40,7 @@ heldBytes ()
 }
 
 std::size_t
-searchStructureBytes (const Disc& disc)
+searchStructureBytes (const DiscStages& disc)
 {
   const std::size_t before = heldBytes ();
   const KdTree tree (disc.points.positions);
@@ -58,7 +58,7 @@ public:
 
   void measure (const Sample& sample) override
   {
-    const auto points = static_cast<double> (sample.disc.points.positions.size ());
+    const auto points = static_cast<double> (sample.disc.points.size ());
     const UmfpackSizes sizes = measureUmfpack (sample.disc.system);
     const double gamma = static_cast<double> (sizes.nnz_factors) /
                          static_cast<double> (sample.disc.system.nonzeros ());
@@ -80,14 +80,14 @@ public:
   void write (ReportFolder& report) const override
   {
     report.heading ("Table 1: bytes per point");
-    report.paragraph ("Measured, and by the report's formula (218 + 84 gamma) N with our "
+    report.paragraph ("Measured, and by the formula of TW 385, (218 + 84 gamma) N, with our "
                       "gamma. The search structure is a kd-tree here (what the allocator "
-                      "handed out for it), an octree in the report. The matrix has both "
+                      "handed out for it), an octree in TW 385. The matrix has both "
                       "right-hand sides and the numbering with it. Factors and permutations as "
                       "UMFPACK counts them after the factorization: its L and U share patterns "
                       "within supernodes, so that they need less than the formula's 12 bytes "
                       "per nonzero. The last column is the peak while it factorizes, which the "
-                      "report does not count.");
+                      "TW 385 does not count.");
     report.table ("table1_memory", table_);
   }
 

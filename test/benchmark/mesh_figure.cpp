@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure 6 of TW 385: mesh, parameterization, and what it is like where it is densest.
+#include "floater/planar_delaunay.h"
+#include "mesh/finish.h"
 #include "mesh_measures.h"
 #include "mesh_picture.h"
 #include "points/kd_tree.h"
 #include "section.h"
-#include "floater/planar_delaunay.h"
-#include "mesh/finish.h"
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -60,35 +60,20 @@ makePolyData (const std::vector<Eigen::Vector3d>& positions, const std::vector<T
   return mesh;
 }
 
-// Turns all triangles if the surface, seen from its middle, faces inwards.
-void
-faceOutwards (std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions)
-{
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
-  for (const Eigen::Vector3d& p : positions)
-    middle += p / static_cast<double> (positions.size ());
-  double volume = 0.0;
-  for (const auto& [a, b, c] : triangles)
-    volume += (positions[a] - middle).dot ((positions[b] - middle).cross (positions[c] - middle));
-  if (volume < 0.0)
-    for (Triangle& t : triangles)
-      std::swap (t[1], t[2]);
-}
-
 // Points around the one whose nearest points in the plane are nearest; 1 for those.
 std::vector<std::uint8_t>
 densestPoints (const std::vector<Eigen::Vector3d>& flat)
 {
   const KdTree tree (flat);
-  std::vector<Neighbor> near;
+  std::vector<Neighbor> nearest;
   std::pair<double, Index> densest{std::numeric_limits<double>::infinity (), 0};
   for (Index p = 0; p < flat.size (); ++p) {
-    tree.nearest (flat[p], DENSITY_K, near);
-    densest = std::min (densest, {near.back ().sqr_distance, p});
+    tree.nearest (flat[p], DENSITY_K, nearest);
+    densest = std::min (densest, {nearest.back ().sqr_distance, p});
   }
-  tree.nearest (flat[densest.second], CLOSE_UP, near);
+  tree.nearest (flat[densest.second], CLOSE_UP, nearest);
   std::vector<std::uint8_t> chosen (flat.size (), 0);
-  for (const Neighbor& neighbor : near)
+  for (const Neighbor& neighbor : nearest)
     chosen[neighbor.point] = 1;
   return chosen;
 }
@@ -108,12 +93,11 @@ class MeshFigure : public Section
 public:
   void measure (const Sample& sample) override
   {
-    const Disc& disc = sample.disc;
+    const DiscStages& disc = sample.disc;
     TriangleMesh mesh = triangulatePlane (sample.direct, disc.boundary.loop);
     const std::vector<Triangle> in_plane = mesh.triangles;
-    std::vector<Eigen::Vector3f> normals = disc.normals;
-    finishDisc (mesh, disc.points.positions, disc.near, normals, {});
-    faceOutwards (mesh.triangles, disc.points.positions);
+    LocalGeometry geometry = disc.geometry;
+    finishMesh (mesh, disc.points.positions, geometry, {}, 1);
 
     // Points that the system leaves out are in no triangle of the plane; far away they do not
     // disturb.

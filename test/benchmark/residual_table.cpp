@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why the report asks BiCGSTAB for a residual of 1e-15: what the mesh is at larger ones.
+// Why TW 385 asks BiCGSTAB for a residual of 1e-15: what the mesh is at larger ones.
+#include "floater/planar_delaunay.h"
 #include "gmm_bicgstab.h"
+#include "mesh/finish.h"
 #include "mesh_measures.h"
 #include "section.h"
-#include "floater/planar_delaunay.h"
-#include "mesh/finish.h"
 
 #include <algorithm>
 
@@ -23,13 +23,13 @@ struct MeshEdges
 };
 
 MeshEdges
-meshOf (const Disc& disc, const std::vector<Eigen::Vector2d>& uv)
+meshOf (const DiscStages& disc, const std::vector<Eigen::Vector2d>& uv)
 {
   MeshEdges edges;
   TriangleMesh mesh = triangulatePlane (uv, disc.boundary.loop);
   edges.in_plane = edgesOf (mesh.triangles);
-  std::vector<Eigen::Vector3f> normals = disc.normals;
-  finishDisc (mesh, disc.points.positions, disc.near, normals, {});
+  LocalGeometry geometry = disc.geometry;
+  finishMesh (mesh, disc.points.positions, geometry, {}, 1);
   edges.on_surface = edgesOf (mesh.triangles);
   return edges;
 }
@@ -45,7 +45,7 @@ public:
 
   void measure (const Sample& sample) override
   {
-    const Disc& disc = sample.disc;
+    const DiscStages& disc = sample.disc;
     const MeshEdges direct = meshOf (disc, sample.direct);
     const GmmBicgstab bicgstab (disc.system, ILUT_FILL, ILUT_THRESHOLD);
     bool first = true;

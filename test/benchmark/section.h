@@ -2,7 +2,7 @@
 // A part of the benchmark's report.
 #pragma once
 
-#include "disc.h"
+#include "disc_stages.h"
 #include "report_folder.h"
 
 #include <filesystem>
@@ -17,11 +17,11 @@ struct Sample
 {
   std::filesystem::path path;
   Cloud cloud;
-  Disc disc;
+  DiscStages disc;
   std::vector<Eigen::Vector2d> direct; ///< parameters by UMFPACK; per point
 };
 
-/// How the measurements are made.
+/// How measurements are taken.
 struct Settings
 {
   int threads = 1; ///< of our stages; GMM++ and SuperLU have one

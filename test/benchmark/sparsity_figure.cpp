@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure 4 of TW 385: where the matrix and its factors have their nonzeros.
+#include "floater/solvers/ordering.h"
 #include "picture_file.h"
 #include "section.h"
-#include "floater/solvers/ordering.h"
 #include "symbolic_factors.h"
 
 #include <algorithm>

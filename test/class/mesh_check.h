@@ -7,6 +7,7 @@
 
 #include <pcl/Vertices.h>
 #include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 #include <pcl/surface/floater_reconstruction.h>
 
 #include <gtest/gtest.h>
@@ -27,6 +28,7 @@ constexpr std::uint64_t SEED = 385; ///< of all clouds of these tests
 
 constexpr const char* LINE_START = "[pcl::FloaterReconstruction::performReconstruction] ";
 
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Polygons = std::vector<pcl::Vertices>;
 using Triangles = std::set<std::array<pcl::index_t, 3>>;
 
@@ -54,6 +56,19 @@ makeCloud (SurfaceKind kind, std::size_t points)
   }
   return cloud;
 }
+
+inline Cloud::Ptr
+heightField (std::size_t points = 500)
+{
+  return makeCloud<pcl::PointXYZ> (SurfaceKind::HEIGHT_FIELD, points);
+}
+
+/// The class as a maker of discs: only they have parameters, and one loop over all points.
+class Floater : public pcl::FloaterReconstruction<pcl::PointXYZ>
+{
+public:
+  Floater () { setTopology (Topology::DISC); }
+};
 
 /// Triangles without their order, each from its smallest corner on; the orientation stays.
 inline Triangles

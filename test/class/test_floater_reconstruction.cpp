@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What goes into FloaterReconstruction and what comes out: clouds, indices, meshes, failures.
-#include "mesh/check.h"
+#include "mesh_check.h"
 
 #include <pcl/point_types.h>
 
@@ -15,22 +15,7 @@ namespace floater
 {
 namespace
 {
-// For what only a disc has: parameters, and one loop over all points.
-class Floater : public pcl::FloaterReconstruction<pcl::PointXYZ>
-{
-public:
-  Floater () { setTopology (Topology::DISC); }
-};
-
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-
 constexpr float NOWHERE = std::numeric_limits<float>::quiet_NaN ();
-
-Cloud::Ptr
-heightField (std::size_t points = 500)
-{
-  return makeCloud<pcl::PointXYZ> (SurfaceKind::HEIGHT_FIELD, points);
-}
 
 /// A wavy grid in row order, moved a little off its places.
 Cloud::Ptr

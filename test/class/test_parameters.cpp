@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Setters and getters of FloaterReconstruction, and what parameters and search methods do to a run.
-#include "mesh/check.h"
-
-#include <pcl/point_types.h>
-#include <pcl/search/brute_force.h>
-#include <pcl/search/kdtree.h>
-#include <pcl/search/octree.h>
+// Setters and getters of FloaterReconstruction, and what parameters do to a run.
+#include "mesh_check.h"
 
 #include <functional>
 #include <limits>
-#include <memory>
-#include <stdexcept>
 
 namespace pcl
 {
@@ -18,22 +11,6 @@ namespace floater
 {
 namespace
 {
-// For what only a disc has: parameters, and one loop over all points.
-class Floater : public pcl::FloaterReconstruction<pcl::PointXYZ>
-{
-public:
-  Floater () { setTopology (Topology::DISC); }
-};
-
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-using Search = pcl::search::Search<pcl::PointXYZ>;
-
-Cloud::Ptr
-heightField (std::size_t points = 500)
-{
-  return makeCloud<pcl::PointXYZ> (SurfaceKind::HEIGHT_FIELD, points);
-}
-
 /// A setter given a value, and the getter that must tell it, before and after a run.
 struct Choice
 {
@@ -54,29 +31,29 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   const Options defaults;
   const pcl::FloaterReconstruction<pcl::PointXYZ> floater;
   EXPECT_EQ (floater.getTopology (), defaults.topology);
-  EXPECT_EQ (floater.getHolePolicy (), defaults.holes);
-  EXPECT_EQ (floater.getKeptLoops (), defaults.kept_loops);
-  EXPECT_EQ (floater.getLargestHole (), defaults.largest_hole);
-  EXPECT_EQ (floater.getLargestHoleLength (), defaults.largest_hole_length);
+  EXPECT_EQ (floater.getHolePolicy (), defaults.holes.policy);
+  EXPECT_EQ (floater.getKeptLoops (), defaults.holes.kept_loops);
+  EXPECT_EQ (floater.getLargestHole (), defaults.holes.largest_hole);
+  EXPECT_EQ (floater.getLargestHoleLength (), defaults.holes.largest_hole_length);
   EXPECT_EQ (floater.getRemoveOutliers (), defaults.remove_outliers);
   EXPECT_EQ (floater.getDenoise (), defaults.denoise);
-  EXPECT_EQ (floater.getKNearest (), defaults.k);
-  EXPECT_EQ (floater.getOpeningAngle (), defaults.opening_angle);
-  EXPECT_EQ (floater.getClusterTolerance (), defaults.cluster_tolerance);
-  EXPECT_EQ (floater.getClusterK (), defaults.cluster_k);
-  EXPECT_EQ (floater.getBoundaryMethod (), defaults.boundary);
-  EXPECT_EQ (floater.getDomain (), defaults.domain);
-  EXPECT_EQ (floater.getPolygonSides (), defaults.polygon_sides);
+  EXPECT_EQ (floater.getKNearest (), defaults.neighbors.k);
+  EXPECT_EQ (floater.getOpeningAngle (), defaults.boundary.opening_angle);
+  EXPECT_EQ (floater.getClusterTolerance (), defaults.boundary.cluster_tolerance);
+  EXPECT_EQ (floater.getClusterK (), defaults.boundary.cluster_k);
+  EXPECT_EQ (floater.getBoundaryMethod (), defaults.boundary.method);
+  EXPECT_EQ (floater.getDomain (), defaults.domain.curve);
+  EXPECT_EQ (floater.getPolygonSides (), defaults.domain.polygon_sides);
   EXPECT_EQ (floater.getWeighting (), defaults.weighting);
-  EXPECT_EQ (floater.getNeighborhood (), defaults.neighborhood);
-  EXPECT_EQ (floater.getBallRadius (), defaults.ball_radius);
-  EXPECT_EQ (floater.getLoopSpacing (), defaults.loop_spacing);
-  EXPECT_EQ (floater.getSolver (), defaults.solver);
-  EXPECT_EQ (floater.getOrdering (), defaults.ordering);
-  EXPECT_EQ (floater.getTolerance (), defaults.tolerance);
-  EXPECT_EQ (floater.getMaxIterations (), defaults.max_iterations);
-  EXPECT_EQ (floater.getIlutFill (), defaults.ilut_fill);
-  EXPECT_EQ (floater.getIlutDropTolerance (), defaults.ilut_drop);
+  EXPECT_EQ (floater.getNeighborhood (), defaults.neighbors.kind);
+  EXPECT_EQ (floater.getBallRadius (), defaults.neighbors.ball_radius);
+  EXPECT_EQ (floater.getLoopSpacing (), defaults.domain.loop_spacing);
+  EXPECT_EQ (floater.getSolver (), defaults.solver.method);
+  EXPECT_EQ (floater.getOrdering (), defaults.solver.ordering);
+  EXPECT_EQ (floater.getTolerance (), defaults.solver.tolerance);
+  EXPECT_EQ (floater.getMaxIterations (), defaults.solver.max_iterations);
+  EXPECT_EQ (floater.getIlutFill (), defaults.solver.ilut_fill);
+  EXPECT_EQ (floater.getIlutDropTolerance (), defaults.solver.ilut_drop);
   EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
   EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
@@ -404,80 +381,6 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
   expectFailure (floater, Status::INVALID_LOOP);
 }
 
-/// Counts what it is asked.
-class CountingSearch : public pcl::search::KdTree<pcl::PointXYZ>
-{
-public:
-  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
-
-  int nearestKSearch (const pcl::PointXYZ& point, int k, pcl::Indices& indices,
-                      std::vector<float>& sqr_distances) const override
-  {
-    ++queries;
-    return pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch (point, k, indices, sqr_distances);
-  }
-
-  mutable std::size_t queries = 0;
-};
-
-TEST_F (FloaterClass, AsksTheUsersSearchMethod)
-{
-  const Cloud::Ptr cloud = heightField ();
-  pcl::IndicesPtr indices (new pcl::Indices);
-  for (pcl::index_t i = static_cast<pcl::index_t> (cloud->size ()) - 1; i >= 0; --i)
-    if ((*cloud)[i].x < 18.0F)
-      indices->push_back (i);
-  ASSERT_GT (indices->size (), 300U);
-  ASSERT_LT (indices->size (), cloud->size ());
-  (*cloud)[indices->back ()].y = std::numeric_limits<float>::quiet_NaN ();
-
-  Floater floater;
-  floater.setInputCloud (cloud);
-  floater.setIndices (indices);
-  const Triangles expected = runWell (floater);
-  const pcl::shared_ptr<CountingSearch> counting (new CountingSearch);
-  const std::vector<Search::Ptr> methods{Search::Ptr (new pcl::search::KdTree<pcl::PointXYZ>),
-                                         Search::Ptr (new pcl::search::Octree<pcl::PointXYZ> (1.5)),
-                                         Search::Ptr (new pcl::search::BruteForce<pcl::PointXYZ>),
-                                         counting};
-  for (const Search::Ptr& method : methods) {
-    SCOPED_TRACE (method->getName ());
-    method->setInputCloud (heightField (60)); // of an earlier use
-    floater.setSearchMethod (method);
-    EXPECT_EQ (runWell (floater), expected);
-    EXPECT_EQ (floater.getSearchMethod (), method);
-    EXPECT_EQ (method->getInputCloud (), cloud);
-    ASSERT_NE (method->getIndices (), nullptr);
-    EXPECT_EQ (method->getIndices ()->size (), indices->size () - 1); // not the point with a NaN
-  }
-  EXPECT_EQ (counting->queries, indices->size () - 1);
-}
-
-// PCL's octree answers without being asked for by the user; the mesh is that of any other search.
-TEST_F (FloaterClass, TakesBallsByAnOctree)
-{
-  const Cloud::Ptr cloud = heightField ();
-  (*cloud)[123].x = std::numeric_limits<float>::quiet_NaN ();
-  for (const Neighborhood neighborhood : {Neighborhood::BALL, Neighborhood::BALL_DELAUNAY}) {
-    Floater floater;
-    floater.setInputCloud (cloud);
-    floater.setNeighborhood (neighborhood);
-    const Triangles expected = runWell (floater);
-    EXPECT_EQ (floater.getSearchMethod (), nullptr);
-    floater.setSearchMethod (Search::Ptr (new pcl::search::BruteForce<pcl::PointXYZ>));
-    EXPECT_EQ (runWell (floater), expected);
-    floater.setSearchMethod (nullptr);
-    floater.setBallRadius (4.0);
-    runWell (floater);
-    floater.setNeighborhood (Neighborhood::NEAREST_DELAUNAY);
-    const std::size_t nonzeros = floater.getStatistics ().nnz_matrix;
-    runWell (floater);
-    if (neighborhood == Neighborhood::BALL) {
-      EXPECT_GT (nonzeros, 2 * floater.getStatistics ().nnz_matrix);
-    }
-  }
-}
-
 TEST_F (FloaterClass, TellsOfASolverThatGaveUp)
 {
   Floater floater;
@@ -490,71 +393,6 @@ TEST_F (FloaterClass, TellsOfASolverThatGaveUp)
   runWell (floater);
   EXPECT_GT (floater.getStatistics ().iterations_u, 0U);
   EXPECT_LT (floater.getStatistics ().relative_residual, 1e-14);
-}
-
-class ThrowingSearch : public pcl::search::KdTree<pcl::PointXYZ>
-{
-public:
-  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
-
-  int nearestKSearch (const pcl::PointXYZ&, int, pcl::Indices&, std::vector<float>&) const override
-  {
-    throw std::runtime_error ("the disk is full");
-  }
-};
-
-TEST_F (FloaterClass, LetsNoExceptionOut)
-{
-  Floater floater;
-  floater.setInputCloud (heightField (100));
-  floater.setSearchMethod (Search::Ptr (new ThrowingSearch));
-  expectFailure (floater, Status::INTERNAL_ERROR);
-  EXPECT_NE (floater.getMessage ().find ("the disk is full"), std::string::npos);
-  floater.setSearchMethod (nullptr);
-  runWell (floater);
-}
-
-TEST_F (FloaterClass, TellsItsProgress)
-{
-  std::vector<Stage> stages;
-  Floater floater;
-  floater.setInputCloud (heightField ());
-  floater.setStageCallback ([&stages] (Stage stage) { stages.push_back (stage); });
-  ASSERT_TRUE (floater.getStageCallback ());
-  runWell (floater);
-  const std::vector<Stage> all{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
-                               Stage::BOUNDARY,    Stage::WEIGHTS,   Stage::SOLVE,
-                               Stage::DELAUNAY,    Stage::FLIPS,     Stage::CHECK};
-  EXPECT_EQ (stages, all);
-
-  floater.setStageCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
-  expectFailure (floater, Status::INTERNAL_ERROR);
-  EXPECT_NE (floater.getMessage ().find ("enough of this"), std::string::npos);
-  floater.setStageCallback ([] (Stage) { throw 1; });
-  expectFailure (floater, Status::INTERNAL_ERROR);
-  floater.setStageCallback (nullptr);
-  runWell (floater);
-}
-
-TEST_F (FloaterClass, TellsHowFarItIsAndStops)
-{
-  double done = -1.0;
-  Floater floater;
-  floater.setInputCloud (heightField ());
-  floater.setProgressCallback ([&done] (double fraction) { done = fraction; });
-  ASSERT_TRUE (floater.getProgressCallback ());
-  runWell (floater);
-  EXPECT_EQ (done, 1.0);
-
-  floater.setCancelledCallback ([&done] { return done > 0.1; });
-  ASSERT_TRUE (floater.getCancelledCallback ());
-  done = 0.0;
-  expectFailure (floater, Status::CANCELLED);
-  EXPECT_GT (done, 0.0);
-  EXPECT_LT (done, 1.0);
-  EXPECT_NE (floater.getMessage ().find ("stopped"), std::string::npos);
-  floater.setCancelledCallback (nullptr);
-  runWell (floater);
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A cloud taken through the stages up to the linear system, with all that lies on the way kept.
+// A cloud taken through the stages of a disc up to the linear system, with all results kept.
 #pragma once
 
-#include "floater/boundary/boundary.h"
 #include "cloud.h"
-#include "core/types.h"
+#include "floater/boundary/boundary.h"
 #include "floater/solvers/linear_system.h"
+#include "local/local_geometry.h"
+#include "points/points.h"
 
 #include <pcl/surface/floater/options.h>
 #include <pcl/surface/floater/report.h>
@@ -17,13 +18,12 @@ namespace pcl
 {
 namespace floater
 {
-/// Working set, neighbours, stars, loop and system of a cloud, with the options' defaults.
-struct Disc
+/// What the stages make of a cloud.
+struct DiscStages
 {
   std::string name; ///< of the file, without its extension
-  Points set;
-  CsrLists near;
-  std::vector<Eigen::Vector3f> normals;
+  Points points;
+  LocalGeometry geometry; ///< of its stars the normals only
   Boundary boundary;
   std::vector<Eigen::Vector2d> loop_uv; ///< parallel to boundary.loop
   LinearSystem system;                  ///< unknowns along the space-filling curve
@@ -31,18 +31,20 @@ struct Disc
   Statistics statistics;                ///< seconds of the stages up to WEIGHTS
 };
 
-/// \throw std::runtime_error with the cause if a stage fails
-Disc
-makeDisc (const std::string& name, const Cloud& cloud, const Options& options);
+/// Runs the stages, without removal of outliers and noise.
+/// \param options neighbours, boundary method and domain; neighbours are the k nearest
+/// \throw std::runtime_error with the cause if no boundary loop is found
+DiscStages
+runStages (const std::string& name, const Cloud& cloud, const Options& options);
 
 /// Parameters of all points; NaN for points that the system leaves out.
 /// \param solution per unknown
 std::vector<Eigen::Vector2d>
-parametersOf (const Disc& disc, const std::vector<Eigen::Vector2d>& solution);
+parametersOf (const DiscStages& disc, const std::vector<Eigen::Vector2d>& solution);
 
 /// The unknowns in the order of the cloud's file, the one that comes i-th, for every i.
 std::vector<int>
-fileOrder (const Disc& disc);
+fileOrder (const DiscStages& disc);
 
 } // namespace floater
 } // namespace pcl

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Callbacks of FloaterReconstruction: stages, progress, cancellation.
+#include "mesh_check.h"
+
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+TEST_F (FloaterClass, TellsItsProgress)
+{
+  std::vector<Stage> stages;
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  floater.setStageCallback ([&stages] (Stage stage) { stages.push_back (stage); });
+  ASSERT_TRUE (floater.getStageCallback ());
+  runWell (floater);
+  const std::vector<Stage> all{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
+                               Stage::BOUNDARY,    Stage::WEIGHTS,   Stage::SOLVE,
+                               Stage::DELAUNAY,    Stage::FLIPS,     Stage::CHECK};
+  EXPECT_EQ (stages, all);
+
+  floater.setStageCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
+  expectFailure (floater, Status::INTERNAL_ERROR);
+  EXPECT_NE (floater.getMessage ().find ("enough of this"), std::string::npos);
+  floater.setStageCallback ([] (Stage) { throw 1; });
+  expectFailure (floater, Status::INTERNAL_ERROR);
+  floater.setStageCallback (nullptr);
+  runWell (floater);
+}
+
+TEST_F (FloaterClass, TellsHowFarItIsAndCanBeCancelled)
+{
+  double done = -1.0;
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  floater.setProgressCallback ([&done] (double fraction) { done = fraction; });
+  ASSERT_TRUE (floater.getProgressCallback ());
+  runWell (floater);
+  EXPECT_EQ (done, 1.0);
+
+  floater.setCancelledCallback ([&done] { return done > 0.1; });
+  ASSERT_TRUE (floater.getCancelledCallback ());
+  done = 0.0;
+  expectFailure (floater, Status::CANCELLED);
+  EXPECT_GT (done, 0.0);
+  EXPECT_LT (done, 1.0);
+  EXPECT_NE (floater.getMessage ().find ("cancelled"), std::string::npos);
+  floater.setCancelledCallback (nullptr);
+  runWell (floater);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
