@@ -61,7 +61,8 @@ project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   return outline;
 }
 
-// The places of the hull's vertices in the outline, anti-clockwise.
+// The places of the hull's vertices in the outline, anti-clockwise. Of coinciding points the first
+// in the outline is the vertex.
 std::vector<std::size_t>
 hullOf (const Outline& outline)
 {
@@ -70,8 +71,15 @@ hullOf (const Outline& outline)
   points.reserve (outline.size ());
   for (const Eigen::Vector2d& p : outline)
     points.emplace_back (p.x (), p.y ());
-  std::vector<std::size_t> places (points.size ()), hull;
+  std::vector<std::size_t> places (points.size ());
   std::iota (places.begin (), places.end (), std::size_t{0});
+  std::stable_sort (places.begin (), places.end (),
+                    [&points] (std::size_t a, std::size_t b) { return points[a] < points[b]; });
+  places.erase (
+      std::unique (places.begin (), places.end (),
+                   [&points] (std::size_t a, std::size_t b) { return points[a] == points[b]; }),
+      places.end ());
+  std::vector<std::size_t> hull;
   auto map = CGAL::make_property_map (points);
   CGAL::convex_hull_2 (places.begin (), places.end (), std::back_inserter (hull),
                        CGAL::Convex_hull_traits_adapter_2<Kernel, decltype (map)> (map));

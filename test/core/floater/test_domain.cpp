@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/domain.h"
 
+#include "floater/own_shape.h"
 #include "random_stream.h"
 
 #include <gtest/gtest.h>
@@ -360,6 +361,22 @@ TEST (Domain, ALoopWithoutAShapeIsLaidOnTheCircle)
   // A figure of eight still has a hull. Whatever comes out is convex.
   const SlantedLoop eight ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10);
   expectStrictlyConvex (eight.lay ());
+}
+
+// A box with walls: of two points one above the other the first is the corner. Points on the sides
+// are no corners.
+TEST (Domain, OwnShapeOfCoincidingAndCollinearPoints)
+{
+  const std::vector<Eigen::Vector3d> positions{{0, 0, 0}, {0, 0, 1}, {2, 0, 1}, {4, 0, 1},
+                                               {4, 0, 0}, {4, 3, 0}, {4, 3, 1}, {2, 3, 1},
+                                               {0, 3, 1}, {0, 3, 0}};
+  std::vector<Index> loop{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const SideLimits limits{1e-3, 4e-6};
+  EXPECT_EQ (findOwnShape (positions, loop, limits).corners,
+             (std::vector<std::size_t>{0, 3, 5, 8}));
+  std::rotate (loop.begin (), loop.begin () + 1, loop.end ());
+  EXPECT_EQ (findOwnShape (positions, loop, limits).corners,
+             (std::vector<std::size_t>{0, 2, 4, 7}));
 }
 
 TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
