@@ -2,7 +2,8 @@
 #include "floater/solvers/umfpack_solver.h"
 
 #include "core/parallel.h"
-#include "floater/solvers/iterative.h"
+#include "floater/solvers/floating_unknowns.h"
+#include "floater/solvers/residual.h"
 #include "floater/solvers/single_blas_thread.h"
 
 #include <umfpack.h>
@@ -18,8 +19,8 @@ namespace floater
 {
 namespace
 {
-// The 32-bit interface holds factors of up to 2 GB, at about 1.2 kB per unknown, with an eighth
-// less memory than the 64-bit one.
+// Unknowns from which on the interface has 64-bit indices. That with 32 bits takes an eighth less
+// memory, and holds factors of up to 2 GB; there are about 1.2 kB of them per unknown.
 constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
 
 // UMFPACK's two integer types.
@@ -56,8 +57,8 @@ struct Release
 template <void (*release) (void**)>
 using Handle = std::unique_ptr<void, Release<release>>;
 
-// Records why a call did not end well.
-// \return true if it did
+// Records the reason if a call has failed.
+// \return true if it has not
 bool
 accept (double status, const char* call, Solution& solution)
 {
@@ -74,7 +75,7 @@ accept (double status, const char* call, Solution& solution)
   return false;
 }
 
-// The matrix with another type of index, or as it is.
+// The pattern of the matrix: a copy in another type of index, or the system's own.
 template <typename Int>
 struct Pattern
 {
@@ -95,7 +96,7 @@ struct Pattern<int>
   const std::vector<int>&offsets, &columns;
 };
 
-// \param order that of the unknowns; empty: as the ordering tells
+// \param order of the unknowns; empty: UMFPACK makes the ordering
 template <typename Interface>
 Solution
 solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& order,
@@ -109,7 +110,7 @@ solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& or
   control[UMFPACK_STRATEGY] = strategy == UmfpackStrategy::SYMMETRIC ? UMFPACK_STRATEGY_SYMMETRIC
                                                                      : UMFPACK_STRATEGY_UNSYMMETRIC;
   control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
-  // Sparse pivots off the diagonal cost digits, which refinement brings back.
+  // Pivots off the diagonal cost digits, which refinement recovers.
   constexpr double REFINEMENT_STEPS = 2.0;
   const bool refine = strategy == UmfpackStrategy::UNSYMMETRIC;
   control[UMFPACK_IRSTEP] = refine ? REFINEMENT_STEPS : 0.0;
@@ -125,8 +126,8 @@ solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& or
     if (!order.empty ()) {
       const std::vector<Int> fixed (order.begin (), order.end ());
       control[UMFPACK_FIXQ] = 1.0;
-      // Without an estimate by AMD, UMFPACK takes far too much memory at once and tidies it up too
-      // late; from as little as it can do with, it grows in steps.
+      // Without AMD's estimate, UMFPACK would allocate far too much memory in advance. With 0 it
+      // begins with the least memory it needs, and grows in steps.
       control[UMFPACK_ALLOC_INIT] = 0.0;
       Interface::QSYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
                             system.values.data (), fixed.data (), &handle, control.data (),
@@ -143,10 +144,10 @@ solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& or
                         symbolic.get (), &handle, control.data (), info.data ());
     numeric.reset (handle);
   }
-  // Only refinement needs the matrix after the factorization.
+  // After the factorization only refinement needs the matrix.
   if (!refine)
     pattern.reset ();
-  // Figures that UMFPACK did not get to are -1.
+  // UMFPACK leaves -1 for figures that it did not compute.
   const auto figure = [&] (int entry) { return std::max (0.0, info[entry]); };
   solution.peak_bytes =
       static_cast<std::size_t> (figure (UMFPACK_PEAK_MEMORY) * figure (UMFPACK_SIZE_OF_UNIT));
@@ -158,11 +159,11 @@ solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& or
   if (strategy == UmfpackStrategy::SYMMETRIC &&
       !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
     solution.outcome = Solution::Outcome::SINGULAR;
-    solution.message = "factorization: a pivot is nothing but rounding errors";
+    solution.message = "factorization: a pivot consists of rounding errors only";
     return solution;
   }
 
-  // The factors are only read, so both right-hand sides can go at once.
+  // The factors are only read, so both right-hand sides can be solved at the same time.
   const std::array<const std::vector<double>*, 2> rhs{&system.rhs_u, &system.rhs_v};
   std::array<std::vector<double>, 2> unknowns;
   for (auto& one : unknowns)
@@ -198,13 +199,13 @@ solveInOrder (const LinearSystem& system, Ordering ordering, const std::vector<i
     solution.reciprocal_condition = 1.0;
     return solution;
   }
-  // With pivots off the diagonal, small ones do not tell of an island.
-  if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseIslands (system, solution))
+  // Pivots off the diagonal do not tell of floating unknowns by being small.
+  if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseFloatingUnknowns (system, solution))
     return solution;
   const SingleBlasThread single_blas_thread;
   if (system.unknowns () <= LONG_INDEX_UNKNOWNS)
     solution = solve<IntInterface> (system, ordering, order, strategy, run);
-  // Running out of 32-bit indices is reported as running out of memory.
+  // UMFPACK reports running out of 32-bit indices as running out of memory.
   if (system.unknowns () > LONG_INDEX_UNKNOWNS ||
       solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
     solution = solve<LongInterface> (system, ordering, order, strategy, run);
