@@ -218,7 +218,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Options&
                     const RunContext& run, Result& result)
 {
   Report& report = result.report;
-  Surface surface = makeSurface (points, geometry, options.holes, options.flip_edges, run);
+  Surface surface = makeSurface (points, geometry, {options.holes, options.flip_edges}, run);
   reportOrientationSeam (points, surface.orientation_seam, report);
   const bool may_be_disc =
       options.topology == Topology::AUTO && points.size () <= LARGEST_SECOND_TRY;
