@@ -3,6 +3,9 @@
 // come from.
 #pragma once
 
+#include "consensus/consensus_loop.h"
+#include "consensus/consensus_method.h"
+#include "floater/floater_method.h"
 #include "local/stars.h"
 #include "local/tangent_planes.h"
 #include "points/noise.h"
@@ -18,6 +21,10 @@ struct Limits
   NoiseLimits noise;
   PlaneLimits planes;
   SheetLimits sheets;
+  SurfaceLimits surface;
+  LoopLimits loop;
+  DiscLimits disc;
+  CheckLimits check;
 };
 
 } // namespace floater

@@ -37,7 +37,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
 
   // Section 2.1: the weights may be for all neighbours. Only the boundary needed Delaunay stars.
   run.beginStage (Stage::WEIGHTS);
-  StarSettings star_settings{settings.filter_sheets};
+  StarSettings star_settings = settings.stars;
   if (settings.neighborhood == Neighborhood::NEAREST ||
       settings.neighborhood == Neighborhood::BALL) {
     star_settings.kind = StarKind::ALL;
@@ -69,8 +69,9 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Beyond TW 385: points without a triangle, as those that coincide in the plane, are inserted,
   // and edges are flipped in space.
   run.beginStage (Stage::FLIPS);
-  disc.finish = finishMesh (disc.mesh, points.positions, geometry,
-                            {settings.flip_edges, settings.limits.largest_fold_share}, run);
+  disc.finish =
+      finishMesh (disc.mesh, points.positions, geometry,
+                  {settings.flip_edges, settings.limits.largest_fold_share, settings.finish}, run);
   if (!disc.finish.is_repairable)
     disc.problem = describeFolds (disc);
   return disc;

@@ -14,10 +14,11 @@ namespace floater
 struct DiscSettings
 {
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
-  bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
+  StarSettings stars; ///< of stars that are made anew
   ParameterizationSettings parameterization;
   bool flip_edges = true; ///< flip edges in space at the end, and repair folds
   DiscLimits limits{};
+  FinishLimits finish{};
 };
 
 /// The mesh of a disc and how it came about, or why there is none.
