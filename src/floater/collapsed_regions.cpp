@@ -27,7 +27,8 @@ perimeter (const std::vector<Vector>& at, const std::vector<Index>& loop)
   return sum;
 }
 
-// Marks the corners of collapsed triangles, but no point of the loop. Empty if there is none.
+// Marks the corners of collapsed triangles, except for points of the loop.
+// \return empty if no triangle has collapsed
 std::vector<std::uint8_t>
 markDeepPoints (const TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
                 const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
@@ -112,8 +113,9 @@ contains (const std::vector<Index>& sorted, Index element)
 
 // The boundary loop of a region, from its smallest point on. The triangles of the region are
 // connected by edges, and so are those of the rest of the disc, so the edges between the two are
-// one simple cycle. \param triangles of the region, ascending \return empty if there is no such
-// cycle, since the mesh is no disc
+// one simple cycle.
+// \param triangles of the region, ascending
+// \return empty if there is no such cycle, since the mesh is no disc
 std::vector<Index>
 orderLoop (const TriangleMesh& mesh, const std::vector<Index>& triangles)
 {

@@ -65,7 +65,8 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
 }
 
 // Numbers the faces inside of the loop. A triangle behind an edge of the hull that is no edge of
-// the loop is outside, and so on inwards. \return how many
+// the loop is outside, and so on inwards.
+// \return how many
 Index
 numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
 {

@@ -48,19 +48,20 @@ struct LoopLimits
 
   /// k at which a segment begins to grow (TW 385, section 3.3).
   Index first_k = 3;
-  /// k up to which it is incremented (TW 385 gives no bound). Beyond it, a segment continues over
-  /// the bridges of the neighbour graph, so the value decides about speed more than about the loop.
+  /// k up to which it is incremented. Beyond that, a segment continues over the bridges of the
+  /// neighbour graph. Tested on generated borders only; not certain.
   Index largest_k = 16;
-  /// Numbers of neighbours in the univariate parameterization; the shortest order is taken. TW 385
-  /// leaves the number open. Tested on generated borders, smooth and jagged; not certain.
+  /// Numbers of neighbours that are tried in the univariate parameterization; the shortest order is
+  /// taken. Tested on generated borders, smooth and jagged; not certain.
   std::array<Index, 3> univariate_k{3, 4, 5};
 
   // Check of a loop that was found.
 
-  /// Points: a shorter loop is a gap in the sampling of a closed surface ... Chosen on real clouds,
-  /// whose shortest boundary has 36 points; not certain.
+  /// Fewest points of a loop in a cloud of more than `few_points` points. A shorter loop is a gap
+  /// in the sampling of a closed surface. Of the real discs, the shortest boundary has 36 points;
+  /// not certain.
   std::size_t shortest_loop = 10;
-  /// Points: ... unless the cloud itself has no more points than this.
+  /// Points of a cloud up to which a loop of any length is taken. Not derived from data.
   std::size_t few_points = 100;
 };
 

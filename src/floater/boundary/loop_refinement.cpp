@@ -15,8 +15,8 @@ namespace floater
 {
 namespace
 {
-// How far apart along the loop two edges may be that 2-opt exchanges. Longer reversals are no
-// crossings of neighbouring jags, and the time grows with the window.
+// Largest number of steps along the loop between two edges that 2-opt exchanges. A longer reversal
+// does not undo a crossing of neighbouring jags, and the time grows with the window.
 constexpr std::size_t WINDOW = 30;
 constexpr int UNTANGLE_PASSES = 10; // each of them only after one that changed something
 constexpr int INSERTION_PASSES = 4; // a candidate may lie beyond an edge to one just inserted

@@ -44,8 +44,8 @@ struct Candidates
   }
 };
 
-// Keeps the cheapest of several edges between the same candidates, and sorts by cost. Ties are
-// broken by the candidates' numbers.
+// Keeps the cheapest of several edges between the same candidates, and sorts by cost, then by the
+// candidates' numbers.
 void
 sortByCost (std::vector<CandidateEdge>& edges)
 {

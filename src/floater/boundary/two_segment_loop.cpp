@@ -23,10 +23,10 @@ using Positions = std::vector<Eigen::Vector3d>;
 
 // Appends points to a segment that begins with `seed` until it has `size` points.
 //
-// Neighbours up to the one of rank first_k come first. A farther neighbour is taken only while all
-// of those are in the segment already. TW 385 leaves open which of several candidates of one rank
-// comes first. Here it is the one that is nearest to the seed along the segment: both ends then
-// advance alike, and the last point appended is an end.
+// The first_k nearest neighbours of the points in the segment come first. A farther neighbour is
+// taken only while all of those are in the segment already. TW 385 leaves open which of several
+// candidates of one rank comes first. Here it is the one that is nearest to the seed along the
+// segment: both ends then advance alike, and the last point appended is an end.
 std::vector<Index>
 growSegment (const Positions& points, Index seed, std::size_t size, const RunContext& run,
              const LoopLimits& limits)
@@ -67,8 +67,8 @@ growSegment (const Positions& points, Index seed, std::size_t size, const RunCon
 // The univariate Floater parameterization: t = 0 at the first point, t = 1 at the last one, and
 // every other point is a convex combination of its neighbours with weights proportional to
 // 1 / distance. Each row is multiplied by its sum of 1 / distance. The matrix is then symmetric,
-// and positive definite since the graph is connected. \return points ascending in t; empty if two
-// points coincide or the system is singular
+// and positive definite since the graph is connected.
+// \return points ascending in t; empty if two points coincide or the system is singular
 std::vector<Index>
 univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
 {

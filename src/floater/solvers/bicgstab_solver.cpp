@@ -133,8 +133,7 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
   const Matrix magnitudes = matrix.cwiseAbs ();
 
   IncompleteFactors factors;
-  // Eigen counts the fill in mean rows of the matrix, half of it in a row of L and half in a row of
-  // U.
+  // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
   const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
   factors.setFillfactor (static_cast<int> (std::ceil (2.0 * options.ilut_fill / mean_row)));
   factors.setDroptol (options.ilut_drop);

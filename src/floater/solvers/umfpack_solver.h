@@ -24,9 +24,9 @@ enum class UmfpackStrategy
 /// indices have 64 bits. The symmetric strategy needs no refinement, and it detects floating
 /// unknowns by their pivots. The unsymmetric strategy takes two steps of refinement, and floating
 /// unknowns are looked for first. An empty system is OK. Failures of UMFPACK are outcomes. The
-/// result does not depend on the number of threads. \param ordering SYMMETRIC: AMD or AUTOMATIC
-/// (the same), METIS, or NATURAL; UNSYMMETRIC: COLAMD or
-///                 AUTOMATIC (the same), METIS (of A^T A), or NATURAL
+/// result does not depend on the number of threads.
+/// \param ordering SYMMETRIC: AMD or AUTOMATIC (the same), METIS, or NATURAL;
+///                 UNSYMMETRIC: COLAMD or AUTOMATIC (the same), METIS (of A^T A), or NATURAL
 /// \throws std::bad_alloc
 Solution
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,

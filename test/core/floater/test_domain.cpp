@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/domain.h"
 
+#include "core/geometry.h"
 #include "floater/own_shape.h"
 #include "random_stream.h"
 
@@ -16,7 +17,6 @@ namespace floater
 {
 namespace
 {
-constexpr double PI = 3.14159265358979323846;
 constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
                                   Domain::OWN_SHAPE};
 constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
@@ -73,12 +73,6 @@ unevenLoop (std::size_t count, std::uint64_t seed)
   for (double& turn : turns)
     turn /= sum;
   return Loop (turns);
-}
-
-double
-cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x () * b.y () - a.y () * b.x ();
 }
 
 // Expects a left turn at every point, and one turn in all. Differences of nearly equal doubles are
