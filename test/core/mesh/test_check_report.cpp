@@ -66,7 +66,7 @@ TEST (CheckReport, WarningsNameThePlace)
   expectWarning (warningsOf (line), "1 triangle has no area", "point 1 (100, -20, 3)");
 }
 
-TEST (CheckReport, SmallHolesAreToldIfNoOptionAsksForThem)
+TEST (CheckReport, WarnsOfSmallHolesIfNoOptionAsksForThem)
 {
   Mesh holed = sheet (20);
   for (const std::ptrdiff_t t : {610, 250, 100})
@@ -98,7 +98,7 @@ TEST (CheckReport, TheReportHasCloudIndicesAndTheLongestLoop)
     EXPECT_EQ (report.loop[i], 3 * found.loops.front ().points[i] + 1);
   EXPECT_EQ (report.statistics.loop_points, 30U);
   EXPECT_EQ (report.check.loops.size (), 3U);
-  // A loop that is there stays.
+  // A loop that is there already is kept.
   report.loop = {1, 2, 3};
   ASSERT_FALSE (reportCheck (pointsAt (mesh.positions), found, {}, report));
   EXPECT_EQ (report.loop, (std::vector<Index>{1, 2, 3}));
