@@ -53,7 +53,7 @@ normalAgreementRank (const Candidate& candidate)
 }
 
 /// Which triangles of stars become candidates. Those of fewer votes must be better. All values were
-/// chosen on the clouds of the first benchmark; they are not certain.
+/// chosen by hand; no measurement is recorded.
 struct CandidateLimits
 {
   std::array<float, 3> circumradius_ratio{2.0F, 2.0F, 3.0F}; ///< the largest of 1, 2 and 3 votes;

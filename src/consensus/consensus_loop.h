@@ -11,13 +11,13 @@ namespace pcl
 {
 namespace floater
 {
+/// The limits of all steps of consensusLoop.
 struct ConsensusLoopLimits
 {
   ConsensusLimits consensus;
   OpenLoopLimits open_loops;
   double gap_ratio = 2.0; ///< circumradius by local spacing; a triangle of a star above it is a gap
-                          ///< (see findGaps). Chosen on the clouds of the first benchmark; not
-                          ///< certain
+                          ///< (see findGaps). Chosen by hand; no measurement is recorded
 };
 
 /// Makes the consensus mesh and takes the loop that HolePolicy::KEEP_LARGEST would keep open of its

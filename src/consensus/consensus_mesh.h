@@ -16,11 +16,11 @@ struct ConsensusLimits
 {
   CandidateLimits candidates;
   std::size_t smallest_island = 32; ///< triangles; smaller islands are dropped (see manifoldPart).
-                                    ///< Chosen on the clouds of the first benchmark; not certain
-  std::size_t shortest_seam = 8;    ///< triangles; a shorter row does not tell a one-sided surface
+                                    ///< Chosen by hand; no measurement is recorded
+  std::size_t shortest_seam = 8;    ///< triangles; a shorter row is no sign of a one-sided surface
                                     ///< (see findOrientationSeam). Measured: scans of two-sided
-                                    ///< surfaces had rows of up to 5, generated Moebius strips 4
-                                    ///< spacings wide rows of 8, and 12 spacings wide rows of 37
+                                    ///< surfaces had rows of up to 5, Moebius strips 4 spacings
+                                    ///< wide rows of 8, and strips 12 spacings wide rows of 37
 };
 
 /// The manifold that stars agree on, before its holes are filled.
@@ -32,11 +32,12 @@ struct ConsensusMesh
                               ///< contradict the orientation
 };
 
-/// Finds candidate triangles, their consensus and its manifold part, then offers the candidates
-/// once more where there is room left. O(n + m log m) for m doubtful candidates. \param positions
-/// by which the stars were made \param neighbors of each point, nearest first \param stars     of
-/// all points; freed as soon as the candidates are found \param spacing   of each point (see
-/// localSpacing)
+/// Finds candidate triangles, their consensus and its manifold part. Then offers the candidates
+/// again where there is room left. O(n + m log m) for m doubtful candidates.
+/// \param positions by which the stars were made
+/// \param neighbors of each point, nearest first
+/// \param stars     of all points; freed as soon as the candidates are found
+/// \param spacing   of each point (see localSpacing)
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A common orientation of the normals, told by the triangles that join their points.
+// A common orientation of normals, found by the triangles that connect their points.
 #pragma once
 
 #include "consensus/candidates.h"
@@ -12,9 +12,9 @@ namespace pcl
 {
 namespace floater
 {
-/// Sets of points whose normals are oriented relative to each other. Each triangle that is taken
-/// tells whether the normals of its corners point to the same side of it, and joins their sets.
-/// Amortized almost O(1) for each call, if nothing else is said.
+/// Sets of points whose normals are oriented relative to each other. A triangle joins the sets of
+/// its corners: it shows which of their normals point to the same side. Amortized almost O(1) for
+/// each call, unless it says otherwise.
 class Orientation
 {
 public:

@@ -18,9 +18,9 @@ namespace floater
 struct CheckLimits
 {
   double long_edge = 6.0;    ///< mean local spacings of its two ends; longer edges inside the
-                             ///< surface are counted. Chosen, not measured
+                             ///< surface are counted. Chosen by hand
   double precision = 1e-7;   ///< of coordinates, in bounding box diagonals: single precision
-  double flat_height = 1e-3; ///< of a triangle, divided by its longest edge. Chosen, not measured.
+  double flat_height = 1e-3; ///< of a triangle, divided by its longest edge. Chosen by hand.
                              ///< A triangle is degenerate if its height is below both limits
 };
 

@@ -11,13 +11,14 @@ namespace floater
 /// When an open component has an inside and an outside, and along which axis it faces if not.
 struct FacingLimits
 {
-  double inside_share =
-      0.3;                 ///< of the largest volume that an open component could enclose with its
-                           ///< centroid (if all of it faced straight away from there); above, it
-                           ///< has an inside. Measured on generated surfaces: a half sphere has
-                           ///< 0.8, a round bowl half as deep 0.5, a volcano 0.25, terrain less
-  double equal_axes = 0.9; ///< ratio of two components of the mean normal; above, they count as
-                           ///< equal. Chosen, so that noise does not decide
+  /// Share of the largest volume that an open component could enclose with its centroid, if all of
+  /// it faced straight away from there. Above, it has an inside. A half sphere has 0.8, a round
+  /// bowl half as deep 0.5, a volcano 0.25, terrain less.
+  double inside_share = 0.3;
+
+  /// Ratio of the lengths of the mean normal along two axes. Above, they count as equal. Chosen by
+  /// hand.
+  double equal_axes = 0.9;
 };
 
 /// Turns every component of a mesh so that it faces outwards. A closed component encloses a

@@ -66,7 +66,7 @@ private:
   std::size_t flips_ = 0;
 };
 
-/// Flips edges of the whole mesh (see EdgeFlipper). Boundary edges stay. O(n) in practice.
+/// Flips edges of the whole mesh (see EdgeFlipper). Boundary edges are kept. O(n) in practice.
 /// \return number of flips
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);

@@ -10,15 +10,15 @@ namespace pcl
 {
 namespace floater
 {
-/// How much is tried to remove folds. All are limits of time: larger ones remove a few more folds.
-/// They were chosen on the clouds of the first benchmark, where more gave next to nothing.
+/// How much is tried to remove folds. All are limits of time: larger values may remove a few more
+/// folds. They were chosen by hand; no measurement is recorded.
 struct RepairLimits
 {
   std::size_t largest_fan = 16;      ///< triangles around a vertex that is moved
   int passes = 12;                   ///< over the vertices to move; few are left after five
   std::size_t places = 4;            ///< cheapest triangles in which a vertex to move is tried
   std::size_t kicks = 16;            ///< places to which a vertex of a fold is kicked; at most 255
-  std::size_t points_per_kick = 16;  ///< one kick for so many points of the mesh
+  std::size_t points_per_kick = 16;  ///< points of the mesh for each kick
   int passes_after_kick = 2;         ///< moves of the vertices around
   std::size_t places_after_kick = 3; ///< the same as `places`, in these moves
 };

@@ -14,10 +14,10 @@ struct HoleFillingLimits
 {
   double area_cost = 200.0; ///< per doubled area in squared mean steps of the loop, in the unit of
                             ///< TriangleCost. Sheets that end face to face are to be joined across
-                            ///< the narrow gap between them, not each closed on its own. Chosen on
-                            ///< the clouds of the first benchmark; not certain
+                            ///< the narrow gap between them, not each closed on its own. Chosen by
+                            ///< hand; no measurement is recorded
   std::size_t largest_polygon = 128; ///< corners for which the best triangulation is searched. A
-                                     ///< limit of time: a polygon of 128 takes 10 ms
+                                     ///< limit of time, which grows with the third power
 };
 
 /// Fills every loop that is not kept open by triangles of least total cost between its points (see

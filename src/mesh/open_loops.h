@@ -16,10 +16,10 @@ namespace floater
 /// When the automatic policy takes a loop for the end of the surface. The shares and the lengths in
 /// roots were chosen on the 43 clouds of the first benchmark. They are not certain.
 ///
-/// A share is one of the points of the loop. A width in steps is divided by the mean edge of the
-/// loop: that of a regular polygon of m sides is about m / pi. A length in roots is the number of
-/// points of the loop divided by the square root of the number of points of its component; a flat
-/// square sheet has 4.
+/// Shares are shares of the points of the loop. Steps: its width divided by its mean edge; a
+/// regular polygon of m sides is about m / pi steps wide. Roots: its number of points divided by
+/// the square root of the number of vertices of its component; the boundary of a flat square has 4
+/// roots.
 struct OpenLoopLimits
 {
   double empty_sector = 130.0; ///< degrees; a larger sector without neighbours counts as empty.
@@ -29,12 +29,12 @@ struct OpenLoopLimits
   double sheet_cosine = 0.3;   ///< between two normals; below: another sheet. As for the stars
 
   double open_share = 0.8;      ///< with an empty sector, at a loop of wide_steps or whole_roots
-  double wide_steps = 6.0;      ///< the width of a regular polygon of 19 sides (theory)
-  double whole_roots = 1.0;     ///< a loop as long is no hole but the boundary of its component
+  double wide_steps = 6.0;      ///< as wide as a regular polygon of 19 sides
+  double whole_roots = 1.0;     ///< so long a loop is the whole boundary of its component
   double all_open_share = 0.97; ///< with an empty sector, at a loop of small_steps
-  double small_steps = 4.0;     ///< the width of a regular polygon of 13 sides (theory)
+  double small_steps = 4.0;     ///< as wide as a regular polygon of 13 sides
   double half_open_share = 0.5; ///< with an empty sector, at a loop of long_roots
-  double long_roots = 2.0;      ///< ragged and noisy boundaries are as long
+  double long_roots = 2.0;      ///< so long are ragged and noisy boundaries
 };
 
 /// What the points of a loop see beyond it: shares of these points.

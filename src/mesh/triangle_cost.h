@@ -12,8 +12,8 @@ namespace pcl
 namespace floater
 {
 /// Penalties of TriangleCost. The unit of cost is that of cotangents: a right isosceles triangle
-/// costs 2, an equilateral one 1.73. All were chosen on the clouds of the first benchmark, large
-/// against the cost of a good triangle; they are not certain.
+/// costs 2, an equilateral one 1.73. All values were chosen by hand, large compared with the cost
+/// of a good triangle; no measurement is recorded.
 struct CostLimits
 {
   double turned_cosine = 0.2;  ///< between a triangle's normal and the mean normal of its corners;
@@ -27,8 +27,8 @@ struct CostLimits
 
 /// The cost of a triangle: the sum of the cotangents of its angles, which Delaunay flips minimize
 /// in the plane, and penalties if it is turned away from the normals of its corners or much larger
-/// than triangles between neighbours are. Near other sheets, the penalties tell triangles that join
-/// the wrong points.
+/// than triangles between neighbours are. Where sheets are close to each other, the penalties show
+/// that a triangle joins the wrong points.
 class TriangleCost
 {
 public:

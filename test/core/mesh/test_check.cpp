@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The examination of known meshes, sound and broken, and what the report says about them.
+// The examination of known meshes, sound and broken.
 #include "mesh/check.h"
 
+#include "mesh/known_meshes.h"
 #include "mesh/triangle_mesh.h"
 #include "report.h"
 #include "samples.h"
@@ -9,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
+#include <string>
 
 namespace pcl
 {
@@ -17,107 +18,17 @@ namespace floater
 {
 namespace
 {
+using samples::annulus;
+using samples::beside;
+using samples::check;
+using samples::grid;
+using samples::Mesh;
+using samples::pointsAt;
 using samples::Positions;
-using Triangles = std::vector<Triangle>;
-
-struct Mesh
-{
-  Positions positions;
-  Triangles triangles;
-};
-
-// Points in the order given. They are every third point of a cloud of another scale.
-Points
-pointsAt (const Positions& positions)
-{
-  Points points;
-  points.positions = positions;
-  points.centre = {100.0, -20.0, 3.0};
-  points.scale = 10.0;
-  for (Index p = 0; p < positions.size (); ++p)
-    points.cloud_index.push_back (3 * p + 1);
-  return points;
-}
-
-MeshExamination
-check (const Mesh& mesh, float spacing = 0.1F)
-{
-  return checkMesh (mesh.triangles, pointsAt (mesh.positions),
-                    std::vector<float> (mesh.positions.size (), spacing), 1);
-}
-
-// A grid of cells, each cut in two; vertex (x, y) is `index (x, y)` at `place (x, y)`.
-Mesh
-grid (Index columns, Index rows, std::size_t points,
-      const std::function<Index (Index, Index)>& index,
-      const std::function<Eigen::Vector3d (Index, Index)>& place)
-{
-  Mesh mesh;
-  mesh.positions.resize (points);
-  for (Index y = 0; y <= rows; ++y)
-    for (Index x = 0; x <= columns; ++x)
-      mesh.positions[index (x, y)] = place (x, y);
-  for (Index y = 0; y < rows; ++y)
-    for (Index x = 0; x < columns; ++x) {
-      const Index a = index (x, y), b = index (x + 1, y), c = index (x, y + 1),
-                  d = index (x + 1, y + 1);
-      mesh.triangles.push_back ({a, b, d});
-      mesh.triangles.push_back ({a, d, c});
-    }
-  return mesh;
-}
-
-Mesh
-sheet (Index side)
-{
-  return grid (
-      side, side, (side + 1) * (side + 1), [side] (Index x, Index y) { return y * (side + 1) + x; },
-      [] (Index x, Index y) { return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.0); });
-}
-
-Mesh
-torus (Index around, Index across)
-{
-  return grid (
-      around, across, around * across,
-      [=] (Index x, Index y) { return y % across * around + x % around; },
-      [=] (Index x, Index y) {
-        const double u = 2.0 * samples::PI * x / around, v = 2.0 * samples::PI * y / across;
-        return Eigen::Vector3d ((1.0 + 0.4 * std::cos (v)) * std::cos (u),
-                                (1.0 + 0.4 * std::cos (v)) * std::sin (u), 0.4 * std::sin (v));
-      });
-}
-
-// A ring of `around` cells between radius 0.5 and 1.
-Mesh
-annulus (Index around)
-{
-  return grid (
-      around, 4, 5 * around, [=] (Index x, Index y) { return y * around + x % around; },
-      [=] (Index x, Index y) {
-        const double u = 2.0 * samples::PI * x / around, r = 1.0 - 0.125 * y;
-        return Eigen::Vector3d (r * std::cos (u), r * std::sin (u), 0.0);
-      });
-}
-
-Mesh
-tetrahedron (double size = 1.0)
-{
-  return {{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
-          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-}
-
-// Both meshes, side by side.
-Mesh
-beside (Mesh a, const Mesh& b)
-{
-  const auto first = static_cast<Index> (a.positions.size ());
-  for (const Eigen::Vector3d& p : b.positions)
-    a.positions.emplace_back (p + Eigen::Vector3d (5.0, 0.0, 0.0));
-  for (const Triangle& t : b.triangles)
-    a.triangles.push_back ({t[0] + first, t[1] + first, t[2] + first});
-  return a;
-}
+using samples::sheet;
+using samples::tetrahedron;
+using samples::torus;
+using samples::Triangles;
 
 // Expects a sound mesh of this topology.
 void
@@ -404,90 +315,6 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
   // Small triangles are not degenerate.
   EXPECT_EQ (check (tetrahedron (1e-9), 1e-10F).check.degenerate_triangles, 0U);
 }
-
-std::vector<std::string>
-warningsOf (const Mesh& mesh, const Options& options = {})
-{
-  Report report;
-  EXPECT_FALSE (reportCheck (pointsAt (mesh.positions), check (mesh), options, report));
-  return report.warnings;
-}
-
-void
-expectWarning (const std::vector<std::string>& warnings, const std::string& begin,
-               const std::string& place)
-{
-  ASSERT_EQ (warnings.size (), 1U) << testing::PrintToString (warnings);
-  EXPECT_EQ (warnings.front ().rfind (begin, 0), 0U) << warnings.front ();
-  EXPECT_NE (warnings.front ().find (place), std::string::npos) << warnings.front ();
-}
-
-TEST (MeshCheck, WarningsNameThePlace)
-{
-  for (const Mesh& mesh : {sheet (20), torus (20, 9), annulus (30)})
-    EXPECT_EQ (warningsOf (mesh), std::vector<std::string>{});
-
-  Mesh unused = sheet (4);
-  unused.positions.emplace_back (0.5, 0.25, 0.0);
-  expectWarning (warningsOf (unused), "1 point is in no triangle", "point 76 (105, -17.5, 3)");
-
-  Mesh folded = sheet (4);
-  for (Index y = 0; y < 5; ++y)
-    folded.positions[5 * y + 4].x () = 0.25;
-  expectWarning (warningsOf (folded), "4 edges are folded", "point 10 (103, -20, 3)");
-
-  Mesh with_long_edge = sheet (4);
-  with_long_edge.positions[24] = {1.4, 1.4, 0.0};
-  expectWarning (warningsOf (with_long_edge), "1 edge inside the surface is longer",
-                 "15 from point 55 (103, -17, 3) to point 73");
-
-  expectWarning (warningsOf (beside (sheet (40), sheet (1))), "the mesh has 2 components",
-                 "of 4 points at point 5044 (150");
-  EXPECT_TRUE (warningsOf (beside (sheet (4), sheet (4))).empty ());
-
-  const Mesh line{{{0, 0, 0}, {0.05, 0, 0}, {0.1, 0, 0}, {0.05, 0.1, 0}},
-                  {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
-  expectWarning (warningsOf (line), "1 triangle has no area", "point 1 (100, -20, 3)");
-}
-
-TEST (MeshCheck, SmallHolesAreToldIfNoOptionAsksForThem)
-{
-  Mesh holed = sheet (20);
-  for (const std::ptrdiff_t t : {610, 250, 100})
-    holed.triangles.erase (holed.triangles.begin () + t);
-  expectWarning (warningsOf (holed), "3 small holes stay open", "the largest, of 3 points");
-  Options options;
-  options.holes.policy = HolePolicy::CLOSE_ALL;
-  expectWarning (warningsOf (holed, options), "4 holes stay open though", "of 80 points, around");
-  for (const HolePolicy policy :
-       {HolePolicy::KEEP_COUNT, HolePolicy::BY_SIZE, HolePolicy::KEEP_LARGEST}) {
-    options.holes.policy = policy;
-    EXPECT_TRUE (warningsOf (holed, options).empty ());
-  }
-}
-
-TEST (MeshCheck, TheReportHasCloudIndicesAndTheLongestLoop)
-{
-  Mesh mesh = beside (sheet (3), annulus (30));
-  mesh.positions.emplace_back (0, 0, 1);
-  mesh.positions.emplace_back (0, 0, 2);
-  const MeshExamination found = check (mesh);
-  Report report;
-  report.outliers = {3 * 166 + 1};
-  ASSERT_FALSE (reportCheck (pointsAt (mesh.positions), found, {}, report));
-  EXPECT_EQ (report.unused, (std::vector<Index>{3 * 167 + 1}));
-  EXPECT_EQ (report.statistics.used_points, 166U);
-  ASSERT_EQ (report.loop.size (), 30U);
-  for (std::size_t i = 0; i < 30; ++i)
-    EXPECT_EQ (report.loop[i], 3 * found.loops.front ().points[i] + 1);
-  EXPECT_EQ (report.statistics.loop_points, 30U);
-  EXPECT_EQ (report.check.loops.size (), 3U);
-  // A loop that is there stays.
-  report.loop = {1, 2, 3};
-  ASSERT_FALSE (reportCheck (pointsAt (mesh.positions), found, {}, report));
-  EXPECT_EQ (report.loop, (std::vector<Index>{1, 2, 3}));
-}
-
 } // namespace
 } // namespace floater
 } // namespace pcl

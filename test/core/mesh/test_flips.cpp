@@ -47,7 +47,8 @@ totalCost (const TriangleMesh& mesh, const TriangleCost& cost)
   return sum;
 }
 
-// A disc of all points with the sheet's border, whose neighbours are kept right.
+// Expects a disc of all points within the sheet's border, with the neighbours that connect ()
+// finds.
 void
 expectDisc (const TriangleMesh& mesh, const Sheet& sheet)
 {
@@ -63,7 +64,8 @@ expectDisc (const TriangleMesh& mesh, const Sheet& sheet)
   EXPECT_EQ (fresh.neighbors, mesh.neighbors);
 }
 
-// Inside of the circle through the corners of a flat triangle, by how much of its squared radius.
+// How far a point is inside the circle through the corners of a flat triangle, as a share of the
+// squared radius. Negative outside.
 double
 depthInCircle (const Positions& at, const Triangle& t, Index p)
 {
@@ -115,7 +117,7 @@ TEST (Flips, NeverRaiseTheCost)
 
 TEST (Flips, EndOnStraightLines)
 {
-  // Rows of a turned grid: along the border any two diagonals are as bad, up to rounding.
+  // Rows of a rotated grid. Along the border any two diagonals cost the same, up to rounding.
   Sheet sheet;
   const auto add = [&sheet] (int x, int y) {
     sheet.positions.emplace_back (0.9 * x - 0.3 * y, 0.3 * x + 0.9 * y, 0.1 * x - 0.7 * y);
@@ -133,7 +135,7 @@ TEST (Flips, EndOnStraightLines)
   for (int x = 1; x < side; ++x)
     for (int y = 1; y < side; ++y)
       add (x, y);
-  // Laid on a circle, the border makes triangles of points on one line.
+  // The border is laid on a circle, so that some triangles have all corners on one line.
   Places uv;
   for (std::size_t i = 0; i < sheet.border; ++i) {
     const double angle =
@@ -209,7 +211,7 @@ TEST (Insertion, PutsEveryPointIn)
 
 TEST (Insertion, ARowOfPointsFindsItsWayIn)
 {
-  // Points 3 to 5 know only the one before.
+  // Point 3 has only the missing point 4 as a neighbour, point 4 only point 5.
   const Positions positions = {{0, 0, 0},   {10, 0, 0},  {0, 10, 0},
                                {3, 3.1, 0}, {2, 2.3, 0}, {2.5, 1.5, 0}};
   const std::vector<Eigen::Vector3f> normals = upward (6);
