@@ -40,7 +40,7 @@ text () {
 }
 
 sizes=(10000 30000 100000 300000 1000000 3000000)
-repeated_up_to=300000 # points; larger ones take long enough to be told from chance
+repeated_up_to=300000 # points; of larger clouds one run is measured exactly enough
 largest=3000000
 repeats=
 methods=(floater floater-disc gp3 afs)
