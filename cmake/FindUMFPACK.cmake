@@ -1,7 +1,12 @@
-# Finds SuiteSparse's UMFPACK (Debian 12 ships no CMake config for it) and makes the target
-# SuiteSparse::UMFPACK.
+# Finds SuiteSparse's UMFPACK with the orderings that come with it, AMD and CHOLMOD's METIS (Debian 12
+# ships no CMake config for them), and makes the targets SuiteSparse::UMFPACK, SuiteSparse::AMD and
+# SuiteSparse::CHOLMOD.
 find_path (UMFPACK_INCLUDE_DIR NAMES umfpack.h PATH_SUFFIXES suitesparse)
 find_library (UMFPACK_LIBRARY NAMES umfpack)
+find_path (AMD_INCLUDE_DIR NAMES amd.h PATH_SUFFIXES suitesparse)
+find_library (AMD_LIBRARY NAMES amd)
+find_path (CHOLMOD_INCLUDE_DIR NAMES cholmod.h PATH_SUFFIXES suitesparse)
+find_library (CHOLMOD_LIBRARY NAMES cholmod)
 if (UMFPACK_INCLUDE_DIR AND EXISTS "${UMFPACK_INCLUDE_DIR}/umfpack.h")
   file (STRINGS "${UMFPACK_INCLUDE_DIR}/umfpack.h" umfpack_version_lines
         REGEX "#define UMFPACK_(MAIN|SUB|SUBSUB)_VERSION [0-9]+")
@@ -9,12 +14,17 @@ if (UMFPACK_INCLUDE_DIR AND EXISTS "${UMFPACK_INCLUDE_DIR}/umfpack.h")
   string (REPLACE ";" "." UMFPACK_VERSION "${umfpack_version_numbers}")
 endif ()
 include (FindPackageHandleStandardArgs)
-find_package_handle_standard_args (UMFPACK REQUIRED_VARS UMFPACK_LIBRARY UMFPACK_INCLUDE_DIR
-                                   VERSION_VAR UMFPACK_VERSION)
-if (UMFPACK_FOUND AND NOT TARGET SuiteSparse::UMFPACK)
-  add_library (SuiteSparse::UMFPACK UNKNOWN IMPORTED)
-  set_target_properties (SuiteSparse::UMFPACK PROPERTIES
-    IMPORTED_LOCATION "${UMFPACK_LIBRARY}"
-    INTERFACE_INCLUDE_DIRECTORIES "${UMFPACK_INCLUDE_DIR}")
+find_package_handle_standard_args (UMFPACK
+  REQUIRED_VARS UMFPACK_LIBRARY UMFPACK_INCLUDE_DIR AMD_LIBRARY AMD_INCLUDE_DIR CHOLMOD_LIBRARY CHOLMOD_INCLUDE_DIR
+  VERSION_VAR UMFPACK_VERSION)
+if (UMFPACK_FOUND)
+  foreach (library AMD CHOLMOD UMFPACK)
+    if (NOT TARGET SuiteSparse::${library})
+      add_library (SuiteSparse::${library} UNKNOWN IMPORTED)
+      set_target_properties (SuiteSparse::${library} PROPERTIES
+        IMPORTED_LOCATION "${${library}_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${${library}_INCLUDE_DIR}")
+    endif ()
+    mark_as_advanced (${library}_INCLUDE_DIR ${library}_LIBRARY)
+  endforeach ()
 endif ()
-mark_as_advanced (UMFPACK_INCLUDE_DIR UMFPACK_LIBRARY)

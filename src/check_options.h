@@ -10,8 +10,9 @@ namespace pcl
 {
 namespace floater
 {
-/// Every option in its range, the solver there and fit for the ordering, the policy for holes and a
-/// given loop fit for the topology.
+/// INVALID_OPTION if an option is out of its range, the solver does not take the ordering, or the
+/// hole policy or a given loop does not fit the topology. INVALID_LOOP if the given loop has fewer
+/// than three points. SOLVER_UNAVAILABLE if the build is without the solver.
 Problem
 checkOptions (const Options& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way of a cloud: points, neighbours, outliers, noise, the geometry around each point;
 // then a disc laid out in the plane, or a surface of any topology out of stars; then one check.
-#include <pcl/surface/floater/reconstruct.h>
+#include "reconstruct.h"
 
 #include "check_options.h"
 #include "consensus/consensus_loop.h"
@@ -28,6 +28,14 @@ namespace
 // folds; above, it would take more than a second and half a GB.
 constexpr std::size_t LARGEST_SECOND_TRY = 300'000;
 
+// What is asked for, and the run that does it.
+struct Request
+{
+  const Options& options;
+  const Limits& limits;
+  const RunContext& run;
+};
+
 bool
 asksForDisc (const Options& options)
 {
@@ -37,28 +45,44 @@ asksForDisc (const Options& options)
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search)
 {
-  // A disc takes the memory of one block many times over; there is nothing to be saved.
+  // The solver of a disc takes so much memory that blocks save nothing.
   return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
 }
 
-DiscSettings
-discSettings (const Options& options)
+StarSettings
+starSettings (const Options& options, const Limits& limits)
 {
-  return {options.neighbors.kind,
-          options.filter_sheets,
-          {options.weighting, options.domain, options.solver},
-          options.flip_edges};
+  StarSettings settings;
+  settings.filter_sheets = options.filter_sheets;
+  settings.with_offsets = asksForDisc (options);
+  settings.limits = limits.sheets;
+  return settings;
+}
+
+DiscSettings
+discSettings (const Options& options, const Limits& limits)
+{
+  DiscSettings settings;
+  settings.neighborhood = options.neighbors.kind;
+  settings.stars.filter_sheets = options.filter_sheets;
+  settings.stars.limits = limits.sheets;
+  settings.parameterization = {options.weighting, options.domain, options.solver};
+  settings.flip_edges = options.flip_edges;
+  settings.limits = limits.disc;
+  settings.finish = limits.surface.finish;
+  return settings;
 }
 
 // Beyond TW 385: points that lie off any surface would be woven in as spikes. Those that the user's
 // loop names stay.
 void
-removeOutliers (Points& points, CsrLists& neighbors, const Options& options,
-                const NeighborSettings& settings, const RunContext& run, Report& report)
+removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
+                const Request& request, Report& report)
 {
-  std::vector<Index> given = options.boundary.loop;
+  std::vector<Index> given = request.options.boundary.loop;
   std::sort (given.begin (), given.end ());
-  std::vector<Index> outliers = findOutliers (points.positions, neighbors, run);
+  std::vector<Index> outliers =
+      findOutliers (points.positions, neighbors, request.run, request.limits.outliers);
   const auto is_given = [&] (Index p) {
     return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
   };
@@ -67,60 +91,64 @@ removeOutliers (Points& points, CsrLists& neighbors, const Options& options,
     return;
   std::vector<Index> cloud_indices = removePoints (points, outliers);
   reportOutliers (std::move (cloud_indices), points.size (), report);
-  neighbors = renewNeighbors (points, outliers, std::move (neighbors), settings, run);
+  neighbors = renewNeighbors (points, outliers, std::move (neighbors), settings, request.run);
 }
 
 // Beyond TW 385: where noise is strong, triangles join the points as they lie in their local
 // planes. The mesh is triangles only, so the user's points stay where they are.
 void
-projectNoise (Points& points, CsrLists& neighbors, const Options& options,
-              const NeighborSettings& settings, const RunContext& run, Report& report)
+projectNoise (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
+              const Request& request, Report& report)
 {
-  const double noise = measureNoise (points.positions, neighbors, run);
-  const bool is_strong = options.denoise && isStrongNoise (noise, points.size ());
+  const double noise = measureNoise (points.positions, neighbors, request.run);
+  const bool is_strong =
+      request.options.denoise && isStrongNoise (noise, points.size (), request.limits.noise);
   reportNoise (noise, is_strong, report);
   if (!is_strong)
     return;
-  points.projected = projectOntoPlanes (points.positions, neighbors, run);
+  points.projected = projectOntoPlanes (points.positions, neighbors, request.run);
   neighbors = {};
-  neighbors = findNeighbors (points, settings, run);
+  neighbors = findNeighbors (points, settings, request.run);
 }
 
 // TW 385, section 3: boundary points as one ordered loop.
 Boundary
-findLoop (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-          const RunContext& run)
+findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  run.beginStage (Stage::BOUNDARY);
+  const BoundaryOptions& options = request.options.boundary;
+  const Limits& limits = request.limits;
+  request.run.beginStage (Stage::BOUNDARY);
   const bool is_given = !options.loop.empty ();
   Boundary boundary = is_given || options.method != BoundaryMethod::CONSENSUS
-                          ? findBoundary (points, geometry, options, run)
-                          : consensusLoop (points.workingPositions (), geometry, run);
-  checkBoundary (points, geometry.spacing, is_given, boundary);
+                          ? findBoundary (points, geometry, options, request.run, limits.loop)
+                          : consensusLoop (points.workingPositions (), geometry, request.run,
+                                           {limits.surface.consensus, limits.surface.open_loops});
+  checkBoundary (points, geometry.spacing, is_given, boundary, limits.loop);
   return boundary;
 }
 
 Disc
-layOutDisc (const Points& points, LocalGeometry& geometry, const Options& options,
-            const RunContext& run)
+layOutDisc (const Points& points, LocalGeometry& geometry, const Request& request)
 {
-  Boundary boundary = findLoop (points, geometry, options.boundary, run);
+  Boundary boundary = findLoop (points, geometry, request);
   if (boundary.problem) {
     Disc none;
     none.problem = boundary.problem;
     none.boundary = std::move (boundary);
     return none;
   }
-  return makeDisc (points, geometry, std::move (boundary), discSettings (options), run);
+  return makeDisc (points, geometry, std::move (boundary),
+                   discSettings (request.options, request.limits), request.run);
 }
 
 // The mesh as it is, on the user's own points, whatever the stages think that they made.
 MeshExamination
-examine (const TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
-         const RunContext& run)
+examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+         const Request& request)
 {
-  run.beginStage (Stage::CHECK);
-  return checkMesh (mesh.triangles, points, spacing, run);
+  request.run.beginStage (Stage::CHECK);
+  return checkMesh (mesh.triangles, points, geometry.meshSpacing (), request.run,
+                    request.limits.check);
 }
 
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
@@ -171,19 +199,20 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, const MeshExamination& fou
 }
 
 Problem
-reconstructDisc (const Points& points, LocalGeometry geometry, const Options& options,
-                 const RunContext& run, Result& result)
+reconstructDisc (const Points& points, LocalGeometry geometry, const Request& request,
+                 Result& result)
 {
+  const Options& options = request.options;
   result.report.topology = Topology::DISC;
   result.report.topology_reason =
       options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
-  Disc disc = layOutDisc (points, geometry, options, run);
+  Disc disc = layOutDisc (points, geometry, request);
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
   geometry.neighbors = {};
   geometry.stars = {};
-  const MeshExamination found = examine (disc.mesh, points, geometry.meshSpacing (), run);
+  const MeshExamination found = examine (disc.mesh, points, geometry, request);
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
   return useMesh (std::move (disc.mesh), disc.finish, found, points, options, result);
@@ -195,28 +224,32 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Options& op
 // \return whether it was taken
 bool
 tryDisc (const Points& points, LocalGeometry& geometry, const TriangleMesh& surface,
-         const MeshExamination& of_surface, const Options& options, const RunContext& run,
-         Disc& disc, MeshExamination& of_disc)
+         const MeshExamination& of_surface, const Request& request, Disc& disc,
+         MeshExamination& of_disc)
 {
+  const RunContext& run = request.run;
   run.setMethod (Topology::DISC);
   run.beginStage (Stage::STARS);
-  geometry.stars = makeStars (points.workingPositions (), geometry.neighbors,
-                              geometry.stars.normals, {options.filter_sheets}, run);
-  disc = layOutDisc (points, geometry, options, run);
+  geometry.stars =
+      makeStars (points.workingPositions (), geometry.neighbors, geometry.stars.normals,
+                 discSettings (request.options, request.limits).stars, run);
+  disc = layOutDisc (points, geometry, request);
   if (disc.problem)
     return false;
-  of_disc = examine (disc.mesh, points, geometry.meshSpacing (), run);
+  of_disc = examine (disc.mesh, points, geometry, request);
   return !checkDisc (of_disc, disc.boundary.loop) &&
          countFlaws (of_disc) < countFlaws (of_surface) &&
          costOf (disc.mesh, points, geometry, run) < costOf (surface, points, geometry, run);
 }
 
 Problem
-reconstructSurface (const Points& points, LocalGeometry geometry, const Options& options,
-                    const RunContext& run, Result& result)
+reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
+                    Result& result)
 {
+  const Options& options = request.options;
   Report& report = result.report;
-  Surface surface = makeSurface (points, geometry, options.holes, options.flip_edges, run);
+  Surface surface = makeSurface (
+      points, geometry, {options.holes, options.flip_edges, request.limits.surface}, request.run);
   reportOrientationSeam (points, surface.orientation_seam, report);
   const bool may_be_disc =
       options.topology == Topology::AUTO && points.size () <= LARGEST_SECOND_TRY;
@@ -224,11 +257,11 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Options&
     geometry.neighbors = {};
     geometry.stars = {};
   }
-  MeshExamination found = examine (surface.mesh, points, geometry.meshSpacing (), run);
+  MeshExamination found = examine (surface.mesh, points, geometry, request);
   Disc disc;
   MeshExamination of_disc;
   if (may_be_disc && found.isManifold () && found.isDisc () && countFlaws (found) > 0 &&
-      tryDisc (points, geometry, surface.mesh, found, options, run, disc, of_disc)) {
+      tryDisc (points, geometry, surface.mesh, found, request, disc, of_disc)) {
     report.topology = Topology::DISC;
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
     reportDisc (points, disc, report);
@@ -240,8 +273,10 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Options&
 }
 
 Problem
-reconstructAny (Input& input, const Options& options, const RunContext& run, Result& result)
+reconstructAny (Input& input, const Request& request, Result& result)
 {
+  const Options& options = request.options;
+  const RunContext& run = request.run;
   Report& report = result.report;
   report.statistics.cloud_points = input.cloud_size;
   report.statistics.selected_points = input.positions.size ();
@@ -263,18 +298,18 @@ reconstructAny (Input& input, const Options& options, const RunContext& run, Res
   const NeighborSettings settings = neighborSettings (options, input.search);
   CsrLists neighbors = findNeighbors (points, settings, run);
   if (options.remove_outliers)
-    removeOutliers (points, neighbors, options, settings, run, report);
+    removeOutliers (points, neighbors, settings, request, report);
   if (Problem problem = checkPoints (points))
     return problem;
-  projectNoise (points, neighbors, options, settings, run, report);
+  projectNoise (points, neighbors, settings, request, report);
 
   run.beginStage (Stage::STARS);
-  StarSettings star_settings{options.filter_sheets};
-  star_settings.with_offsets = as_disc;
-  LocalGeometry geometry = makeLocalGeometry (points, std::move (neighbors), star_settings, run);
+  LocalGeometry geometry =
+      makeLocalGeometry (points, std::move (neighbors), starSettings (options, request.limits), run,
+                         request.limits.planes);
 
-  return as_disc ? reconstructDisc (points, std::move (geometry), options, run, result)
-                 : reconstructSurface (points, std::move (geometry), options, run, result);
+  return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
+                 : reconstructSurface (points, std::move (geometry), request, result);
 }
 
 } // namespace
@@ -282,13 +317,20 @@ reconstructAny (Input& input, const Options& options, const RunContext& run, Res
 Result
 reconstruct (Input input, const Options& options)
 {
+  return reconstruct (std::move (input), options, {});
+}
+
+Result
+reconstruct (Input input, const Options& options, const Limits& limits)
+{
   Result result;
   Problem problem;
   try {
     RunMonitor monitor (
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics);
-    problem = reconstructAny (input, options, RunContext (options.threads, &monitor), result);
+    const RunContext run (options.threads, &monitor);
+    problem = reconstructAny (input, {options, limits, run}, result);
     if (!problem)
       monitor.finish ();
   }

@@ -10,10 +10,11 @@ namespace floater
 {
 namespace
 {
-constexpr double LONG_STEP = 8.0;      // spacings: a longer edge of the loop is worth a warning
+// When to warn; nothing else hangs on these.
+constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary loop
 constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
-constexpr std::size_t FEW_POINTS = 50; // a component of fewer points is hardly meant to be one ...
-constexpr std::size_t TINY_SHARE = 20; // ... if another one has this many times as many
+constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
+constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
 
 std::string
 place (const Points& points, Index p)
@@ -96,9 +97,9 @@ warnOfHoles (const Points& points, const MeshExamination& found, const Options& 
     report.warnings.push_back (counted (holes, "hole stays", "holes stay") +
                                " open though all were to be closed" + where);
   else
-    report.warnings.push_back (counted (holes, "small hole stays", "small holes stay") + " open" +
-                               where +
-                               ": the sampling may be thin there; the policy for holes decides");
+    report.warnings.push_back (
+        counted (holes, "small hole stays", "small holes stay") + " open" + where +
+        ": the sampling may be thin there; the hole policy decides what is closed");
 }
 
 // "2 components, 3 boundary loops", "closed, genus 4", "one disc".
@@ -156,10 +157,12 @@ reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report&
   report.outliers = std::move (outliers);
   report.statistics.outlier_points = report.outliers.size ();
   report.statistics.working_points = working_points;
-  if (!report.outliers.empty ())
-    report.warnings.push_back (
-        std::to_string (report.outliers.size ()) + " points lie off any surface, point " +
-        std::to_string (report.outliers.front ()) + " among them: they were left out");
+  const std::size_t count = report.outliers.size ();
+  if (count > 0)
+    report.warnings.push_back (counted (count, "point lies", "points lie") + " off any surface, " +
+                               (count == 1 ? "point " : "among them point ") +
+                               std::to_string (report.outliers.front ()) + ": " +
+                               (count == 1 ? "it was" : "they were") + " left out");
 }
 
 void
@@ -168,9 +171,10 @@ reportNoise (double noise, bool denoised, Report& report)
   report.statistics.noise = noise;
   report.denoised = denoised;
   if (denoised)
-    report.warnings.push_back ("the points are noisy, by " + std::to_string (noise) +
-                               " local spacings: they were connected as they lie in the planes of "
-                               "their neighbours; the mesh keeps them where they are");
+    report.warnings.push_back (
+        "the points are noisy, by " + std::to_string (noise) +
+        " local spacings: they were connected by their places on the planes of their neighbours; "
+        "the vertices of the mesh are the points themselves");
 }
 
 namespace
@@ -240,8 +244,7 @@ reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, 
 {
   if (!seam.empty ())
     report.warnings.push_back (
-        "the surface seems to be one-sided, like a Moebius strip: it was cut "
-        "open along " +
+        "the surface seems to be one-sided, like a Moebius strip: it was cut open along " +
         std::to_string (seam.size ()) + " triangles near " + place (points, seam.front ()[0]));
 }
 
@@ -267,14 +270,14 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
         options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check);
   report.statistics.folds = found.check.folds;
   if (!found.isManifold ())
-    return {
-        Status::INTERNAL_ERROR,
-        "the result is no oriented manifold: " + std::to_string (found.check.nonmanifold_edges) +
-            " edges and " + std::to_string (found.check.nonmanifold_vertices) +
-            " points are not manifold, " + std::to_string (found.check.orientation_conflicts) +
-            " edges join triangles that face opposite ways" +
-            (found.broken_at == NONE ? "" : ", one at " + place (points, found.broken_at)) +
-            "; please report this with the cloud"};
+    return {Status::INTERNAL_ERROR,
+            "the result is not an oriented manifold: " +
+                std::to_string (found.check.nonmanifold_edges) + " edges and " +
+                std::to_string (found.check.nonmanifold_vertices) + " points are not manifold, " +
+                std::to_string (found.check.orientation_conflicts) +
+                " edges join triangles that face opposite ways" +
+                (found.broken_at == NONE ? "" : ", one at " + place (points, found.broken_at)) +
+                "; please report this with the cloud"};
   if (report.loop.empty () && !found.loops.empty ()) {
     for (const Index p : found.loops.front ().points)
       report.loop.push_back (points.cloud_index[p]);

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing, builds, reconstructs clouds with the default options, and draws all
-# results into one picture.
+# Installs missing packages, builds, reconstructs clouds with the default options, and draws all
+# meshes into one picture.
 set -euo pipefail
 
 usage () {
   cat <<'END'
 Usage: contact_sheet.sh [--build FOLDER] [CLOUD...]
-Writes floater_result/contact_sheet.png in the working directory: each mesh with its figures, folds
-of more than 120 degrees in magenta; for a cloud that is refused the reason. The meshes and reports
-are in floater_result/contact_sheet.
---build: take the programs built in this folder, instead of building them for release
-CLOUD:   point clouds (.pcd, .ply or .obj). Without one, all .pcd files of the folder
-         PCL_FLOATER_DATA (default: ../shared/data beside the project).
+Writes floater_result/contact_sheet.png in the working directory: each mesh with its figures, and
+with folds of more than 120 degrees in magenta; for a cloud that fails, the cause. The meshes and
+reports are in floater_result/contact_sheet.
+--build: use the programs in this build folder, instead of building them for release
+CLOUD:   point clouds (.pcd, .ply or .obj); default: all .pcd files in the folder PCL_FLOATER_DATA
+         (default: ../shared/data beside the project)
 END
 }
 
@@ -48,7 +48,7 @@ if [[ -z $build ]]; then
   if ! (cd "$root" && cmake --preset release && cmake --build --preset release --target \
     pcl_floater_reconstruct pcl_floater_contact_sheet) >"$log" 2>&1; then
     tail -n 40 "$log" >&2
-    fail "the build failed; all of its output is in $log"
+    fail "the build failed; its output is in $log"
   fi
 fi
 
@@ -61,7 +61,7 @@ for cloud in "${clouds[@]}"; do
   code=0
   "$build/tools/reconstruct/pcl_floater_reconstruct" --quiet \
     --report "$result/contact_sheet/$name.json" "$cloud" "$result/contact_sheet/$name.vtk" || code=$?
-  # 3 and 5 are told in the report; without one there is nothing to show.
+  # A cloud that cannot be reconstructed (exit codes 3 and 5) has a report with the cause.
   [[ -e $result/contact_sheet/$name.json ]] || fail "no report on '$cloud': exit code $code"
   names+=("$name")
 done

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing, builds, and runs all tests.
+# Installs missing packages, builds, and runs all tests.
 set -euo pipefail
 
 usage () {
   cat <<'END'
 Usage: run.sh [PRESET]
-Builds with a configure preset (dev; asan-ubsan for the sanitizers) and runs all tests.
-PCL_FLOATER_DATA: folder with real clouds; where it is missing their tests are skipped.
-                  Default: ../shared/data beside the project.
+Builds a configure preset (default: dev; asan-ubsan: with the sanitizers) and runs all tests.
+PCL_FLOATER_DATA: folder with real clouds (default: ../shared/data beside the project). Without it,
+                  the tests on real clouds are skipped.
 END
 }
 
@@ -42,6 +42,6 @@ cmake --build --preset "$preset" --parallel "$jobs"
 result=0
 ctest --test-dir "$build" --parallel "$jobs" --output-on-failure --no-tests=error || result=$?
 if [[ ! -d $PCL_FLOATER_DATA ]]; then
-  echo "Skipped: the tests on real clouds, for there is no folder $PCL_FLOATER_DATA"
+  echo "Skipped: the tests on real clouds, because there is no folder $PCL_FLOATER_DATA"
 fi
 exit "$result"

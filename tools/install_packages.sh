@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the Debian 12 packages that this project needs. Calls apt only if one is missing.
+# Installs the Debian 12 packages that this project needs. Calls apt only if a package is missing.
 set -euo pipefail
 
 usage () {
   cat <<'END'
 Usage: install_packages.sh [--tests] [--benchmarks] [--lint]
-Installs the Debian packages that the library and its tools need.
-  --tests       also those of the tests
-  --benchmarks  also those of the benchmarks
-  --lint        also those that check the source code
+Installs the Debian packages for the library and its tools.
+  --tests       also those for the tests
+  --benchmarks  also those for the benchmarks
+  --lint        also those for checking the source code
 END
 }
 
-# libopenblas0-pthread makes the factorization 2.5 times faster than the reference BLAS does.
-# libgl1-mesa-dri and xvfb draw pictures without a screen.
+# With libopenblas0-pthread the factorization is 2.5 times as fast as with the reference BLAS.
+# libgl1-mesa-dri and xvfb are for drawing without a screen.
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
           libsuperlu-dev libboost-dev
           libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
@@ -30,7 +30,7 @@ for argument in "$@"; do
 done
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-  echo "install_packages.sh: this is not Debian. Please install what corresponds to: ${packages[*]}" >&2
+  echo "install_packages.sh: this is not Debian; install the equivalents of: ${packages[*]}" >&2
   exit 1
 fi
 
@@ -46,7 +46,7 @@ fi
 as_root=()
 if ((EUID != 0)); then
   if ! command -v sudo >/dev/null; then
-    echo "install_packages.sh: neither root nor sudo. As root, run: apt-get install ${missing[*]}" >&2
+    echo "install_packages.sh: root or sudo is needed for: apt-get install ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)
@@ -61,7 +61,7 @@ apt () {
 
 echo "Installing: ${missing[*]}"
 for attempt in 1 2 3; do
-  # Package lists that are out of date name files which the mirror no longer has.
+  # Outdated package lists name files that the mirror no longer has.
   if apt update && apt install --no-install-recommends "${missing[@]}"; then
     exit 0
   fi

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# From a fresh checkout to a mesh: installs what is missing, builds the tools, reconstructs a cloud.
+# From a fresh checkout to a mesh: installs missing packages, builds the tools and reconstructs a
+# cloud.
 set -euo pipefail
 
 usage () {
   cat <<'END'
 Usage: quickstart.sh [CLOUD]
-Reconstructs a point cloud (.pcd, .ply or .obj; without one a sample is made) and writes mesh,
-report, picture and, of a disc, the parameterization to the folder floater_result of the working
+Reconstructs a point cloud (.pcd, .ply or .obj; without one, a sample). Writes the mesh, a report, a
+picture and, if it is a disc, the parameterization to the folder floater_result in the working
 directory.
 END
 }
@@ -40,7 +41,7 @@ mkdir -p "$build"
 log=$build/quickstart.log
 if ! (cd "$root" && cmake --preset release && cmake --build --preset release) >"$log" 2>&1; then
   tail -n 40 "$log" >&2
-  fail "the build failed; all of its output is in $log"
+  fail "the build failed; its output is in $log"
 fi
 
 mkdir -p "$result"
@@ -67,10 +68,10 @@ fi
 cat <<END
 Done. In $result:
   mesh.vtk, mesh.ply    the mesh; its vertices are the points of the cloud
-  report.json           all there is to say about the run
-  picture.png           the mesh, drawn${flat:+, and beside it in the plane}
-${flat:+  parameterization.ply  the surface laid out in the plane, and disc.ply, the same triangles in space
-}To turn it around (key r: all of it, w: edges, q: quit):
+  report.json           the report on the run
+  picture.png           a picture of the mesh${flat:+ and its parameterization}
+${flat:+  parameterization.ply  the surface laid out in the plane; disc.ply has these triangles in space
+}To view the mesh (key r: reset the view, w: edges, q: quit):
   pcl_viewer '$result/mesh.vtk'
 END
 if ! command -v pcl_viewer >/dev/null; then

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/candidates.h"
 
+#include "core/geometry.h"
 #include "core/parallel.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,7 @@ namespace floater
 {
 namespace
 {
-// True if q and r are joined by a triangle of the star of p, in either order.
+// True if the star of p has a triangle with q and r, in either order.
 bool
 starHas (const Stars& stars, Index p, Index q, Index r)
 {
@@ -32,7 +31,6 @@ starHas (const Stars& stars, Index p, Index q, Index r)
   return false;
 }
 
-// Sets the size.
 void
 setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
                       const std::vector<float>& spacing, Candidate& candidate)
@@ -47,17 +45,17 @@ setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
 }
 
 void
-append (const Candidate& candidate, CandidateLists& lists)
+append (const Candidate& candidate, std::size_t sure_ranks, CandidateLists& lists)
 {
   const std::size_t rank = normalAgreementRank (candidate);
-  if (candidate.votes == 3 && rank < SURE_RANKS)
+  if (candidate.votes == 3 && rank < sure_ranks)
     lists.sure.push_back (
         {candidate.corners, candidate.clockwise, static_cast<std::uint8_t> (rank), false});
   else
     lists.doubtful.push_back (candidate);
 }
 
-// The ranges' lists are freed one by one.
+// Joins the lists of all ranges, and frees each one after it is copied.
 CandidateLists
 concatenate (std::vector<CandidateLists>& ranges)
 {
@@ -86,7 +84,7 @@ setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
                     const std::vector<Eigen::Vector3f>& normals, Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
-  const Eigen::Vector3d normal = (positions[b] - positions[a]).cross (positions[c] - positions[a]);
+  const Eigen::Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
   const Eigen::Vector3f unit = (normal / normal.norm ()).cast<float> ();
   candidate.normal_agreement = 1.0F;
   candidate.clockwise = 0;
@@ -104,7 +102,7 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
                 const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
                 const CandidateLimits& limits, const RunContext& run)
 {
-  const std::size_t n = positions.size ();
+  const std::size_t n = positions.size (), sure_ranks = limits.sure_ranks;
   std::vector<CandidateLists> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     CandidateLists& range = ranges[first / RANGE_LENGTH];
@@ -119,18 +117,20 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
         const Index q = row[s], r = row[s + 1 == row.size () ? 0 : s + 1];
         const bool in_q = starHas (stars, q, r, p), in_r = starHas (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
-          continue; // theirs to propose
+          continue; // q or r is its first corner
         Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, 0.0F, 0.0F};
         setCircumradiusRatio (positions, spacing, candidate);
         setNormalAgreement (positions, normals, candidate);
         const std::size_t rank = candidate.votes - 1U;
         if (candidate.circumradius_ratio <= limits.circumradius_ratio[rank] &&
             candidate.normal_agreement >= limits.normal_agreement[rank])
-          append (candidate, range);
+          append (candidate, sure_ranks, range);
       }
     }
   });
-  return concatenate (ranges);
+  CandidateLists all = concatenate (ranges);
+  all.sure_ranks = limits.sure_ranks;
+  return all;
 }
 
 } // namespace floater

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that the stars propose for the surface.
+// The triangles that stars propose for the surface.
 #pragma once
 
 #include "local/stars.h"
@@ -12,39 +12,38 @@ namespace pcl
 {
 namespace floater
 {
-/// A triangle of one, two or three stars.
+/// A triangle of the star of one, two or all three of its corners.
 struct Candidate
 {
-  Triangle corners;         ///< the first is the smallest point whose star has the triangle;
-                            ///< anti-clockwise seen along that point's normal
-  std::uint8_t votes;       ///< stars of its corners that have it, 1 to 3
-  std::uint8_t clockwise;   ///< bit i: it runs clockwise seen along the normal of corner i
-  float circumradius_ratio; ///< circumradius in mean spacings of its corners
-  float normal_agreement;   ///< smallest |cosine| between its normal and those of its corners
+  Triangle corners;         ///< the first is the smallest one whose star has the triangle;
+                            ///< anti-clockwise if the normal of that corner points to the viewer
+  std::uint8_t votes;       ///< corners whose stars have it, 1 to 3
+  std::uint8_t clockwise;   ///< bit i: clockwise if the normal of corner i points to the viewer
+  float circumradius_ratio; ///< circumradius by the mean spacing of its corners
+  float normal_agreement;   ///< least |cosine| between its normal and those of its corners
 };
 
-/// A candidate of three votes whose normal agrees so well with those of its corners that only a
-/// contradiction of orientations keeps it out of the consensus. Most triangles are of this kind.
+/// A candidate of three votes with a good normal agreement. It is in the consensus unless it
+/// contradicts the orientation. Most triangles are of this kind, so it takes 16 bytes only.
 struct SureTriangle
 {
   Triangle corners;
   std::uint8_t clockwise; ///< as in Candidate
-  std::uint8_t rank;      ///< class of agreement, the best 0, below SURE_RANKS
-  bool is_taken;          ///< it is in the consensus; see surface_complex.h
+  std::uint8_t rank;      ///< see normalAgreementRank; below CandidateLimits::sure_ranks
+  bool is_taken;          ///< it is in the consensus (see buildConsensus)
 };
 
-/// Candidates, 16 bytes for each that is sure.
 struct CandidateLists
 {
-  std::vector<SureTriangle> sure;  ///< ordered by their first corner
-  std::vector<Candidate> doubtful; ///< the others, in the same order
+  std::vector<SureTriangle> sure;  ///< ordered by their first corners
+  std::vector<Candidate> doubtful; ///< all others, in the same order
+  std::uint8_t sure_ranks = 0;     ///< the ranks of sure triangles are below
 };
 
-/// Classes of agreement, evenly from cosine 1 down to 0.
+/// Number of classes of normal agreement. They divide the cosines from 1 down to 0 evenly.
 constexpr std::size_t AGREEMENT_RANKS = 32;
-constexpr std::size_t SURE_RANKS = 4; ///< cosine above 0.875: tells alone how normals are oriented
 
-/// Class of a candidate's agreement, below AGREEMENT_RANKS.
+/// The class of a candidate's normal agreement: 0 for the best, below AGREEMENT_RANKS.
 inline std::size_t
 normalAgreementRank (const Candidate& candidate)
 {
@@ -53,23 +52,27 @@ normalAgreementRank (const Candidate& candidate)
   return steps < AGREEMENT_RANKS ? steps : AGREEMENT_RANKS - 1;
 }
 
-/// How large and how far turned away from its corners' normals a triangle may be, by its votes:
-/// what few stars agree on must look the better.
+/// Which triangles of stars become candidates. Those of fewer votes must be better. All values were
+/// chosen on the clouds of the first benchmark; they are not certain.
 struct CandidateLimits
 {
-  std::array<float, 3> circumradius_ratio{2.0F, 2.0F, 3.0F}; ///< of 1, 2 and 3 votes, in spacings
-  std::array<float, 3> normal_agreement{0.4F, 0.2F, 0.1F};   ///< cosines
+  std::array<float, 3> circumradius_ratio{2.0F, 2.0F, 3.0F}; ///< the largest of 1, 2 and 3 votes;
+                                                             ///< circumradii by spacings
+  std::array<float, 3> normal_agreement{0.4F, 0.2F, 0.1F};   ///< the least of 1, 2 and 3 votes;
+                                                             ///< cosines
+  std::uint8_t sure_ranks = 4; ///< classes of normal agreement in which a candidate of three votes
+                               ///< is sure, at most AGREEMENT_RANKS; 4: cosines above 0.875
 };
 
-/// Sets agreement and clockwise.
+/// Sets the normal agreement and `clockwise` from the corners. The normals are unit vectors.
 void
 setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
                     const std::vector<Eigen::Vector3f>& normals, Candidate& candidate);
 
-/// Triangles of stars within the limits whose first corner is one of `rows`, each once, ordered by
-/// their first corner and around it. Needs the stars of the points of these stars, and those
-/// points' normals and spacings. O(entries).
-/// \param normals by which triangles are judged: those of the stars, or others on the same side
+/// The triangles of all stars that are within the limits, each once, ordered by their first corner
+/// and around it. O(entries of the stars).
+/// \param normals for the normal agreement: those of the stars, or others on the same side of each
+///                point
 /// \param spacing of each point (see localSpacing)
 CandidateLists
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,

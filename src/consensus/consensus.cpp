@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus.h"
 
-#include "core/disjoint_sets.h"
+#include "consensus/orientation.h"
 #include "core/geometry.h"
 #include "core/tangent_frame.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 
 namespace pcl
@@ -17,57 +15,54 @@ namespace floater
 {
 namespace
 {
-// The sector of a triangle at one of its corners, less than half a turn, anti-clockwise in the
-// corner's tangent plane.
+// The sector that a triangle fills in the tangent plane of one of its corners: anti-clockwise from
+// one of the other corners to the other, less than half a turn.
 struct Sector
 {
-  Index first, last;
-  Eigen::Vector2d from, to;
+  Index first, last;        // the other corners
+  Eigen::Vector2d from, to; // their directions
 
-  bool holds (const Eigen::Vector2d& direction) const
+  bool contains (const Eigen::Vector2d& direction) const
   {
     return cross (from, direction) > 0.0 && cross (direction, to) > 0.0;
   }
 };
 
-// Neighbouring sectors share a neighbour, which rounding must not tell apart.
+// Sectors side by side share a corner. It is compared by its index, since rounding could make its
+// two directions different.
 bool
 overlap (const Sector& a, const Sector& b)
 {
   if (a.first == b.first || a.last == b.last)
     return true;
-  return (a.first != b.last && b.holds (a.from)) || (a.last != b.first && b.holds (a.to)) ||
-         (b.first != a.last && a.holds (b.from)) || (b.last != a.first && a.holds (b.to));
+  return (a.first != b.last && b.contains (a.from)) || (a.last != b.first && b.contains (a.to)) ||
+         (b.first != a.last && a.contains (b.from)) || (b.last != a.first && a.contains (b.to));
 }
 
-bool
-runsClockwise (std::uint8_t clockwise, std::size_t corner)
-{
-  return ((clockwise >> corner) & 1U) != 0;
-}
-
+// Takes candidates one by one if they fit to those taken before.
 class ConsensusBuilder
 {
 public:
   ConsensusBuilder (const std::vector<Eigen::Vector3d>& positions,
                     const std::vector<Eigen::Vector3f>& normals)
-      : positions_ (positions), normals_ (normals), sides_ (positions.size ()),
+      : positions_ (positions), normals_ (normals), orientation_ (positions.size ()),
         last_sector_ (positions.size (), UNWATCHED)
   {
   }
 
-  // Remembers the sectors around these corners from now on: where one is to be tested.
+  // Records the sectors taken around these corners from now on, for candidates whose sectors are to
+  // be tested.
   void watch (const Triangle& corners)
   {
     for (Index p : corners)
       last_sector_[p] = NONE;
   }
 
-  // Takes a candidate if it fits. Sectors of one star do not overlap: candidates of three votes,
-  // offered first to an empty consensus, need no test.
+  // Takes a candidate if it fits. The sectors of one star do not overlap. So candidates of three
+  // votes that are offered first need no test of sectors.
   bool offer (const SureTriangle& candidate)
   {
-    if (!isOriented (candidate.corners, candidate.clockwise)) {
+    if (!orientation_.join (candidate.corners, candidate.clockwise)) {
       seam_.push_back (candidate.corners);
       return false;
     }
@@ -77,9 +72,9 @@ public:
 
   void offer (const Candidate& candidate, bool test_sectors)
   {
-    if (test_sectors && isTaken (candidate.corners))
+    if (test_sectors && overlapsTaken (candidate.corners))
       return;
-    if (!isOriented (candidate.corners, candidate.clockwise)) {
+    if (!orientation_.join (candidate.corners, candidate.clockwise)) {
       if (candidate.votes == 3)
         seam_.push_back (candidate.corners);
       return;
@@ -92,36 +87,10 @@ public:
   void start (const Triangle& corners)
   {
     occupy (corners);
-    sides_.join (corners[0], corners[1], false);
-    sides_.join (corners[0], corners[2], false);
+    orientation_.join (corners, 0);
   }
 
-  // Joins sets of points whose normals have no common side yet, by all candidates between them
-  // together: a single triangle across a crease or between sheets may be wrong. In rounds, as in
-  // Boruvka's forest: every set joins the one that most votes tie it to.
-  void orientSets (const Candidate* const* first, const Candidate* const* last)
-  {
-    std::vector<OrientationVote> ballots;
-    do {
-      ballots.clear ();
-      for (const Candidate* const* candidate = first; candidate != last; ++candidate)
-        cast (**candidate, ballots);
-      count (ballots);
-      std::stable_sort (ballots.begin (), ballots.end (),
-                        [] (const OrientationVote& a, const OrientationVote& b) {
-                          return std::abs (a.votes) > std::abs (b.votes);
-                        });
-      std::unordered_set<Index> joined;
-      for (const OrientationVote& ballot : ballots) {
-        const bool first_seen = joined.insert (ballot.a).second;
-        const bool second_seen = joined.insert (ballot.b).second;
-        if (first_seen || second_seen)
-          sides_.join (ballot.a, ballot.b, ballot.votes < 0);
-      }
-    } while (!ballots.empty ());
-  }
-
-  // Candidates taken, but for the sure ones, by their first corners.
+  // The doubtful candidates taken, ordered by their first corners.
   const std::vector<const Candidate*>& takenInOrder ()
   {
     std::stable_sort (taken_.begin (), taken_.end (), [] (const Candidate* a, const Candidate* b) {
@@ -130,72 +99,18 @@ public:
     return taken_;
   }
 
-  // Turned to the side of its component.
-  Triangle turned (Triangle corners, std::uint8_t clockwise)
-  {
-    if (runsClockwise (clockwise, 0) != sides_.find (corners[0]).flipped)
-      std::swap (corners[1], corners[2]);
-    return corners;
-  }
-
-  void turn (std::vector<Eigen::Vector3f>& normals)
-  {
-    for (Index p = 0; p < normals.size (); ++p)
-      if (sides_.find (p).flipped)
-        normals[p] = -normals[p];
-  }
-
+  Orientation& orientation () { return orientation_; }
   std::vector<Triangle>& seam () { return seam_; }
 
 private:
   static constexpr Index UNWATCHED = NONE - 1;
 
-  // Votes on two sets of points, by their representatives: for the same side, minus for the other.
-  struct OrientationVote
-  {
-    Index a, b;
-    int votes;
-  };
-
-  // A triangle taken, at a corner that is watched.
+  // The sector of a triangle taken at a watched corner.
   struct TakenSector
   {
-    Index q, r;   // its other corners
-    Index before; // the one taken before it at the same corner
+    Index q, r;   // the other corners
+    Index before; // the sector taken before it at the same corner, or NONE
   };
-
-  // The votes of one candidate on the sets of its corners.
-  void cast (const Candidate& candidate, std::vector<OrientationVote>& ballots)
-  {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1U) % 3U;
-      const SignedSets::Place a = sides_.find (candidate.corners[i]),
-                              b = sides_.find (candidate.corners[j]);
-      if (a.root == b.root)
-        continue;
-      const bool opposite = (runsClockwise (candidate.clockwise, i) !=
-                             runsClockwise (candidate.clockwise, j)) != (a.flipped != b.flipped);
-      ballots.push_back ({std::min (a.root, b.root), std::max (a.root, b.root),
-                          opposite ? -candidate.votes : candidate.votes});
-    }
-  }
-
-  // Adds up the votes on each pair.
-  static void count (std::vector<OrientationVote>& ballots)
-  {
-    std::stable_sort (ballots.begin (), ballots.end (),
-                      [] (const OrientationVote& a, const OrientationVote& b) {
-                        return std::tie (a.a, a.b) < std::tie (b.a, b.b);
-                      });
-    std::size_t pairs = 0;
-    for (const OrientationVote& ballot : ballots) {
-      if (pairs > 0 && ballots[pairs - 1].a == ballot.a && ballots[pairs - 1].b == ballot.b)
-        ballots[pairs - 1].votes += ballot.votes;
-      else
-        ballots[pairs++] = ballot;
-    }
-    ballots.resize (pairs);
-  }
 
   void occupy (const Triangle& corners)
   {
@@ -220,8 +135,8 @@ private:
     return sector;
   }
 
-  // True if a triangle taken overlaps another at one of its corners, which are watched.
-  bool isTaken (const Triangle& corners) const
+  // True if a triangle overlaps one that is taken at one of its corners. These must be watched.
+  bool overlapsTaken (const Triangle& corners) const
   {
     for (std::size_t i = 0; i < 3; ++i) {
       const Index p = corners[i];
@@ -233,56 +148,34 @@ private:
     return false;
   }
 
-  // True if a triangle fits the sides told by the triangles taken, which it then joins.
-  bool isOriented (const Triangle& corners, std::uint8_t clockwise)
-  {
-    const bool a = runsClockwise (clockwise, 0), b = runsClockwise (clockwise, 1),
-               c = runsClockwise (clockwise, 2);
-    const SignedSets::Place at_a = sides_.find (corners[0]), at_b = sides_.find (corners[1]),
-                            at_c = sides_.find (corners[2]);
-    const auto contradicts = [] (const SignedSets::Place& p, const SignedSets::Place& q,
-                                 bool opposite) {
-      return p.root == q.root && (p.flipped != q.flipped) != opposite;
-    };
-    if (contradicts (at_a, at_b, a != b) || contradicts (at_a, at_c, a != c) ||
-        contradicts (at_b, at_c, b != c))
-      return false;
-    if (at_a.root != at_b.root)
-      sides_.join (corners[0], corners[1], a != b);
-    if (at_a.root != at_c.root)
-      sides_.join (corners[0], corners[2], a != c);
-    return true;
-  }
-
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<Eigen::Vector3f>& normals_;
-  SignedSets sides_;               // of the points' normals
-  std::vector<Index> last_sector_; // per point: of the sectors taken there; NONE, UNWATCHED
+  Orientation orientation_;
+  std::vector<Index> last_sector_; // per point: the sector taken last, NONE, or UNWATCHED
   std::vector<TakenSector> sectors_;
   std::vector<const Candidate*> taken_;
   std::vector<Triangle> seam_;
 };
 
-// The order in which doubtful candidates are offered. The trees of normals grow along triangles
-// that agree best, like a spanning forest of least cost; that takes classes of agreement, no full
-// order, for the candidates of three votes. These come first.
-// \return how many have three votes
+// Puts doubtful candidates in the order in which they are offered. Those of three votes come first,
+// by their class of normal agreement: the orientation then spreads along triangles that agree best,
+// as a spanning forest of least cost would, and classes are enough for that.
+// \return number of candidates of three votes
 std::size_t
 putInOrder (std::vector<const Candidate*>& candidates)
 {
-  const auto few = std::stable_partition (candidates.begin (), candidates.end (),
-                                          [] (const Candidate* c) { return c->votes == 3; });
-  std::stable_sort (candidates.begin (), few, [] (const Candidate* a, const Candidate* b) {
+  const auto fewer_votes = std::stable_partition (
+      candidates.begin (), candidates.end (), [] (const Candidate* c) { return c->votes == 3; });
+  std::stable_sort (candidates.begin (), fewer_votes, [] (const Candidate* a, const Candidate* b) {
     return normalAgreementRank (*a) < normalAgreementRank (*b);
   });
-  std::sort (few, candidates.end (), [] (const Candidate* a, const Candidate* b) {
+  std::sort (fewer_votes, candidates.end (), [] (const Candidate* a, const Candidate* b) {
     return std::tie (b->votes, b->normal_agreement, a->circumradius_ratio, a->corners) <
            std::tie (a->votes, a->normal_agreement, b->circumradius_ratio, b->corners);
   });
-  return static_cast<std::size_t> (few - candidates.begin ());
+  return static_cast<std::size_t> (fewer_votes - candidates.begin ());
 }
 
-// Appends triangles with votes.
 void
 append (const Triangle& corners, std::uint8_t votes, Consensus& consensus)
 {
@@ -290,50 +183,56 @@ append (const Triangle& corners, std::uint8_t votes, Consensus& consensus)
   consensus.votes.push_back (votes);
 }
 
-// The sure and the doubtful triangles taken, by their first corners.
+// Collects the sure and the doubtful triangles that were taken, ordered by their first corners.
 void
 collect (ConsensusBuilder& builder, const CandidateLists& candidates, std::size_t sure_taken,
-         Consensus& consensus)
+         Consensus& consensus, const RunContext& run)
 {
+  Orientation& orientation = builder.orientation ();
   const std::vector<const Candidate*>& doubtful = builder.takenInOrder ();
   consensus.triangles.reserve (sure_taken + doubtful.size ());
   consensus.votes.reserve (sure_taken + doubtful.size ());
   auto next = doubtful.begin ();
   const auto appendDoubtfulBefore = [&] (Index p) {
     for (; next != doubtful.end () && (*next)->corners[0] < p; ++next)
-      append (builder.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, consensus);
+      append (orientation.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, consensus);
   };
   const std::vector<SureTriangle>& sure = candidates.sure;
+  ProgressLoop progress (run);
   for (std::size_t i = 0, end = 0; i < sure.size (); i = end) {
+    progress.next ();
     const Index p = sure[i].corners[0];
     appendDoubtfulBefore (p);
     while (end < sure.size () && sure[end].corners[0] == p)
       ++end;
-    for (std::uint8_t rank = 0; rank < SURE_RANKS; ++rank)
+    for (std::uint8_t rank = 0; rank < candidates.sure_ranks; ++rank)
       for (std::size_t j = i; j < end; ++j)
         if (sure[j].rank == rank && sure[j].is_taken)
-          append (builder.turned (sure[j].corners, sure[j].clockwise), 3, consensus);
+          append (orientation.turned (sure[j].corners, sure[j].clockwise), 3, consensus);
   }
   appendDoubtfulBefore (NONE);
   consensus.seam.swap (builder.seam ());
 }
 
-// Tells which candidates have all their corners at the rims of a mesh, or at points without
-// triangles: elsewhere there is no room.
+// Tells which triangles have room beside a mesh: all their corners are on its boundary, or have no
+// triangle.
 class Room
 {
 public:
-  explicit Room (const TriangleMesh& mesh) : has_room_ (mesh.triangle_of.size (), 0)
+  Room (const TriangleMesh& mesh, const RunContext& run) : has_room_ (mesh.triangle_of.size (), 0)
   {
+    ProgressLoop progress (run);
     for (Index p = 0; p < has_room_.size (); ++p)
       has_room_[p] = mesh.triangle_of[p] == NONE ? 1 : 0;
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (Index t = 0; t < mesh.triangles.size (); ++t) {
+      progress.next ();
       for (std::uint8_t side = 0; side < 3; ++side)
         if (mesh.neighbors[t][side] == NONE)
           has_room_[mesh.from ({t, side})] = has_room_[mesh.to ({t, side})] = 1;
+    }
   }
 
-  bool isAt (const Triangle& corners) const
+  bool isFor (const Triangle& corners) const
   {
     return has_room_[corners[0]] != 0 && has_room_[corners[1]] != 0 && has_room_[corners[2]] != 0;
   }
@@ -342,19 +241,26 @@ private:
   std::vector<std::uint8_t> has_room_;
 };
 
-// Candidates where there is room, as they are oriented now; what is sure counts as doubtful here.
+// Candidates for which there is room, with normal agreement by the current normals. Sure ones
+// become doubtful here.
 std::vector<Candidate>
 findOpen (const std::vector<Eigen::Vector3d>& positions, const CandidateLists& candidates,
-          const TriangleMesh& mesh, const std::vector<Eigen::Vector3f>& normals)
+          const TriangleMesh& mesh, const std::vector<Eigen::Vector3f>& normals,
+          const RunContext& run)
 {
-  const Room room (mesh);
+  const Room room (mesh, run);
   std::vector<Candidate> open;
-  for (const SureTriangle& sure : candidates.sure)
-    if (room.isAt (sure.corners))
+  ProgressLoop progress (run);
+  for (const SureTriangle& sure : candidates.sure) {
+    progress.next ();
+    if (room.isFor (sure.corners))
       open.push_back ({sure.corners, 3, 0, 0.0F, 0.0F});
-  for (const Candidate& doubtful : candidates.doubtful)
-    if (room.isAt (doubtful.corners))
+  }
+  for (const Candidate& doubtful : candidates.doubtful) {
+    progress.next ();
+    if (room.isFor (doubtful.corners))
       open.push_back (doubtful);
+  }
   for (Candidate& candidate : open)
     setNormalAgreement (positions, normals, candidate);
   std::stable_sort (open.begin (), open.end (), [] (const Candidate& a, const Candidate& b) {
@@ -380,14 +286,17 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& c
                 std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
   std::vector<const Candidate*> doubtful = pointersTo (candidates.doubtful);
+  run.poll ();
   const std::size_t of_three_votes = putInOrder (doubtful);
+  run.poll ();
 
   ConsensusBuilder builder (positions, normals);
   for (std::size_t i = of_three_votes; i < doubtful.size (); ++i)
     builder.watch (doubtful[i]->corners);
   std::size_t sure_taken = 0;
-  ProgressLoop progress (run, SURE_RANKS * candidates.sure.size () + doubtful.size ());
-  for (std::uint8_t rank = 0; rank < SURE_RANKS; ++rank)
+  const std::uint8_t sure_ranks = candidates.sure_ranks;
+  ProgressLoop progress (run, sure_ranks * candidates.sure.size () + doubtful.size ());
+  for (std::uint8_t rank = 0; rank < sure_ranks; ++rank)
     for (SureTriangle& sure : candidates.sure) {
       progress.next ();
       if (sure.rank == rank) {
@@ -395,15 +304,15 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& c
         sure_taken += sure.is_taken ? 1 : 0;
       }
     }
-  builder.orientSets (doubtful.data (), doubtful.data () + of_three_votes);
+  builder.orientation ().vote (doubtful.data (), doubtful.data () + of_three_votes, run);
   for (std::size_t i = 0; i < doubtful.size (); ++i) {
     progress.next ();
     builder.offer (*doubtful[i], i >= of_three_votes);
   }
 
   Consensus consensus;
-  collect (builder, candidates, sure_taken, consensus);
-  builder.turn (normals);
+  collect (builder, candidates, sure_taken, consensus, run);
+  builder.orientation ().turn (normals, run);
   return consensus;
 }
 
@@ -412,18 +321,21 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
                  const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,
                  Consensus& consensus, const RunContext& run)
 {
-  const std::vector<Candidate> open = findOpen (positions, candidates, mesh, normals);
+  const std::vector<Candidate> open = findOpen (positions, candidates, mesh, normals, run);
   if (open.empty ())
     return false;
   std::vector<const Candidate*> order = pointersTo (open);
   putInOrder (order);
+  run.poll ();
   ConsensusBuilder builder (positions, normals);
   for (const Candidate* candidate : order)
     builder.watch (candidate->corners);
-  for (const Triangle& corners : mesh.triangles)
+  ProgressLoop progress (run, mesh.triangles.size () + order.size ());
+  for (const Triangle& corners : mesh.triangles) {
+    progress.next ();
     builder.start (corners);
-  builder.orientSets (order.data (), order.data () + order.size ());
-  ProgressLoop progress (run, order.size ());
+  }
+  builder.orientation ().vote (order.data (), order.data () + order.size (), run);
   for (const Candidate* candidate : order) {
     progress.next ();
     builder.offer (*candidate, true);
@@ -432,18 +344,19 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
   const std::vector<const Candidate*>& taken = builder.takenInOrder ();
   consensus.triangles.reserve (mesh.triangles.size () + taken.size ());
   consensus.votes.reserve (mesh.triangles.size () + taken.size ());
+  Orientation& orientation = builder.orientation ();
   auto next = taken.begin ();
   const auto appendTakenBefore = [&] (Index p) {
     for (; next != taken.end () && (*next)->corners[0] < p; ++next)
-      append (builder.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, consensus);
+      append (orientation.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, consensus);
   };
   for (const Triangle& corners : mesh.triangles) {
     appendTakenBefore (corners[0]);
-    append (builder.turned (corners, 0), 3, consensus);
+    append (orientation.turned (corners, 0), 3, consensus);
   }
   appendTakenBefore (NONE);
   consensus.seam.swap (builder.seam ());
-  builder.turn (normals);
+  builder.orientation ().turn (normals, run);
   return true;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that stars agree on, put together to an oriented surface.
+// The triangles that stars agree on, as one oriented surface.
 #pragma once
 
 #include "consensus/candidates.h"
@@ -12,32 +12,36 @@ namespace pcl
 {
 namespace floater
 {
-/// Consistently oriented triangles whose sectors around each point are disjoint in its tangent
-/// plane: every edge has one or two. A point may still have several fans (see manifold_part.h).
+/// Consistently oriented triangles whose sectors around each point do not overlap in its tangent
+/// plane, so that every edge has one or two. A point may still have several fans (see
+/// manifoldPart).
 struct Consensus
 {
-  std::vector<Triangle> triangles; ///< ordered by their first corners: near ones near in memory
-  std::vector<std::uint8_t> votes; ///< of each triangle
-  std::vector<Triangle> seam;      ///< of three votes, left out since they would turn the
-                                   ///< orientation round: a row of them on a one-sided surface
+  std::vector<Triangle> triangles; ///< ordered by their first corners, so that neighbouring ones
+                                   ///< are close in memory
+  std::vector<std::uint8_t> votes; ///< of each triangle, 1 to 3
+  std::vector<Triangle> seam;      ///< of three votes, left out because they contradict the
+                                   ///< orientation: a row of them on a one-sided surface
 };
 
-/// Accepts candidates greedily: three votes first, then two, then one; the better agreement first.
-/// A candidate is taken if at none of its corners its sector overlaps one that is taken, and if it
-/// is oriented like the triangles that it hangs together with: a forest of points tells whether two
-/// normals point to the same side (union-find with parity). Normals get the signs so found.
-/// O(n) for sure candidates, O(m log m) for m doubtful ones.
-/// \param candidates what is taken of the sure ones is marked
-/// \param normals in and out: unit normals of the points, those by which candidates were judged
+/// Takes candidates greedily: those of three votes first, then of two, then of one; those of better
+/// normal agreement first. A candidate is taken if its sector overlaps no other one at any of its
+/// corners, and if it does not contradict the orientation of the triangles that are connected with
+/// it (see Orientation). O(n) for sure candidates, O(m log m) for m doubtful ones.
+/// \param candidates in: see findCandidates; out: the sure ones that were taken are marked
+/// \param normals    in: unit normals by which the candidates were found; out: the same, oriented
+///                   like the triangles
 Consensus
 buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& candidates,
                 std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
-/// Offers the candidates once more to the rims of a mesh. Its components were oriented each by
-/// itself; now the candidates that would join two of them vote on whether one is to be turned round
-/// first. \param mesh triangles ordered by first corners \param normals as the triangles are
-/// oriented \param consensus the mesh's triangles and those that fit to it; untouched if there is
-/// no candidate \return false if there is no candidate
+/// Offers the candidates once more along the boundary of a mesh. Its components were oriented one
+/// by one; now the candidates between two of them vote on whether one has to be turned round first.
+/// O(n + m log m) for m candidates with room.
+/// \param mesh      its triangles ordered by their first corners
+/// \param normals   in: oriented like the triangles; out: like those of the new consensus
+/// \param consensus out: the triangles of the mesh and the candidates that fit to them
+/// \return false if there is room for no candidate; then nothing has changed
 bool
 extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateLists& candidates,
                  const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,

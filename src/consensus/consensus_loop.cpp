@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus_loop.h"
 
-#include "consensus/consensus_mesh.h"
 #include "floater/boundary/gaps.h"
 #include "floater/boundary/loop_refinement.h"
-#include "mesh/open_loops.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,31 +11,25 @@ namespace pcl
 {
 namespace floater
 {
-namespace
-{
-constexpr double LARGE_TRIANGLE = 2.0; // circumradius in spacings: beside it there is a gap
-} // namespace
-
 Boundary
 consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-               const RunContext& run)
+               const RunContext& run, const ConsensusLoopLimits& limits)
 {
-  const ConsensusMesh consensus =
-      makeConsensusMesh (positions, geometry.neighbors, geometry.stars, geometry.spacing, run);
-  const MeshComponents components = findComponents (consensus.mesh);
+  const ConsensusMesh consensus = makeConsensusMesh (positions, geometry.neighbors, geometry.stars,
+                                                     geometry.spacing, limits.consensus, run);
+  const MeshComponents components = findComponents (consensus.mesh, run);
   const std::vector<std::size_t> component_points = countPoints (consensus.mesh, components);
   std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (consensus.mesh, components, positions, geometry.spacing);
-  const BoundaryLimits limits;
-  const std::vector<LoopEvidence> evidence =
-      findEvidence (loops, positions, geometry.neighbors, consensus.normals, limits, run);
+      findBoundaryLoops (consensus.mesh, components, positions, geometry.spacing, run);
+  const std::vector<LoopEvidence> evidence = findEvidence (
+      loops, positions, geometry.neighbors, consensus.normals, limits.open_loops, run);
   HoleOptions keep_largest;
   keep_largest.policy = HolePolicy::KEEP_LARGEST;
-  chooseOpenLoops (loops, evidence, component_points, keep_largest, 1.0, limits);
+  chooseOpenLoops (loops, evidence, component_points, keep_largest, 1.0, limits.open_loops);
 
-  // Ragged borders have points beyond the triangles: the ends of gaps tell them.
+  // A ragged boundary has points beyond the triangles. They have gaps in their stars.
   std::vector<Index> candidates;
-  for (const Gap& gap : findGaps (geometry.stars, geometry.spacing, LARGE_TRIANGLE))
+  for (const Gap& gap : findGaps (geometry.stars, geometry.spacing, limits.gap_ratio))
     candidates.push_back (gap.point);
   Boundary boundary;
   const auto largest = std::max_element (component_points.begin (), component_points.end ());

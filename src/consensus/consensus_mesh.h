@@ -2,7 +2,7 @@
 // From the stars of the points to an oriented manifold.
 #pragma once
 
-#include "local/stars.h"
+#include "consensus/candidates.h"
 #include "mesh/triangle_mesh.h"
 
 #include <vector>
@@ -11,24 +11,36 @@ namespace pcl
 {
 namespace floater
 {
+/// Which triangles of stars become a mesh.
+struct ConsensusLimits
+{
+  CandidateLimits candidates;
+  std::size_t smallest_island = 32; ///< triangles; smaller islands are dropped (see manifoldPart).
+                                    ///< Chosen on the clouds of the first benchmark; not certain
+  std::size_t shortest_seam = 8;    ///< triangles; a shorter row does not tell a one-sided surface
+                                    ///< (see findOrientationSeam). Measured: scans of two-sided
+                                    ///< surfaces had rows of up to 5, generated Moebius strips 4
+                                    ///< spacings wide rows of 8, and 12 spacings wide rows of 37
+};
+
 /// The manifold that stars agree on, before its holes are filled.
 struct ConsensusMesh
 {
   TriangleMesh mesh;
-  std::vector<Eigen::Vector3f> normals; ///< those of the stars, with the signs of the mesh
-  std::vector<Triangle> seam; ///< triangles of three votes for which there is room, but which would
+  std::vector<Eigen::Vector3f> normals; ///< those of the stars, oriented like the mesh
+  std::vector<Triangle> seam; ///< triangles of three votes for which there is room but which
                               ///< contradict the orientation
 };
 
-/// Candidate triangles, the consensus among them, its manifold part, and all that once more where
-/// there is room left. O(n + m log m) for m doubtful candidates.
-/// \param positions by which the stars were made
-/// \param neighbors nearest first
-/// \param stars     of all points; freed as soon as the candidates are found
-/// \param spacing   see localSpacing
+/// Finds candidate triangles, their consensus and its manifold part, then offers the candidates
+/// once more where there is room left. O(n + m log m) for m doubtful candidates. \param positions
+/// by which the stars were made \param neighbors of each point, nearest first \param stars     of
+/// all points; freed as soon as the candidates are found \param spacing   of each point (see
+/// localSpacing)
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   Stars stars, const std::vector<float>& spacing, const RunContext& run);
+                   Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
+                   const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

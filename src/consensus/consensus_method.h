@@ -2,8 +2,11 @@
 // The consensus method: surfaces of any topology, from the triangles that stars agree on.
 #pragma once
 
+#include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
+#include "mesh/hole_filling.h"
+#include "mesh/open_loops.h"
 #include "points/points.h"
 
 #include <vector>
@@ -12,23 +15,40 @@ namespace pcl
 {
 namespace floater
 {
-/// The mesh of a surface and how it came about.
+/// The limits of all steps of makeSurface.
+struct SurfaceLimits
+{
+  ConsensusLimits consensus;
+  OpenLoopLimits open_loops;
+  HoleFillingLimits hole_filling;
+  FinishLimits finish;
+};
+
+struct SurfaceSettings
+{
+  HoleOptions holes = {};
+  bool flip_edges = true; ///< flip edges and repair folds
+  SurfaceLimits limits = {};
+};
+
+/// The mesh of a surface and how it was made.
 struct Surface
 {
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
-  std::vector<Triangle> orientation_seam; ///< where a surface that seems one-sided was cut open;
-                                          ///< see findOrientationSeam; else empty
+  std::vector<Triangle> orientation_seam; ///< where a surface that seems one-sided was cut open
+                                          ///< (see findOrientationSeam); else empty
 };
 
-/// Consensus, holes, points that are left over, flips and repair. Runs through stages CONSENSUS,
-/// HOLES and FLIPS. Triangles are chosen by the working positions, and finished on the positions
-/// themselves. O(n log n).
-/// \param geometry its stars are consumed, but for the normals, which get the signs of the mesh
+/// Makes the consensus mesh, fills holes, inserts points that are left over, flips edges and
+/// repairs folds. Runs through the stages CONSENSUS, HOLES and FLIPS. Triangles and holes are
+/// chosen by the working positions, the mesh is finished by the positions themselves. O(n log n).
+/// \param geometry in: of the points; out: without stars, but with their normals, oriented like the
+///                 mesh
 Surface
-makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& holes,
-             bool flip_edges, const RunContext& run);
+makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
+             const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -14,7 +14,7 @@ namespace floater
 {
 namespace
 {
-// Triangles by corner, and which of them are left.
+// Drops triangles until those around every point are one fan.
 class FanPruner
 {
 public:
@@ -30,12 +30,14 @@ public:
 
   std::vector<Triangle> prune (const RunContext& run)
   {
-    // A triangle dropped at one point may split the fan of another, which is looked at again: in
-    // the same round if it comes later.
+    // A triangle that is dropped at one point may split the fan of another one. That one is looked
+    // at again, in the same round if it comes later.
     std::set<Index> points = pointsToPrune (run);
+    ProgressLoop progress (run);
     while (!points.empty ()) {
       dirty_.clear ();
       for (auto p = points.begin (); p != points.end (); ++p) {
+        progress.next ();
         const std::size_t known = dirty_.size ();
         keepLargestFan (*p);
         for (std::size_t i = known; i < dirty_.size (); ++i)
@@ -46,9 +48,11 @@ public:
     }
     std::vector<Triangle> left;
     left.reserve (triangles_.size ());
-    for (Index t = 0; t < triangles_.size (); ++t)
+    for (Index t = 0; t < triangles_.size (); ++t) {
+      progress.next ();
       if (kept_[t] != 0)
         left.push_back (triangles_[t]);
+    }
     return left;
   }
 
@@ -69,10 +73,10 @@ private:
     return found;
   }
 
-  // True if the triangles around p follow each other edge by edge, once around or in one sector.
+  // True if the triangles around p are one fan, open or closed.
   bool isOneFan (Index p) const
   {
-    constexpr std::size_t MOST = 32; // longer rows are left to the slow way
+    constexpr std::size_t MOST = 32; // points with more triangles are left to keepLargestFan
     const Row row = around_.row (p);
     const std::size_t count = row.size ();
     if (count == 0)
@@ -85,7 +89,7 @@ private:
       to[i] = after (row[i], p, 2);
       for (std::size_t j = 0; j < i; ++j)
         if (from[j] == from[i] || to[j] == to[i])
-          return false; // two run along one edge alike
+          return false; // two triangles run along one edge in the same direction
     }
     const auto find = [count] (const std::array<Index, MOST>& list, Index q) {
       return static_cast<std::size_t> (std::find (list.begin (), list.begin () + count, q) -
@@ -110,7 +114,7 @@ private:
     dropDoubleEdges (p);
     if (ring_.size () < 2)
       return;
-    // Label spreading over shared neighbours; rings are short.
+    // Fans by spreading the smallest label over shared edges; rings are short.
     for (bool changed = true; changed;) {
       changed = false;
       for (Spoke& a : ring_)
@@ -136,8 +140,9 @@ private:
         drop (spoke.triangle);
   }
 
-  // Of triangles that run along one edge of p in the same direction only the one of most votes
-  // stays. On creases and between sheets, planes of two corners may disagree on what overlaps.
+  // Of triangles that run along an edge at p in the same direction, keeps the one of most votes.
+  // They occur at sharp edges and between sheets, where triangles that do not overlap in the
+  // tangent plane of one corner overlap in that of another.
   void dropDoubleEdges (Index p)
   {
     for (std::size_t i = 0; i < ring_.size (); ++i)
@@ -155,7 +160,7 @@ private:
       ring_[i].fan = i;
   }
 
-  // The corner of a triangle one or two steps after p.
+  // The corner of triangle t that comes one or two steps after p.
   Index after (Index t, Index p, std::size_t steps) const
   {
     const Triangle& c = triangles_[t];
@@ -179,6 +184,7 @@ private:
     return false;
   }
 
+  // A triangle around the current point and the label of its fan.
   struct Spoke
   {
     Index triangle, fan;
@@ -192,23 +198,27 @@ private:
   std::vector<Index> dirty_;
 };
 
-// Triangles of components that may stand alone.
+// The triangles of a mesh but for small islands.
 std::vector<Triangle>
-withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors)
+withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smallest_island,
+                const RunContext& run)
 {
-  const MeshComponents components = findComponents (mesh);
+  const MeshComponents components = findComponents (mesh, run);
   const std::vector<Index>& component = components.of_triangle;
   const Index count = components.count;
   std::vector<std::size_t> size (count, 0);
   std::vector<std::uint8_t> is_closed (count, 1), is_island (count, 0);
+  ProgressLoop progress (run);
   for (Index t = 0; t < component.size (); ++t) {
+    progress.next ();
     ++size[component[t]];
     for (Index u : mesh.neighbors[t])
       if (u == NONE)
         is_closed[component[t]] = 0;
   }
   for (Index t = 0; t < component.size (); ++t) {
-    if (size[component[t]] >= ISLAND || is_closed[component[t]] != 0)
+    progress.next ();
+    if (size[component[t]] >= smallest_island || is_closed[component[t]] != 0)
       continue;
     for (Index p : mesh.triangles[t])
       for (Index q : neighbors.row (p))
@@ -227,16 +237,19 @@ withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors)
 } // namespace
 
 TriangleMesh
-manifoldPart (Consensus consensus, const CsrLists& neighbors, const RunContext& run)
+manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
+              const RunContext& run)
 {
   TriangleMesh mesh;
   mesh.triangles = FanPruner (consensus, neighbors.rows ()).prune (run);
   consensus = {};
   bool is_manifold = mesh.connect (neighbors.rows (), run);
-  std::vector<Triangle> left = withoutIslands (mesh, neighbors);
-  if (is_manifold && left.size () < mesh.triangles.size ()) {
-    mesh.triangles.swap (left);
-    is_manifold = mesh.connect (neighbors.rows (), run);
+  if (is_manifold) {
+    std::vector<Triangle> left = withoutIslands (mesh, neighbors, smallest_island, run);
+    if (left.size () < mesh.triangles.size ()) {
+      mesh.triangles.swap (left);
+      is_manifold = mesh.connect (neighbors.rows (), run);
+    }
   }
   if (!is_manifold)
     throw std::logic_error ("the consensus is no manifold");

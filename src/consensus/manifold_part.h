@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a consensus to a manifold.
+// The manifold part of a consensus.
 #pragma once
 
 #include "consensus/consensus.h"
@@ -9,15 +9,16 @@ namespace pcl
 {
 namespace floater
 {
-/// Keeps the largest fan of triangles around every point, and drops islands: components of fewer
-/// than ISLAND triangles that are open and have points of a larger component among their nearest
-/// neighbours; these lie in its holes. What is left is an oriented manifold whose rims are simple
-/// loops. O(n). \throw std::logic_error if it is not
+/// Keeps the fan of most votes around every point, and drops small islands. An island is an open
+/// component that has points of a larger component among the nearest neighbours of its own points:
+/// it lies in a hole of that one. What is left is an oriented manifold whose boundary loops pass
+/// through each point once at most. O(n).
+/// \param neighbors       of each point
+/// \param smallest_island triangles; islands of fewer are dropped
+/// \throw std::logic_error if the result is no manifold, which would be a bug
 TriangleMesh
-manifoldPart (Consensus consensus, const CsrLists& neighbors, const RunContext& run);
-
-/// Smallest component that may stand alone.
-constexpr std::size_t ISLAND = 32;
+manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
+              const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

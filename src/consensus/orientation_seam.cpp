@@ -11,7 +11,7 @@ namespace pcl
 namespace floater
 {
 std::vector<Triangle>
-findOrientationSeam (const std::vector<Triangle>& contradicting)
+findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam)
 {
   struct Edge
   {
@@ -37,7 +37,7 @@ findOrientationSeam (const std::vector<Triangle>& contradicting)
     ++length[rows.find (t)];
   const auto longest = std::max_element (length.begin (), length.end ());
   std::vector<Triangle> row;
-  if (longest == length.end () || *longest < SHORTEST_ROW)
+  if (longest == length.end () || *longest < shortest_seam)
     return row;
   const auto root = static_cast<Index> (longest - length.begin ());
   for (Index t = 0; t < contradicting.size (); ++t)

@@ -10,19 +10,17 @@ namespace pcl
 {
 namespace floater
 {
-/// Where a one-sided surface was cut open: the longest row of triangles that contradict the
-/// orientation (see ConsensusMesh) that hang together by edges, in the order of `contradicting`;
-/// empty if it is shorter than SHORTEST_ROW. An orientation that runs once around such a surface
-/// meets itself the wrong way along a whole row across it, while a wrong triangle between two
-/// sheets stands alone. O(n log n).
+/// Where a one-sided surface was cut open: the longest row of contradicting triangles that are
+/// connected by edges. On such a surface, an orientation that spreads all the way round contradicts
+/// itself along a whole row across the surface. A wrong triangle between two sheets stands alone.
+/// O(m log m) for m triangles.
 ///
-/// Weakness: strips less than about 4 spacings wide have shorter rows.
+/// Weakness: strips less than about 4 spacings wide have rows that are too short.
+/// \param contradicting see ConsensusMesh::seam
+/// \param shortest_seam triangles; see ConsensusLimits
+/// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
 std::vector<Triangle>
-findOrientationSeam (const std::vector<Triangle>& contradicting);
-
-/// Triangles. Scans of two-sided surfaces had rows of up to 5, strips 4 spacings wide rows of 8,
-/// and those 12 spacings wide rows of 37.
-constexpr std::size_t SHORTEST_ROW = 8;
+findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam);
 
 } // namespace floater
 } // namespace pcl

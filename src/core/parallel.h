@@ -18,16 +18,16 @@ namespace pcl
 {
 namespace floater
 {
-/// Calls body (i) for every i below `count`. They are handed out one by one, to `threads` threads
-/// and in any order, so body must write only to places that belong to i. The first exception thrown
-/// by a body is rethrown here. Moves the fraction of the run that is done, and may be stopped
-/// (Monitor): then no more are handed out.
+/// Calls body (i) for every i below `count`, on the threads of the run and in any order. So body may
+/// write only to places that belong to i; then the result does not depend on the number of threads.
+/// The first exception that a body throws is rethrown here, and no more tasks are begun. Moves the
+/// fraction of the run that is done, and ends early if the run is cancelled.
 template <typename Body>
 void
 parallelTasks (const RunContext& run, std::size_t count, Body&& body)
 {
-  constexpr std::chrono::milliseconds BETWEEN_LOOKS{50};
-  constexpr std::size_t FEW = 2; // tasks, within which there are loops that tell more
+  constexpr std::chrono::milliseconds BETWEEN_POLLS{50};
+  constexpr std::size_t FEW = 2; // tasks; the loops within them tell more of the progress
   ProgressLoop progress (run, count > FEW ? count : 0);
   std::atomic<std::size_t> next{0};
   std::size_t running = 0;
@@ -66,7 +66,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
     }
   }
   catch (const std::exception&) {
-    // Fewer threads than asked for could be started; those that run do all the work.
+    // No more threads could be started; those that run do all the work.
   }
   guarded ([&] {
     for (std::size_t i = next++; i < count; i = next++) {
@@ -74,10 +74,10 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
       progress.reach (i);
     }
   });
-  // Only this thread may be asked to stop, also while it waits for the last ones.
+  // Only this thread asks whether to go on, also while it waits for the others.
   const auto have_all_ended = [&] {
     std::unique_lock<std::mutex> lock (mutex);
-    return ended.wait_for (lock, BETWEEN_LOOKS, [&running] { return running == 0; });
+    return ended.wait_for (lock, BETWEEN_POLLS, [&running] { return running == 0; });
   };
   while (!have_all_ended ())
     guarded ([&] { progress.reach (0); });
@@ -87,7 +87,8 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
     std::rethrow_exception (error);
 }
 
-/// Length of the ranges of parallelRanges, but for the last: range r begins at r * RANGE_LENGTH.
+/// Length of the ranges of parallelRanges; the last may be shorter. Range r begins at
+/// r * RANGE_LENGTH.
 constexpr std::size_t RANGE_LENGTH = 1024;
 
 /// Calls body (first, last) for consecutive ranges that cover 0 to count, as parallelTasks does.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weighted least-squares planes.
+// Weighted least-squares planes and principal axes.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -21,6 +21,14 @@ struct Plane
   double height (const Eigen::Vector3d& point) const { return normal.dot (point - centre); }
 };
 
+/// Axes along which points spread least (first) to most (last), and how far: root mean squares.
+struct PrincipalAxes
+{
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d axes; ///< unit vectors, in columns
+  Eigen::Vector3d spread;
+};
+
 /// Sums for the plane that fits points best. The points should lie around the origin, within a few
 /// times their own extent.
 class PlaneFit
@@ -33,24 +41,38 @@ public:
     weight_ += weight;
   }
 
-  /// Needs a positive weight. Points on a line or all in one place get one of the planes that
-  /// hold them.
+  /// Sum of the weights.
+  double weight () const { return weight_; }
+
+  /// Needs a positive weight. Points on a line or all in one place get one of the planes that hold
+  /// them.
   Plane plane () const
   {
+    const Eigen::Matrix3d scattered = scatter ();
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect (scattered);
     Plane plane;
     plane.centre = sum_ / weight_;
-    const Eigen::Matrix3d covariance =
-        products_ / weight_ - plane.centre * plane.centre.transpose ();
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect (covariance);
     const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
     if (normal.allFinite ())
       plane.normal = normal.normalized ();
-    plane.mean_square = std::max (0.0, plane.normal.dot (covariance * plane.normal));
+    plane.mean_square = std::max (0.0, plane.normal.dot (scattered * plane.normal)) / weight_;
     return plane;
   }
 
+  /// Slower than plane (), and more exact where points lie nearly on a line. Needs a positive
+  /// weight.
+  PrincipalAxes principalAxes () const
+  {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (scatter ());
+    return {sum_ / weight_, solver.eigenvectors (),
+            (solver.eigenvalues ().cwiseMax (0.0) / weight_).cwiseSqrt ()};
+  }
+
 private:
+  // Covariance times the sum of the weights.
+  Eigen::Matrix3d scatter () const { return products_ - sum_ * sum_.transpose () / weight_; }
+
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero ();
   Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero ();
   double weight_ = 0.0;

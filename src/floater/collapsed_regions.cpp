@@ -9,11 +9,6 @@ namespace floater
 {
 namespace
 {
-// Length in the plane over length in space, as a share of the loop's, below which a triangle counts
-// as collapsed. A million points are 1e-3 apart on the circle and solved to 1e-13: at this depth
-// their places are good to 1e-4 of their distance.
-constexpr double COLLAPSED = 1e-6;
-
 template <typename Vector>
 double
 sqrLengths (const std::vector<Vector>& at, const Triangle& t)
@@ -32,15 +27,19 @@ perimeter (const std::vector<Vector>& at, const std::vector<Index>& loop)
   return sum;
 }
 
-// Marks the corners of collapsed triangles, but no point of the loop. Empty if there is none.
+// Marks the corners of collapsed triangles, except for points of the loop.
+// \return empty if no triangle has collapsed
 std::vector<std::uint8_t>
 markDeepPoints (const TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
-                const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
+                const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
+                const RunContext& run, const DiscLimits& limits)
 {
-  const double scale = COLLAPSED * perimeter (uv, loop) / perimeter (positions, loop);
+  const double scale = limits.collapsed_scale * perimeter (uv, loop) / perimeter (positions, loop);
   const double sqr_scale = scale * scale;
   std::vector<std::uint8_t> deep;
+  ProgressLoop progress (run);
   for (const Triangle& t : mesh.triangles) {
+    progress.next ();
     if (sqrLengths (uv, t) >= sqr_scale * sqrLengths (positions, t))
       continue;
     if (deep.empty ())
@@ -54,11 +53,12 @@ markDeepPoints (const TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv
   return deep;
 }
 
-// Triangles that can be reached from the boundary without crossing an edge between two deep points.
-// What remains is what deep points enclose, whatever lies in it. Since no such edge is crossed,
-// none can join two points of a rim on the outside.
+// Marks the triangles that can be reached from the boundary without crossing an edge between two
+// deep points. What is left is enclosed by deep points, whatever lies in it. Since no such edge is
+// crossed, none of them joins two points of a region's loop on the outside.
 std::vector<std::uint8_t>
-reachFromBoundary (const TriangleMesh& mesh, const std::vector<std::uint8_t>& deep)
+reachFromBoundary (const TriangleMesh& mesh, const std::vector<std::uint8_t>& deep,
+                   const RunContext& run)
 {
   std::vector<std::uint8_t> reached (mesh.triangles.size (), 0);
   std::vector<Index> waiting;
@@ -68,7 +68,9 @@ reachFromBoundary (const TriangleMesh& mesh, const std::vector<std::uint8_t>& de
         reached[t] = 1;
         waiting.push_back (t);
       }
+  ProgressLoop progress (run);
   while (!waiting.empty ()) {
+    progress.next ();
     const Index t = waiting.back ();
     waiting.pop_back ();
     for (std::uint8_t side = 0; side < 3; ++side) {
@@ -83,18 +85,22 @@ reachFromBoundary (const TriangleMesh& mesh, const std::vector<std::uint8_t>& de
   return reached;
 }
 
-// The triangles that hang together with `start`, which become taken.
+// The triangles that are connected with `start` by edges and not taken yet. They become taken.
 std::vector<Index>
-collectTriangles (const TriangleMesh& mesh, Index start, std::vector<std::uint8_t>& taken)
+collectTriangles (const TriangleMesh& mesh, Index start, std::vector<std::uint8_t>& taken,
+                  const RunContext& run)
 {
   std::vector<Index> triangles{start};
   taken[start] = 1;
-  for (std::size_t head = 0; head < triangles.size (); ++head)
+  ProgressLoop progress (run);
+  for (std::size_t head = 0; head < triangles.size (); ++head) {
+    progress.next ();
     for (const Index u : mesh.neighbors[triangles[head]])
       if (u != NONE && taken[u] == 0) {
         taken[u] = 1;
         triangles.push_back (u);
       }
+  }
   std::sort (triangles.begin (), triangles.end ());
   return triangles;
 }
@@ -105,9 +111,11 @@ contains (const std::vector<Index>& sorted, Index element)
   return std::binary_search (sorted.begin (), sorted.end (), element);
 }
 
-// The rim in order from its smallest point on. The region and the rest of the disc hang together by
-// edges each, so the edges between them are one simple cycle. Empty if they are not, as the mesh is
-// no disc.
+// The boundary loop of a region, from its smallest point on. The triangles of the region are
+// connected by edges, and so are those of the rest of the disc, so the edges between the two are
+// one simple cycle.
+// \param triangles of the region, ascending
+// \return empty if there is no such cycle, since the mesh is no disc
 std::vector<Index>
 orderLoop (const TriangleMesh& mesh, const std::vector<Index>& triangles)
 {
@@ -130,8 +138,8 @@ orderLoop (const TriangleMesh& mesh, const std::vector<Index>& triangles)
   return loop;
 }
 
-// Points with parameters but without a triangle, by their place in the plane: each coincides with a
-// vertex, or is beyond the loop.
+// The points with parameters but without a triangle, sorted by their parameters. Each of them
+// coincides with a vertex, or it lies beyond the loop.
 class LostPoints
 {
 public:
@@ -146,7 +154,7 @@ public:
     taken_.assign (points_.size (), 0);
   }
 
-  /// Appends those on the place of vertex v, each once in all.
+  // Appends the points that coincide with vertex v and have not been appended to any list.
   void takeAt (Index v, std::vector<Index>& list)
   {
     auto at = std::lower_bound (
@@ -193,19 +201,20 @@ collectInterior (const TriangleMesh& mesh, const CollapsedRegion& region, LostPo
 
 std::vector<CollapsedRegion>
 findCollapsedRegions (const TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
-                      const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
+                      const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
+                      const RunContext& run, const DiscLimits& limits)
 {
   std::vector<CollapsedRegion> regions;
-  const std::vector<std::uint8_t> deep = markDeepPoints (mesh, uv, positions, loop);
+  const std::vector<std::uint8_t> deep = markDeepPoints (mesh, uv, positions, loop, run, limits);
   if (deep.empty ())
     return regions;
-  std::vector<std::uint8_t> taken = reachFromBoundary (mesh, deep);
+  std::vector<std::uint8_t> taken = reachFromBoundary (mesh, deep, run);
   LostPoints lost (mesh, uv);
   for (Index start = 0; start < mesh.triangles.size (); ++start) {
     if (taken[start] != 0)
       continue;
     CollapsedRegion region;
-    region.triangles = collectTriangles (mesh, start, taken);
+    region.triangles = collectTriangles (mesh, start, taken, run);
     region.loop = orderLoop (mesh, region.triangles);
     if (region.loop.empty ())
       continue;

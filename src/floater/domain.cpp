@@ -13,16 +13,19 @@ namespace floater
 {
 namespace
 {
-
-// Rounding moves a turn with steps g and h on a curve of curvature c out of convexity unless
-// c g h / 2 is well above the spacing of doubles near 1, 2e-16. With these two it is 8e-15 or more.
+// Two steps g and h on a curve of curvature c turn left by an area of c g h / 2. Rounding may turn
+// them right unless that area is well above the distance of doubles near 1, which is 2e-16. With
+// these two values it is 8e-15 or more.
 constexpr double SHORTEST_STEP = 4e-6;
 constexpr double SIDE_CURVATURE = 1e-3;
 
-// chords[i] is the distance from loop point i to the next. Returns where the points first to last
-// (their chords are [first, last)) are on a curve of that length, as fractions of it.
+// Places the points first to last - 1 of the loop on a curve whose end is point `last`.
+// \param chords       chords[i] is the step from loop point i to the next one
+// \param curve_length in the plane
+// \return fractions of the curve, ascending from 0
 std::vector<double>
-spread (const std::vector<double>& chords, std::size_t first, std::size_t last, double curve_length)
+placeOnCurve (const std::vector<double>& chords, std::size_t first, std::size_t last,
+              double curve_length)
 {
   double total = 0.0;
   for (std::size_t i = first; i < last; ++i)
@@ -41,7 +44,8 @@ spread (const std::vector<double>& chords, std::size_t first, std::size_t last, 
   return fractions;
 }
 
-// Loop points at the corners, ascending from point 0; as many as wanted.
+// As many places in the loop as there are corners, ascending from 0, each as near as possible to
+// its share of the loop's length.
 std::vector<std::size_t>
 cornerPoints (const std::vector<double>& chords, std::size_t corners)
 {
@@ -54,7 +58,7 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
   for (std::size_t corner = 1; corner < corners; ++corner) {
     const double wanted = total * static_cast<double> (corner) / static_cast<double> (corners);
     const std::size_t last =
-        chords.size () - (corners - corner); // leaves a point for each later corner
+        chords.size () - (corners - corner); // so that each later corner gets a point, too
     while (i < last && (i <= points.back () || length + 0.5 * chords[i] < wanted))
       length += chords[i++];
     points.push_back (i);
@@ -67,13 +71,15 @@ layOnCircle (const std::vector<double>& chords)
 {
   std::vector<Eigen::Vector2d> uv;
   uv.reserve (chords.size ());
-  for (const double fraction : spread (chords, 0, chords.size (), 2.0 * PI))
+  for (const double fraction : placeOnCurve (chords, 0, chords.size (), 2.0 * PI))
     uv.emplace_back (std::cos (2.0 * PI * fraction), std::sin (2.0 * PI * fraction));
   return uv;
 }
 
-// Corners in the order of the loop, each at the place given, and the points between two of them on
-// the side between their places. `places` goes anti-clockwise; the first corner is point 0.
+// Puts the corners at the places given, and the points between two corners on the side between
+// them.
+// \param corner_points places of the corners in the loop, ascending; the first one is 0
+// \param places        of the corners in the plane, anti-clockwise
 std::vector<Eigen::Vector2d>
 layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_points,
             const std::vector<Eigen::Vector2d>& places)
@@ -85,10 +91,11 @@ layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_p
   for (std::size_t c = 0; c < corners; ++c) {
     const Eigen::Vector2d& from = places[c];
     const Eigen::Vector2d side = places[c + 1 == corners ? 0 : c + 1] - from;
-    // A parabola through both corners; its slope stays far below the turn at the corners.
+    // The side is a parabola through both corners. Its slope is far smaller than their turns.
     const Eigen::Vector2d bulge =
         0.5 * SIDE_CURVATURE * side.norm () * Eigen::Vector2d (side.y (), -side.x ());
-    for (const double t : spread (chords, corner_points[c], corner_points[c + 1], side.norm ()))
+    for (const double t :
+         placeOnCurve (chords, corner_points[c], corner_points[c + 1], side.norm ()))
       uv.emplace_back (from + t * side + t * (1.0 - t) * bulge);
   }
   return uv;
@@ -106,7 +113,7 @@ layOnRegularPolygon (const std::vector<double>& chords, std::size_t corners)
   return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 
-// Empty if the loop has no shape of its own, or one that rounding would spoil.
+// \return empty if the loop has no shape of its own, or one that is not convex after rounding
 std::vector<Eigen::Vector2d>
 layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
                std::vector<double> chords)
@@ -114,7 +121,7 @@ layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<
   OwnShape shape = findOwnShape (positions, loop, {SIDE_CURVATURE, SHORTEST_STEP});
   if (shape.corners.empty ())
     return {};
-  // Sides begin at the first corner, so turn the loop there, and back.
+  // The first corner must be the first point of the loop: rotate the loop, and the result back.
   const auto turn = static_cast<std::ptrdiff_t> (shape.corners.front ());
   for (std::size_t& corner : shape.corners)
     corner -= static_cast<std::size_t> (turn);

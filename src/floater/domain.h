@@ -12,24 +12,25 @@ namespace pcl
 {
 namespace floater
 {
-/// Lays a closed loop on a convex curve, anti-clockwise, by the spacing rule: steps along the
-/// circle or the sides of a polygon are as the lengths of the loop's steps, as their square roots,
-/// or equal. The first loop point is at angle 0 of the circle, or at the left end of the polygon's
-/// bottom side. Regular polygon corners get the loop point nearest to them by these steps, each
-/// another one, so that no corner is cut off; a loop with fewer points than the polygon has corners
-/// gets a polygon with as many corners as points.
+/// Lays a closed loop on a convex curve in the unit circle, anti-clockwise. Steps along the circle,
+/// or along the sides of a polygon, are proportional to the lengths of the loop's steps, to the
+/// square roots of these, or equal (LoopSpacing). The first point of the loop is at angle 0 of the
+/// circle, or at the left end of the bottom side of a regular polygon.
 ///
-/// OWN_SHAPE has the corners of the loop's own convex hull, in its least-squares plane (see
-/// own_shape.h), and what is between two corners on the side between them. A loop without such a
-/// shape, on a line or turning around itself, is laid on the circle.
+/// Each corner of a regular polygon gets the loop point that is nearest to it along the loop, and
+/// no two corners the same, so that no corner is cut off. A loop with fewer points than the polygon
+/// has corners gets a polygon with as many corners as it has points. OWN_SHAPE has the corners of
+/// the loop's own convex hull (see own_shape.h). A loop that has no such shape, because it lies on
+/// a line or winds around itself, is laid on the circle.
 ///
-/// The result is strictly convex also in floating point, for loops of up to a million points: sides
-/// of polygons bulge by a thousandth of the circle's curvature (2.5e-4 in the middle of a square's
-/// side), and steps shorter than 4e-6, or half of the mean step of their side if that is less, are
-/// widened to it. Points of a straight side would not bind an interior point that hangs on them
-/// alone: it would fall on the side. O(loop).
-/// \param positions     per point
-/// \param loop          points in order, at least 3
+/// The result is strictly convex, in floating point too, for loops of up to a million points. For
+/// this, the sides of polygons bulge with a thousandth of the circle's curvature (by 2.5e-4 in the
+/// middle of a square's side), and steps are widened to 4e-6, or to half of the mean step of their
+/// side if that is less. On a straight side, an interior point whose neighbours all lie on that
+/// side would fall on it. O(loop), OWN_SHAPE O(loop log loop).
+/// \param positions per point
+/// \param loop      points in order, at least 3
+/// \return parameters, parallel to the loop
 std::vector<Eigen::Vector2d>
 layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
          const DomainOptions& options);

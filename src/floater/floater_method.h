@@ -3,6 +3,7 @@
 #pragma once
 
 #include "floater/boundary/boundary.h"
+#include "floater/disc_limits.h"
 #include "floater/parameterize.h"
 #include "mesh/finish.h"
 
@@ -13,9 +14,11 @@ namespace floater
 struct DiscSettings
 {
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
-  bool filter_sheets = true;
+  StarSettings stars; ///< of stars that are made anew
   ParameterizationSettings parameterization;
-  bool flip_edges = true;
+  bool flip_edges = true; ///< flip edges in space at the end, and repair folds
+  DiscLimits limits{};
+  FinishLimits finish{};
 };
 
 /// The mesh of a disc and how it came about, or why there is none.
@@ -23,16 +26,18 @@ struct Disc
 {
   Boundary boundary;
   Parameterization parameterization;
-  std::size_t levels = 0; ///< of regions laid out again where the plane was too small for them
+  std::size_t levels = 0; ///< of the recursion over collapsed regions; 0: there was none
   TriangleMesh mesh;
   MeshFinish finish;
   Problem problem;
 };
 
-/// The whole of TW 385 from the boundary loop on, and what is beyond it: regions too deep for
-/// double precision, flips on the surface, repair. Runs through stages WEIGHTS, SOLVE, DELAUNAY and
-/// FLIPS. \param geometry its stars, which need their offsets, are consumed, but for the normals
-/// \param boundary checked (see checkBoundary)
+/// Makes the mesh of a disc from its boundary loop on (TW 385, sections 2 and 4). What goes beyond
+/// TW 385: regions too deep for double precision are laid out again, edges are flipped in space,
+/// and folds are repaired. Runs through the stages WEIGHTS, SOLVE, DELAUNAY and FLIPS.
+/// \param geometry its stars, which need their offsets, are consumed, but for the normals
+/// \param boundary checked (see checkBoundary ()), without a problem
+/// \return with the problem of the parameterization, or NOT_A_DISC if too many edges are folded
 Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run);

@@ -23,6 +23,7 @@ namespace
 {
 using Outline = std::vector<Eigen::Vector2d>;
 
+// The loop in its least-squares plane along its principal axes, anti-clockwise, in the unit circle.
 Outline
 project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
 {
@@ -60,7 +61,8 @@ project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   return outline;
 }
 
-// Vertices of the hull, anti-clockwise; of equal points the first.
+// The places of the hull's vertices in the outline, anti-clockwise. Of coinciding points the first
+// in the outline is the vertex.
 std::vector<std::size_t>
 hullOf (const Outline& outline)
 {
@@ -69,23 +71,30 @@ hullOf (const Outline& outline)
   points.reserve (outline.size ());
   for (const Eigen::Vector2d& p : outline)
     points.emplace_back (p.x (), p.y ());
-  std::vector<std::size_t> places (points.size ()), hull;
+  std::vector<std::size_t> places (points.size ());
   std::iota (places.begin (), places.end (), std::size_t{0});
+  std::stable_sort (places.begin (), places.end (),
+                    [&points] (std::size_t a, std::size_t b) { return points[a] < points[b]; });
+  places.erase (
+      std::unique (places.begin (), places.end (),
+                   [&points] (std::size_t a, std::size_t b) { return points[a] == points[b]; }),
+      places.end ());
+  std::vector<std::size_t> hull;
   auto map = CGAL::make_property_map (points);
   CGAL::convex_hull_2 (places.begin (), places.end (), std::back_inserter (hull),
                        CGAL::Convex_hull_traits_adapter_2<Kernel, decltype (map)> (map));
   return hull;
 }
 
-// Most of the hull's vertices that go along the loop as they go along the hull. Both are cycles;
-// they are cut at the hull's vertex that comes first in the loop.
+// As many vertices of the hull as possible that have the same order along the loop and along the
+// hull. Both are cycles; they are cut at the hull's vertex that comes first in the loop.
 std::vector<std::size_t>
 inLoopOrder (std::vector<std::size_t> hull)
 {
   if (hull.empty ())
     return hull;
   std::rotate (hull.begin (), std::min_element (hull.begin (), hull.end ()), hull.end ());
-  // Longest increasing subsequence: ends[l] is the vertex that ends the best one of length l + 1.
+  // Longest increasing subsequence: ends[l] is the smallest last element of those of length l + 1.
   std::vector<std::size_t> ends, before (hull.size (), 0);
   for (std::size_t i = 0; i < hull.size (); ++i) {
     const auto at =
@@ -104,7 +113,7 @@ inLoopOrder (std::vector<std::size_t> hull)
   return ordered;
 }
 
-// Points between two corners stretch the side by steps of this length at least.
+// Least length of the first step on a side that the loop divides into so many steps.
 double
 firstStep (double side, std::size_t steps, const SideLimits& limits)
 {
@@ -112,19 +121,22 @@ firstStep (double side, std::size_t steps, const SideLimits& limits)
                     : std::min (limits.shortest_step, 0.5 * side / static_cast<double> (steps));
 }
 
-// Whether b is fit to be a corner between a and c, with steps of the loop between them.
+// Whether b can be a corner between the corners a and c, with so many steps of the loop between
+// them.
 bool
 isFit (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
        std::size_t steps_before, std::size_t steps_after, const SideLimits& limits)
 {
-  constexpr double SMALLEST_AREA = 1e-14; // of a turn, twice: 50 times its rounding
+  constexpr double SMALLEST_AREA = 1e-14; // twice the area of a turn; 50 times its rounding error
   const Eigen::Vector2d before = b - a, after = c - b;
   const double turn = std::atan2 (cross (before, after), before.dot (after));
-  // The bulge takes half its curvature times the length of the side from the turn at each end.
+  // At each end of a side, the bulge takes half of its curvature times the side's length from the
+  // turn.
   const double taken = 0.5 * limits.curvature * (before.norm () + after.norm ());
   const double area = (turn - taken) * firstStep (before.norm (), steps_before, limits) *
                       firstStep (after.norm (), steps_after, limits);
-  // A side must not be crowded more than rounding allows on a curve that bulges so little.
+  // With too many points on it, the steps of a side that bulges so little would not turn left after
+  // rounding.
   const auto crowded = [&limits] (double side, std::size_t steps) {
     const double step = firstStep (side, steps, limits);
     return steps > 1 && 0.5 * limits.curvature * step * step < 0.5 * SMALLEST_AREA;
@@ -145,7 +157,7 @@ findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<I
   const auto steps = [&loop] (std::size_t from, std::size_t to) {
     return to > from ? to - from : to + loop.size () - from;
   };
-  // Corner by corner, each seen between the ones that are still there, until all are fit.
+  // Drops corners that are not fit, seen between the corners that are left, until all are fit.
   for (bool changed = true; changed && corners.size () >= FEWEST;) {
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < corners.size (); ++i) {
@@ -175,7 +187,7 @@ isStrictlyConvex (const std::vector<Eigen::Vector2d>& polygon)
   const std::size_t count = polygon.size ();
   double turn = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    // Differences of near numbers are exact, so the sign of their product is right.
+    // Differences of nearly equal numbers are exact, so the sign of the cross product is right.
     const Eigen::Vector2d before = polygon[(i + 1) % count] - polygon[i];
     const Eigen::Vector2d after = polygon[(i + 2) % count] - polygon[(i + 1) % count];
     const double sine = cross (before, after);

@@ -15,10 +15,8 @@ namespace floater
 {
 namespace
 {
-// Below this share of points on the loop's side the cloud is taken for several components.
-constexpr double ENOUGH_REACHED = 0.5;
-
-// Adds each link (ascending) as one more neighbour, with the weight of an average neighbour.
+// Adds each link as one more neighbour, with the weight of an average neighbour.
+// \param links (point, neighbour), ascending
 void
 addLinks (const std::vector<std::array<Index, 2>>& links, CsrLists& neighbors,
           std::vector<double>& weights)
@@ -72,7 +70,7 @@ describeOutcome (const Solution& solution)
 Parameterization
 parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
               const std::vector<Index>& loop, const ParameterizationSettings& settings,
-              const RunContext& run)
+              const RunContext& run, const DiscLimits& limits)
 {
   Parameterization result;
   run.beginStage (Stage::WEIGHTS);
@@ -80,19 +78,19 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   CsrLists neighbors = std::move (stars.neighbors);
   stars = {};
 
-  const Reachability reach = reachLoop (neighbors, nearest, positions, loop, run);
+  const Reachability reach = reachLoop (neighbors, nearest, positions, loop, run, limits);
   addLinks (reach.links, neighbors, weights);
   result.relinked = reach.linked_points;
   result.unreachable =
       static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
   const double reached = static_cast<double> (positions.size () - result.unreachable);
-  if (reached < ENOUGH_REACHED * static_cast<double> (positions.size ())) {
+  if (reached < limits.least_reached_share * static_cast<double> (positions.size ())) {
     result.problem = {
         Status::UNREACHABLE,
         std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
             " points do not connect to the boundary loop: the cloud has several components, or "
-            "gaps "
-            "wider than its spacing; reconstruct its parts one by one, or use a larger k"};
+            "gaps much wider than its spacing; reconstruct its components one by one, or use a "
+            "larger k"};
     return result;
   }
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, settings.domain);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Section 4 of TW 385: from stars and loop to parameters.
+// The parameterization (TW 385, section 4): from stars and boundary loop to parameters.
 #pragma once
 
 #include "core/problem.h"
 #include "core/run_context.h"
+#include "floater/disc_limits.h"
 #include "floater/solvers/solution.h"
 #include "local/stars.h"
 
@@ -25,22 +26,29 @@ struct ParameterizationSettings
 /// Parameters of the points in the plane.
 struct Parameterization
 {
-  std::vector<Eigen::Vector2d> uv; ///< per point; NaN for points that do not reach the loop
-  std::size_t relinked = 0;        ///< points that had to be linked back to the loop
-  std::size_t unreachable = 0;     ///< points that do not reach the loop
-  std::size_t unknowns = 0;        ///< rows of the system
-  std::size_t nonzeros = 0;        ///< of its matrix
-  Solution solution;               ///< figures of the solver; the solution itself is in uv
-  Problem problem;                 ///< UNREACHABLE, SINGULAR, NOT_CONVERGED or OUT_OF_MEMORY
+  std::vector<Eigen::Vector2d> uv; ///< per point; NaN if it is not connected with the loop; empty
+                                   ///< if there is a problem
+  std::size_t relinked = 0;    ///< points that had to be linked to points connected with the loop
+  std::size_t unreachable = 0; ///< points that are not connected with the loop
+  std::size_t unknowns = 0;    ///< rows of the linear system
+  std::size_t nonzeros = 0;    ///< entries of its matrix
+  Solution solution;           ///< figures of the solver; the solution itself is in uv
+  Problem problem; ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, SOLVER_UNAVAILABLE, OUT_OF_MEMORY or
+                   ///< INTERNAL_ERROR
 };
 
-/// Weights, parameters of the loop, assembly and solution. Runs through stages WEIGHTS and SOLVE.
-/// \param nearest nearest neighbours, to link points that do not reach the loop
-/// \param stars   of the points; freed as soon as the weights are made
+/// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system
+/// (TW 385, equations (1) to (3)). Runs through the stages WEIGHTS and SOLVE.
+/// \param positions per point
+/// \param nearest   nearest neighbours, to which points that are not connected with the loop are
+///                  linked
+/// \param stars     with their offsets; freed as soon as there are weights
+/// \param loop      boundary points in order, at least 3
+/// \throws std::bad_alloc
 Parameterization
 parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
               const std::vector<Index>& loop, const ParameterizationSettings& settings,
-              const RunContext& run);
+              const RunContext& run, const DiscLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

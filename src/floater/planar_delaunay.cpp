@@ -23,13 +23,13 @@ using Delaunay =
     CGAL::Delaunay_triangulation_2<Kernel,
                                    CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
-// Marks points that are not strictly inside the loop, which is a convex polygon around the origin,
-// anti-clockwise. Rounding may put a point between two loop points beyond the edge that joins them.
+// Marks the points that are not strictly inside of the loop, but for the loop's own. Rounding may
+// put a point beyond the edge between two loop points.
 std::vector<std::uint8_t>
 outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
 {
   const std::size_t h = loop.size ();
-  // Inside the circle that touches the nearest edge there is nothing to check.
+  // Within the circle around the origin that touches the nearest edge there is nothing to check.
   double sqr_safe = std::numeric_limits<double>::infinity ();
   std::vector<std::pair<double, std::size_t>> corners; // direction, place in the loop; ascending
   for (std::size_t i = 0; i < h; ++i) {
@@ -46,7 +46,8 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   for (Index p = 0; p < uv.size (); ++p) {
     if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
       continue;
-    // The edges at the corners around p's direction; one more on each side for rounding.
+    // The edges at the corners next to p's direction, and one more on each side because of
+    // rounding.
     const auto after = static_cast<std::size_t> (
         std::upper_bound (corners.begin (), corners.end (),
                           std::make_pair (std::atan2 (uv[p].y (), uv[p].x ()), h)) -
@@ -63,8 +64,9 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   return outside;
 }
 
-// Numbers the faces inside the loop: a triangle behind a hull edge that is no loop edge is outside,
-// and so on inward.
+// Numbers the faces inside of the loop. A triangle behind an edge of the hull that is no edge of
+// the loop is outside, and so on inwards.
+// \return how many
 Index
 numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
 {
@@ -113,7 +115,7 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
       sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
   Delaunay delaunay;
   delaunay.insert (sites.begin (), sites.end ());
-  // Where points coincide, the vertex has the name of any of them: a loop point goes first.
+  // Where points coincide, CGAL keeps the index of any of them; a loop point must be the vertex.
   if (delaunay.number_of_vertices () < sites.size ())
     for (Index p : loop) {
       Delaunay::Locate_type type{};

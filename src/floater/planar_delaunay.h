@@ -10,12 +10,14 @@ namespace pcl
 {
 namespace floater
 {
-/// Exact Delaunay triangulation of points in the plane whose hull is the loop. Of points on the
-/// very same place only one is a vertex; the others stay without a triangle, and so do points that
-/// rounding has put on or beyond the loop. Slivers outside the loop are taken away. O(n log n).
-/// \param uv   per point; those that are not finite are left out
-/// \param loop points of the hull in order
-/// \return triangles anti-clockwise in the plane; no triangle if all points are on one line
+/// The Delaunay triangulation of points in the plane, by CGAL with exact predicates. Its boundary
+/// is the loop: slivers between the loop and the convex hull, which rounding leaves where the loop
+/// is nearly straight, are removed. Of points at the very same place only one is a vertex, a loop
+/// point if there is one. The others stay without a triangle, and so do points that rounding has
+/// put on or beyond the loop. O(n log n).
+/// \param uv   per point; points whose parameters are not finite are left out
+/// \param loop points of a strictly convex polygon around the origin, anti-clockwise
+/// \return triangles anti-clockwise in the plane; none if all points lie on one line
 TriangleMesh
 triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop);
 

@@ -11,7 +11,8 @@ namespace floater
 {
 namespace
 {
-// Row q holds the points p, ascending, that have q in their row; only where use (p, q).
+// The reversed lists: row q holds the points p, ascending, whose row holds q. Only entries for
+// which use (p, q) is true.
 template <typename Use>
 CsrLists
 reverse (const CsrLists& lists, Use&& use)
@@ -24,7 +25,7 @@ reverse (const CsrLists& lists, Use&& use)
   });
 }
 
-// Marks all that lead to queue[head] and later, and appends them.
+// Marks and appends all points that lead to the entries of the queue from `head` on.
 void
 search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
         std::vector<std::uint8_t>& reachable, const RunContext& run)
@@ -40,11 +41,13 @@ search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
   }
 }
 
-// The links of point p to the nearest reached points, appended. Ties go to the smaller point.
+// Appends the links of point p to the nearest points that have been reached. Ties go to the smaller
+// point.
 void
 linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
            const std::vector<Eigen::Vector3d>& positions,
-           const std::vector<std::uint8_t>& reachable, std::vector<std::array<Index, 2>>& links)
+           const std::vector<std::uint8_t>& reachable, std::size_t most,
+           std::vector<std::array<Index, 2>>& links)
 {
   std::vector<std::pair<double, Index>> candidates;
   for (const Row row : {nearest.row (p), nearest_of.row (p)})
@@ -53,7 +56,7 @@ linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
         candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
   std::sort (candidates.begin (), candidates.end ());
   candidates.erase (std::unique (candidates.begin (), candidates.end ()), candidates.end ());
-  candidates.resize (std::min (candidates.size (), LINKS_PER_POINT));
+  candidates.resize (std::min (candidates.size (), most));
   for (const auto& candidate : candidates)
     links.push_back ({p, candidate.second});
 }
@@ -63,7 +66,7 @@ linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
 Reachability
 reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
            const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
-           const RunContext& run)
+           const RunContext& run, const DiscLimits& limits)
 {
   Reachability result;
   std::vector<std::uint8_t>& reachable = result.reachable;
@@ -81,13 +84,13 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
   if (queue.size () == positions.size ())
     return result;
 
-  // Entries between two points that are reached already serve nobody, and there are many.
+  // Most entries are between two points that have been reached, and are not needed.
   const CsrLists nearest_of = reverse (
       nearest, [&] (std::size_t p, Index q) { return reachable[p] == 0 || reachable[q] == 0; });
-  std::vector<std::uint8_t> waiting (positions.size (), 0); // in this round's list already
+  std::vector<std::uint8_t> waiting (positions.size (), 0); // listed for linking
   std::vector<Index> round;
   for (std::size_t head = 0; head < queue.size ();) {
-    // Points not reached that are near a point reached since the round before.
+    // Points that have not been reached, next to a point that was reached since the last round.
     round.clear ();
     for (; head < queue.size (); ++head)
       for (const Row row : {nearest.row (queue[head]), nearest_of.row (queue[head])})
@@ -97,7 +100,8 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
             round.push_back (p);
           }
     for (const Index p : round)
-      linkPoint (p, nearest, nearest_of, positions, reachable, result.links);
+      linkPoint (p, nearest, nearest_of, positions, reachable, limits.links_per_point,
+                 result.links);
     for (const Index p : round)
       reachable[p] = 1;
     queue.insert (queue.end (), round.begin (), round.end ());

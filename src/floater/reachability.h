@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which points the loop determines. No solver tells: UMFPACK returns OK for an island of points and
-// puts it on the origin.
+// Which points are connected with the boundary loop, so that the linear system determines them. The
+// solver does not tell: for unknowns that are not, UMFPACK may return OK and put them all on the
+// origin.
 #pragma once
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "floater/disc_limits.h"
 
 #include <vector>
 
@@ -12,29 +14,29 @@ namespace pcl
 {
 namespace floater
 {
-/// Links given to a point that does not reach the loop, at most. With one alone a lone point would
-/// fall on the point that it is linked to.
-constexpr std::size_t LINKS_PER_POINT = 3;
-
-/// Points from which the loop can be reached along directed neighbours.
+/// The points from which the loop can be reached along directed neighbours.
 struct Reachability
 {
   std::vector<std::uint8_t> reachable; ///< per point; 1 for points of the loop
-  std::vector<std::array<Index, 2>>
-      links;                     ///< (point, neighbour) to add so that `reachable` holds; ascending
+  /// (point, neighbour): neighbours to add so that `reachable` holds; ascending.
+  std::vector<std::array<Index, 2>> links;
   std::size_t linked_points = 0; ///< distinct points in links
 };
 
-/// Reverse breadth-first search from the loop over `neighbors`. Then, in rounds until nothing more
-/// can be reached: every point not reached that is near reached ones (`near` read in both
-/// directions) is linked to the LINKS_PER_POINT nearest of them, and the search goes on from it.
-/// All of an island's rim is linked in one round, because an island with a single link would shrink
-/// to a point. What stays unreachable is another component. O(entries). \param neighbors directed
-/// rows of the system \param near      the unfiltered nearest neighbours
+/// A reverse breadth-first search from the loop over `neighbors`. Then, in rounds until nothing
+/// more is reached: every point that has not been reached but has reached ones among its nearest
+/// neighbours, or is among theirs, is linked to the nearest of them (DiscLimits::links_per_point),
+/// and the search continues from it. All points at the edge of an unconnected part are linked in
+/// one round, since a part with a single link would shrink to a point. What is still not reached is
+/// another component. O(entries).
+/// \param neighbors rows of the linear system: the neighbours in which each point is weighted
+/// \param nearest   nearest neighbours of each point, not filtered
+/// \param positions per point
+/// \param loop      points of the loop
 Reachability
 reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
            const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
-           const RunContext& run);
+           const RunContext& run, const DiscLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

@@ -15,15 +15,15 @@ namespace floater
 {
 namespace
 {
-// A region as a cloud of its own, numbered from 0.
+// A collapsed region as a cloud of its own. Its points are numbered from 0.
 struct Subproblem
 {
-  std::vector<Index> points; // of the whole cloud; ascending
+  std::vector<Index> points; // their indices in the whole cloud, ascending
   std::vector<Index> loop;
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Vector2d> uv;
   TriangleMesh mesh;
-  std::size_t level = 0;
+  std::size_t level = 0; // of the recursion, from 1
 };
 
 // True if the boundary of the mesh is the loop.
@@ -44,28 +44,32 @@ fillsLoop (const TriangleMesh& mesh, const std::vector<Index>& loop)
   return edges == loop.size ();
 }
 
-// Makes subproblems of regions and collects the triangles of what is not cut out any more.
+// Parameterizes regions one by one, and collects the triangles that are not replaced any more.
 class Recursion
 {
 public:
   Recursion (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
              const std::vector<Eigen::Vector3f>& normals, const StarSettings& star_settings,
-             const ParameterizationSettings& settings, const RunContext& run)
+             const ParameterizationSettings& settings, const RunContext& run,
+             const DiscLimits& limits)
       : positions_ (positions), nearest_ (nearest), normals_ (normals),
         star_settings_ (star_settings), settings_ (settings), run_ (run.withinStage ()),
-        place_ (positions.size (), NONE)
+        limits_ (limits), number_ (positions.size (), NONE)
   {
     settings_.domain.curve = Domain::CIRCLE;
   }
 
-  /// Cuts the regions out of a mesh over `points` of the whole cloud (nullptr: all of them).
+  // Cuts the regions out of a mesh, and keeps its other triangles. A region that cannot be
+  // parameterized stays in the mesh.
+  // \param points of the whole cloud that the mesh's own numbers mean; nullptr: they are the same
+  // \param level  of the mesh
   void cut (std::vector<Triangle> triangles, const std::vector<Index>* points,
             const std::vector<CollapsedRegion>& regions, std::size_t level)
   {
     for (const CollapsedRegion& region : regions) {
-      Subproblem subproblem = makePiece (region, points);
+      Subproblem subproblem = makeSubproblem (region, points);
       subproblem.level = level + 1;
-      if (!solvePiece (subproblem))
+      if (!solveSubproblem (subproblem))
         continue;
       waiting_.push_back (std::move (subproblem));
       for (const Index t : region.triangles)
@@ -81,7 +85,8 @@ public:
     }
   }
 
-  /// Goes on with the subproblems until none is left. \return levels
+  // Cuts the regions out of the subproblems, too, until none is left.
+  // \return levels
   std::size_t solveAll ()
   {
     std::size_t levels = 0;
@@ -90,7 +95,7 @@ public:
       waiting_.pop_back ();
       levels = std::max (levels, subproblem.level);
       const std::vector<CollapsedRegion> regions = findCollapsedRegions (
-          subproblem.mesh, subproblem.uv, subproblem.positions, subproblem.loop);
+          subproblem.mesh, subproblem.uv, subproblem.positions, subproblem.loop, run_, limits_);
       cut (std::move (subproblem.mesh.triangles), &subproblem.points, regions, subproblem.level);
     }
     return levels;
@@ -99,42 +104,44 @@ public:
   std::vector<Triangle> takeTriangles () { return std::move (triangles_); }
 
 private:
-  static Subproblem makePiece (const CollapsedRegion& region, const std::vector<Index>* points)
+  static Subproblem makeSubproblem (const CollapsedRegion& region, const std::vector<Index>* points)
   {
     Subproblem subproblem;
-    const auto name = [points] (Index p) { return points == nullptr ? p : (*points)[p]; };
+    const auto inCloud = [points] (Index p) { return points == nullptr ? p : (*points)[p]; };
     for (const std::vector<Index>* part : {&region.loop, &region.interior})
       for (const Index p : *part)
-        subproblem.points.push_back (name (p));
+        subproblem.points.push_back (inCloud (p));
     std::sort (subproblem.points.begin (), subproblem.points.end ());
     for (const Index p : region.loop)
       subproblem.loop.push_back (static_cast<Index> (
-          std::lower_bound (subproblem.points.begin (), subproblem.points.end (), name (p)) -
+          std::lower_bound (subproblem.points.begin (), subproblem.points.end (), inCloud (p)) -
           subproblem.points.begin ()));
     return subproblem;
   }
 
-  // Stars among the subproblem's own points: beyond the rim there is nothing to hang on.
-  CsrLists nearWithin (const Subproblem& subproblem)
+  // The nearest neighbours among the subproblem's own points: points beyond its loop do not take
+  // part.
+  CsrLists neighborsWithin (const Subproblem& subproblem)
   {
     for (std::size_t i = 0; i < subproblem.points.size (); ++i)
-      place_[subproblem.points[i]] = static_cast<Index> (i);
+      number_[subproblem.points[i]] = static_cast<Index> (i);
     CsrLists nearest;
     nearest.offsets.push_back (0);
     for (const Index p : subproblem.points) {
       for (const Index q : nearest_.row (p))
-        if (place_[q] != NONE)
-          nearest.ids.push_back (place_[q]);
+        if (number_[q] != NONE)
+          nearest.ids.push_back (number_[q]);
       nearest.offsets.push_back (static_cast<Index> (nearest.ids.size ()));
     }
     for (const Index p : subproblem.points)
-      place_[p] = NONE;
+      number_[p] = NONE;
     return nearest;
   }
 
-  bool solvePiece (Subproblem& subproblem)
+  // \return false if the subproblem has no solution that fills its loop
+  bool solveSubproblem (Subproblem& subproblem)
   {
-    const CsrLists nearest = nearWithin (subproblem);
+    const CsrLists nearest = neighborsWithin (subproblem);
     std::vector<Eigen::Vector3f> normals;
     for (const Index p : subproblem.points) {
       subproblem.positions.push_back (positions_[p]);
@@ -143,7 +150,7 @@ private:
     Parameterization parameterization =
         parameterize (subproblem.positions, nearest,
                       makeStars (subproblem.positions, nearest, normals, star_settings_, run_),
-                      subproblem.loop, settings_, run_);
+                      subproblem.loop, settings_, run_, limits_);
     if (parameterization.problem)
       return false;
     subproblem.uv = std::move (parameterization.uv);
@@ -157,7 +164,8 @@ private:
   StarSettings star_settings_;
   ParameterizationSettings settings_;
   RunContext run_;
-  std::vector<Index> place_; // in the subproblem at hand, of each point of the whole cloud
+  DiscLimits limits_;
+  std::vector<Index> number_; // of each point in the subproblem that is being made; NONE: not in it
   std::vector<Subproblem> waiting_;
   std::vector<Triangle> triangles_;
 };
@@ -169,12 +177,13 @@ layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& 
                         const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
                         const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& loop,
                         const StarSettings& star_settings, const ParameterizationSettings& settings,
-                        const RunContext& run)
+                        const RunContext& run, const DiscLimits& limits)
 {
-  const std::vector<CollapsedRegion> regions = findCollapsedRegions (mesh, uv, positions, loop);
+  const std::vector<CollapsedRegion> regions =
+      findCollapsedRegions (mesh, uv, positions, loop, run, limits);
   if (regions.empty ())
     return 0;
-  Recursion recursion (positions, nearest, normals, star_settings, settings, run);
+  Recursion recursion (positions, nearest, normals, star_settings, settings, run, limits);
   recursion.cut (mesh.triangles, nullptr, regions, 0);
   const std::size_t levels = recursion.solveAll ();
   TriangleMesh whole;

@@ -11,25 +11,30 @@ namespace pcl
 {
 namespace floater
 {
-/// On a tube of length L and radius R parameters shrink like exp (-L / R), and from L / R of about
-/// 35 on points coincide in the plane. Here the rim of every collapsed region is laid on a fresh
-/// circle, its points are solved for and triangulated alone, and its triangles are replaced; then
-/// the regions that have collapsed in these, until there is none. One level is good for an L / R of
-/// 14. What cannot be solved for stays as it was.
+/// On a tube of length L and radius R parameters shrink like exp (-L / R). From an L / R of about
+/// 35 on, points coincide in the plane. Here the loop of every collapsed region is laid on a circle
+/// of its own, the points of the region are parameterized and triangulated alone, and the region's
+/// triangles are replaced. The same is then done for the regions that have collapsed within these,
+/// until there are none. One level covers an L / R of about 14. A region that cannot be
+/// parameterized stays as it was. This goes beyond TW 385.
 ///
-/// The mesh stays a disc with the same boundary. One pass over it where nothing has collapsed; else
-/// each level costs as much as a reconstruction of the points that are in it.
-/// \param mesh    triangulation of the parameters (see triangulatePlane)
-/// \param uv      per point
-/// \param normals per point, of arbitrary sign
-/// \param loop    points of the boundary in order
+/// The mesh stays a disc with the same boundary. One pass over it where nothing has collapsed;
+/// otherwise each level costs as much as a reconstruction of the points in it.
+/// \param mesh          triangulation of the parameters (see triangulatePlane ())
+/// \param uv            per point
+/// \param positions     per point
+/// \param nearest       nearest neighbours of each point
+/// \param normals       per point, unit length, of any sign
+/// \param loop          boundary points of the mesh in order
+/// \param star_settings of the stars of the points in a region
+/// \param settings      of the regions' parameterizations, always on the circle
 /// \return levels of the recursion; 0: no region was laid out again
 std::size_t
 layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
                         const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
                         const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& loop,
                         const StarSettings& star_settings, const ParameterizationSettings& settings,
-                        const RunContext& run);
+                        const RunContext& run, const DiscLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

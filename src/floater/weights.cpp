@@ -15,15 +15,16 @@ namespace floater
 {
 namespace
 {
-// tan (alpha / 2) of a sector that is a half turn, or nearly: the centre lies on the segment
-// between two neighbours, whose weights then outdo the others without limit. Any large value
-// reproduces the centre to its reciprocal; a larger one would uncouple the two from the rest.
+// tan (alpha / 2) of a sector of half a turn, or nearly. There the centre lies on the segment
+// between two neighbours, and their weights exceed all others without limit. Any large value
+// reproduces the centre up to an error of its reciprocal; a much larger one would decouple these
+// two neighbours from the rest.
 constexpr double LARGEST_TANGENT = 1e8;
 
-// Sine and half tangent below which two neighbours are in one direction, or in opposite ones.
+// Sine or half tangent below which two neighbours lie in one direction, or in opposite directions.
 constexpr double SAME_DIRECTION = 1e-9;
 
-// One star, copied next to each other; capacity is kept from star to star.
+// One star in contiguous memory, whose capacity is kept from star to star.
 struct LocalStar
 {
   std::vector<Eigen::Vector2d> directions; // unit vectors
@@ -32,13 +33,13 @@ struct LocalStar
 
   std::size_t size () const { return directions.size (); }
   std::size_t next (std::size_t i) const { return i + 1 == size () ? 0 : i + 1; }
-  // Twice the area of the triangle of the centre and two neighbours.
+  // Twice the signed area of the triangle of the centre and two neighbours.
   double area (std::size_t i, std::size_t j) const
   {
     return lengths[i] * lengths[j] * cross (directions[i], directions[j]);
   }
 
-  // False if the star has no extent.
+  // \return false if the star has no extent, or an infinite one
   bool assign (const Eigen::Vector2d* offsets, std::size_t count, bool is_closed)
   {
     closed = is_closed;
@@ -61,8 +62,8 @@ struct LocalStar
 };
 
 // Equation (3) without its loss of digits: tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin,
-// each where it does not cancel. The absolute value is there for sectors next to 0 or pi, whose
-// cross product may round to the wrong side.
+// each where nothing cancels. The sine is an absolute value since in sectors next to 0 or pi it may
+// be rounded to the wrong sign.
 double
 halfTangent (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -80,8 +81,9 @@ inverseDistance (const LocalStar& star, double* weights)
     weights[i] = 1.0 / star.lengths[i];
 }
 
-// Gives the mean to each of several neighbours in one direction. Their sum is what reproduces the
-// centre; by rounding alone it would fall to some of them, and the others be cut off.
+// Gives each of several neighbours in one direction the mean of their weights. Only their sum is
+// needed to reproduce the centre. Left alone, rounding would give it to some of them and cut off
+// the others.
 void
 shareInDirections (const LocalStar& star, double* weights)
 {
@@ -89,7 +91,7 @@ shareInDirections (const LocalStar& star, double* weights)
   const auto same = [&star] (std::size_t i, std::size_t j) {
     return halfTangent (star.directions[i], star.directions[j]) < SAME_DIRECTION;
   };
-  std::size_t start = 0; // the first of its direction
+  std::size_t start = 0; // a neighbour that is the first in its direction
   while (start < count && same (start == 0 ? count - 1 : start - 1, start))
     ++start;
   for (std::size_t step = 0; step < count;) {
@@ -131,33 +133,33 @@ isOpposite (const LocalStar& star, std::size_t i, std::size_t j)
          std::abs (cross (star.directions[i], star.directions[j])) < SAME_DIRECTION;
 }
 
-// Floater 1997, section 6: the ray from each neighbour through the centre leaves the star by an
-// edge; the weights are the mean over the neighbours of the centre's barycentric coordinates in
-// these triangles. Neighbours go round once while the edge opposite to them does, so this is
-// linear.
+// Floater 1997, section 6: the ray from a neighbour through the centre leaves the star by an edge.
+// That edge and the neighbour make a triangle around the centre. The weights are the barycentric
+// coordinates of the centre in these triangles, averaged over the neighbours. The edge goes round
+// once while the neighbour does, so this takes linear time.
 void
 shapePreserving (const LocalStar& star, double* weights)
 {
   const std::size_t count = star.size ();
   std::fill (weights, weights + count, 0.0);
-  const auto behind = [&] (std::size_t i, std::size_t j) {
-    // True if j is not yet across the line through i and the centre.
+  const auto isBefore = [&] (std::size_t i, std::size_t j) {
+    // True if j is still on the near side of the line through i and the centre.
     const double sine = cross (star.directions[i], star.directions[j]);
     return sine > 0.0 ||
            (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);
   };
-  // The opposite edge ends this many neighbours after i. Never at the next one: where that is
-  // exactly opposite, the triangle with the one after it gives the same coordinates and has an
-  // area.
+  // The opposite edge ends this many neighbours after i, but never at the next neighbour. If that
+  // one is exactly opposite, the triangle with the neighbour after it gives the same coordinates
+  // and has an area.
   std::size_t steps = 2;
   for (std::size_t i = 0; i < count; ++i) {
     steps = std::max<std::size_t> (steps, 3) - 1;
-    while (steps + 1 < count && behind (i, (i + steps) % count))
+    while (steps + 1 < count && isBefore (i, (i + steps) % count))
       ++steps;
     const std::size_t last = (i + steps) % count;
     const std::size_t first = last == 0 ? count - 1 : last - 1;
-    // Where an end of the edge is exactly opposite, that edge may have no extent seen from the
-    // centre: its ends are in one direction.
+    // If an end of the edge is exactly opposite, both ends may lie in one direction, so that the
+    // triangle has no area.
     const std::size_t across = isOpposite (star, i, last) ? last : first;
     if (across != i && isOpposite (star, i, across)) {
       const double whole = star.lengths[i] + star.lengths[across];
@@ -170,14 +172,14 @@ shapePreserving (const LocalStar& star, double* weights)
     const double at_last = std::max (0.0, star.area (i, first));
     const double sum = at_i + at_first + at_last;
     if (!(sum > 0.0))
-      continue; // no area: all three on one line through the centre
+      continue; // no area: all three lie on one line through the centre
     weights[i] += at_i / sum;
     weights[first] += at_first / sum;
     weights[last] += at_last / sum;
   }
 }
 
-// Positive, with sum 1.
+// Makes the weights of a star positive, with sum 1.
 void
 normalize (double* weights, std::size_t count)
 {

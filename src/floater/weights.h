@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weights of the points in their neighbours.
+// Weights of each point in its neighbours (TW 385, section 4.1).
 #pragma once
 
 #include "core/run_context.h"
@@ -13,18 +13,22 @@ namespace pcl
 {
 namespace floater
 {
-/// Smallest weight of a row relative to its largest. A weight lost in rounding would cut the graph.
+/// Smallest weight of a row relative to its largest. Far below any weight that matters, and far
+/// above rounding: a weight that is lost in rounding would cut the graph.
 constexpr double SMALLEST_WEIGHT = 1e-10;
 
-/// Weights lambda_ij > 0, parallel to stars.neighbors.ids, that sum to 1 in each row.
+/// Weights lambda_ij > 0 that sum to 1 in each row.
 ///
-/// Mean value (TW 385, equations (2) and (3)) and shape preserving (Floater 1997, section 6)
-/// weights of a closed star reproduce their centre: sum lambda_ij offset_ij = 0. In an open star (a
-/// boundary point that is not on the loop, or a gap in the sampling) the empty sector gives no term
-/// to mean value weights, so that they stay positive; shape preserving weights fall back to mean
-/// value there. Several neighbours in one direction, as stars of all neighbours have them, get
-/// equal mean value weights times length. Stars without extent get uniform weights. O(entries), no
-/// allocation per point, the same for every number of threads.
+/// In a closed star, mean value weights (Floater 2003; TW 385, equations (2) and (3)) and shape
+/// preserving weights (Floater 1997, section 6) reproduce the centre: the offsets times their
+/// weights sum to 0. In an open star (of a boundary point that is not on the loop, or at a gap in
+/// the sampling) mean value weights get no term from the sector without a triangle, so that they
+/// stay positive, and mean value weights stand in for shape preserving ones. Several neighbours in
+/// one direction, as stars of all neighbours have them, get equal mean value weights but for the
+/// division by their distances. A star without extent gets uniform weights. O(entries); the same
+/// for every number of threads.
+/// \param stars with their offsets
+/// \return parallel to stars.neighbors.ids
 std::vector<double>
 computeWeights (const Stars& stars, Weighting weighting, const RunContext& run);
 

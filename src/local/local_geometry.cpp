@@ -2,7 +2,6 @@
 #include "local/local_geometry.h"
 
 #include "local/spacing.h"
-#include "local/tangent_planes.h"
 
 #include <utility>
 
@@ -12,7 +11,7 @@ namespace floater
 {
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run)
+                   const RunContext& run, const PlaneLimits& planes)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   LocalGeometry geometry;
@@ -20,8 +19,9 @@ makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings&
   geometry.spacing = localSpacing (positions, geometry.neighbors, run);
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, geometry.neighbors, run);
-  geometry.stars = makeStars (positions, geometry.neighbors,
-                              fitTangentPlanes (positions, geometry.neighbors, run), settings, run);
+  geometry.stars =
+      makeStars (positions, geometry.neighbors,
+                 fitTangentPlanes (positions, geometry.neighbors, run, planes), settings, run);
   return geometry;
 }
 

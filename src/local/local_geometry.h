@@ -3,6 +3,7 @@
 #pragma once
 
 #include "local/stars.h"
+#include "local/tangent_planes.h"
 #include "points/points.h"
 
 #include <vector>
@@ -30,7 +31,7 @@ struct LocalGeometry
 /// \param neighbors of each point, nearest first
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run);
+                   const RunContext& run, const PlaneLimits& planes = {});
 
 } // namespace floater
 } // namespace pcl

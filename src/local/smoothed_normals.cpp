@@ -12,8 +12,9 @@ namespace floater
 {
 namespace
 {
-constexpr double PERPENDICULAR = 0.1; // cosine below which it does not tell the side
-constexpr double CREASE = 0.9;        // cosine between own and mean normal
+constexpr std::size_t NEAREST = 8;    // neighbours over which the mean is taken: the first ring
+constexpr double PERPENDICULAR = 0.1; // cosine below which its sign does not tell the side
+constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
 } // namespace
 
 Eigen::Vector3d
@@ -23,7 +24,7 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
   const Eigen::Vector3d normal = normals[p].cast<double> ();
   Eigen::Vector3d sum = normal;
   const Row row = neighbors.row (p);
-  for (std::size_t i = 0; i < std::min (MEAN_OVER, row.size ()); ++i) {
+  for (std::size_t i = 0; i < std::min (NEAREST, row.size ()); ++i) {
     const Eigen::Vector3d other = normals[row[i]].cast<double> ();
     double same = normal.dot (other);
     if (std::abs (same) < PERPENDICULAR) {
@@ -46,7 +47,7 @@ smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
     for (std::size_t point = first; point < last; ++point) {
       const auto p = static_cast<Index> (point);
       const Eigen::Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();
-      smoothed_normals[p] = std::abs (mean.dot (normals[p])) < CREASE ? mean : normals[p];
+      smoothed_normals[p] = std::abs (mean.dot (normals[p])) < EDGE ? mean : normals[p];
     }
   });
   return smoothed_normals;

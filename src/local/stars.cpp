@@ -15,9 +15,6 @@ namespace floater
 {
 namespace
 {
-constexpr double LEAVES_PLANE = 0.75; // sine of the angle between a neighbour and a tangent plane
-constexpr double SAME_SIDE = 0.3;     // cosine between the normals of neighbours
-
 enum class Tier
 {
   EITHER_PLANE,
@@ -70,9 +67,12 @@ private:
       const double length = offset.norm ();
       if (tier != Tier::ALL) {
         const Eigen::Vector3d other_normal = normals_[q].cast<double> ();
-        const bool leaves_own = std::abs (frame.normal.dot (offset)) > LEAVES_PLANE * length;
-        const bool leaves_other = std::abs (other_normal.dot (offset)) > LEAVES_PLANE * length;
-        const bool turned = std::abs (frame.normal.dot (other_normal)) < SAME_SIDE;
+        const bool leaves_own =
+            std::abs (frame.normal.dot (offset)) > settings_.limits.plane_sine * length;
+        const bool leaves_other =
+            std::abs (other_normal.dot (offset)) > settings_.limits.plane_sine * length;
+        const bool turned =
+            std::abs (frame.normal.dot (other_normal)) < settings_.limits.normal_cosine;
         if (tier == Tier::EITHER_PLANE ? leaves_own || leaves_other || turned
                                        : leaves_own && leaves_other)
           continue;

@@ -18,11 +18,20 @@ enum class StarKind
   ALL       ///< all, in anti-clockwise order; several may lie in one direction
 };
 
+/// Which neighbours are taken for points of another sheet. Chosen on the clouds of the first
+/// benchmark: wide enough for sharp edges of 90 degrees, and not certain for thin sheets.
+struct SheetLimits
+{
+  double plane_sine = 0.75;   ///< of the angle, 49 degrees, between a tangent plane and a neighbour
+  double normal_cosine = 0.3; ///< of the angle, 72 degrees, between normals
+};
+
 struct StarSettings
 {
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
   StarKind kind = StarKind::DELAUNAY;
   bool with_offsets = true; ///< keep the neighbours' places in the plane: 16 bytes per entry
+  SheetLimits limits{};
 };
 
 /// Stars of the points in their tangent planes: neighbours joined to the centre. They are in

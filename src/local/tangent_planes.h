@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normals of the points by least-squares planes.
+// Normals of the points by least-squares planes (TW 385, section 4.1).
 #pragma once
 
 #include "core/csr_lists.h"
@@ -11,12 +11,22 @@ namespace pcl
 {
 namespace floater
 {
-/// Unit normals, of arbitrary sign: the plane through the 8 nearest points, then refitted to those
-/// of all k neighbours that lie near that plane, so that a second sheet within reach does not tilt
-/// it. \param near nearest neighbours, nearest first
+/// What is taken for the sheet of a point. Both values were chosen on the clouds of the first
+/// benchmark, and decide little there.
+struct PlaneLimits
+{
+  std::size_t core_points = 8; ///< nearest neighbours through which the first plane is laid: about
+                               ///< the first ring of an even sampling, and a little more
+  double sheet_sine = 0.5;     ///< of the largest angle, 30 degrees, between the first plane and a
+                               ///< neighbour that the second one takes in
+};
+
+/// Unit normals, of arbitrary sign: those of the planes through the 8 nearest neighbours, refitted
+/// to those of all neighbours that lie near that plane. So a second sheet within reach does not
+/// tilt them. O(n k). \param neighbors of each point, nearest first
 std::vector<Eigen::Vector3f>
 fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  const RunContext& run);
+                  const RunContext& run, const PlaneLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

@@ -11,7 +11,7 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t WIDTH_POINTS = 256; // at most, evenly taken, for the width
+constexpr std::size_t WIDTH_POINTS = 256; // at most, for the width: it takes their square
 
 double
 widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& positions)
@@ -44,10 +44,13 @@ measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
 
 std::vector<BoundaryLoop>
 findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
-                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing)
+                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+                   const RunContext& run)
 {
   std::vector<BoundaryLoop> loops;
-  for (std::vector<Index>& points : boundaryLoops (mesh)) {
+  ProgressLoop progress (run);
+  for (std::vector<Index>& points : boundaryLoops (mesh, run)) {
+    progress.next ();
     BoundaryLoop loop;
     loop.component = components.of_triangle[mesh.triangle_of[points.front ()]];
     loop.points = std::move (points);

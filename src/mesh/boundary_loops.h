@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Boundary loops of a mesh.
+// Boundary loops of a mesh and their sizes.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -15,24 +15,25 @@ struct BoundaryLoop
 {
   std::vector<Index> points; ///< in order, the surface on the left, from the smallest point on
   Index component = 0;       ///< of the mesh (see findComponents)
-  double length = 0.0;       ///< in the unit of the positions
+  double length = 0.0;       ///< sum of its edges, in the unit of the positions
   double width = 0.0;        ///< largest distance between two of its points, same unit
   double spacing = 0.0;      ///< mean local spacing of its points, same unit
   bool keep_open = false;    ///< as a boundary of the surface
 };
 
 /// Sets length, width and spacing from the points. The width of a loop of up to 256 points is
-/// exact. A longer one is measured between 256 of its points, evenly taken, and so falls short by
-/// two of these steps at most. O(points).
+/// exact. A longer one is measured between at most 256 of its points, at equal steps along the
+/// loop, and is too short by at most two of these steps. O(points).
+/// \param spacing local spacing of each point of the mesh
 void
 measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
              const std::vector<float>& spacing);
 
-/// All boundary loops of a mesh, measured, in the order of boundaryLoops ().
+/// All boundary loops of a mesh, measured, in the order of boundaryLoops (). O(n).
 std::vector<BoundaryLoop>
 findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
-                   const std::vector<Eigen::Vector3d>& positions,
-                   const std::vector<float>& spacing);
+                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+                   const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

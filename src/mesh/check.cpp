@@ -17,9 +17,6 @@ namespace floater
 {
 namespace
 {
-constexpr double PRECISION = 1e-7; // of single precision coordinates, in diagonals of the cloud
-constexpr double FLATTEST = 1e-3;  // height of a triangle by its longest edge
-
 using BoundaryEdge = std::pair<Index, Index>; // from, to: the surface on the left
 
 bool
@@ -33,13 +30,14 @@ class Examiner
 {
 public:
   Examiner (const std::vector<Triangle>& triangles, const Points& points,
-            const std::vector<float>& spacing, const RunContext& run, MeshExamination& found)
-      : triangles_ (triangles), points_ (points), spacing_ (spacing), run_ (run), found_ (found),
-        check_ (found.check), sets_ (points.size ()), slot_ (points.size (), NONE)
+            const std::vector<float>& spacing, const RunContext& run, const CheckLimits& limits,
+            MeshExamination& found)
+      : triangles_ (triangles), points_ (points), spacing_ (spacing), run_ (run), limits_ (limits),
+        found_ (found), check_ (found.check), sets_ (points.size ()), slot_ (points.size (), NONE)
   {
   }
 
-  // Every point with its triangles and edges, then the components.
+  // Looks at the triangles and edges around every point, then counts components.
   void examine ()
   {
     const std::size_t points = points_.positions.size ();
@@ -57,31 +55,34 @@ public:
                                   static_cast<std::int64_t> (triangles_at_.ids.size () / 3);
     check_.longest_edge = std::sqrt (sqr_longest_);
     found_.longest_inside = std::sqrt (sqr_longest_inside_);
-    std::vector<Index> ().swap (triangles_at_.ids); // the lengths of the rows are still needed
+    std::vector<Index> ().swap (triangles_at_.ids); // the offsets are still needed
     countComponents ();
   }
 
-  // Ascending.
+  // Sorted.
   const std::vector<BoundaryEdge>& boundary () const { return boundary_; }
 
   Index componentOf (Index p) { return component_[sets_.find (p)]; }
 
 private:
-  // An edge from the point that is looked at, and the triangles on both sides of it.
+  // An edge from the current point, and the triangles at it.
   struct Spoke
   {
     Index to;
-    Index out = 0, in = 0;           // triangles that run along it from the point, and to it
-    Index left = NONE, right = NONE; // their third corners
-    Index fan;                       // another spoke of the same fan, or itself
+    Index out = 0, in = 0;           // triangles that run along it from the point, and to the point
+    Index left = NONE, right = NONE; // third corners of an outgoing and of an incoming triangle
+    Index fan;                       // disjoint sets: another spoke of the same fan, or itself
   };
 
   void indexCorners ()
   {
     const std::size_t points = points_.size ();
-    for (const Triangle& t : triangles_)
+    ProgressLoop progress (run_);
+    for (const Triangle& t : triangles_) {
+      progress.next ();
       if (!isProper (t, points))
         noteImproper (t);
+    }
     triangles_at_ = makeCsrLists (points, [&] (const auto& emit) {
       for (Index t = 0; t < triangles_.size (); ++t)
         if (isProper (triangles_[t], points))
@@ -158,8 +159,9 @@ private:
     const double sqr_longest =
         std::max ({ab.squaredNorm (), ac.squaredNorm (), (ac - ab).squaredNorm ()});
     const double sqr_height = ab.cross (ac).squaredNorm () / sqr_longest;
-    const double precision = PRECISION * points_.diagonal;
-    if (sqr_height > precision * precision || sqr_height > FLATTEST * FLATTEST * sqr_longest)
+    const double precision = limits_.precision * points_.diagonal;
+    const double flat = limits_.flat_height;
+    if (sqr_height > precision * precision || sqr_height > flat * flat * sqr_longest)
       return;
     ++check_.degenerate_triangles;
     note (found_.degenerate_at, a);
@@ -184,38 +186,39 @@ private:
       note (found_.broken_at, p);
       return;
     }
-    if (sqr_length > LONG_EDGE * LONG_EDGE) {
+    if (sqr_length > limits_.long_edge * limits_.long_edge) {
       ++found_.long_edges;
       if (sqr_length > sqr_longest_inside_) {
         sqr_longest_inside_ = sqr_length;
         found_.longest_inside_at = {p, q};
       }
     }
-    const Eigen::Vector3d left = pq.cross (points_.positions[spoke.left] - points_.positions[p]);
-    const Eigen::Vector3d right =
-        (points_.positions[spoke.right] - points_.positions[p]).cross (pq);
-    if (isFold (left, right)) {
+    const std::vector<Eigen::Vector3d>& at = points_.positions;
+    if (isFold (areaVector (at[p], at[q], at[spoke.left]),
+                areaVector (at[p], at[spoke.right], at[q]))) {
       ++check_.folds;
       note (found_.fold_at, p);
     }
   }
 
-  // Points that hang together do so by edges, but where a vertex has several fans.
+  // Components by vertices. They are those by edges unless a vertex has several fans.
   void countComponents ()
   {
-    std::fill (slot_.begin (), slot_.end (), 0);
-    for (Index p = 0; p < slot_.size (); ++p)
+    std::vector<Index>& points_of_root = slot_;
+    std::fill (points_of_root.begin (), points_of_root.end (), 0);
+    for (Index p = 0; p < points_of_root.size (); ++p)
       if (triangles_at_.offsets[p] < triangles_at_.offsets[p + 1])
-        ++slot_[sets_.find (p)];
-    component_.assign (slot_.size (), NONE);
-    for (Index p = 0; p < slot_.size (); ++p) {
-      if (slot_[p] == 0)
+        ++points_of_root[sets_.find (p)];
+    component_.assign (points_of_root.size (), NONE);
+    for (Index p = 0; p < points_of_root.size (); ++p) {
+      const std::size_t count = points_of_root[p];
+      if (count == 0)
         continue;
       component_[p] = static_cast<Index> (check_.components++);
-      found_.component_points.push_back (slot_[p]);
-      found_.largest_component = std::max<std::size_t> (found_.largest_component, slot_[p]);
-      if (found_.smallest_component_at == NONE || slot_[p] < found_.smallest_component) {
-        found_.smallest_component = slot_[p];
+      found_.component_points.push_back (count);
+      found_.largest_component = std::max (found_.largest_component, count);
+      if (found_.smallest_component_at == NONE || count < found_.smallest_component) {
+        found_.smallest_component = count;
         found_.smallest_component_at = p;
       }
     }
@@ -247,20 +250,21 @@ private:
   const Points& points_;
   const std::vector<float>& spacing_;
   RunContext run_;
+  CheckLimits limits_;
   MeshExamination& found_;
   MeshCheck& check_;
-  CsrLists triangles_at_;   // of every point
-  DisjointSets sets_;       // of points that are connected by edges
-  std::vector<Index> slot_; // while a point is looked at: of its neighbours, the spoke to each;
-                            // afterwards of every root the points of its component
-  std::vector<Index> component_; // of every root
+  CsrLists triangles_at_;        // triangles around each point
+  DisjointSets sets_;            // of points that are connected by edges
+  std::vector<Index> slot_;      // per point: the spoke of the current point that leads to it
+  std::vector<Index> component_; // of each root of the sets
   std::vector<Spoke> spokes_;
   std::vector<BoundaryEdge> boundary_;
   std::size_t edges_ = 0;
   double sqr_longest_ = 0.0, sqr_longest_inside_ = 0.0; // in local spacings
 };
 
-// Boundary edges in cycles. Where the mesh is broken, a walk ends at a point that no edge leaves.
+// Boundary edges in cycles. Where the mesh is no manifold, a walk ends at a point that no edge
+// leaves.
 std::vector<BoundaryLoop>
 walkLoops (const std::vector<BoundaryEdge>& edges)
 {
@@ -300,7 +304,7 @@ summaryOf (const BoundaryLoop& loop, const Points& points)
   return summary;
 }
 
-// Longest first, equal ones by their place.
+// Longest first, those of equal length by their place.
 void
 sortLoops (MeshExamination& found)
 {
@@ -311,25 +315,25 @@ sortLoops (MeshExamination& found)
     return loops[a].length != loops[b].length ? loops[a].length > loops[b].length
                                               : loops[a].at < loops[b].at;
   });
-  std::vector<LoopSummary> sorted_loops;
-  std::vector<BoundaryLoop> sorted_rims;
+  std::vector<LoopSummary> sorted_summaries;
+  std::vector<BoundaryLoop> sorted_loops;
   for (const std::size_t i : order) {
-    sorted_loops.push_back (loops[i]);
-    sorted_rims.push_back (std::move (found.loops[i]));
+    sorted_summaries.push_back (loops[i]);
+    sorted_loops.push_back (std::move (found.loops[i]));
   }
-  found.check.loops = std::move (sorted_loops);
-  found.loops = std::move (sorted_rims);
+  found.check.loops = std::move (sorted_summaries);
+  found.loops = std::move (sorted_loops);
 }
 
 } // namespace
 
 MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
-           const std::vector<float>& spacing, const RunContext& run)
+           const std::vector<float>& spacing, const RunContext& run, const CheckLimits& limits)
 {
   MeshExamination found;
   found.check.done = true;
-  Examiner examiner (triangles, points, spacing, run, found);
+  Examiner examiner (triangles, points, spacing, run, limits, found);
   examiner.examine ();
   found.loops = walkLoops (examiner.boundary ());
   for (BoundaryLoop& loop : found.loops) {
@@ -338,7 +342,7 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
     found.check.loops.push_back (summaryOf (loop, points));
   }
   sortLoops (found);
-  // Of every component the characteristic is 2 - 2 genus - loops.
+  // The Euler characteristic of a component is 2 - 2 genus - loops.
   if (found.isManifold ())
     found.check.genus =
         (2 * static_cast<std::int64_t> (found.check.components) -

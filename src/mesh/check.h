@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last look at a mesh, whatever made it.
+// Examines a finished mesh, whatever method made it.
 #pragma once
 
 #include "mesh/boundary_loops.h"
@@ -14,24 +14,32 @@ namespace pcl
 {
 namespace floater
 {
-/// Edges inside a surface that are longer are told, in local spacings: the mean of both ends.
-constexpr double LONG_EDGE = 6.0;
+/// What the examination counts as odd. None of it changes a mesh.
+struct CheckLimits
+{
+  double long_edge = 6.0;    ///< mean local spacings of its two ends; longer edges inside the
+                             ///< surface are counted. Chosen, not measured
+  double precision = 1e-7;   ///< of coordinates, in bounding box diagonals: single precision
+  double flat_height = 1e-3; ///< of a triangle, divided by its longest edge. Chosen, not measured.
+                             ///< A triangle is degenerate if its height is below both limits
+};
 
-/// What triangles are, with the places of what is odd about them. A place is a point, NONE if there
-/// is none: the first in the order of the points.
+/// What triangles form, with the places of what is odd about them. A place is the smallest point
+/// where it was found, NONE if there is none.
 struct MeshExamination
 {
   MeshCheck check;                 ///< lengths in units of the cloud, indices of the cloud
-  std::vector<BoundaryLoop> loops; ///< parallel to check.loops; longest first
+  std::vector<BoundaryLoop> loops; ///< parallel to check.loops: longest first
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
-  Index broken_at = NONE;                    ///< not manifold, or wound against each other
-  Index fold_at = NONE;
-  Index degenerate_at = NONE;
-  std::size_t long_edges = 0;                  ///< longer than LONG_EDGE, not on a boundary
-  double longest_inside = 0.0;                 ///< of these, in local spacings ...
-  std::pair<Index, Index> longest_inside_at{}; ///< ... and its ends
-  std::size_t smallest_component = 0, largest_component = 0; ///< vertices of these
+  Index broken_at = NONE;      ///< not manifold, or two triangles with opposite orientations
+  Index fold_at = NONE;        ///< start of a folded edge
+  Index degenerate_at = NONE;  ///< corner of a degenerate triangle
+  std::size_t long_edges = 0;  ///< longer than CheckLimits::long_edge, not on a boundary
+  double longest_inside = 0.0; ///< the longest of these, in local spacings
+  std::pair<Index, Index> longest_inside_at{}; ///< its two ends
+  std::size_t smallest_component = 0;          ///< vertices of it
+  std::size_t largest_component = 0;           ///< vertices of it
   Index smallest_component_at = NONE;
 
   bool isManifold () const
@@ -40,28 +48,31 @@ struct MeshExamination
            check.orientation_conflicts == 0;
   }
 
-  /// One component with one boundary loop and no handle. Only for a manifold.
+  /// True for one component with one boundary loop and no handle. Only for a manifold.
   bool isDisc () const
   {
     return check.components == 1 && loops.size () == 1 && check.euler_characteristic == 1;
   }
 };
 
-/// Examines triangles, which are point indices of the working set, from nothing but themselves, the
-/// positions and the local spacings. Any input is taken: a triangle that names a point twice, or
-/// one that does not exist, counts as a non-manifold edge and as degenerate, and is else left out;
-/// two triangles on the same three points, back to back, make their corners non-manifold.
+/// Examines triangles by nothing but their corners, the positions and the local spacings. Any input
+/// is allowed. A triangle that names a point twice, or one that does not exist, counts as one
+/// non-manifold edge and as degenerate, and is otherwise ignored. Two triangles on the same three
+/// points, back to back, make their corners non-manifold.
 ///
-/// Genus and loops mean something only if isManifold (). A fold is an edge whose two triangles are
-/// more than 120 degrees apart. A triangle is degenerate if its height is below 1e-7 of the
-/// diagonal of the cloud, the precision of coordinates, and below a thousandth of its longest edge.
-/// Loops are measured by measureLoop ().
+/// The genus and the loops mean something only if isManifold (). Components are connected by edges.
+/// BoundaryLoop::component and component_points count components that share a vertex as one. A fold
+/// is an edge whose two triangles are more than 120 degrees apart (isFold). Loops are measured by
+/// measureLoop ().
 ///
-/// O(n), one thread; 0.1 microseconds per point, 0.4 if the triangles come in no order, and 40
+/// O(n), one thread: 0.1 microseconds per point, 0.4 if the triangles are in random order, and 40
 /// bytes per point while it runs.
+/// \param triangles corners as points of `points`
+/// \param spacing   local spacing of each point
 MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
-           const std::vector<float>& spacing, const RunContext& run);
+           const std::vector<float>& spacing, const RunContext& run,
+           const CheckLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

@@ -16,40 +16,36 @@ namespace floater
 {
 namespace
 {
-// Least volume of an open component, closed over its rim from its middle, that tells an inside from
-// an outside: as a share of what it would be if all of it faced straight away from there. A half
-// sphere has 0.8, a round bowl that is half as deep as that 0.5, a volcano 0.25, terrain less.
-constexpr double HAS_INSIDE = 0.3;
-constexpr double ALIKE = 0.9; // lengths along two axes, relative
-
 // Sums over the triangles of a component.
 struct Component
 {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero (); // first times the area
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero ();
   Eigen::Vector3d area_vector = Eigen::Vector3d::Zero ();
-  double area = 0.0;
-  double volume = 0.0;         // six times that of the pyramids from the middle to all triangles
-  double largest_volume = 0.0; // if all faced away from the middle
+  double area = 0.0;   // doubled
+  double volume = 0.0; // six times that of the tetrahedra from the centroid to the triangles
+  double largest_volume = 0.0; // the same if all triangles faced straight away from the centroid
   bool is_closed = true;
 };
 
 Eigen::Vector3d
-threeCentroids (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+sumOfCorners (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
 {
   return positions[t[0]] + positions[t[1]] + positions[t[2]];
 }
 
 std::vector<Component>
 measureComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const MeshComponents& found)
+                   const MeshComponents& found, const RunContext& run)
 {
   std::vector<Component> components (found.count);
+  ProgressLoop progress (run);
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
     Component& component = components[found.of_triangle[t]];
     const auto& [a, b, c] = mesh.triangles[t];
     const Eigen::Vector3d area_vector = areaVector (positions[a], positions[b], positions[c]);
     const double area = area_vector.norm ();
-    component.middle += area / 3.0 * threeCentroids (mesh.triangles[t], positions);
+    component.centroid += area / 3.0 * sumOfCorners (mesh.triangles[t], positions);
     component.area_vector += area_vector;
     component.area += area;
     for (const Index u : mesh.neighbors[t])
@@ -57,13 +53,14 @@ measureComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
   }
   for (Component& component : components)
     if (component.area > 0.0)
-      component.middle /= component.area;
+      component.centroid /= component.area;
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
     Component& component = components[found.of_triangle[t]];
     const auto& [a, b, c] = mesh.triangles[t];
     const Eigen::Vector3d area_vector = areaVector (positions[a], positions[b], positions[c]);
     const Eigen::Vector3d away =
-        threeCentroids (mesh.triangles[t], positions) / 3.0 - component.middle;
+        sumOfCorners (mesh.triangles[t], positions) / 3.0 - component.centroid;
     component.volume += away.dot (area_vector);
     component.largest_volume += away.norm () * area_vector.norm ();
   }
@@ -71,37 +68,40 @@ measureComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
 }
 
 bool
-facesDown (const Eigen::Vector3d& normal)
+facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
 {
   const double longest = normal.cwiseAbs ().maxCoeff ();
   for (const int axis : {2, 1})
-    if (std::abs (normal[axis]) >= ALIKE * longest)
+    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
       return normal[axis] < 0.0;
   return normal.x () < 0.0;
 }
 
 bool
-facesInwards (const Component& component)
+facesInwards (const Component& component, const FacingLimits& limits)
 {
-  if (component.is_closed || std::abs (component.volume) >= HAS_INSIDE * component.largest_volume)
+  if (component.is_closed ||
+      std::abs (component.volume) >= limits.inside_share * component.largest_volume)
     return component.volume < 0.0;
-  return facesDown (component.area_vector);
+  return facesDown (component.area_vector, limits);
 }
 
 } // namespace
 
 std::size_t
-faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions)
+faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const FacingLimits& limits, const RunContext& run)
 {
-  const MeshComponents found = findComponents (mesh);
-  const std::vector<Component> components = measureComponents (mesh, positions, found);
+  const MeshComponents found = findComponents (mesh, run);
+  std::vector<std::uint8_t> is_turned;
+  for (const Component& component : measureComponents (mesh, positions, found, run))
+    is_turned.push_back (facesInwards (component, limits) ? 1 : 0);
   for (Index t = 0; t < mesh.triangles.size (); ++t)
-    if (facesInwards (components[found.of_triangle[t]])) {
+    if (is_turned[found.of_triangle[t]] != 0) {
       std::swap (mesh.triangles[t][1], mesh.triangles[t][2]);
       std::swap (mesh.neighbors[t][1], mesh.neighbors[t][2]);
     }
-  return static_cast<std::size_t> (
-      std::count_if (components.begin (), components.end (), facesInwards));
+  return static_cast<std::size_t> (std::count (is_turned.begin (), is_turned.end (), 1));
 }
 
 } // namespace floater

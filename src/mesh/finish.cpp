@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/finish.h"
 
-#include "mesh/facing.h"
 #include "mesh/flips.h"
-#include "mesh/fold_repair.h"
 #include "mesh/insertion.h"
 
 namespace pcl
@@ -12,7 +10,7 @@ namespace floater
 {
 namespace
 {
-// Shares of the time of the stage that are behind then, on clean clouds.
+// Fraction of the stage's time at which these steps end. Measured on clean clouds.
 constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
 } // namespace
 
@@ -23,7 +21,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   MeshFinish finish;
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
-  const TriangleCost cost (positions, normals, &geometry.meshSpacing ());
+  const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
   run.beginStep (AFTER_INSERTION);
   insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);
@@ -34,12 +32,12 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   finish.is_repairable = !settings.flip_edges ||
                          static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
-    // Flips have turned triangles round, so that some normals may have the wrong sign.
+    // Flips have turned some triangles, so that some normals may have the wrong sign.
     orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, geometry.neighbors, cost, positions, run);
+    moveVertices (mesh, geometry.neighbors, cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
-  finish.turned = faceOutwards (mesh, positions);
+  finish.turned = faceOutwards (mesh, positions, settings.limits.facing, run);
   return finish;
 }
 

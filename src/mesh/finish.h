@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last changes of a mesh, whatever method made it.
+// The last changes of a mesh, whatever method made it: insertion, flips, repair, orientation.
 #pragma once
 
 #include "local/local_geometry.h"
+#include "mesh/facing.h"
+#include "mesh/fold_repair.h"
+#include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
 #include <limits>
@@ -12,28 +15,39 @@ namespace pcl
 {
 namespace floater
 {
+/// The limits of all steps of finishMesh.
+struct FinishLimits
+{
+  CostLimits cost;
+  RepairLimits repair;
+  FacingLimits facing;
+};
+
 struct FinishSettings
 {
   bool flip_edges = true; ///< flip edges and repair folds
-  /// Share of all edges: if more are folded after the flips, nothing can mend the mesh, and the
-  /// repair is left out.
+
+  /// Share of all edges. If more are folded after the flips, the mesh cannot be repaired, and the
+  /// repair is skipped.
   double largest_fold_share = std::numeric_limits<double>::infinity ();
+  FinishLimits limits = {};
 };
 
-/// What was done.
+/// What finishMesh has done.
 struct MeshFinish
 {
   std::size_t flips = 0;
-  std::size_t folds_after_flips = 0; ///< edges whose triangles were more than 120 degrees apart
-  std::size_t folds = 0;             ///< those that are left
-  bool is_repairable = true;         ///< false: more than FinishSettings::largest_fold_share
-  std::size_t turned = 0;            ///< components that were turned round
+  std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
+  std::size_t folds = 0;             ///< folded edges that are left
+  bool is_repairable = true;         ///< false: more than FinishSettings::largest_fold_share of all
+  std::size_t turned = 0;            ///< components that were turned round (see faceOutwards)
 };
 
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, and turns
-/// every component to face outwards.
-/// \param positions of the mesh
-/// \param geometry  normals of points that are vertices get the side of the mesh
+/// every component to face outwards. O(n log n) at worst.
+/// \param positions of the points; the vertices lie on them
+/// \param geometry  the normals of vertices are turned to the side of the mesh as it was before
+///                  faceOutwards
 MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run);

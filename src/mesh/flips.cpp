@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/flips.h"
 
-#include <Eigen/Geometry>
+#include "core/geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,8 @@ namespace floater
 {
 namespace
 {
-constexpr double IMPROVES =
-    1e-9; // relative gain below which the diagonals of a quad count as equal
-constexpr std::size_t EDGES_PER_LOOK = 256;
-
+constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
+constexpr std::size_t EDGES_PER_POLL = 256;
 } // namespace
 
 void
@@ -26,9 +24,8 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   ProgressLoop progress (run);
   for (const Triangle& t : mesh.triangles) {
     progress.next ();
-    const Eigen::Vector3f area_vector = (positions[t[1]] - positions[t[0]])
-                                            .cross (positions[t[2]] - positions[t[0]])
-                                            .cast<float> ();
+    const Eigen::Vector3f area_vector =
+        areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).cast<float> ();
     for (Index p : t)
       area[p] += area_vector;
   }
@@ -49,7 +46,7 @@ meshCost (const TriangleMesh& mesh, const TriangleCost& cost, const RunContext& 
     sum += value.cost;
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
-        sum += TriangleCost::ofFold (value.unit_normal, normalBehind (mesh, cached, {t, side}));
+        sum += cost.ofEdge (value.unit_normal, normalAcross (mesh, cached, {t, side}));
   }
   return sum;
 }
@@ -60,12 +57,12 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
   const auto [a, b, c] = mesh.triangles[t];
   const TriangleCost::Value whole = cost (a, b, c);
   double added = -whole.cost;
-  std::array<Eigen::Vector3d, 3> behind;
+  std::array<Eigen::Vector3d, 3> across;
   for (std::uint8_t side = 0; side < 3; ++side) {
-    behind[side] = normalBehind (mesh, cost, {t, side});
-    added -= TriangleCost::ofFold (whole.unit_normal, behind[side]);
+    across[side] = normalAcross (mesh, cost, {t, side});
+    added -= cost.plain ().ofEdge (whole.unit_normal, across[side]);
   }
-  // All that follows adds.
+  // All terms from here on are 0 or more.
   const std::array<Triangle, 3> corners{{{p, b, c}, {p, c, a}, {p, a, b}}};
   std::array<Eigen::Vector3d, 3> part;
   for (std::uint8_t side = 0; side < 3; ++side) {
@@ -76,8 +73,8 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
       return added;
   }
   for (std::uint8_t side = 0; side < 3; ++side)
-    added += TriangleCost::ofFold (part[side], part[TriangleMesh::next (side)]) +
-             TriangleCost::ofFold (part[side], behind[side]);
+    added += cost.plain ().ofEdge (part[side], part[TriangleMesh::next (side)]) +
+             cost.plain ().ofEdge (part[side], across[side]);
   return added;
 }
 
@@ -86,19 +83,20 @@ EdgeFlipper::run ()
 {
   double change = 0.0;
   const std::size_t pushed = stack_.size ();
+  std::size_t edges = 0;
   ProgressLoop progress (run_, pushed);
   while (!stack_.empty ()) {
-    if (stack_.size () % EDGES_PER_LOOK == 0)
+    if (++edges % EDGES_PER_POLL == 0)
       progress.reach (pushed - std::min (pushed, stack_.size ()));
     const MeshEdge e = stack_.back ();
     stack_.pop_back ();
-    const double gained = gain (e);
-    if (gained >= 0.0)
+    const double change_by_flip = changeByFlip (e);
+    if (change_by_flip >= 0.0)
       continue;
     const MeshEdge m = mesh_.mate (e);
     mesh_.flip (e);
     ++flips_;
-    change += gained;
+    change += change_by_flip;
     for (const Index t : {e.triangle, m.triangle})
       for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
         if (mesh_.neighbors[t][side] != NONE)
@@ -108,7 +106,7 @@ EdgeFlipper::run ()
 }
 
 double
-EdgeFlipper::gain (MeshEdge e) const
+EdgeFlipper::changeByFlip (MeshEdge e) const
 {
   const MeshEdge m = mesh_.mate (e);
   if (m.triangle == NONE)
@@ -120,22 +118,25 @@ EdgeFlipper::gain (MeshEdge e) const
   const double then = then_cad.cost + then_dbc.cost;
   if (then >= now && now_cab.unit_normal.dot (now_dba.unit_normal) >= 0.0)
     return 0.0;
-  // What is behind the other edges of the two triangles: at bc, ca, ad, db.
-  const auto behind = [this] (Index t, std::uint8_t side) {
-    return normalBehind (mesh_, cost_, {t, side});
+  // Normals across the other edges of the two triangles.
+  const auto across = [this] (Index t, std::uint8_t side) {
+    return normalAcross (mesh_, cost_, {t, side});
   };
-  const Eigen::Vector3d at_bc = behind (e.triangle, TriangleMesh::next (e.side));
-  const Eigen::Vector3d at_ca = behind (e.triangle, TriangleMesh::previous (e.side));
-  const Eigen::Vector3d at_ad = behind (m.triangle, TriangleMesh::next (m.side));
-  const Eigen::Vector3d at_db = behind (m.triangle, TriangleMesh::previous (m.side));
-  const auto fold = TriangleCost::ofFold;
-  const double total = now + fold (now_cab.unit_normal, now_dba.unit_normal) +
-                       fold (at_bc, now_cab.unit_normal) + fold (at_ca, now_cab.unit_normal) +
-                       fold (at_ad, now_dba.unit_normal) + fold (at_db, now_dba.unit_normal);
-  const double total_then = then + fold (then_cad.unit_normal, then_dbc.unit_normal) +
-                            fold (at_bc, then_dbc.unit_normal) +
-                            fold (at_ca, then_cad.unit_normal) +
-                            fold (at_ad, then_cad.unit_normal) + fold (at_db, then_dbc.unit_normal);
+  const Eigen::Vector3d at_bc = across (e.triangle, TriangleMesh::next (e.side));
+  const Eigen::Vector3d at_ca = across (e.triangle, TriangleMesh::previous (e.side));
+  const Eigen::Vector3d at_ad = across (m.triangle, TriangleMesh::next (m.side));
+  const Eigen::Vector3d at_db = across (m.triangle, TriangleMesh::previous (m.side));
+  const auto at_edge = [&plain = cost_.plain ()] (const Eigen::Vector3d& p,
+                                                  const Eigen::Vector3d& q) {
+    return plain.ofEdge (p, q);
+  };
+  const double total = now + at_edge (now_cab.unit_normal, now_dba.unit_normal) +
+                       at_edge (at_bc, now_cab.unit_normal) + at_edge (at_ca, now_cab.unit_normal) +
+                       at_edge (at_ad, now_dba.unit_normal) + at_edge (at_db, now_dba.unit_normal);
+  const double total_then =
+      then + at_edge (then_cad.unit_normal, then_dbc.unit_normal) +
+      at_edge (at_bc, then_dbc.unit_normal) + at_edge (at_ca, then_cad.unit_normal) +
+      at_edge (at_ad, then_cad.unit_normal) + at_edge (at_db, then_dbc.unit_normal);
   if (total_then >= total - IMPROVES * std::abs (total) || mesh_.hasEdge (c, d))
     return 0.0;
   return total_then - total;

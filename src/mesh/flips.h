@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edge flips on the surface after lifting.
+// Edge flips on a mesh in space.
 #pragma once
 
 #include "core/run_context.h"
@@ -12,14 +12,15 @@ namespace pcl
 {
 namespace floater
 {
-/// Gives every normal the sign for which most of the area around its point faces along it.
+/// Gives every normal the sign for which most of the area around its point faces along it. Normals
+/// of points without triangles stay as they are. O(n).
 void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
-/// Unit normal of the triangle behind a side; zero at the boundary, where nothing is folded.
+/// Unit normal of the triangle across an edge; zero at the boundary, so that edges there cost 0.
 inline Eigen::Vector3d
-normalBehind (const TriangleMesh& mesh, CachedCost& cost, MeshEdge e)
+normalAcross (const TriangleMesh& mesh, CachedCost& cost, MeshEdge e)
 {
   const Index other = mesh.neighbors[e.triangle][e.side];
   return other == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
@@ -30,13 +31,14 @@ normalBehind (const TriangleMesh& mesh, CachedCost& cost, MeshEdge e)
 double
 meshCost (const TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);
 
-/// Cost that the split of triangle t at point p would add, that of the edges included; if it is
-/// above the limit, anything above the limit.
+/// Cost that the split of triangle t at point p would add, with that of the edges. If it is above
+/// the limit, the result may be any value above the limit.
 double
 splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double limit);
 
-/// Flips edges from a stack until none of them, nor of those around the flipped ones, gains. Each
-/// flip lowers the cost of the mesh: that of its two triangles and of their five edges.
+/// Flips edges from a stack, and those around each flipped edge, until no flip lowers the cost of
+/// the mesh any more. A flip changes the cost of two triangles and of their five edges. In the
+/// plane, this is the flip algorithm for Delaunay triangulations (Lee and Schachter 1980).
 class EdgeFlipper
 {
 public:
@@ -47,14 +49,15 @@ public:
 
   void push (MeshEdge e) { stack_.push_back (e); }
 
-  /// \return by how much the cost of the mesh has changed: 0 or less
+  /// Empties the stack.
+  /// \return change of the cost of the mesh: 0 or less
   double run ();
 
   std::size_t flips () const { return flips_; }
 
 private:
-  // Change of cost by the flip of an edge; 0 if it cannot be flipped or gains nothing.
-  double gain (MeshEdge e) const;
+  // Change of cost by the flip of an edge; 0 if it cannot be flipped or lowers nothing.
+  double changeByFlip (MeshEdge e) const;
 
   TriangleMesh& mesh_;
   CachedCost& cost_;
@@ -63,7 +66,7 @@ private:
   std::size_t flips_ = 0;
 };
 
-/// Flips edges of the whole mesh. Boundary edges stay. O(n) in practice.
+/// Flips edges of the whole mesh (see EdgeFlipper). Boundary edges stay. O(n) in practice.
 /// \return number of flips
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);

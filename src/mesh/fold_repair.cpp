@@ -4,8 +4,6 @@
 #include "core/geometry.h"
 #include "mesh/vertex_mover.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,15 +14,8 @@ namespace floater
 {
 namespace
 {
-constexpr int PASSES = 12;
-constexpr std::size_t PLACES = 4;  // cheapest triangles into which a vertex is tried
-constexpr std::uint8_t KICKS = 16; // places to which a vertex of a fold is forced
-constexpr std::size_t PLACES_AFTER_KICK = 3;
-constexpr int PASSES_AFTER_KICK = 2;
-constexpr std::size_t POINTS_PER_KICK = 16;
-
 void
-makeSet (std::vector<Index>& list)
+sortUnique (std::vector<Index>& list)
 {
   std::sort (list.begin (), list.end ());
   list.erase (std::unique (list.begin (), list.end ()), list.end ());
@@ -34,8 +25,9 @@ class FoldRepair
 {
 public:
   FoldRepair (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-              const RunContext& run)
-      : mesh_ (mesh), run_ (run), mover_ (mesh, neighbors, cost, run)
+              const RepairLimits& limits, const RunContext& run)
+      : mesh_ (mesh), limits_ (limits), run_ (run),
+        mover_ (mesh, neighbors, cost, limits.largest_fan, run)
   {
   }
 
@@ -43,16 +35,16 @@ public:
   {
     std::size_t moves = 0;
     std::vector<Index> vertices = badVertices ();
-    for (int pass = 0; pass < PASSES && !vertices.empty (); ++pass) {
+    for (int pass = 0; pass < limits_.passes && !vertices.empty (); ++pass) {
       mover_.dirty ().clear ();
       ProgressLoop progress (run_, vertices.size ());
       for (Index v : vertices) {
         progress.next ();
         mover_.start ();
-        moves += mover_.move (v, PLACES) < 0.0 ? 1 : 0;
+        moves += mover_.move (v, limits_.places) < 0.0 ? 1 : 0;
       }
       vertices.swap (mover_.dirty ());
-      makeSet (vertices);
+      sortUnique (vertices);
       vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
                                       [this] (Index v) { return !isBad (v); }),
                       vertices.end ());
@@ -64,11 +56,11 @@ public:
   {
     std::size_t kept = 0;
     next_rank_.assign (mesh_.triangle_of.size (), 0);
-    kicks_left_ = mesh_.triangle_of.size () / POINTS_PER_KICK + KICKS;
+    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.kicks;
     const std::size_t kicks = kicks_left_;
     ProgressLoop progress (run_, kicks);
     while (!vertices.empty ()) {
-      const std::size_t share = std::min<std::size_t> (KICKS, 1 + kicks_left_ / vertices.size ());
+      const std::size_t share = std::min (limits_.kicks, 1 + kicks_left_ / vertices.size ());
       std::vector<Index> again;
       for (Index v : vertices) {
         progress.reach (kicks - kicks_left_);
@@ -76,33 +68,34 @@ public:
           continue;
         if (kick (v, share)) {
           ++kept;
-          forgetKicksAround (again);
+          allowKicksAround (again);
         }
-        else if (next_rank_[v] < KICKS)
+        else if (next_rank_[v] < limits_.kicks)
           again.push_back (v);
         if (kicks_left_ == 0)
           return kept;
       }
-      makeSet (again);
+      sortUnique (again);
       vertices.swap (again);
     }
     return kept;
   }
 
 private:
-  // True if a triangle is penalized or folded against a neighbour.
+  // True if a triangle is turned, or more than 90 degrees from a neighbouring triangle.
   bool isBad (const Triangle& corners, Index t)
   {
     if (cost_.plain ().isTurned (corners))
       return true;
     const Eigen::Vector3d normal = cost_ (corners).unit_normal;
     for (std::uint8_t side = 0; side < 3; ++side)
-      if (normal.dot (normalBehind (mesh_, cost_, {t, side})) < 0.0)
+      if (normal.dot (normalAcross (mesh_, cost_, {t, side})) < 0.0)
         return true;
     return false;
   }
 
-  // True if that is so of a triangle around a vertex: others hardly ever gain by a move.
+  // True if that holds for a triangle around a vertex. Moves of other vertices hardly ever lower
+  // the cost.
   bool isBad (Index v)
   {
     mesh_.fan (v, fan_);
@@ -120,11 +113,11 @@ private:
       if (isBad (corners, t))
         vertices.insert (vertices.end (), corners.begin (), corners.end ());
     }
-    makeSet (vertices);
+    sortUnique (vertices);
     return vertices;
   }
 
-  // True if an edge of the triangles around a vertex is folded.
+  // True if an edge of a triangle around a vertex is folded.
   bool isAtFold (Index v)
   {
     mesh_.fan (v, fan_);
@@ -137,18 +130,19 @@ private:
     return false;
   }
 
-  // Kicks a vertex to its next places, until one gains. Several places may come to the same when
-  // edges have been flipped, or to where the vertex was; the neighbours tell.
+  // Kicks a vertex to its next places until one is kept. After the flips, several places may turn
+  // out to be the same one, or the one where the vertex was: then it has the same neighbours there.
   bool kick (Index v, std::size_t times)
   {
     rings_.clear ();
     noteRing (v);
-    while (times > 0 && kicks_left_ > 0 && next_rank_[v] < KICKS) {
+    while (times > 0 && kicks_left_ > 0 && next_rank_[v] < limits_.kicks) {
+      run_.poll ();
       mover_.start ();
       mover_.dirty ().clear ();
       double change = 0.0;
       if (!mover_.moveTo (v, next_rank_[v]++, change)) {
-        next_rank_[v] = KICKS;
+        next_rank_[v] = static_cast<std::uint8_t> (limits_.kicks);
         return false;
       }
       if (noteRing (v)) {
@@ -162,26 +156,26 @@ private:
     return false;
   }
 
-  // Moves the vertices around after a kick. Returns the change of cost.
+  // Moves the vertices around after a kick. Returns the change of cost by these moves.
   double moveAfterKick (double change_by_kick)
   {
     double change = 0.0;
-    for (int pass = 0; pass < PASSES_AFTER_KICK; ++pass) {
+    for (int pass = 0; pass < limits_.passes_after_kick; ++pass) {
       around_.swap (mover_.dirty ());
       mover_.dirty ().clear ();
-      makeSet (around_);
+      sortUnique (around_);
       for (Index w : around_) {
         if (!isBad (w))
           continue;
-        change += mover_.move (w, PLACES_AFTER_KICK);
+        change += mover_.move (w, limits_.places_after_kick);
         if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
-          return change; // all is as it was
+          return change; // the mesh is as it was before the kick
       }
     }
     return change;
   }
 
-  // Notes who the neighbours of a vertex are. False if they have been the same before.
+  // Notes the neighbours of a vertex. Returns false if they were noted before.
   bool noteRing (Index v)
   {
     mesh_.fan (v, fan_);
@@ -195,12 +189,12 @@ private:
     return true;
   }
 
-  // After a kick that is kept: the corners of all changed triangles may be kicked anew.
-  void forgetKicksAround (std::vector<Index>& again)
+  // After a kick that is kept: the corners of all changed triangles may be kicked again.
+  void allowKicksAround (std::vector<Index>& again)
   {
     changed_.clear ();
     mover_.journal ().appendTriangles (changed_);
-    makeSet (changed_);
+    sortUnique (changed_);
     for (Index t : changed_)
       for (Index p : mesh_.triangles[t]) {
         next_rank_[p] = 0;
@@ -209,12 +203,13 @@ private:
   }
 
   TriangleMesh& mesh_;
+  RepairLimits limits_;
   RunContext run_;
   VertexMover mover_;
   CachedCost& cost_ = mover_.cost ();
-  std::vector<std::uint8_t> next_rank_; // per point: the place to which it is kicked next
+  std::vector<std::uint8_t> next_rank_; // per point: rank of the place to which it is kicked next
   std::size_t kicks_left_ = 0;
-  std::vector<std::vector<Index>> rings_;
+  std::vector<std::vector<Index>> rings_; // neighbours at the places tried so far
   std::vector<Index> fan_, around_, changed_;
 };
 
@@ -243,16 +238,17 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 
 std::size_t
 moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-              const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+              const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
+              const RunContext& run)
 {
-  FoldRepair repair (mesh, neighbors, cost, run);
+  FoldRepair repair (mesh, neighbors, cost, limits, run);
   const std::size_t moves = repair.moveAll ();
   std::vector<Index> vertices;
   for (const MeshEdge& fold : findFolds (mesh, positions, run))
     for (Index p :
          {mesh.corner (fold), mesh.from (fold), mesh.to (fold), mesh.corner (mesh.mate (fold))})
       vertices.push_back (p);
-  makeSet (vertices);
+  sortUnique (vertices);
   return moves + repair.kickAll (std::move (vertices));
 }
 

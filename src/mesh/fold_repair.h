@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vertices that lie in the wrong triangles, which flips alone cannot mend.
+// Repair of folds, which flips alone cannot remove: vertices in the wrong triangles are moved.
 #pragma once
 
 #include "mesh/flips.h"
@@ -10,31 +10,48 @@ namespace pcl
 {
 namespace floater
 {
-/// Edges whose two triangles are more than 120 degrees apart. O(n).
+/// How much is tried to remove folds. All are limits of time: larger ones remove a few more folds.
+/// They were chosen on the clouds of the first benchmark, where more gave next to nothing.
+struct RepairLimits
+{
+  std::size_t largest_fan = 16;      ///< triangles around a vertex that is moved
+  int passes = 12;                   ///< over the vertices to move; few are left after five
+  std::size_t places = 4;            ///< cheapest triangles in which a vertex to move is tried
+  std::size_t kicks = 16;            ///< places to which a vertex of a fold is kicked; at most 255
+  std::size_t points_per_kick = 16;  ///< one kick for so many points of the mesh
+  int passes_after_kick = 2;         ///< moves of the vertices around
+  std::size_t places_after_kick = 3; ///< the same as `places`, in these moves
+};
+
+/// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).
 std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
            const RunContext& run);
 
-/// Where points were laid out in the wrong order, or attached to the wrong sheet, no single flip
-/// helps. Vertices are taken out and put back elsewhere (see VertexMover), in two steps:
+/// Moves vertices that are in the wrong triangles, as where the parameterization mixed up their
+/// order or where they were connected to another sheet. No single flip lowers the cost there.
+/// Vertices are taken out and put back elsewhere (see VertexMover), in two steps:
 ///
 /// Moves: all corners of triangles that are turned away from their normals, or more than 90 degrees
-/// from a neighbour, are moved to where they cost least. The old and new neighbours of those that
-/// have moved are looked at again, in at most 12 passes; few are left after five.
+/// from a neighbouring triangle, are moved to where they cost least. Each further pass looks at the
+/// old and new neighbours of the vertices that were moved.
 ///
-/// Kicks: a vertex at a fold that is left goes to a place that is worse, then the vertices around
-/// move after it, twice; kept if the whole gains, else undone, and the place next in rank comes, up
-/// to 16. These serve folds that stand alone. Where sheets are closer than the points on them,
-/// hundreds of folds are left, and nearly all kicks are in vain. So there is one kick per 16 points
-/// of the cloud and not more, dealt out evenly, cheapest places first; and who has been kicked to
-/// all its places is only kicked again if a triangle at it has changed.
+/// Kicks: a vertex at a fold that is left is moved to a place where the cost is higher, and the
+/// vertices around it are moved after it. This is kept if the cost of the mesh is lower in the end,
+/// and otherwise undone; then the place of the next higher cost is tried. Kicks remove folds that
+/// stand alone. Where sheets are closer to each other than their points, hundreds of folds are left
+/// and nearly all kicks fail. So the number of kicks is limited by the size of the mesh, and each
+/// vertex gets an equal share of them. A vertex that was kicked to all its places in vain is kicked
+/// again only after a triangle around it has changed.
 ///
-/// Every step kept lowers the cost of the mesh. The boundary stays. O(n) at worst, O(bad vertices)
-/// where few are bad. One thread.
-/// \return number of moves and kicks kept
+/// Every step that is kept lowers the cost of the mesh. The boundary stays. O(n) at worst, O(bad
+/// vertices) where few are bad. One thread.
+/// \param neighbors nearest neighbours of each point, where places for it are searched
+/// \return number of moves and kicks that were kept
 std::size_t
 moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-              const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
+              const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
+              const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

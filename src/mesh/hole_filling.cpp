@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/hole_filling.h"
 
+#include "core/geometry.h"
 #include "mesh/polygon_filling.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <set>
@@ -16,11 +15,6 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t LARGEST_POLYGON = 128; // for which the best triangulation is searched
-
-constexpr double AREA_COST =
-    200.0; // of twice the square of the rim's step; a right isosceles triangle costs 2
-
 using Edge = std::pair<Index, Index>;
 
 Edge
@@ -29,13 +23,14 @@ edgeOf (Index p, Index q)
   return {std::min (p, q), std::max (p, q)};
 }
 
-// Fills one rim after the other; chords of earlier fillings are edges, too.
+// Fills one loop after the other. Edges of earlier fillings are edges of the mesh, too.
 class HoleFiller
 {
 public:
   HoleFiller (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const TriangleCost& cost)
-      : mesh_ (mesh), positions_ (positions), cost_ (cost)
+              const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), cost_ (cost), limits_ (limits), run_ (run),
+        filling_ (run)
   {
   }
 
@@ -43,11 +38,11 @@ public:
   {
     std::vector<Index> polygon (loop.points.rbegin (), loop.points.rend ());
     const double step = loop.length / static_cast<double> (loop.points.size ());
-    area_cost_ = AREA_COST / (step * step);
+    area_cost_ = limits_.area_cost / (step * step);
     std::vector<Triangle> triangles;
-    std::set<Edge> ears; // chords cut off in this rim
+    std::set<Edge> ears; // edges that cut off an ear of this loop
     const auto allowed = [&] (Index p, Index q) {
-      return !mesh_.hasEdge (p, q) && chords_.count (edgeOf (p, q)) == 0 &&
+      return !mesh_.hasEdge (p, q) && new_edges_.count (edgeOf (p, q)) == 0 &&
              ears.count (edgeOf (p, q)) == 0;
     };
     if (!cutEars (polygon, triangles, ears, allowed))
@@ -59,7 +54,7 @@ public:
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
     for (const Triangle& t : triangles)
       for (std::size_t i = 0; i < 3; ++i)
-        chords_.insert (edgeOf (t[i], t[(i + 1) % 3]));
+        new_edges_.insert (edgeOf (t[i], t[(i + 1) % 3]));
     filled_.insert (filled_.end (), triangles.begin (), triangles.end ());
     return true;
   }
@@ -67,21 +62,19 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
-  // Sheets that end face to face are to be joined across the narrow gap between them, not each
-  // closed over its opening: area counts.
   double fillCost (Index p, Index q, Index r) const
   {
-    const Eigen::Vector3d area_vector =
-        (positions_[q] - positions_[p]).cross (positions_[r] - positions_[p]);
-    return cost_ (p, q, r) + area_cost_ * area_vector.norm ();
+    const double double_area = areaVector (positions_[p], positions_[q], positions_[r]).norm ();
+    return cost_ (p, q, r) + area_cost_ * double_area;
   }
 
-  // Cuts the ears of least cost until the polygon is small.
+  // Cuts off ears, each time that of least cost, until the polygon is small enough. Returns false
+  // if there are not enough ears that may be cut off.
   template <typename Allowed>
   bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles, std::set<Edge>& ears,
                 Allowed&& allowed) const
   {
-    if (polygon.size () <= LARGEST_POLYGON)
+    if (polygon.size () <= limits_.largest_polygon)
       return true;
     const auto count = static_cast<Index> (polygon.size ());
     std::vector<Index> before (count), after (count);
@@ -94,15 +87,19 @@ private:
     };
     std::set<std::pair<double, Index>> queue;
     std::vector<double> queued (count);
-    for (Index i = 0; i < count; ++i)
+    ProgressLoop progress (run_);
+    for (Index i = 0; i < count; ++i) {
+      progress.next ();
       queue.emplace (queued[i] = earCost (i), i);
+    }
     std::size_t left = count;
-    while (left > LARGEST_POLYGON && !queue.empty ()) {
+    while (left > limits_.largest_polygon && !queue.empty ()) {
+      progress.next ();
       const Index i = queue.begin ()->second;
       queue.erase (queue.begin ());
       const Index a = before[i], b = after[i];
       if (!allowed (polygon[a], polygon[b])) {
-        queued[i] = -1.0; // until a neighbour goes
+        queued[i] = -1.0; // not in the queue until a corner next to it is cut off
         continue;
       }
       triangles.push_back ({polygon[a], polygon[i], polygon[b]});
@@ -121,16 +118,18 @@ private:
       if (after[i] != NONE)
         rest.push_back (polygon[i]);
     polygon.swap (rest);
-    return polygon.size () <= LARGEST_POLYGON;
+    return polygon.size () <= limits_.largest_polygon;
   }
 
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;
   const TriangleCost& cost_;
-  double area_cost_ = 0.0; // per unit of doubled area, for the rim at hand
+  HoleFillingLimits limits_;
+  RunContext run_;
+  double area_cost_ = 0.0; // per unit of doubled area, for the current loop
   PolygonFilling filling_;
   std::vector<Triangle> filled_;
-  std::set<Edge> chords_;
+  std::set<Edge> new_edges_;
 };
 
 } // namespace
@@ -138,11 +137,13 @@ private:
 std::size_t
 fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
            const std::vector<Eigen::Vector3d>& positions, const TriangleCost& cost,
-           const RunContext& run)
+           const HoleFillingLimits& limits, const RunContext& run)
 {
-  HoleFiller filler (mesh, positions, cost);
-  std::size_t filled = 0;
+  HoleFiller filler (mesh, positions, cost, limits, run);
+  std::size_t filled = 0, done = 0;
+  ProgressLoop progress (run, loops.size ());
   for (BoundaryLoop& loop : loops) {
+    progress.reach (done++);
     if (loop.keep_open)
       continue;
     if (filler.fill (loop))

@@ -1,23 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closes rims by polygons.
+// Closes boundary loops by triangulated polygons.
 #pragma once
 
 #include "mesh/boundary_loops.h"
-#include "mesh/flips.h"
+#include "mesh/triangle_cost.h"
 
 namespace pcl
 {
 namespace floater
 {
-/// Fills every rim that does not stay by the triangles of least cost over its points alone; a rim
-/// of more than 128 points is first made shorter by cutting its cheapest ears. Chords that are
-/// edges of the mesh already are not used; a rim that cannot be filled without them stays. O(m^3)
-/// for a rim of m points up to that size, O(m log m) beyond.
-/// \return number of rims filled
+/// How holes are filled.
+struct HoleFillingLimits
+{
+  double area_cost = 200.0; ///< per doubled area in squared mean steps of the loop, in the unit of
+                            ///< TriangleCost. Sheets that end face to face are to be joined across
+                            ///< the narrow gap between them, not each closed on its own. Chosen on
+                            ///< the clouds of the first benchmark; not certain
+  std::size_t largest_polygon = 128; ///< corners for which the best triangulation is searched. A
+                                     ///< limit of time: a polygon of 128 takes 10 ms
+};
+
+/// Fills every loop that is not kept open by triangles of least total cost between its points (see
+/// PolygonFilling). A longer loop than HoleFillingLimits::largest_polygon is first made shorter by
+/// cutting off the ear of least cost, again and again. Edges of the mesh are not used twice; a loop
+/// that cannot be filled otherwise is kept open. O(m^3) for a loop of m points up to that limit,
+/// O(m log m) beyond.
+/// \param loops BoundaryLoop::keep_open is set for those that could not be filled
+/// \return number of loops filled
+/// \throw std::logic_error if the loops are not those of the mesh
 std::size_t
 fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
            const std::vector<Eigen::Vector3d>& positions, const TriangleCost& cost,
-           const RunContext& run);
+           const HoleFillingLimits& limits, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -16,7 +16,7 @@ namespace floater
 {
 namespace
 {
-// Inserts points one by one, always the one that fits best next.
+// Inserts points one by one, each time the one whose place costs least.
 class PointInserter
 {
 public:
@@ -36,12 +36,16 @@ public:
     if (missing.empty ())
       return 0;
     seen_.assign (mesh_.triangles.size () + 2 * missing.size (), 0); // each adds two triangles
-    findAwaiting (missing);
-    for (Index p : missing)
-      offer (p);
     std::size_t inserted = 0;
     ProgressLoop progress (run_, missing.size ());
+    findAwaiting (missing);
+    ProgressLoop offers (run_);
+    for (Index p : missing) {
+      offers.next ();
+      offer (p);
+    }
     while (!queue_.empty ()) {
+      progress.reach (inserted);
       const Place place = queue_.top ();
       queue_.pop ();
       if (mesh_.triangle_of[place.point] != NONE)
@@ -50,11 +54,11 @@ public:
       if (now.triangle == NONE)
         continue;
       if (now.added > place.added && !queue_.empty () && now.added > queue_.top ().added) {
-        queue_.push (now); // the mesh has changed there: another one is better now
+        queue_.push (now); // the mesh has changed there: the next point may be better now
         continue;
       }
       insert (now);
-      progress.reach (++inserted);
+      ++inserted;
     }
     return inserted;
   }
@@ -65,23 +69,27 @@ private:
     double added;
     Index point, triangle;
 
-    bool operator<(const Place& other) const // the cheapest on top of the queue
+    bool operator<(const Place& other) const // puts the cheapest on top of the queue
     {
       return std::tie (other.added, other.point) < std::tie (added, point);
     }
   };
 
-  // Which missing points have a missing point among their neighbours: they may get a place with it.
+  // Pairs of missing points, the first among the neighbours of the second: once the first is
+  // inserted, the second has a place.
   void findAwaiting (const std::vector<Index>& missing)
   {
-    for (Index p : missing)
+    ProgressLoop progress (run_);
+    for (Index p : missing) {
+      progress.next ();
       for (Index q : neighbors_.row (p))
         if (mesh_.triangle_of[q] == NONE)
           awaiting_.emplace_back (q, p);
+    }
     std::sort (awaiting_.begin (), awaiting_.end ());
   }
 
-  // Queues a point once it has a place; a better one is found when its turn comes.
+  // Queues a point if it has a place. The best one is searched again when its turn comes.
   void offer (Index p)
   {
     if (queued_[p] != 0)
@@ -93,7 +101,7 @@ private:
     queued_[p] = 1;
   }
 
-  // The triangle around p's neighbours whose split at p adds the least cost.
+  // The triangle at a neighbour of p whose split at p adds the least cost.
   Place cheapest (Index p)
   {
     Place best{0.0, p, NONE};
@@ -137,10 +145,10 @@ private:
   RunContext run_;
   EdgeFlipper flipper_;
   bool flip_;
-  std::vector<std::pair<Index, Index>> awaiting_; // (missing point, one that has it as neighbour)
+  std::vector<std::pair<Index, Index>> awaiting_; // see findAwaiting; sorted
   std::priority_queue<Place> queue_;
   std::vector<std::uint8_t> queued_; // per point
-  std::vector<Index> seen_;          // per triangle: the search for a place that saw it last
+  std::vector<Index> seen_;          // per triangle: the last search that looked at it
   Index search_ = 0;
   std::vector<Index> fan_;
 };
@@ -156,9 +164,11 @@ insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const Triang
 
 void
 orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
-                      std::vector<Eigen::Vector3f>& normals)
+                      std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
+  ProgressLoop progress (run);
   for (Index p = 0; p < normals.size (); ++p) {
+    progress.next ();
     if (mesh.triangle_of[p] != NONE)
       continue;
     Eigen::Vector3f sum = Eigen::Vector3f::Zero ();

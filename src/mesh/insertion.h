@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points that have no triangle yet.
+// Insertion of points that have no triangle yet.
 #pragma once
 
 #include "mesh/flips.h"
@@ -9,21 +9,23 @@ namespace pcl
 {
 namespace floater
 {
-/// Inserts every point that is not a vertex but has vertices among its nearest neighbours: the
-/// triangle around those whose split costs least is split at the point, which goes on until nothing
-/// changes, so that a row of points finds its way in. The point whose place costs least comes
-/// first, for it tells the next ones where the surface runs. O(m log m) for m missing points.
-/// \param flip whether edges are flipped around each point as soon as it is in
+/// Inserts every point that is not a vertex but has vertices among its nearest neighbours. Of the
+/// triangles around these, the one whose split at the point costs least is split. The point whose
+/// split costs least comes first, since it shows the next ones where the surface is; a point that
+/// has only missing neighbours follows once one of these is inserted. O(m log m) for m missing
+/// points.
+/// \param neighbors of each point, nearest first
+/// \param flip      whether edges around each inserted point are flipped at once
 /// \return number of points inserted
 std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
                      bool flip, const RunContext& run);
 
-/// Gives the normal of every point that is no vertex the sign that most of its nearest neighbours
-/// have which are.
+/// Gives the normal of every point that is not a vertex the side of the mean normal of those
+/// nearest neighbours that are vertices. O(n).
 void
 orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
-                      std::vector<Eigen::Vector3f>& normals);
+                      std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

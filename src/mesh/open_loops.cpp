@@ -16,26 +16,27 @@ namespace floater
 {
 namespace
 {
-// What the automatic policy takes for the end of the surface.
+// True if the automatic policy takes a loop for the end of the surface.
 bool
 isBoundary (const BoundaryLoop& loop, const LoopEvidence& evidence, std::size_t component_points,
-            const BoundaryLimits& limits)
+            const OpenLoopLimits& limits)
 {
   const auto count = static_cast<double> (loop.points.size ());
   const double steps = loop.width * count / loop.length;
-  const double length = count / std::sqrt (static_cast<double> (component_points));
-  return (evidence.open_share >= limits.open &&
-          (steps >= limits.wide || length >= limits.whole_border)) ||
-         (evidence.open_share >= limits.all_open && steps >= limits.small) ||
-         (evidence.open_share >= limits.half_open && length >= limits.long_border);
+  const double roots = count / std::sqrt (static_cast<double> (component_points));
+  return (evidence.open_share >= limits.open_share &&
+          (steps >= limits.wide_steps || roots >= limits.whole_roots)) ||
+         (evidence.open_share >= limits.all_open_share && steps >= limits.small_steps) ||
+         (evidence.open_share >= limits.half_open_share && roots >= limits.long_roots);
 }
 
-// Tells whether a point sees a wide empty sector among its neighbours, all or those on its sheet.
+// Tells whether a point has a large sector without neighbours: of those on its own sheet, or of
+// all.
 class SectorTest
 {
 public:
   SectorTest (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const std::vector<Eigen::Vector3f>& normals, const BoundaryLimits& limits)
+              const std::vector<Eigen::Vector3f>& normals, const OpenLoopLimits& limits)
       : positions_ (positions), neighbors_ (neighbors), normals_ (normals), limits_ (limits)
   {
   }
@@ -62,7 +63,7 @@ private:
   const std::vector<Eigen::Vector3d>& positions_;
   const CsrLists& neighbors_;
   const std::vector<Eigen::Vector3f>& normals_;
-  const BoundaryLimits& limits_;
+  const OpenLoopLimits& limits_;
   PlanarStar star_;
   std::vector<PlanarNeighbor> planar_;
 };
@@ -72,7 +73,7 @@ private:
 std::vector<LoopEvidence>
 findEvidence (const std::vector<BoundaryLoop>& loops, const std::vector<Eigen::Vector3d>& positions,
               const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
-              const BoundaryLimits& limits, const RunContext& run)
+              const OpenLoopLimits& limits, const RunContext& run)
 {
   std::vector<LoopEvidence> evidence;
   evidence.reserve (loops.size ());
@@ -94,13 +95,13 @@ findEvidence (const std::vector<BoundaryLoop>& loops, const std::vector<Eigen::V
 void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopEvidence>& evidence,
                  const std::vector<std::size_t>& component_points, const HoleOptions& holes,
-                 double unit, const BoundaryLimits& limits)
+                 double unit, const OpenLoopLimits& limits)
 {
   std::vector<std::uint8_t> is_boundary (loops.size ());
   for (std::size_t i = 0; i < loops.size (); ++i)
     is_boundary[i] =
         isBoundary (loops[i], evidence[i], component_points[loops[i].component], limits) ? 1 : 0;
-  // Boundaries before all others, then by how much of the loop sees an empty sector.
+  // Boundaries first, then by the length along which points see an empty sector.
   std::vector<std::size_t> by_size (loops.size ());
   std::iota (by_size.begin (), by_size.end (), std::size_t{0});
   const auto key = [&] (std::size_t i) {

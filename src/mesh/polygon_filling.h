@@ -2,7 +2,8 @@
 // Triangulation of a closed polygon in space at least cost.
 #pragma once
 
-#include "mesh/flips.h"
+#include "core/run_context.h"
+#include "core/types.h"
 
 #include <cmath>
 #include <limits>
@@ -12,20 +13,28 @@ namespace pcl
 {
 namespace floater
 {
-/// Triangulates polygons by dynamic programming over their sub-polygons. O(m^3) for m corners.
+/// Triangulates polygons at least cost by dynamic programming over their sub-polygons (Barequet and
+/// Sharir 1995 "Filling gaps in the boundary of a polyhedron"; Liepa 2003 "Filling holes in
+/// meshes"). O(m^3) time and 16 m^2 bytes for m corners. Keeps its memory for the next polygon.
 class PolygonFilling
 {
 public:
-  /// Least-cost triangles of a closed polygon, anti-clockwise; empty if there is no way.
-  /// \param allowed (p, q): whether these corners may be joined
-  /// \param cost (p, q, r): of a triangle, 0 or more
+  explicit PolygonFilling (const RunContext& run) : run_ (run) {}
+
+  /// Triangles of least total cost whose corners are those of a closed polygon.
+  /// \param polygon corners, anti-clockwise
+  /// \param cost    (p, q, r): of a triangle, 0 or more
+  /// \param allowed (p, q): whether an edge may join two corners that are not next to each other
+  /// \return m - 2 triangles, anti-clockwise; empty if m < 3 or no triangulation is allowed
   template <typename Cost, typename Allowed>
   std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)
   {
     const std::size_t m = polygon.size ();
     best_.assign (m * m, {0.0, 0});
+    ProgressLoop progress (run_);
     for (std::size_t span = 2; span < m; ++span)
       for (std::size_t i = 0; i + span < m; ++i) {
+        progress.next ();
         const std::size_t j = i + span;
         Choice& choice = best_[i * m + j];
         choice = {std::numeric_limits<double>::infinity (), 0};
@@ -47,6 +56,8 @@ public:
   }
 
 private:
+  // The best triangulation of the sub-polygon from corner i to corner j: its cost, and the third
+  // corner of the triangle at the edge from i to j.
   struct Choice
   {
     double cost;
@@ -64,7 +75,8 @@ private:
     collect (polygon, apex, j, triangles);
   }
 
-  std::vector<Choice> best_;
+  RunContext run_;
+  std::vector<Choice> best_; // [i * m + j]
 };
 
 } // namespace floater

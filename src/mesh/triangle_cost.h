@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What triangles and the edges between them cost: what flips and moves of vertices minimize.
+// The cost of triangles and of the edges between them, which flips and moves of vertices minimize.
 #pragma once
 
 #include "core/types.h"
@@ -11,28 +11,43 @@ namespace pcl
 {
 namespace floater
 {
-/// How bad a triangle is: the sum of the cotangents of its angles, which Delaunay flips minimize in
-/// the plane, and penalties where it is turned away from the normals of its corners, or larger than
-/// triangles between neighbours are: where sheets are near, that tells the wrong one.
+/// Penalties of TriangleCost. The unit of cost is that of cotangents: a right isosceles triangle
+/// costs 2, an equilateral one 1.73. All were chosen on the clouds of the first benchmark, large
+/// against the cost of a good triangle; they are not certain.
+struct CostLimits
+{
+  double turned_cosine = 0.2;  ///< between a triangle's normal and the mean normal of its corners;
+                               ///< below, the triangle counts as turned
+  double turned_cost = 1000.0; ///< of a turned triangle, per unit of cosine below turned_cosine
+  double large_area = 3.0;     ///< doubled area, in squared spacings; above, a triangle is large
+  double large_cost = 100.0;   ///< of a large triangle, per squared spacing above large_area
+  double fold_cost = 1000.0;   ///< of an edge whose triangles are more than 90 degrees apart, per
+                               ///< unit of negative cosine between their normals
+};
+
+/// The cost of a triangle: the sum of the cotangents of its angles, which Delaunay flips minimize
+/// in the plane, and penalties if it is turned away from the normals of its corners or much larger
+/// than triangles between neighbours are. Near other sheets, the penalties tell triangles that join
+/// the wrong points.
 class TriangleCost
 {
 public:
-  /// \param normals oriented like the mesh (see orientNormals)
-  /// \param spacing of each point (see localSpacing); nullptr: large triangles cost no more
+  /// \param normals unit length, oriented like the mesh (see orientNormals)
+  /// \param spacing of each point (see localSpacing); nullptr: large triangles have no penalty
   TriangleCost (const std::vector<Eigen::Vector3d>& positions,
                 const std::vector<Eigen::Vector3f>& normals,
-                const std::vector<float>* spacing = nullptr)
-      : positions_ (positions), normals_ (normals), spacing_ (spacing)
+                const std::vector<float>* spacing = nullptr, const CostLimits& limits = {})
+      : positions_ (positions), normals_ (normals), spacing_ (spacing), limits_ (limits)
   {
   }
 
   struct Value
   {
-    Eigen::Vector3d unit_normal; ///< zero without area
+    Eigen::Vector3d unit_normal; ///< zero if the triangle has no area
     double cost;                 ///< 0 or more
   };
 
-  /// Neither depends, not even by rounding, on the corner from which the triangle is named.
+  /// Does not depend, not even by rounding, on which corner comes first.
   Value value (Index a, Index b, Index c) const;
 
   double operator() (Index a, Index b, Index c) const { return value (a, b, c).cost; }
@@ -41,31 +56,30 @@ public:
     return (*this) (corners[0], corners[1], corners[2]);
   }
 
-  /// True if a triangle is penalized for its direction.
+  /// True if a triangle is turned (see CostLimits).
   bool isTurned (const Triangle& corners) const;
 
-  /// Cost of an edge between two triangles: nothing up to a right angle, then it grows.
-  static double ofFold (const Eigen::Vector3d& unit_normal,
-                        const Eigen::Vector3d& other_unit_normal)
+  /// Cost of an edge between two triangles. It is 0 up to an angle of 90 degrees between their
+  /// normals, and grows beyond. One of the normals may be zero: then it is 0.
+  double ofEdge (const Eigen::Vector3d& unit_normal, const Eigen::Vector3d& other_unit_normal) const
   {
-    return FOLD_COST * std::max (0.0, -unit_normal.dot (other_unit_normal));
+    return limits_.fold_cost * std::max (0.0, -unit_normal.dot (other_unit_normal));
   }
 
 private:
-  // Cosine between the area vector and the sum of the corners' normals; 0 without area.
+  // Cosine between the area vector and the sum of the corners' normals; 0 if there is no area.
   double agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector,
                     double double_area) const;
-
-  static constexpr double FOLD_COST = 1000.0; // per unit of negative cosine
 
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<Eigen::Vector3f>& normals_;
   const std::vector<float>* spacing_;
+  CostLimits limits_;
 };
 
-/// The same values, cached: local search asks for those of a few thousand triangles again and
-/// again. A table of 400 kB, where a triangle takes the place of another that falls on it; what it
-/// returns is what the cost would. For one thread.
+/// The same values, cached. A local search asks for those of a few thousand triangles again and
+/// again. They are kept in a hash table of 8192 entries (400 kB), where a triangle replaces another
+/// one with the same hash. The results are those of TriangleCost, bit by bit. For one thread.
 class CachedCost
 {
 public:

@@ -17,7 +17,7 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
   const Index start = triangle_of[p];
   if (start == NONE)
     return;
-  // Clockwise to the boundary, or once around.
+  // Clockwise to the boundary, or once around the point.
   Index first = start;
   while (true) {
     const Index clockwise = neighbors[first][previous (sideOf (first, p))];
@@ -162,11 +162,11 @@ void
 TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
                           const std::vector<Triangle>& filling)
 {
-  // What is behind each edge of the polygon: from the first point of the edge to its mate.
-  std::vector<std::pair<Triangle, MeshEdge>> behind;
+  // Each edge of the polygon as (from, to, -), and the same edge seen from the triangle across it.
+  std::vector<std::pair<Triangle, MeshEdge>> across;
   for (Index t : fan_triangles) {
     const MeshEdge e{t, sideOf (t, p)};
-    behind.push_back ({{from (e), to (e), NONE}, mate (e)});
+    across.push_back ({{from (e), to (e), NONE}, mate (e)});
   }
   for (std::size_t i = 0; i < filling.size (); ++i)
     set (fan_triangles[i], filling[i]);
@@ -176,7 +176,7 @@ TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
       const Index a = from (e), b = to (e);
       setTriangleOf (a, e.triangle);
       MeshEdge other{NONE, 0};
-      for (const auto& [edge, mate_of_edge] : behind)
+      for (const auto& [edge, mate_of_edge] : across)
         if (edge[0] == a && edge[1] == b)
           other = mate_of_edge;
       for (std::size_t j = 0; j < filling.size () && other.triangle == NONE; ++j)
@@ -192,26 +192,18 @@ TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
 bool
 TriangleMesh::connect (std::size_t points, const RunContext& run)
 {
-  // Directed edges bucketed by their first point.
+  run.poll ();
+  const CsrLists leaving = makeCsrLists (points, [this] (const auto& emit) {
+    for (Index t = 0; t < triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        emit (from ({t, side}), 3 * t + side);
+  });
   triangle_of.assign (points, NONE);
   neighbors.resize (triangles.size ());
-  std::vector<Index> offsets (points + 2, 0);
-  for (const Triangle& corners : triangles)
-    for (Index p : corners)
-      ++offsets[p + 2];
-  for (std::size_t p = 0; p < points; ++p)
-    offsets[p + 2] += offsets[p + 1];
-  std::vector<Index> leaving (3 * triangles.size ()); // 3 t + side
-  for (Index t = 0; t < triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index p = from ({t, side});
-      leaving[offsets[p + 1]++] = 3 * t + side; // moves every offset to its place
-      triangle_of[p] = t;
-    }
   std::atomic<bool> is_manifold{true};
   parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last && is_manifold; ++p)
-      if (!connectFrom (static_cast<Index> (p), offsets, leaving))
+      if (!connectFrom (static_cast<Index> (p), leaving))
         is_manifold = false;
   });
   if (!is_manifold)
@@ -220,7 +212,7 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
     std::vector<Index> fan_triangles;
     for (std::size_t p = first; p < last && is_manifold; ++p) {
       fan (static_cast<Index> (p), fan_triangles);
-      if (fan_triangles.size () != offsets[p + 1] - offsets[p])
+      if (fan_triangles.size () != leaving.row (p).size ())
         is_manifold = false; // more than one fan
     }
   });
@@ -228,36 +220,38 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
 }
 
 bool
-TriangleMesh::connectFrom (Index p, const std::vector<Index>& offsets,
-                           const std::vector<Index>& leaving)
+TriangleMesh::connectFrom (Index p, const CsrLists& leaving)
 {
-  const auto edge = [&leaving] (Index i) {
-    return MeshEdge{leaving[i] / 3, static_cast<std::uint8_t> (leaving[i] % 3)};
-  };
-  for (Index i = offsets[p]; i < offsets[p + 1]; ++i) {
-    const MeshEdge e = edge (i);
+  const auto edge = [] (Index id) { return MeshEdge{id / 3, static_cast<std::uint8_t> (id % 3)}; };
+  const Row row = leaving.row (p);
+  for (std::size_t i = 0; i < row.size (); ++i) {
+    const MeshEdge e = edge (row[i]);
     const Index q = to (e);
     if (q == p)
       return false;
-    for (Index j = i + 1; j < offsets[p + 1]; ++j)
-      if (to (edge (j)) == q)
+    for (std::size_t j = i + 1; j < row.size (); ++j)
+      if (to (edge (row[j])) == q)
         return false; // the same directed edge twice
     neighbors[e.triangle][e.side] = NONE;
-    for (Index j = offsets[q]; j < offsets[q + 1]; ++j)
-      if (to (edge (j)) == p)
-        neighbors[e.triangle][e.side] = edge (j).triangle;
+    for (const Index back : leaving.row (q))
+      if (to (edge (back)) == p)
+        neighbors[e.triangle][e.side] = edge (back).triangle;
+    triangle_of[p] = e.triangle;
   }
   return true;
 }
 
 std::vector<std::vector<Index>>
-boundaryLoops (const TriangleMesh& mesh)
+boundaryLoops (const TriangleMesh& mesh, const RunContext& run)
 {
   std::vector<Index> successor (mesh.triangle_of.size (), NONE);
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
+  ProgressLoop progress (run);
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] == NONE)
         successor[mesh.from ({t, side})] = mesh.to ({t, side});
+  }
   std::vector<std::vector<Index>> loops;
   for (Index start = 0; start < successor.size (); ++start) {
     if (successor[start] == NONE)
@@ -275,18 +269,20 @@ boundaryLoops (const TriangleMesh& mesh)
 }
 
 MeshComponents
-findComponents (const TriangleMesh& mesh)
+findComponents (const TriangleMesh& mesh, const RunContext& run)
 {
   MeshComponents components;
   std::vector<Index>& component = components.of_triangle;
   component.assign (mesh.triangles.size (), NONE);
   std::vector<Index> front;
+  ProgressLoop progress (run);
   for (Index start = 0; start < component.size (); ++start) {
     if (component[start] != NONE)
       continue;
     component[start] = components.count;
     front.assign (1, start);
     while (!front.empty ()) {
+      progress.next ();
       const Index t = front.back ();
       front.pop_back ();
       for (Index u : mesh.neighbors[t])

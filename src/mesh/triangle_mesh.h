@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A triangle mesh with neighbours, for local changes.
+// A triangle mesh with neighbours, which can be changed locally.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -11,18 +11,18 @@ namespace pcl
 {
 namespace floater
 {
-/// An edge of a triangle: the one opposite to its corner `side`.
+/// An edge of a triangle, the one opposite to its corner `side` (0 to 2).
 struct MeshEdge
 {
   Index triangle;
   std::uint8_t side;
 };
 
-/// What a mesh was before it was changed: entries that TriangleMesh writes while it is recorded.
+/// What a mesh was before its changes. TriangleMesh writes it while it records changes.
 class MeshJournal
 {
 public:
-  /// Appends the triangles that were changed; some come more than once.
+  /// Appends the triangles that were changed; some may be appended more than once.
   void appendTriangles (std::vector<Index>& list) const
   {
     for (const Entry& entry : entries_)
@@ -34,22 +34,23 @@ private:
   friend struct TriangleMesh;
   struct Entry
   {
-    Index triangle; ///< NONE: the entry is of a point
+    Index triangle; // NONE: the entry belongs to a point
     Triangle corners;
-    std::array<Index, 3> neighbors; ///< of a point: (point, its triangle, -)
+    std::array<Index, 3> neighbors; // of a point: (point, its triangle, not used)
   };
   std::vector<Entry> entries_;
   bool is_recording_ = false;
 };
 
-/// Oriented manifold with boundary. Triangle t has corners a, b, c anti-clockwise; its neighbour i
-/// is across the edge opposite to corner i, NONE at the boundary. Every vertex has a single fan.
+/// Oriented manifold with boundary. The corners of a triangle are anti-clockwise seen from the
+/// front; its neighbour i is across the edge opposite to corner i, NONE at the boundary. The
+/// triangles around a vertex are one fan. A copy has a journal of its own.
 struct TriangleMesh
 {
   std::vector<Triangle> triangles;
   std::vector<std::array<Index, 3>> neighbors;
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
-  MeshJournal journal;            ///< of flip, split and replaceFan, while it is recorded
+  MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
   static std::uint8_t next (std::uint8_t side)
   {
@@ -64,7 +65,7 @@ struct TriangleMesh
   Index from (MeshEdge e) const { return triangles[e.triangle][next (e.side)]; }
   Index to (MeshEdge e) const { return triangles[e.triangle][previous (e.side)]; }
 
-  /// Corner of triangle t that is point p.
+  /// Which corner of triangle t is point p, which must be one.
   std::uint8_t sideOf (Index t, Index p) const
   {
     return static_cast<std::uint8_t> (triangles[t][0] == p ? 0 : triangles[t][1] == p ? 1 : 2);
@@ -79,57 +80,63 @@ struct TriangleMesh
     return {other, next (sideOf (other, from (e)))};
   }
 
-  /// Triangles around p, anti-clockwise; at the boundary from one boundary edge to the other.
-  /// Empty if p is no vertex.
+  /// Sets `fan_triangles` to the triangles around p, anti-clockwise; at the boundary from one
+  /// boundary edge to the other. Empty if p is not a vertex. O(triangles around p).
   void fan (Index p, std::vector<Index>& fan_triangles) const;
 
-  /// True if an edge joins p and q, which must be vertices.
+  /// True if an edge joins p, which must be a vertex, and q. O(triangles around p).
   bool hasEdge (Index p, Index q) const;
 
-  /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge
-  /// and the other diagonal must not be an edge yet. Afterwards the edge's triangle has corners
-  /// (corner, from, opposite) and the neighbour (opposite, to, corner).
+  /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,
+  /// and the other diagonal must not be an edge yet. Afterwards triangle e.triangle has the corners
+  /// (corner, from, opposite) and the other one (opposite, to, corner); both named as before the
+  /// flip, and the new edge is side 1 of both.
   void flip (MeshEdge e);
 
-  /// Splits triangle t in three at point p, which must not be a vertex.
+  /// Splits triangle t in three at point p, which must not be a vertex. Appends two triangles.
   void split (Index t, Index p);
 
-  /// The same; the second and third triangle go to slots u and v, which must not be in use.
+  /// The same. The second and the third triangle become u and v, which must not be in use.
   void split (Index t, Index p, Index u, Index v);
 
-  /// Replaces the closed fan around p by triangles of the polygon around it, two fewer, which join
-  /// no points that an edge joins already. The last two slots of the fan are then not in use.
+  /// Replaces the closed fan around p by a triangulation of the polygon around it, which has two
+  /// triangles less. Its inner edges must not be edges yet. Afterwards p is not a vertex, and the
+  /// last two triangles of the fan are not in use.
   void replaceFan (Index p, const std::vector<Index>& fan_triangles,
                    const std::vector<Triangle>& filling);
 
-  /// Records changes from here on, in an empty journal. \param is_on false: no longer
+  /// Clears the journal, and records changes from here on.
+  /// \param is_on false: records no longer
   void recordChanges (bool is_on = true);
 
-  /// The state of the mesh, to come back to by undo ().
+  /// The state of the mesh, to which undo () can return. While changes are recorded.
   std::size_t mark () const { return journal.entries_.size (); }
 
-  /// Undoes all changes that were recorded after a mark, last first.
+  /// Undoes all changes that were recorded since mark () returned this value, the last one first.
   void undo (std::size_t mark);
 
   /// Sets neighbours and triangle_of from the triangles. O(n).
-  /// \return false if the triangles are no oriented manifold (the mesh is then unusable)
+  /// \param points number of points; corners must be below
+  /// \return false if the triangles are no oriented manifold; the mesh is then unusable
+  /// \throw std::length_error if there are 2^32 / 3 triangles or more
   bool connect (std::size_t points, const RunContext& run);
 
 private:
-  // Sets the neighbours across the edges that leave p. False if one leaves it twice.
-  bool connectFrom (Index p, const std::vector<Index>& offsets, const std::vector<Index>& leaving);
+  // Sets the neighbours across the edges that leave p. Returns false if an edge leaves p twice.
+  // `leaving` has the edges that leave each point, as 3 triangle + side.
+  bool connectFrom (Index p, const CsrLists& leaving);
   void link (Index t, std::uint8_t side, MeshEdge other);
   void set (Index t, const Triangle& corners);
   void setTriangleOf (Index p, Index t);
   void note (Index t);
 };
 
-/// Boundary loops, each with the surface on its left, in order of their smallest point, starting at
-/// it.
+/// The points of each boundary loop in order, the surface on the left. A loop starts at its
+/// smallest point; loops are sorted by these. O(n).
 std::vector<std::vector<Index>>
-boundaryLoops (const TriangleMesh& mesh);
+boundaryLoops (const TriangleMesh& mesh, const RunContext& run);
 
-/// Components of a mesh: triangles that are connected by edges.
+/// Components of a mesh. The triangles of a component are connected by edges.
 struct MeshComponents
 {
   std::vector<Index> of_triangle; ///< numbered from 0 in the order of their first triangles
@@ -138,9 +145,9 @@ struct MeshComponents
 
 /// O(n).
 MeshComponents
-findComponents (const TriangleMesh& mesh);
+findComponents (const TriangleMesh& mesh, const RunContext& run);
 
-/// Vertices of each component. O(n).
+/// Number of vertices of each component. O(n).
 std::vector<std::size_t>
 countPoints (const TriangleMesh& mesh, const MeshComponents& components);
 

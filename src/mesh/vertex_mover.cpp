@@ -8,13 +8,7 @@ namespace pcl
 {
 namespace floater
 {
-namespace
-{
-constexpr std::size_t LARGEST_FAN = 16; // vertices of more triangles are not moved
-
-} // namespace
-
-// Cost of some triangles and all their edges, those between two of them once.
+// Cost of some triangles and of all their edges; an edge between two of them counts once.
 double
 VertexMover::costOf (const Index* first, const Index* last)
 {
@@ -25,18 +19,18 @@ VertexMover::costOf (const Index* first, const Index* last)
     for (std::uint8_t side = 0; side < 3; ++side) {
       const Index other = mesh_.neighbors[*t][side];
       if (other != NONE && (std::find (first, last, other) == last || *t < other))
-        sum += TriangleCost::ofFold (normal, normalBehind (mesh_, cost_, {*t, side}));
+        sum += cost_.plain ().ofEdge (normal, normalAcross (mesh_, cost_, {*t, side}));
     }
   }
   return sum;
 }
 
-// Takes the vertex out, if that can be done. Returns the change of cost.
+// Takes a vertex out. Returns false if that is not possible.
 bool
 VertexMover::takeOut (Index v, double& change)
 {
   mesh_.fan (v, fan_);
-  if (fan_.size () < 3 || fan_.size () > LARGEST_FAN)
+  if (fan_.size () < 3 || fan_.size () > largest_fan_)
     return false;
   const Index last = fan_.back ();
   if (mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, v))] != fan_.front ())
@@ -79,7 +73,7 @@ VertexMover::move (Index v, std::size_t tried)
     return 0.0;
   }
   settleAt (v, best_place);
-  touch (v);
+  markDirty (v);
   return best;
 }
 
@@ -95,13 +89,13 @@ VertexMover::moveTo (Index v, std::size_t rank, double& change)
     return false;
   }
   change += places_[rank].first + settleAt (v, places_[rank].second);
-  touch (v);
+  markDirty (v);
   return true;
 }
 
-// Notes the old and the new neighbours of a vertex that has been moved.
+// Appends the old and the new neighbours of a vertex that has been moved.
 void
-VertexMover::touch (Index v)
+VertexMover::markDirty (Index v)
 {
   dirty_.insert (dirty_.end (), polygon_.begin (), polygon_.end ());
   mesh_.fan (v, fan_);
@@ -109,8 +103,8 @@ VertexMover::touch (Index v)
     dirty_.insert (dirty_.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
 }
 
-// Splits a triangle at a vertex, in the slots that its fan has left, and flips edges from there
-// and from the filling. Returns the change of cost by the flips.
+// Splits triangle t at a vertex, using the two free slots, and flips edges around the vertex and
+// around its old place. Returns the change of cost by the flips.
 double
 VertexMover::settleAt (Index v, Index t)
 {
@@ -127,7 +121,8 @@ VertexMover::settleAt (Index v, Index t)
   return flipper_.run ();
 }
 
-// True if the mesh has a triangle of these corners, the other way round: the tetrahedron's last.
+// True if the mesh has a triangle with these corners, the other way round: the fourth triangle of a
+// tetrahedron.
 bool
 VertexMover::isTriangle (const Triangle& corners)
 {
@@ -140,7 +135,7 @@ VertexMover::isTriangle (const Triangle& corners)
   });
 }
 
-// The triangles in which the vertex costs least, with the cost that its split adds.
+// The triangles whose split at the vertex costs least, at most as many as asked for.
 const std::vector<std::pair<double, Index>>&
 VertexMover::places (Index v, std::size_t most)
 {
@@ -156,7 +151,7 @@ VertexMover::places (Index v, std::size_t most)
   return places_;
 }
 
-// Adds a triangle to the cheapest places, if it is among them and has not been looked at.
+// Adds a triangle to the cheapest places if it is one of them and has not been looked at.
 void
 VertexMover::offer (Index t, Index v, std::size_t most)
 {

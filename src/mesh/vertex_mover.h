@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Single vertices taken out of a mesh and put back elsewhere.
+// Takes single vertices out of a mesh and puts them back elsewhere.
 #pragma once
 
 #include "mesh/flips.h"
@@ -12,20 +12,22 @@ namespace pcl
 {
 namespace floater
 {
-/// Takes a vertex out, fills its hole by the triangulation of least cost, and puts it back into a
-/// triangle around its nearest neighbours, on whatever sheet, with flips from there. Vertices at
-/// the boundary and those of more than 16 triangles stay. While it lives, changes of the mesh are
-/// noted in its journal; with flips, an undone mesh is what it was, bit by bit.
+/// Takes a vertex out, fills its hole by the triangulation of least cost (see PolygonFilling), puts
+/// it back into a triangle at one of its nearest neighbours, on whatever sheet, and flips edges
+/// around both places. Vertices at the boundary and those with too many triangles stay. As long as
+/// the mover exists, the mesh records its changes, so that they can be undone to the last bit.
 class VertexMover
 {
 public:
-  /// Changes of cost below are none: of the cost of a triangle of equal sides.
+  /// A smaller change of cost may be rounding. An equilateral triangle costs 1.73.
   static constexpr double IMPROVES = 1e-6;
 
+  /// \param neighbors   nearest neighbours of each point
+  /// \param largest_fan triangles; a vertex with more of them is not moved
   VertexMover (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-               const RunContext& run)
-      : mesh_ (mesh), neighbors_ (neighbors), cost_ (cost), flipper_ (mesh, cost_, run),
-        offered_ (mesh.triangles.size (), 0)
+               std::size_t largest_fan, const RunContext& run)
+      : mesh_ (mesh), neighbors_ (neighbors), largest_fan_ (largest_fan), cost_ (cost),
+        flipper_ (mesh, cost_, run), filling_ (run), offered_ (mesh.triangles.size (), 0)
   {
     mesh_.recordChanges ();
   }
@@ -33,30 +35,32 @@ public:
   VertexMover& operator= (const VertexMover&) = delete;
   ~VertexMover () { mesh_.recordChanges (false); }
 
-  /// Moves a vertex to the place where the cost of the mesh gets least, if less than now.
-  /// \param tried places where flips are tried: those where the split alone adds least
-  /// \return the change of cost, 0 if the vertex stays
+  /// Moves a vertex to the place where the cost of the mesh is least, if it is less than now.
+  /// \param tried number of places that are tried: those where the split itself costs least
+  /// \return change of the cost of the mesh: below 0, or 0 if the vertex stays
   double move (Index v, std::size_t tried);
 
-  /// Moves a vertex to the place of a rank, from 0, by the cost that the split adds there.
-  /// \return false if there is no such place, or the vertex cannot be taken out
+  /// Moves a vertex to the place of some rank, whatever it costs.
+  /// \param rank   from 0 for the place where the split itself costs least
+  /// \param change out: of the cost of the mesh
+  /// \return false if there is no such place or the vertex cannot be taken out; it then stays
   bool moveTo (Index v, std::size_t rank, double& change);
 
-  /// The cost, as this remembers it.
   CachedCost& cost () { return cost_; }
 
-  /// Changes since the last call of start.
+  /// The journal has the changes since the last call of start, and undo undoes them.
   void start () { mesh_.recordChanges (); }
   void undo () { mesh_.undo (0); }
   const MeshJournal& journal () const { return mesh_.journal; }
 
-  /// Old and new neighbours of the vertices moved, appended, also where that was undone later.
+  /// Old and new neighbours of all vertices that were moved, also of moves that were undone later.
+  /// New ones are appended; the caller clears the list.
   std::vector<Index>& dirty () { return dirty_; }
 
 private:
   double costOf (const Index* first, const Index* last);
   bool takeOut (Index v, double& change);
-  void touch (Index v);
+  void markDirty (Index v);
   double settleAt (Index v, Index t);
   bool isTriangle (const Triangle& corners);
   const std::vector<std::pair<double, Index>>& places (Index v, std::size_t most);
@@ -64,14 +68,15 @@ private:
 
   TriangleMesh& mesh_;
   const CsrLists& neighbors_;
+  std::size_t largest_fan_;
   CachedCost cost_;
   EdgeFlipper flipper_;
   PolygonFilling filling_;
-  std::vector<Triangle> filled_; // of the hole that the vertex taken out has left ...
-  std::vector<Index> slots_;     // ... in these but for the last two, which are free
+  std::vector<Triangle> filled_; // the filling of the hole that a vertex has left
+  std::vector<Index> slots_;     // the triangles of that hole; the last two are not in use
   std::vector<Index> fan_, polygon_, dirty_;
-  std::vector<std::pair<double, Index>> places_; // cheapest first
-  std::vector<std::uint32_t> offered_; // per triangle: the search for places that saw it last
+  std::vector<std::pair<double, Index>> places_; // (cost of the split, triangle), cheapest first
+  std::vector<std::uint32_t> offered_;           // per triangle: the last search that looked at it
   std::uint32_t search_ = 0;
 };
 

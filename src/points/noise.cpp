@@ -143,11 +143,9 @@ private:
 } // namespace
 
 bool
-isStrongNoise (double noise, std::size_t points)
+isStrongNoise (double noise, std::size_t points, const NoiseLimits& limits)
 {
-  // A thin tube of so few points is as rough as noise to its neighbourhoods.
-  constexpr std::size_t FEWEST = 400;
-  return noise >= STRONG_NOISE && points >= FEWEST;
+  return noise >= limits.strong && points >= limits.fewest_points;
 }
 
 double

@@ -17,13 +17,6 @@ namespace
 {
 constexpr std::size_t LOOKED_AT = 20; // nearest neighbours, however many there are
 constexpr std::size_t REACH_OF = 6;   // nearest neighbour whose distance is a point's reach
-constexpr std::size_t HANDFUL = 7;    // points of the largest cluster that may be left out
-constexpr double FAR = 5.0;           // reaches to the rest from which on such a cluster is apart
-constexpr double OFF_PLANE = 1.75;    // reaches above its neighbours' plane where a point is apart
-constexpr double FLAT = 0.25;         // neighbours' median distance to their plane, of that height
-constexpr double STRAY = 3.0;     // of these medians: neighbours that do not belong to the plane
-constexpr std::size_t OWN = 12;   // a point is one of another's own if among its 12 nearest
-constexpr std::uint8_t SOLID = 4; // so many have a point of a surface among their own
 
 using Arc = std::pair<Index, Index>; // a point and one of its own
 
@@ -54,8 +47,8 @@ class ApartTest
 {
 public:
   ApartTest (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const std::vector<float>& reach)
-      : positions_ (positions), neighbors_ (neighbors), reach_ (reach)
+             const std::vector<float>& reach, const OutlierLimits& limits)
+      : positions_ (positions), neighbors_ (neighbors), reach_ (reach), limits_ (limits)
   {
   }
 
@@ -65,17 +58,17 @@ public:
     if (row.size () < 4)
       return false;
     // The nearest ones may be of the same small cluster: the reach of the others tells what is far.
-    const std::size_t beyond = std::min (HANDFUL, row.size () / 2);
+    const std::size_t beyond = std::min (limits_.cluster, row.size () / 2);
     const double to_others = distance (positions_, p, row[beyond]);
     scratch_.clear ();
     for (std::size_t i = beyond; i < row.size (); ++i)
       scratch_.push_back (reach_[row[i]]);
-    if (to_others <= OFF_PLANE * *std::min_element (scratch_.begin (), scratch_.end ()))
+    if (to_others <= limits_.off_plane * *std::min_element (scratch_.begin (), scratch_.end ()))
       return false; // so are nearly all points, without a median
     const double usual = median ();
-    if (to_others > FAR * usual)
+    if (to_others > limits_.far * usual)
       return true;
-    return to_others > OFF_PLANE * usual && isOffPlane (p, row, OFF_PLANE * usual);
+    return to_others > limits_.off_plane * usual && isOffPlane (p, row, limits_.off_plane * usual);
   }
 
 private:
@@ -95,7 +88,7 @@ private:
       PlaneFit fit;
       for (Index q : row) {
         const Eigen::Vector3d offset = positions_[q] - positions_[p];
-        if (pass == 0 || std::abs (plane.height (offset)) <= STRAY * spread)
+        if (pass == 0 || std::abs (plane.height (offset)) <= limits_.stray * spread)
           fit.add (offset);
       }
       plane = fit.plane ();
@@ -105,28 +98,30 @@ private:
       spread = median ();
     }
     const double height = std::abs (plane.height (Eigen::Vector3d::Zero ()));
-    return height > least_height && spread < FLAT * height;
+    return height > least_height && spread < limits_.flat * height;
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
   const CsrLists& neighbors_;
   const std::vector<float>& reach_;
+  const OutlierLimits& limits_;
   std::vector<double> scratch_;
 };
 
 // Arcs to points that lie apart, from points that enough others count among their own. An outlier
 // may well be nearest to another outlier; but few points are nearest to that one.
 std::vector<Arc>
-arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart)
+arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
+             const OutlierLimits& limits)
 {
-  std::vector<std::uint8_t> owners (apart.size (), 0); // up to SOLID
+  std::vector<std::uint32_t> owners (apart.size (), 0);
   for (std::size_t q = 0; q < apart.size (); ++q)
-    for (Index p : neighbors.first (q, OWN))
-      owners[p] = std::min<std::uint8_t> (SOLID, owners[p] + 1U);
+    for (Index p : neighbors.first (q, limits.own))
+      ++owners[p];
   std::vector<Arc> arcs;
   for (std::size_t q = 0; q < apart.size (); ++q)
-    if (owners[q] >= SOLID)
-      for (Index p : neighbors.first (q, OWN))
+    if (owners[q] >= limits.owners)
+      for (Index p : neighbors.first (q, limits.own))
         if (apart[p] != 0)
           arcs.emplace_back (static_cast<Index> (q), p);
   return arcs; // ascending by q
@@ -157,7 +152,8 @@ keepReached (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
 
 // Clears the flag of points that hang together in more than a handful.
 void
-keepLargeClusters (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
+keepLargeClusters (const std::vector<Arc>& arcs, std::size_t largest_cluster,
+                   std::vector<std::uint8_t>& apart)
 {
   std::vector<Index> points;
   for (std::size_t p = 0; p < apart.size (); ++p)
@@ -175,7 +171,7 @@ keepLargeClusters (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apar
   for (Index i = 0; i < points.size (); ++i)
     ++size[clusters.find (i)];
   for (Index i = 0; i < points.size (); ++i)
-    if (size[clusters.find (i)] > HANDFUL)
+    if (size[clusters.find (i)] > largest_cluster)
       apart[points[i]] = 0;
 }
 
@@ -183,24 +179,24 @@ keepLargeClusters (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apar
 
 std::vector<Index>
 findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run)
+              const RunContext& run, const OutlierLimits& limits)
 {
   const std::size_t n = positions.size ();
   std::vector<Index> outliers;
-  if (n < 3 * HANDFUL)
+  if (n < 3 * limits.cluster)
     return outliers; // no telling which of them are the surface
   const std::vector<float> reach = findReaches (positions, neighbors, run);
   std::vector<std::uint8_t> apart (n, 0);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    ApartTest test (positions, neighbors, reach);
+    ApartTest test (positions, neighbors, reach, limits);
     for (std::size_t p = first; p < last; ++p)
       apart[p] = test.isApart (static_cast<Index> (p)) ? 1 : 0;
   });
   if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
     return outliers;
-  const std::vector<Arc> arcs = arcsToApart (neighbors, apart);
+  const std::vector<Arc> arcs = arcsToApart (neighbors, apart, limits);
   keepReached (arcs, apart);
-  keepLargeClusters (arcs, apart);
+  keepLargeClusters (arcs, limits.cluster, apart);
   for (std::size_t p = 0; p < n; ++p)
     if (apart[p] != 0)
       outliers.push_back (static_cast<Index> (p));

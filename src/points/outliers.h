@@ -11,18 +11,33 @@ namespace pcl
 {
 namespace floater
 {
-/// Points to leave out, ascending. A point is one if it lies apart, in one of two ways,
+/// When a point lies off any surface. Distances are in reaches: the distance of a point to its 6th
+/// nearest neighbour, about 1.3 spacings. The values were chosen on seeded clouds with outliers
+/// strewn into the box around them, and on the clouds of the first benchmark, which lose no point
+/// to them; a thin spike of the surface may.
+struct OutlierLimits
+{
+  double far = 5.0;        ///< reaches to the rest from which on a small cluster lies apart
+  double off_plane = 1.75; ///< reaches above its neighbours' plane from which on a point lies apart
+  double flat = 0.25; ///< of that height: the neighbours' median distance to their plane is smaller
+  double stray = 3.0; ///< of that median: neighbours beyond do not belong to the plane
+  std::size_t cluster = 7; ///< points of the largest cluster that may be left out
+  std::size_t own = 12;    ///< a point counts as one of another's own if among its 12 nearest
+  std::size_t owners = 4;  ///< so many points have a point of a surface among their own
+};
+
+/// Points to leave out, ascending. A point is one if it lies apart, in one of two ways:
 ///  - it and at most 6 others are farther from all else than 5 times the reach of the points there;
 ///  - it lies off the plane of its neighbours by more than 1.75 times their reach, while they lie
 ///    well on that plane without it;
-/// and the points of the surface do not count it among their own nearest: that keeps what is
-/// sparse but hangs together, as beside a part of the cloud that is many times denser. Reach is a
-/// point's distance to its 6th nearest, about 1.3 spacings. None in clouds of fewer than 21 points.
-/// 0.2 microseconds per point, serial where there is something to decide.
-/// \param near nearest neighbours, nearest first
+/// and if the points of the surface do not count it among their own nearest. That keeps what is
+/// sparse but connected, as beside a part of the cloud that is many times denser. There are none in
+/// clouds of fewer than 21 points. 0.2 microseconds per point, in one thread where there is
+/// something to decide.
+/// \param neighbors of each point, nearest first
 std::vector<Index>
 findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run);
+              const RunContext& run, const OutlierLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

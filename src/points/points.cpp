@@ -4,7 +4,6 @@
 #include "core/parallel.h"
 #include "core/plane_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -168,15 +167,10 @@ checkPoints (const Points& points)
     return {Status::TOO_FEW_POINTS, "only " + std::to_string (n) +
                                         " distinct finite points; at least " +
                                         std::to_string (FEWEST) + " are needed"};
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
-  for (const Eigen::Vector3d& p : points.positions)
-    mean += p;
-  mean /= static_cast<double> (n);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
-  for (const Eigen::Vector3d& p : points.positions)
-    covariance += (p - mean) * (p - mean).transpose ();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (covariance);
-  const Eigen::Vector3d spread = solver.eigenvalues ().cwiseMax (0.0).cwiseSqrt ();
+  PlaneFit fit;
+  for (const Eigen::Vector3d& position : points.positions)
+    fit.add (position - points.positions.front ());
+  const Eigen::Vector3d spread = fit.principalAxes ().spread;
   // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
   if (spread[1] < 1e-6 * spread[2])
     return {Status::DEGENERATE,

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing, builds the benchmark, and makes the tables and figures of TW 385 again.
+# Installs missing packages, builds the benchmark, and reproduces the tables and figures of TW 385.
 set -euo pipefail
 
 usage () {
   cat <<'END'
 Usage: run.sh [CLOUD...]
 Writes floater_result/benchmark/report.md in the working directory, with pictures and CSV files.
-CLOUD: point clouds, each a disc (.pcd, .ply or .obj). Without one, those of the folder
+CLOUD: point clouds that are discs (.pcd, .ply or .obj); default: seven of the folder
        PCL_FLOATER_DATA (default: ../shared/data beside the project), and a generated finger, whose
-       tip is about as dense in the plane as the densest part of the largest model of TW 385.
+       tip is about as dense in the plane as the densest part of the largest model of TW 385
 END
 }
 
@@ -49,7 +49,7 @@ log=$build/benchmark.log
 if ! (cd "$root" && cmake --preset bench &&
   cmake --build --preset bench --target pcl_floater_benchmark pcl_floater_generate) >"$log" 2>&1; then
   tail -n 40 "$log" >&2
-  fail "the build failed; all of its output is in $log"
+  fail "the build failed; its output is in $log"
 fi
 
 if [[ -n $finger ]]; then

@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing, builds, and measures how time and memory grow with the number of points:
-# ours, pcl::GreedyProjectionTriangulation and CGAL's advancing front in turn, each run in a process
-# of its own.
+# Installs missing packages, builds, and measures how the time and memory of pcl_floater, of
+# pcl::GreedyProjectionTriangulation and of CGAL's advancing front grow with the number of points. The
+# methods run in turn, each run in a process of its own.
 set -euo pipefail
 
 usage () {
   cat <<'END'
 Usage: scaling.sh [OPTION...] [CLOUD...]
 Writes floater_result/scaling/report.md in the working directory, with charts, tables as CSV files,
-and runs.csv, a row for every run.
-CLOUD: point clouds (.pcd, .ply or .obj). Without one, some of the folder PCL_FLOATER_DATA (default:
-       ../shared/data beside the project); they are skipped where it is missing.
-  --largest N       leave out what has more points (default 3000000; 100000 takes a minute or two)
-  --repeats N       runs of which the median is taken (default 3, and 1 above 300000 points)
-  --methods LIST    of floater,floater-disc,gp3,afs (default: all; floater-disc on height-field only)
+and runs.csv, which has a row for every run.
+CLOUD: point clouds (.pcd, .ply or .obj); default: some of the folder PCL_FLOATER_DATA (default:
+       ../shared/data beside the project), if it exists
+  --largest N       leave out clouds with more points (default 3000000; 100000 takes 1 to 2 minutes)
+  --repeats N       runs, of which the median is shown (default 3, and 1 above 300000 points)
+  --methods LIST    some of floater,floater-disc,gp3,afs (default: all; floater-disc runs on
+                    height-field only)
   --surfaces LIST   kinds of pcl_floater_generate (default: height-field,sphere,torus)
-  --time-limit S    seconds after which a run is given up, and larger ones with it (default 600)
-  --threads N       of ours and of gp3's normals; afs has one (default 0: one for each core)
-  --build FOLDER    take the programs built in this folder, instead of building them
+  --time-limit S    seconds after which a run is ended, and larger ones are left out (default 600)
+  --threads N       threads of floater and of the normals of gp3; afs has one (default 0: one for
+                    each core)
+  --build FOLDER    use the programs in this build folder, instead of building them
 END
 }
 
@@ -40,7 +42,7 @@ text () {
 }
 
 sizes=(10000 30000 100000 300000 1000000 3000000)
-repeated_up_to=300000 # points; of larger clouds one run is measured exactly enough
+repeated_up_to=300000 # points; the times of larger clouds vary little
 largest=3000000
 repeats=
 methods=(floater floater-disc gp3 afs)
@@ -79,7 +81,7 @@ if ((${#clouds[@]} == 0)); then
       clouds+=("$data/$name.pcd")
     done
   else
-    echo "Skipped: real clouds, for there is no folder $data"
+    echo "Skipped: the real clouds, because there is no folder $data"
   fi
 fi
 for cloud in "${clouds[@]}"; do
@@ -95,7 +97,7 @@ if [[ -z $build ]]; then
   if ! (cd "$root" && cmake --preset bench &&
     cmake --build --preset bench --target pcl_floater_scaling) >"$log" 2>&1; then
     tail -n 40 "$log" >&2
-    fail "the build failed; all of its output is in $log"
+    fail "the build failed; its output is in $log"
   fi
 fi
 programs=$build/test/benchmark/scaling
@@ -110,7 +112,7 @@ echo "surface,cloud,points,method,repeat,outcome,$("$programs/pcl_floater_scalin
   >"$runs"
 
 failures=0
-declare -A given_up # by surface, cloud, method: a larger one would take longer still
+declare -A given_up # by surface, cloud and method: larger clouds would take even longer
 
 # run SURFACE CLOUD POINTS FILE METHOD REPEAT
 run () {
@@ -132,7 +134,7 @@ run () {
     "$(if ((code == 0)); then echo "${row%%,*} s"; else echo "$outcome"; fi)"
 }
 
-# measure SURFACE CLOUD POINTS FILE: all methods in turn, each repeat beginning with another one
+# measure SURFACE CLOUD POINTS FILE: runs all methods in turn; each repeat begins with another one
 measure () {
   local repeat times=$repeats i method
   if [[ -z $times ]] || (($3 > repeated_up_to)); then
@@ -160,15 +162,15 @@ for cloud in "${clouds[@]}"; do
   points=$("$programs/pcl_floater_scaling_afs" --count "$cloud")
   name=$(basename "${cloud%.*}")
   if ((points > largest)); then
-    echo "Skipped: $name, for it has $points points"
+    echo "Skipped: $name, because it has $points points"
     continue
   fi
   measure clouds "${name//[^A-Za-z0-9_.-]/_}" "$points" "$cloud"
 done
 
-threads_note="Threads: $threads for ours and gp3's normals"
-((threads > 0)) || threads_note="Threads: one for each core for ours and gp3's normals"
+threads_note="Threads: $threads for floater and the normals of gp3"
+((threads > 0)) || threads_note="Threads: one for each core for floater and the normals of gp3"
 "$root/tools/picture/on_virtual_display.sh" "$programs/pcl_floater_scaling_report" "$runs" \
   --out "$result" --note "$threads_note, 1 for afs." \
-  "Load average when it was done: $(cut -d ' ' -f 1-3 /proc/loadavg)."
-((failures == 0)) || fail "$failures runs failed; they are named in $runs"
+  "Load average at the end: $(cut -d ' ' -f 1-3 /proc/loadavg)."
+((failures == 0)) || fail "failed runs: $failures; they are named in $runs"

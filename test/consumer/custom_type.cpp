@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A point type of the user's own: the class is made for it here, from the installed templates.
+// A point type of the user's own: the class is instantiated here, from the installed templates.
 #define PCL_NO_PRECOMPILE
 #include "height_field.h"
 
@@ -48,7 +48,7 @@ main ()
   std::vector<pcl::Vertices> polygons;
   floater.reconstruct (points, polygons);
   if (!isHeightField (points, polygons)) {
-    std::cerr << "with a kd-tree of the user's: " << floater.getMessage () << '\n';
+    std::cerr << "with a search method of the user: " << floater.getMessage () << '\n';
     return 1;
   }
   return 0;

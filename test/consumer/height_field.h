@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A height field and what must hold of its mesh.
+// A height field, and a check of its mesh.
 #pragma once
 
 #include <pcl/conversions.h>
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-/// A grid of 20 times 20 points, each moved a little off its place.
+/// A grid of 20 by 20 points, each slightly displaced.
 template <typename PointT>
 typename pcl::PointCloud<PointT>::Ptr
 makeHeightField ()
@@ -31,8 +31,7 @@ makeHeightField ()
   return cloud;
 }
 
-/// Whether a mesh is one disc over all points of the height field, none of its triangles turned
-/// over.
+/// Whether a mesh is one disc over all points of the height field without folds in plan view.
 template <typename PointT>
 bool
 isHeightField (const pcl::PointCloud<PointT>& cloud, const std::vector<pcl::Vertices>& polygons)
@@ -59,7 +58,7 @@ isHeightField (const pcl::PointCloud<PointT>& cloud, const std::vector<pcl::Vert
          (upward == 0 || upward == polygons.size ());
 }
 
-/// Reconstructs by default parameters and checks the mesh; the exit code of a program.
+/// Reconstructs with the default options and checks the mesh. \return exit code of the program
 template <typename PointT>
 int
 reconstructHeightField (const pcl::PointCloud<PointT>& cloud, pcl::PolygonMesh& mesh)

@@ -29,13 +29,13 @@ run ("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${prefix}" ${config_t
 run ("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATOR}" ${CACHE}
      "-DCMAKE_PREFIX_PATH=${prefix}")
 
-# That it was the installed package: a build tree of this project may be known to CMake, too.
+# Checks that the installed package was found: CMake may also know a build tree of this project.
 file (STRINGS "${build}/CMakeCache.txt" found REGEX "^pcl_floater_DIR:")
 string (FIND "${found}" "=${prefix}/" from_prefix)
 if (from_prefix EQUAL -1)
   message (FATAL_ERROR "the consumer found another package: ${found}")
 endif ()
 
-# Not optimized, which is quick and also how users debug.
+# Without optimization, which builds fast and is how users debug.
 run ("${CMAKE_COMMAND}" --build "${build}" --config Debug)
 run ("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" -C Debug --output-on-failure --no-tests=error)

@@ -38,7 +38,7 @@ class Tools(unittest.TestCase):
             return file.read()
 
     def check(self, code, *command, says=""):
-        """Runs a command; an exit code and a message are expected, and no files left over."""
+        """Runs a command; checks its exit code, its message, and that no temporary file is left."""
         environment = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
         done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=100)
         self.assertEqual(done.returncode, code, done.stderr)
@@ -80,7 +80,7 @@ class Tools(unittest.TestCase):
         self.check(code, ON_DISPLAY, PICTURE, *arguments, says=says)
 
     def pixels(self, name):
-        """Size of a picture, and how many different bytes its rows hold (a blank one: a few)."""
+        """Width and height of a picture, and the number of different bytes in it: few if blank."""
         data = self.read(name)
         self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
         width, height = struct.unpack(">II", data[16:24])

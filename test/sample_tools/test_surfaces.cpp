@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sample clouds that other tests rely on: on their surface, even, as many as asked for.
+// The sample clouds that other tests rely on: points on their surface, evenly dense, the right
+// number.
 #include "surfaces.h"
 
 #include <gtest/gtest.h>
@@ -90,7 +91,7 @@ TEST_P (EverySurface, MovesEachPointByTheNoise)
   const Points exact = generateSurface (spec);
   spec.noise = 0.3;
   const Points noisy = generateSurface (spec);
-  // The order differs, for the noise takes random numbers first: compare moments.
+  // The order differs, because the noise uses random numbers first; so moments are compared.
   double sum_exact = 0.0, sum_noisy = 0.0;
   for (std::size_t i = 0; i < exact.size (); ++i) {
     sum_exact += exact[i].squaredNorm ();

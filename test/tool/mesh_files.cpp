@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All that includes PCL and VTK is here, for that takes long to compile.
+// The only file that includes PCL and VTK, which take long to compile.
 #include "mesh_files.h"
 
 #include "sample.h"
@@ -169,7 +169,7 @@ readVtk (const std::string& path)
 {
   vtkSmartPointer<vtkPolyDataReader> reader = vtkSmartPointer<vtkPolyDataReader>::New ();
   reader->SetFileName (path.c_str ());
-  // Without these, VTK reads only what it takes for active.
+  // Without these, VTK reads only the arrays that it takes for active.
   reader->ReadAllFieldsOn ();
   reader->ReadAllNormalsOn ();
   reader->ReadAllScalarsOn ();

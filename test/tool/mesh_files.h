@@ -29,7 +29,7 @@ struct MeshContent
 MeshContent
 readVtk (const std::string& path);
 
-/// What pcl_viewer and PCL programs get of a VTK file: pcl::io::loadPolygonFileVTK.
+/// A VTK file as pcl_viewer and other programs with PCL read it: pcl::io::loadPolygonFileVTK.
 MeshContent
 readVtkWithPcl (const std::string& path);
 
@@ -41,7 +41,7 @@ readPly (const std::string& path);
 MeshContent
 readStl (const std::string& path);
 
-/// Line by line, for no library reads doubles from OBJ.
+/// Reads an OBJ file line by line, because no library reads doubles from it.
 MeshContent
 readObj (const std::string& path);
 

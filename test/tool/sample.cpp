@@ -58,9 +58,10 @@ makeSample (bool is_double, int side)
 {
   constexpr unsigned SEED = 7;
   std::mt19937 random (SEED);
-  // Not a distribution of the library: those differ between implementations.
+  // The distributions of the standard library differ between implementations.
   const auto uniform = [&random] { return static_cast<double> (random ()) / 4294967296.0 - 0.5; };
-  // Multiples of 1 / GRAIN are floats: not cast to float and back, which GCC 12 leaves out at -O2.
+  // Multiples of 1 / GRAIN are exact floats. A cast to float and back is no way to get them: GCC 12
+  // drops it at -O2.
   constexpr double GRAIN = 262144.0;
   Sample sample;
   sample.is_double = is_double;

@@ -13,7 +13,7 @@ namespace pcl
 {
 namespace floater
 {
-/// Points of a rolling square in mixed order.
+/// Points of a wavy square in random order.
 struct Sample
 {
   bool is_double = false;
@@ -25,9 +25,9 @@ struct Sample
   std::size_t size () const { return points.size (); }
 };
 
-/// side * side points. In single precision every coordinate is a float; in double precision they
-/// are centimetres apart at map coordinates of a million metres, where floats would fall on each
-/// other.
+/// Makes side * side points. In single precision every coordinate is a float. In double precision
+/// the points are centimetres apart at map coordinates of a million metres, where floats could not
+/// tell them apart.
 Sample
 makeSample (bool is_double, int side = 12);
 

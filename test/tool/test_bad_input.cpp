@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files and clouds that cannot be used: the exit code, a message that names the cause, nothing
-// left.
+// Files and clouds that cannot be used: exit code, a message that names the cause, and no output.
 #include "cloud_reader.h"
 #include "sample.h"
 #include "tool_runner.h"
@@ -42,8 +41,8 @@ badFiles ()
   const std::string compressed_sizes ("\x05\0\0\0\x18\0\0\0", 8);
   return {
       {"Empty", "in.pcd", "", "empty"},
-      {"NotPcd", "in.pcd", "hello world\n", "line 1: this is no line of a PCD header"},
-      {"PcdBytes", "in.pcd", std::string (100, '\xfe'), "this is no line of a PCD header"},
+      {"NotPcd", "in.pcd", "hello world\n", "line 1: this is not a line of a PCD header"},
+      {"PcdBytes", "in.pcd", std::string (100, '\xfe'), "this is not a line of a PCD header"},
       {"PcdNoData", "in.pcd", XYZ + two, "truncated"},
       {"PcdFewPoints", "in.pcd", XYZ + two + "DATA ascii\n0.00000 0.00000 0.00000\n", "only 1"},
       {"PcdFewNumbers", "in.pcd", XYZ + two + "DATA ascii\n0 0 0\n0 1   \n    \n",
@@ -60,7 +59,7 @@ badFiles ()
       {"PcdAbsurdCompressed", "in.pcd",
        XYZ + many + "DATA binary_compressed\n" + compressed_sizes + "abcde", "truncated"},
       {"PcdOverflow", "in.pcd", XYZ + "WIDTH 18446744073709551615\nHEIGHT 2\nDATA ascii\n",
-       "beyond all bounds"},
+       "is too large"},
       {"PcdShortCompressed", "in.pcd",
        XYZ + two + "DATA binary_compressed\n" + compressed_sizes + "ab", "truncated"},
       {"PcdDamaged", "in.pcd",
@@ -85,15 +84,15 @@ badFiles ()
        "differ in length"},
       {"PcdCount", "in.pcd",
        "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 -20\n" + two + "DATA ascii\n", "'-20'"},
-      {"NotPly", "in.ply", "plywood\n", "no PLY file"},
+      {"NotPly", "in.ply", "plywood\n", "not a PLY file"},
       {"PlyNoEnd", "in.ply", "ply\nformat ascii 1.0\nelement vertex 2\n", "truncated"},
       {"PlyNoFormat", "in.ply", "ply\nelement vertex 2\n" + VERTEX, "no format line"},
       {"PlyNoVertex", "in.ply", "ply\nformat ascii 1.0\nelement face 0\n" + VERTEX,
        "no element 'vertex'"},
       {"PlyType", "in.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty quad x\n" + VERTEX,
-       "line 4: 'quad' is no type of PLY"},
+       "line 4: 'quad' is not a type of PLY"},
       {"PlyFormat", "in.ply", "ply\nformat binary 1.0\nelement vertex 2\n" + VERTEX,
-       "'binary' is no format"},
+       "'binary' is not a format"},
       {"PlyFewPoints", "in.ply",
        "ply\nformat ascii 1.0\nelement vertex 2\n" + VERTEX + "0.00000 0.00000 0.00000\n",
        "only 1"},
@@ -153,7 +152,7 @@ TEST_F (BadInput, Folder)
   expectFailure ({"in.pcd", "out.ply"}, INPUT_FAILED, "it is a folder");
 }
 
-/// Reads the first and the last byte of every point: what is not there would be noticed.
+/// Reads the first and the last byte of every point, so that a sanitizer sees invalid memory.
 void
 touchAll (const Field& field, std::size_t points)
 {
@@ -166,15 +165,15 @@ touchAll (const Field& field, std::size_t points)
   testing::Test::RecordProperty (field.name, std::to_string (sum));
 }
 
-/// Every prefix of a file is refused with an error or is a valid cloud; none ends in a crash or
-/// takes what is not there. (The sanitizers look over the reader's shoulder.)
+/// Every prefix of a file is either a valid cloud or refused with an error. With the sanitizers,
+/// this also finds reads beyond its end.
 TEST_F (BadInput, EveryPrefixIsRefusedOrWhole)
 {
   const Sample sample = makeSample (true, 4);
   const auto check = [&sample] (const std::string& bytes, auto parse) {
     std::size_t read = 0;
     for (std::size_t length = 0; length <= bytes.size (); ++length) {
-      // A copy of its own, so that reading beyond it is noticed.
+      // A copy, so that a sanitizer notices reads beyond the prefix.
       const std::vector<char> prefix (bytes.begin (),
                                       bytes.begin () + static_cast<std::ptrdiff_t> (length));
       try {
@@ -207,7 +206,7 @@ TEST_F (BadInput, MoreDataThanPromisedIsSaid)
   writeFile ("in.pcd", pcdText (sample.points) + "7 7 7\n");
   const Outcome outcome = run ({"in.pcd", "out.ply"});
   EXPECT_EQ (outcome.code, 0) << outcome.err;
-  EXPECT_NE (outcome.err.find ("holds more data than the 144 points"), std::string::npos)
+  EXPECT_NE (outcome.err.find ("has more data than the 144 points"), std::string::npos)
       << outcome.err;
 }
 

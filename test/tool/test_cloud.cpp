@@ -43,7 +43,7 @@ using MappedCloud = ToolTest;
 
 const Sample SAMPLE = makeSample (true);
 
-// Points with an intensity and nothing else, so that nothing has to be taken apart.
+// Points with an intensity and nothing else, so that all fields can stay in the file.
 std::string
 plainPly (ByteOrder order)
 {
@@ -72,7 +72,7 @@ TEST_F (MappedCloud, BinaryFieldsStayInTheFile)
     const Cloud cloud = readCloud (path ("in.ply"));
     EXPECT_EQ (cloud.positions (), SAMPLE.points);
     cloud.file.giveBack ();
-    EXPECT_EQ (cloud.position (7), SAMPLE.points[7]); // is fetched again
+    EXPECT_EQ (cloud.position (7), SAMPLE.points[7]); // is read from the file again
     ASSERT_EQ (cloud.fields.size (), 1U);
     EXPECT_TRUE (isInMappedFile (cloud.fields[0].first.get ()));
     EXPECT_EQ (cloud.fields[0].value<float> (7), SAMPLE.intensities[7]);
@@ -97,7 +97,7 @@ TEST_F (MappedCloud, ChangesAreNoticed)
   EXPECT_FALSE (cloud.file.hasChanged ());
   std::ofstream (path ("in.ply"), std::ios::app) << "more";
   EXPECT_TRUE (cloud.file.hasChanged ());
-  // Another file of that name is another file.
+  // A new file of the same name is not a change of the old one.
   const Cloud again = readCloud (path ("in.ply"));
   std::filesystem::remove (path ("in.ply"));
   writeFile ("in.ply", "another");
@@ -115,7 +115,7 @@ TEST_F (MappedCloud, AFileThatShrinksIsAnOrderlyEnd)
     cloud.file.giveBack ();
     return cloud.positions ();
   };
-  EXPECT_EXIT (read (), testing::ExitedWithCode (42), "the input file got shorter");
+  EXPECT_EXIT (read (), testing::ExitedWithCode (42), "the input file was truncated");
   EXPECT_EQ (names (), std::set<std::string>{"in.ply"});
 }
 
@@ -152,7 +152,7 @@ TEST (RemainingTime, OfASteadyRunIsExact)
 
 TEST (RemainingTime, IsSmooth)
 {
-  // Half of the run takes four times as long as was thought.
+  // The second half of the run takes four times as long as the first.
   RemainingTime remaining;
   double before = 0.0;
   for (double seconds = 0.05; seconds <= 50.0; seconds += 0.05) {

@@ -125,14 +125,14 @@ TEST_F (CommandLineTest, OutputsThatCannotBeWritten)
   EXPECT_TRUE (std::filesystem::is_character_file ("/dev/full"));
 }
 
-/// Paths are looked at first: with a bad output not even the missing input is noticed.
+/// Paths are checked first: with a bad output, the missing input is not even noticed.
 TEST_F (CommandLineTest, OutputIsCheckedBeforeTheWork)
 {
   expectFailure ({"missing.pcd", "missing/out.ply"}, OUTPUT_FAILED, "there is no folder");
 }
 
-/// As on a full disk: the write fails when part of the file is there. Nothing is left of any
-/// output.
+/// As on a full disk: the write fails when a part of the file has been written. No part of any
+/// output is left.
 TEST_F (CommandLineTest, WriteThatFailsHalfWay)
 {
   writeFile ("out.ply", "what was there before");
@@ -232,7 +232,7 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
   for (const auto& [option, value, key, expected] : cases) {
     SCOPED_TRACE (option);
     EXPECT_NE (defaults.at (key), expected);
-    // The report is written also if an option does not suit the cloud.
+    // The report is written even if the option makes the run fail on this cloud.
     run ({"in.pcd", "out.ply", "--report", option + ".json", option, value});
     const Json options = Json::parse (readFile (option + ".json")).at ("options");
     EXPECT_EQ (options.at (key), expected);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every kind of input gives the same mesh, and every kind of output holds it to the last bit.
+// Every input format gives the same mesh, and every output format holds it to the last bit.
 #include "mesh_files.h"
 #include "sample.h"
 #include "tool_runner.h"
@@ -52,7 +52,7 @@ asDoubles (const std::vector<float>& values)
   return {values.begin (), values.end ()};
 }
 
-/// Two triangles for each point but for the boundary, no index beyond the points, all points used.
+/// Checks that all points are used, no others, and that there are about two triangles per point.
 void
 expectDisc (const MeshContent& mesh, std::size_t size)
 {

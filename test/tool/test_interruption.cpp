@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that is ended from outside leaves nothing.
+// A run that is ended by a signal leaves no files.
 #include "command_line_test.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace floater
 {
 namespace
 {
-// A bent sheet, large enough that its mesh is not written in one go.
+// A bent sheet, so large that its mesh takes several writes.
 std::vector<Eigen::Vector3d>
 manyPoints ()
 {
@@ -66,7 +66,7 @@ TEST_P (Interruption, AtWorkEndsAtOnce)
 
 TEST_P (Interruption, WhileWritingLeavesNoPartOfAFile)
 {
-  // The tool may be faster than the look for its temporary file: then once more.
+  // The tool may end before its temporary file is noticed; then it is run again.
   constexpr int TRIES = 10;
   for (int i = 0; i < TRIES; ++i) {
     const Outcome outcome =
@@ -79,7 +79,7 @@ TEST_P (Interruption, WhileWritingLeavesNoPartOfAFile)
     expectNothingNew ();
     return;
   }
-  FAIL () << "not caught while it was writing";
+  FAIL () << "the temporary file was never noticed";
 }
 
 INSTANTIATE_TEST_SUITE_P (Signals, Interruption, testing::Values (SIGINT, SIGTERM, SIGHUP));

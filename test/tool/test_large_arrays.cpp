@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The replaced operator new and delete, scratch files, and the limit on memory. State is that of
-// the process: with a scratch folder set, it stays set.
+// The replaced operators new and delete, scratch files, and the memory limit. Their state is that
+// of the process: once a scratch folder is set, it stays set.
 #include "atomic_file.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
@@ -56,7 +56,7 @@ void
 dropAll ()
 {
   for (std::size_t dropped = 0; dropped < scratchUse ().bytes;)
-    dropped += dropNextPiece ();
+    dropped += dropNextChunk ();
 }
 
 class LargeArrays : public testing::Test
@@ -77,12 +77,12 @@ protected:
     std::filesystem::remove_all (folder_, ignored);
   }
 
-  static std::filesystem::path folder_; // of all tests: arrays of one may outlive it
+  static std::filesystem::path folder_; // shared by all tests: arrays of one may outlive it
 };
 
 std::filesystem::path LargeArrays::folder_;
 
-/// Writes all bytes, so that an array that is too short or not writable is found out.
+/// Writes all bytes, to detect an array that is too short or not writable.
 void
 expectUsable (void* pointer, std::size_t size, std::size_t alignment)
 {
@@ -93,7 +93,7 @@ expectUsable (void* pointer, std::size_t size, std::size_t alignment)
   EXPECT_EQ (bytes[size - 1], static_cast<std::uint8_t> (size));
 }
 
-/// Sizes on both sides of all limits, none of them whole pages.
+/// Sizes below and above all limits, none of them a multiple of the page size.
 std::vector<std::size_t>
 someSizes ()
 {
@@ -146,7 +146,7 @@ TEST_F (LargeArrays, AllFormsOfNewAndDelete)
 TEST_F (LargeArrays, SizesBeyondAllMemoryAreRefused)
 {
   const volatile std::size_t most = PTRDIFF_MAX;
-  if (!IS_SANITIZED) { // whose malloc ends the program
+  if (!IS_SANITIZED) { // the malloc of a sanitizer would end the program
     EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
     EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
   }
@@ -171,13 +171,13 @@ TEST_F (LargeArrays, ScratchFilesHaveNoNamesAndGoWithTheirArrays)
     EXPECT_TRUE (std::filesystem::is_empty (folder_));
   }
   EXPECT_EQ (scratchUse ().bytes, 0U);
-  EXPECT_EQ (dropNextPiece (), 0U);
+  EXPECT_EQ (dropNextChunk (), 0U);
 }
 
 TEST_F (LargeArrays, DroppedPagesComeBack)
 {
   constexpr std::size_t COUNT = 64 * MEGABYTE / sizeof (std::uint64_t);
-  std::vector<std::uint64_t> before (COUNT / 8); // of malloc's, where dropping would lose it
+  std::vector<std::uint64_t> before (COUNT / 8); // from malloc: dropping its pages would lose them
   std::iota (before.begin (), before.end (), 7U);
   keepLargeArraysIn (folder_);
   std::vector<std::uint64_t> numbers (COUNT);
@@ -193,8 +193,8 @@ TEST_F (LargeArrays, DroppedPagesComeBack)
   EXPECT_EQ (wrong, 0U);
 }
 
-/// Every round adds one to every number, in all threads, while pages are dropped all the time and
-/// other arrays come and go.
+/// In every round each thread adds one to all its numbers, while pages are dropped continuously and
+/// other arrays are made and freed.
 TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
 {
   constexpr std::size_t COUNT = 12 * MEGABYTE / sizeof (std::uint32_t);
@@ -214,12 +214,12 @@ TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
       }
       --at_work;
     });
-  std::size_t components = 0;
+  std::size_t chunks = 0;
   while (at_work > 0)
-    components += dropNextPiece () > 0 ? 1 : 0;
+    chunks += dropNextChunk () > 0 ? 1 : 0;
   for (std::thread& thread : threads)
     thread.join ();
-  EXPECT_GT (components, 10U);
+  EXPECT_GT (chunks, 10U);
   EXPECT_GT (scratchUse ().dropped, 10 * MEGABYTE);
   for (const std::vector<std::uint32_t>& array : arrays)
     EXPECT_EQ (std::count (array.begin (), array.end (), std::uint32_t{ROUNDS}),
@@ -262,7 +262,7 @@ TEST_F (LargeArrays, NoRoomIsBadAllocAndIsDescribed)
   std::signal (SIGXFSZ, before);
   EXPECT_THAT (largeArrayFailure (),
                HasSubstr ("no room in the scratch folder '" + folder_.string () + "': File too"));
-  EXPECT_THAT (largeArrayFailure (), HasSubstr ("4 MB are there, 9 MB more are needed"));
+  EXPECT_THAT (largeArrayFailure (), HasSubstr ("it holds 4 MB, and 9 MB more are needed"));
   EXPECT_NO_THROW (std::vector<char> (9 * LARGE_ARRAY));
 }
 
@@ -288,7 +288,7 @@ TEST_F (LargeArrays, Sizes)
   EXPECT_GT (leastMemory (10'000'000), leastMemory (1'000'000));
 }
 
-/// Two threads fill and read three times what fits.
+/// Two threads fill and read three times as much as the limit.
 TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
 {
   if (IS_SANITIZED)
@@ -296,9 +296,9 @@ TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
   constexpr std::size_t LIMIT = 240 * MEGABYTE;
   constexpr int ARRAYS = 50;
   constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
-  std::ofstream ("/proc/self/clear_refs") << 5; // the peak begins anew
+  std::ofstream ("/proc/self/clear_refs") << 5; // resets the peak
   if (memoryStatus ("VmHWM") > LIMIT / 2)
-    GTEST_SKIP () << "what the tests before took cannot be told apart";
+    GTEST_SKIP () << "the memory of earlier tests cannot be separated";
   const MemoryLimit limit (LIMIT, folder_);
   std::vector<std::vector<std::uint64_t>> arrays (ARRAYS);
   std::atomic<std::size_t> wrong{0};

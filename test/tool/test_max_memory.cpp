@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// --max-memory and --scratch: the mesh is that of a run without, what is refused, and what is left.
+// --max-memory and --scratch: the mesh is the same as without them, wrong uses are refused, and no
+// files are left.
 #include "command_line_test.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +27,7 @@ constexpr bool IS_SANITIZED = false;
 class MaxMemory : public CommandLineTest
 {
 protected:
-  /// A cloud, large.pcd, that takes more than the least that can be asked for.
+  /// Writes large.pcd, a cloud that needs more than the smallest limit.
   void makeLarge (int side)
   {
     writePcd (path ("large.pcd"), makeSample (false, side), PcdKind::BINARY);
@@ -41,7 +42,7 @@ protected:
   }
 };
 
-/// With the least that the tool takes for this cloud.
+/// With the smallest limit that the tool accepts for this cloud.
 TEST_F (MaxMemory, SameMeshBelowTheLimit)
 {
   makeLarge (350);
@@ -80,7 +81,7 @@ TEST_F (MaxMemory, WhatIsRefused)
       {{"--max-memory", "0"}, "'0' is too small; it must be "},
       {{"--max-memory", "2"}, "'2' is too small; it must be "},
       {{"--max-memory", "1M"}, "'1M' is too small; it must be "},
-      {{"--scratch", "."}, "--scratch is for --max-memory"},
+      {{"--scratch", "."}, "--scratch is of no use without --max-memory"},
       {{"--max-memory", "2G", "--topology", "disc"}, "of a disc"},
       {{"--max-memory", "2G", "--loop", "loop.txt"}, "of a disc"},
       {{"--max-memory", "2G", "--parameterization", "flat.ply"}, "of a disc"}};

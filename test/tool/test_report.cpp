@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run tells: the report, the line of JSON, and warnings that --strict does not allow.
+// The report, the summary as JSON, and warnings that --strict does not allow.
 #include "command_line_test.h"
 #include "mesh_files.h"
 
@@ -43,7 +43,7 @@ TEST_F (ReportTest, JsonIsTheLastLine)
 
 TEST_F (ReportTest, ReportHasEverything)
 {
-  // A repeated point, two without finite coordinates, at the begin and in between.
+  // A repeated point, and two without finite coordinates: the first one and one in between.
   std::vector<Eigen::Vector3d> points = sample_.points;
   const Eigen::Vector3d nowhere (std::nan (""), 0, 0);
   points.insert (points.begin (), nowhere);
@@ -60,7 +60,7 @@ TEST_F (ReportTest, ReportHasEverything)
   EXPECT_EQ (all.at ("non_finite"), (Json{0, 10}));
   EXPECT_EQ (all.at ("duplicates"), (Json{{points.size () - 1, 5}}));
   EXPECT_EQ (all.at ("unused"), Json::array ());
-  EXPECT_NE (all.at ("warnings").dump ().find ("2 points without finite coordinates"),
+  EXPECT_NE (all.at ("warnings").dump ().find ("2 points without finite coordinates were left out"),
              std::string::npos);
   const Json& statistics = all.at ("statistics");
   EXPECT_EQ (statistics.at ("working_points"), sample_.size ());
@@ -73,7 +73,7 @@ TEST_F (ReportTest, ReportHasEverything)
     EXPECT_GE (all.at ("seconds").at (stage).get<double> (), 0.0) << stage;
   EXPECT_GE (all.at ("loop").size (), 30U);
 
-  // The vertices after a point that was left out move up, with their triangles.
+  // The vertices after a point that was left out move up, and so do the indices of triangles.
   const MeshContent mesh = readPly (path ("out.ply"));
   points.erase (points.begin () + 10);
   points.erase (points.begin ());
@@ -143,7 +143,7 @@ TEST_F (ReportTest, StrictTakesWarningsForAFailure)
 {
   writeFile ("out.ply", "what was there before");
   std::vector<Eigen::Vector3d> with_nan = sample_.points;
-  with_nan.emplace_back (std::nan (""), 0, 0); // its absence in the output is a warning
+  with_nan.emplace_back (std::nan (""), 0, 0); // a warning: it is left out of the output
   writeFile ("nan.pcd", pcdText (with_nan));
   std::vector<Eigen::Vector3d> with_island = makeSample (false, 24).points;
   for (int i = 0; i < 6; ++i)
@@ -151,7 +151,7 @@ TEST_F (ReportTest, StrictTakesWarningsForAFailure)
       with_island.emplace_back (200.0 + i, j, 0.0);
   writeFile ("island.pcd", pcdText (with_island));
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"nan.pcd", "1 points without finite coordinates"},
+      {"nan.pcd", "1 point without finite coordinates was left out"},
       {"island.pcd", "36 points are in no triangle, point 576 (200, 0, 0) among them"}};
   for (const auto& [cloud, cause] : cases) {
     SCOPED_TRACE (cloud);
@@ -188,7 +188,7 @@ TEST_F (ReportTest, StrictTakesWarningsForAFailure)
   EXPECT_EQ (Json::parse (summary.out).at ("status"), "WARNINGS");
   EXPECT_EQ (Json::parse (summary.out).at ("output"), Json ());
 
-  // What is without warnings is written; what fails anyway fails as ever.
+  // A run without warnings writes its mesh; a run that fails anyway fails as without --strict.
   EXPECT_EQ (run ({"in.pcd", "good.ply", "--strict", "-q"}).code, 0);
   EXPECT_EQ (readPly (path ("good.ply")).points, sample_.points);
   writeFile ("line.pcd", pcdText ({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}));

@@ -18,12 +18,12 @@ namespace floater
 /// How a run ended and what it printed.
 struct Outcome
 {
-  int code = -1; ///< exit code; of a signal that ended it, its number, negative
+  int code = -1; ///< exit code; if a signal ended the run, minus its number
   std::string out;
   std::string err;
 };
 
-/// A test with a folder that is empty at its begin and removed at its end.
+/// A test with a folder that is empty at the start and removed at the end.
 class ToolTest : public testing::Test
 {
 protected:
@@ -41,12 +41,12 @@ protected:
   std::set<std::string> names () const;
 
   /// Runs the tool in the folder.
-  /// \param file_limit bytes that a file may have at most (RLIMIT_FSIZE)
+  /// \param file_limit largest size of a file in bytes (RLIMIT_FSIZE)
   Outcome run (const std::vector<std::string>& arguments,
                std::optional<std::size_t> file_limit = std::nullopt) const;
 
-  /// Starts the tool and sends it a signal as soon as `is_time (its process)`, which is asked
-  /// again and again until the tool ends by itself.
+  /// Starts the tool and sends it a signal as soon as is_time (id of its process) returns true. It
+  /// is called repeatedly until then, or until the tool ends by itself.
   Outcome interrupt (const std::vector<std::string>& arguments, int signal,
                      const std::function<bool (int)>& is_time) const;
 
@@ -63,7 +63,7 @@ private:
   std::filesystem::path logs_; // beside the folder, so that names () does not see them
 };
 
-/// The same for tests that run once for each of some values.
+/// The same for parameterized tests.
 template <typename T>
 class ToolTestWith : public ToolTest, public testing::WithParamInterface<T>
 {

@@ -20,7 +20,7 @@ SCREEN = "800x600x24"
 SECONDS = 60  # longest wait for anything on the screen
 SETTLED = 2.0  # from the first thing on the screen to the control's measurement
 MIDDLE = 0.25  # part of the window's width and height that the mesh must fill
-FILLED = 0.99  # share of the middle's pixels
+FILLED = 0.99  # fraction of the pixels in the middle
 EMPTY = 0.01
 
 
@@ -35,14 +35,14 @@ def run(*command):
 
 
 def write_points_only(path):
-    """What the viewer shows of a file without triangles."""
+    """Writes a file without triangles, as a control."""
     with open(path, "w", encoding="ascii") as file:
         file.write("# vtk DataFile Version 3.0\nno mesh\nASCII\nDATASET POLYDATA\n"
                    "POINTS 3 float\n0 0 0\n50 0 0\n50 50 0\n")
 
 
 class Display:
-    """An X server that needs no screen; its picture is a file in the format of xwd."""
+    """A virtual X server; its screen is a file in the format of xwd."""
 
     def __init__(self, folder):
         if shutil.which("Xvfb") is None:
@@ -79,7 +79,7 @@ class Display:
 
 
 def lit_share(rows):
-    """Share of pixels that are not black."""
+    """Fraction of the pixels that are not black."""
     pixels = lit = 0
     for row in rows:
         for x in range(0, len(row), 4):
@@ -95,7 +95,10 @@ def middle(rows):
 
 
 def view(path, finished):
-    """Shows a file until finished(rows, seconds since something appeared); the middle's lit share."""
+    """Shows a file until finished(rows, seconds since something appeared) is true.
+
+    Returns the fraction of lit pixels in the middle of the window.
+    """
     with tempfile.TemporaryDirectory() as folder:
         display = Display(folder)
         viewer = subprocess.Popen(["pcl_viewer", path, "-cam", CAMERA],

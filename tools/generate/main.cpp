@@ -70,7 +70,7 @@ main (int argc, char** argv)
       "Writes points on a known surface, in random order, as a sample cloud (.pcd or .ply, "
       "binary).\n"
       "The unit of length is the mean spacing of the points: one point per unit of area.\n"
-      "Exit codes: 0 done, 1 wrong usage, 4 cannot write."};
+      "Exit codes: 0 success, 1 usage, 4 the output cannot be written."};
   std::string name, path;
   pcl::floater::SurfaceSpec spec;
   std::vector<std::string> names;
@@ -78,15 +78,14 @@ main (int argc, char** argv)
     names.emplace_back (pcl::floater::surfaceName (kind));
   app.add_option ("surface", name, "kind of surface")->required ()->check (CLI::IsMember (names));
   app.add_option ("output", path, "file to write, .pcd or .ply")->required ();
-  app.add_option ("--points", spec.points, "how many points")
+  app.add_option ("--points", spec.points, "number of points")
       ->capture_default_str ()
       ->check (CLI::Range (pcl::floater::MIN_SURFACE_POINTS, MOST_POINTS));
-  app.add_option ("--seed", spec.seed, "seed of all randomness")
+  app.add_option ("--seed", spec.seed, "seed of the random numbers")
       ->capture_default_str ()
       ->check (CLI::NonNegativeNumber);
-  app.add_option (
-         "--density-ratio", spec.density_ratio,
-         "points per area where the surface is densest over where it is sparsest, 1 to 100")
+  app.add_option ("--density-ratio", spec.density_ratio,
+                  "largest over smallest density in points per area, 1 to 100")
       ->capture_default_str ();
   app.add_option ("--noise", spec.noise, "standard deviation of each coordinate, in mean spacings")
       ->capture_default_str ();
@@ -94,7 +93,7 @@ main (int argc, char** argv)
       ->capture_default_str ();
   app.add_option ("--gap", spec.gap, "folded-sheet: distance of its halves, in mean spacings")
       ->capture_default_str ();
-  app.add_option ("--holes", spec.holes, "cut-out: how many holes")->capture_default_str ();
+  app.add_option ("--holes", spec.holes, "cut-out: number of holes")->capture_default_str ();
   try {
     app.parse (argc, argv);
   }
@@ -125,7 +124,7 @@ main (int argc, char** argv)
     return fail (CANNOT_WRITE, error.what ());
   }
   catch (const std::bad_alloc&) {
-    return fail (CANNOT_WRITE, "not enough memory for so many points");
+    return fail (CANNOT_WRITE, "there is not enough memory for so many points");
   }
   return DONE;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random numbers that are the same with every standard library (its distributions are not).
+// Random numbers that are the same with every standard library, unlike its distributions.
 #pragma once
 
 #include <cmath>
@@ -15,16 +15,16 @@ class RandomStream
 public:
   explicit RandomStream (std::uint64_t seed) : engine_ (seed) {}
 
-  /// Evenly in [0, 1).
+  /// Uniformly distributed in [0, 1).
   double uniform () { return static_cast<double> (engine_ () >> 11) * 0x1.0p-53; }
 
-  /// An integer in [0, n); n far below 2^53.
+  /// An integer, uniformly distributed in [0, n); n far below 2^53.
   std::size_t below (std::size_t n)
   {
     return static_cast<std::size_t> (uniform () * static_cast<double> (n));
   }
 
-  /// Normally, with mean 0 and standard deviation 1 (Box and Muller).
+  /// Normally distributed with mean 0 and standard deviation 1 (Box and Muller).
   double normal ()
   {
     const double radius = std::sqrt (-2.0 * std::log1p (-uniform ()));

@@ -20,12 +20,12 @@ constexpr double GOLDEN = 0.61803398874989484820;
 constexpr double JITTER = 0.3;        // largest displacement of a sample, in local spacings
 constexpr double RING_JITTER = 0.2;   // the same where the lattice is less even
 constexpr double HOLE_RADIUS = 0.3;   // of the cut-out sheet, in widths of a cell
-constexpr double MIN_HOLE = 4.0;      // radius in mean spacings from which a hole is one
+constexpr double MIN_HOLE = 4.0;      // smallest radius of a hole, in mean spacings
 constexpr double TORUS_RADII = 2.5;   // great radius over small radius
-constexpr double MAX_DENSITY = 100.0; // density ratio up to which the lattice stays even
+constexpr double MAX_DENSITY = 100.0; // largest density ratio for which the lattice stays even
 
-// A surface as the image of the unit square, area for area: equal components of the square become equal
-// areas. Points slightly beyond the square are on the surface's continuation.
+// A surface as an image of the unit square that preserves areas, up to a factor. Points slightly
+// beyond the square are on the continuation of the surface.
 struct Chart
 {
   double area = 0.0;                                     // of the image of the square
@@ -48,7 +48,7 @@ heightField (double n)
   return {n, lift, [side] (double, double) { return side; }};
 }
 
-// By Archimedes, equal heights of a sphere have equal areas: height = radius * (1 - scale * s).
+// On a sphere, zones of equal height have equal areas (Archimedes): z = radius * (1 - scale * s).
 Chart
 sphere (double n, bool half)
 {
@@ -66,7 +66,8 @@ sphere (double n, bool half)
   return {n, lift, [=] (double s, double) { return 2.0 * PI * distance_to_axis (s); }};
 }
 
-// From the tip downwards. The same height has the same area on the hemisphere and the cylinder.
+// s runs from the tip downwards. Zones of equal height have equal areas, on the hemisphere as on
+// the cylinder.
 Chart
 finger (double n, double length)
 {
@@ -83,7 +84,7 @@ finger (double n, double length)
   return {n, lift, [=] (double s, double) { return 2.0 * PI * distance_to_axis (s); }};
 }
 
-// A strip twice as long as wide, folded in the middle of its length around a half cylinder.
+// A strip twice as long as wide, bent in the middle of its length around half a cylinder.
 Chart
 foldedSheet (double n, double gap)
 {
@@ -102,7 +103,7 @@ foldedSheet (double n, double gap)
   return {n, lift, [width] (double, double) { return width; }};
 }
 
-// Radius of the holes in units of the sheet's side, and cells in both directions.
+// The holes are in the middle of the cells of a grid. Radius in units of the side of the sheet.
 struct Holes
 {
   int columns, rows;
@@ -144,8 +145,8 @@ cutOut (double n, int holes)
   return chart;
 }
 
-// s runs along the great circle; equal steps of t are equal areas around the tube, where the angle
-// v obeys v + sin (v) / TORUS_RADII = 2 pi t.
+// s runs along the great circle, t around the tube. Equal steps of t have equal areas if the angle
+// v around the tube satisfies v + sin (v) / TORUS_RADII = 2 pi t.
 Chart
 torus (double n)
 {
@@ -191,8 +192,8 @@ chartOf (const SurfaceSpec& spec)
   throw std::invalid_argument ("unknown kind of surface");
 }
 
-// Where along s the density falls from dense to sparse: s as a function of the share f of the
-// points before it, with its derivative.
+// Density that falls exponentially along s: s as a function of the fraction f of the points before
+// it, with its derivative.
 class Grading
 {
 public:
@@ -225,7 +226,7 @@ private:
   bool there_and_back_;
 };
 
-// Share of the sampled points that are not in holes, by midpoints of a fine grid.
+// Fraction of the sampled points that are not in holes, from the midpoints of a fine grid.
 double
 shareInside (const Chart& chart, const Grading& grading)
 {
@@ -242,8 +243,9 @@ shareInside (const Chart& chart, const Grading& grading)
 }
 
 // Evenness of the lattice (k / n, k p / n mod 1): n times the smallest product of the coordinates
-// of its vectors, which Euclid's algorithm meets. No stretching along the axes changes it. It is
-// 0.38 for the golden lattice; 0 if p and n have a common factor.
+// of its vectors. Euclid's algorithm passes through these vectors. Stretching along the axes does
+// not change the evenness. It is 0.38 for the golden lattice, and 0 if p and n have a common
+// factor.
 double
 evenness (std::size_t p, std::size_t n)
 {
@@ -258,7 +260,7 @@ evenness (std::size_t p, std::size_t n)
   return previous == 1 ? static_cast<double> (smallest) / static_cast<double> (n) : 0.0;
 }
 
-// p / n for the most even such lattice with p near the golden section of n.
+// p / n of the most even of these lattices with p near the golden section of n.
 double
 ringRotation (std::size_t n)
 {
@@ -335,27 +337,28 @@ surfaceSpecError (const SurfaceSpec& spec)
   if (spec.points < MIN_SURFACE_POINTS)
     return "a surface needs " + std::to_string (MIN_SURFACE_POINTS) + " points or more";
   if (!(spec.density_ratio >= 1.0 && spec.density_ratio <= MAX_DENSITY))
-    return "the density ratio must be 1 to 100";
+    return "the density ratio must be from 1 to 100";
   if (!(spec.noise >= 0.0 && std::isfinite (spec.noise)))
-    return "the noise must be zero or positive";
+    return "the noise must be 0 or more";
   if (spec.kind == SurfaceKind::FINGER && !(spec.length >= 0.0 && std::isfinite (spec.length)))
-    return "the length of the finger must be zero or positive";
+    return "the length of the finger must be 0 or more";
   if (spec.kind == SurfaceKind::FINGER && 2.0 * PI * (1.0 + spec.length) > 0.25 * n)
     return "the finger is too long for so few points: its radius is below 2 spacings";
   if (spec.kind == SurfaceKind::FOLDED_SHEET &&
       !(spec.gap > 0.0 && 0.25 * PI * spec.gap < 0.9 * std::sqrt (0.5 * n)))
-    return "the gap of the folded sheet must be positive and narrow enough to leave flaps";
+    return "the gap of the folded sheet must be above 0, and so narrow that there are flaps";
   if (spec.kind == SurfaceKind::CUT_OUT && !(spec.holes >= 0 && spec.holes <= 10000))
-    return "the cut-out sheet can have 0 to 10000 holes";
+    return "the number of holes must be from 0 to 10000";
   if (spec.kind == SurfaceKind::CUT_OUT && spec.holes > 0 &&
       holesOf (spec.holes).radius * sideOfCutOut (n, spec.holes) < MIN_HOLE)
-    return "the holes are too many for so few points: their radius is below 4 spacings";
+    return "there are too many holes for so few points: their radius is below 4 spacings";
   return {};
 }
 
-// Samples are the golden lattice (k / n, k * golden ratio mod 1): stretched along its axes by any
-// factors it stays even, so it stays even on the surface too, with any grading along s. On a ring
-// the rotation is rounded to a multiple of 1 / n, so that the end meets the beginning.
+// The samples are the golden lattice (k / n, k * golden ratio mod 1), randomly displaced. It stays
+// even if it is stretched along its axes by any factors, and so is even on the surface as well,
+// whatever the density along s. On a ring, the rotation is rounded to a multiple of 1 / n, so that
+// the end fits the beginning.
 std::vector<Eigen::Vector3d>
 generateSurface (const SurfaceSpec& spec)
 {
@@ -370,7 +373,7 @@ generateSurface (const SurfaceSpec& spec)
   RandomStream random (spec.seed);
   std::vector<Eigen::Vector3d> points;
   points.reserve (spec.points);
-  for (double k = 0.5; points.size () < spec.points; k += 1.0) { // holes: as far as is needed
+  for (double k = 0.5; points.size () < spec.points; k += 1.0) { // beyond n if there are holes
     double f = k / lattice, t = std::fmod (k * rotation, 1.0);
     const auto [s, slope] = grading (f);
     const double along_t = chart.stretch (s, t), along_f = chart.area * slope / along_t;

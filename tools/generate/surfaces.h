@@ -15,7 +15,7 @@ namespace floater
 {
 enum class SurfaceKind
 {
-  HEIGHT_FIELD, ///< square component of rolling terrain, sampled evenly in plan view: a disc
+  HEIGHT_FIELD, ///< square of rolling terrain, sampled evenly in plan view: a disc
   HEMISPHERE,   ///< half a sphere without its base: a disc
   FINGER,       ///< cylinder closed by a hemisphere at one end, open at the other: a disc
   FOLDED_SHEET, ///< two parallel flaps joined by a half turn: a disc
@@ -29,27 +29,29 @@ enum class SurfaceKind
 struct SurfaceSpec
 {
   SurfaceKind kind = SurfaceKind::HEIGHT_FIELD;
-  std::size_t points = 10000; ///< 10000: how many points, MIN_SURFACE_POINTS or more
-  std::uint64_t seed = 1;     ///< 1: of irregularity, noise and order
-  double density_ratio = 1.0; ///< 1: densest over sparsest, in points per area; grows exponentially
-                              ///< across the surface (there and back along a torus)
-  double noise = 0.0;         ///< 0: standard deviation of each coordinate, in mean spacings
-  double length = 4.0;        ///< 4: length over radius of the finger's cylinder
-  double gap = 4.0; ///< 4: distance between the flaps of the folded sheet, in mean spacings
-  int holes = 3;    ///< 3: holes of the cut-out sheet
+  std::size_t points = 10000; ///< number of points, MIN_SURFACE_POINTS or more
+  std::uint64_t seed = 1;     ///< of the random displacements, noise and order
+  double density_ratio = 1.0; ///< largest over smallest density in points per area, 1 to 100; the
+                              ///< density grows exponentially across the surface, and along a torus
+                              ///< to its far side and back
+  double noise = 0.0;  ///< standard deviation of each coordinate, in mean spacings, 0 or more
+  double length = 4.0; ///< of the cylinder of the finger, over its radius, 0 or more
+  double gap = 4.0;    ///< between the flaps of the folded sheet, in mean spacings, above 0
+  int holes = 3;       ///< of the cut-out sheet, 0 to 10,000
 };
 
+/// Fewest points of a surface.
 constexpr std::size_t MIN_SURFACE_POINTS = 50;
 
 /// Name of a kind, as on the command line ("height-field").
 const char*
 surfaceName (SurfaceKind kind);
 
-/// All kinds.
+/// All kinds of surface.
 const std::vector<SurfaceKind>&
 surfaceKinds ();
 
-/// How many boundary loops the surface has: 0 closed, 1 a disc, more for the cut-out sheet.
+/// Number of boundary loops: 0 if the surface is closed, 1 for a disc, more for the cut-out sheet.
 int
 boundaryLoops (const SurfaceSpec& spec);
 
@@ -57,14 +59,15 @@ boundaryLoops (const SurfaceSpec& spec);
 int
 eulerCharacteristic (const SurfaceSpec& spec);
 
-/// What is wrong with a specification, in one sentence; empty if nothing is.
+/// The error in a specification, in one sentence; empty if there is none.
 std::string
 surfaceSpecError (const SurfaceSpec& spec);
 
-/// Exactly spec.points points in random order, irregular but even like a scan: before noise no two
-/// are nearer than about a quarter of the local spacing and no gap is wider than about twice of it.
-/// The same for the same specification. Linear in the number of points, up to 0.6 microseconds
-/// each. \throw std::invalid_argument with surfaceSpecError() if that is not empty
+/// Makes exactly spec.points points in random order, irregular but evenly dense like a scan. Before
+/// noise is added, two points are at least about a quarter of the local spacing apart, and no gap
+/// is wider than about twice the local spacing. The same specification gives the same points. O(n),
+/// up to 0.6 microseconds per point. \throw std::invalid_argument with surfaceSpecError () if that
+/// is not empty
 std::vector<Eigen::Vector3d>
 generateSurface (const SurfaceSpec& spec);
 

@@ -25,7 +25,7 @@ namespace
 constexpr std::size_t BUFFER_BYTES = 1U << 20U;
 constexpr std::size_t MOST_FILES = 8;
 
-/// Names of temporary files that exist, where a signal handler may read them.
+/// Names of the existing temporary files, for the signal handler.
 struct TemporaryName
 {
   std::atomic<bool> in_use{false};
@@ -47,14 +47,14 @@ extern "C" void
 endOnSignal (int signal_number)
 {
   removeTemporaryFiles ();
-  // The handler was reset (SA_RESETHAND): end as the signal alone would have ended the program.
+  // SA_RESETHAND has restored the default action, so that this ends the program.
   ::raise (signal_number);
 }
 
 extern "C" void
 endOnBusError (int signal_number, siginfo_t* info, void* /*context*/)
 {
-  static constexpr char MESSAGE[] = "\nthe input file got shorter while it was in use\n";
+  static constexpr char MESSAGE[] = "\nthe input file was truncated while it was in use\n";
   removeTemporaryFiles ();
   if (isInMappedFile (info->si_addr)) {
     [[maybe_unused]] const ssize_t written = ::write (STDERR_FILENO, MESSAGE, sizeof MESSAGE - 1);
@@ -88,7 +88,7 @@ failOn (const std::filesystem::path& path, const std::string& cause)
   throw WriteError ("cannot write '" + path.string () + "': " + cause);
 }
 
-/// The file that a path stands for, through symbolic links.
+/// The path with all symbolic links resolved.
 std::filesystem::path
 resolve (const std::filesystem::path& path)
 {
@@ -121,8 +121,8 @@ requireWritable (const std::filesystem::path& path)
   if (std::filesystem::exists (target, error) && !std::filesystem::is_regular_file (target, error))
     failOn (path, "it is a device or a pipe; give the name of a file");
   if (::access (folder.c_str (), W_OK | X_OK) != 0)
-    failOn (path, "nothing may be written in the folder '" + folder.string () +
-                      "': " + std::strerror (errno));
+    failOn (path,
+            "the folder '" + folder.string () + "' is not writable: " + std::strerror (errno));
 }
 
 void
@@ -135,7 +135,7 @@ handleSignals (int input_failed)
   action.sa_flags = static_cast<int> (SA_RESETHAND);
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
-    // What the parent chose to ignore (nohup) stays ignored.
+    // Signals that the parent ignores, as nohup does, stay ignored.
     if (::sigaction (signal_number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
       ::sigaction (signal_number, &action, nullptr);
   }
@@ -155,7 +155,7 @@ AtomicFile::AtomicFile (const std::filesystem::path& path)
     const std::string name =
         ".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp";
     temporary_ = (folderOf (target_) / name).string ();
-    slot_ = remember (temporary_); // before it is there: a signal may come right after
+    slot_ = remember (temporary_); // before it exists, because a signal may come right after
     descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, FOR_ALL);
     const int error = errno;
     if (descriptor_ < 0)

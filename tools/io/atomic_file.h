@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file that appears only when it is whole.
+// A file that appears only when it is complete.
 #pragma once
 
 #include "byte_order.h"
@@ -14,32 +14,32 @@ namespace pcl
 {
 namespace floater
 {
-/// A file cannot be written. The text names the file and the cause.
+/// A file cannot be written. The message names the file and the cause.
 class WriteError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Checks, without touching anything, that a file could be created or replaced here.
-/// \throws WriteError if its folder is missing or closed to us, or something else than a file is
-/// there
+/// Checks, without changing anything, that a file could be created or replaced.
+/// \throws WriteError if its folder does not exist or is not writable, or if the path names
+/// something other than a regular file
 void
 requireWritable (const std::filesystem::path& path);
 
-/// Sees to it that interrupting the program (SIGINT, SIGTERM, SIGHUP) leaves no temporary file, and
-/// that running into a limit on file sizes is an error of the write, not the end of the program.
-/// \param input_failed exit code if a file that is mapped (FileBytes) gets shorter under our eyes
+/// Installs signal handlers: SIGINT, SIGTERM and SIGHUP end the program without leaving temporary
+/// files, and a limit on file sizes makes a write fail instead of ending the program.
+/// \param input_failed exit code if a mapped file (FileBytes) is truncated while it is in use
 void
 handleSignals (int input_failed = 1);
 
-/// Writes a temporary file in the folder of the final one, whose name it takes at the very end. If
-/// it is destroyed before that, the temporary file is removed and what was there before stays. A
-/// symbolic link is followed; permissions of a file that is replaced are kept.
+/// Writes a temporary file in the folder of the final one, and renames it at the end. If the object
+/// is destroyed before that, the temporary file is removed and an existing file is unchanged.
+/// Symbolic links are followed, and a file that is replaced keeps its permissions.
 class AtomicFile
 {
 public:
-  /// \throws WriteError like all other members
+  /// \throws WriteError, as do all other members
   explicit AtomicFile (const std::filesystem::path& path);
   ~AtomicFile ();
   AtomicFile (const AtomicFile&) = delete;
@@ -64,14 +64,14 @@ public:
   template <typename T>
   void writeDecimal (T number);
 
-  /// Hands all bytes to the disk and makes sure that they arrived.
+  /// Writes all bytes to the disk and checks that they arrived.
   void close ();
 
-  /// Gives the closed file its name. Nothing but this makes the file visible.
+  /// Gives the closed file its final name, which makes it visible.
   void publish ();
 
 private:
-  /// Makes room for `size` more bytes, which must be few.
+  /// Makes room in the buffer for `size` more bytes, which must be few.
   char* room (std::size_t size)
   {
     if (used_ + size > buffer_.size ())
@@ -85,14 +85,14 @@ private:
 
   [[noreturn]] void fail (int error) const;
 
-  std::filesystem::path path_; // as the user gave it
+  std::filesystem::path path_; // as given by the user
   std::filesystem::path target_;
   std::string temporary_;
-  std::size_t slot_ = 0; // in the list for the signal handler
+  std::size_t slot_ = 0; // in the table of the signal handler
   int descriptor_ = -1;
   std::vector<char> buffer_;
   std::size_t used_ = 0;    // bytes in the buffer
-  std::size_t written_ = 0; // bytes handed to the system
+  std::size_t written_ = 0; // bytes passed to the system
 };
 
 } // namespace floater

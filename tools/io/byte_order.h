@@ -18,7 +18,7 @@ enum class ByteOrder
 constexpr ByteOrder HOST_BYTE_ORDER =
     __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? ByteOrder::LITTLE : ByteOrder::BIG;
 
-/// Copies a number between a file in `order` and this machine, either way.
+/// Copies a number from the byte order of a file to that of this machine, or the other way.
 template <typename T>
 inline void
 copyNumber (void* to, const void* from, ByteOrder order)
@@ -47,7 +47,7 @@ copyNumber (void* to, const void* from, ByteOrder order)
   }
 }
 
-/// Reads a number that a file holds in `order`.
+/// Reads a number in the byte order of a file.
 template <typename T>
 inline T
 readNumber (const void* from, ByteOrder order)

@@ -98,9 +98,9 @@ Cloud
 makeCloud (std::vector<Field> fields, std::size_t size)
 {
   if (size == 0)
-    throw ReadError ("it holds no points");
+    throw ReadError ("it has no points");
   if (size > static_cast<std::size_t> (std::numeric_limits<std::int32_t>::max ()))
-    throw ReadError ("it holds more points than a mesh file can number (2147483647); split it");
+    throw ReadError ("it has more points than a mesh file can number (2147483647); split it");
   const std::array<std::size_t, 3> columns{
       coordinateField (fields, "x"), coordinateField (fields, "y"), coordinateField (fields, "z")};
   Cloud cloud;

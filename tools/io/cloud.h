@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A point cloud with all its fields, as the files have it.
+// A point cloud with all fields of its file.
 #pragma once
 
 #include "field.h"
@@ -19,26 +19,26 @@ namespace pcl
 {
 namespace floater
 {
-/// A point cloud. Colours are the fields red, green, blue (and alpha) of type UINT8, normals are
-/// nx, ny, nz, whatever the file calls them; all other fields have their own names. Fields have the
-/// rows of the file, of which points may have been left out since.
+/// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)
+/// of type UINT8, and normals are nx, ny, nz. All other fields keep their names. The fields have
+/// all rows of the file, also those of points that have been left out since.
 struct Cloud
 {
   std::array<Field, 3> coordinates;  ///< x, y, z; one value each
   bool single_precision = true;      ///< the coordinates were given as 32-bit floats
   std::vector<Field> fields;         ///< all but the coordinates
   std::size_t rows = 0;              ///< points of the file
-  KeptPoints kept;                   ///< those that are left
-  std::vector<std::string> warnings; ///< what was odd about the file, one sentence each
-  FileBytes file;                    ///< if the fields are views of it
+  KeptPoints kept;                   ///< points that are left
+  std::vector<std::string> warnings; ///< oddities of the file, one sentence each
+  FileBytes file;                    ///< the file, if the fields refer to it
 
-  /// How many points are left.
+  /// Number of points that are left.
   std::size_t size () const { return kept.areAll () ? rows : kept.size (); }
 
   /// The row of a point.
   std::size_t row (std::size_t point) const { return kept.row (point); }
 
-  /// Exactly the numbers of the file.
+  /// The coordinates, exactly as in the file.
   Eigen::Vector3d position (std::size_t point) const { return positionOfRow (row (point)); }
 
   Eigen::Vector3d positionOfRow (std::size_t row) const
@@ -47,7 +47,7 @@ struct Cloud
             coordinates[2].asDouble (row)};
   }
 
-  /// An array of the positions of all points.
+  /// The positions of all points.
   std::vector<Eigen::Vector3d> positions () const;
 
   /// The field of this name, or nullptr.
@@ -74,15 +74,15 @@ colorFields (const Cloud& cloud);
 FieldTriple
 normalFields (const Cloud& cloud);
 
-/// Makes a cloud of the fields of a file: finds x, y and z, unpacks PCL's rgb and rgba, and gives
-/// normals their common names.
-/// \throws ReadError if there are no points, no coordinates, or two fields of one name
+/// Makes a cloud from the fields of a file: finds x, y and z, unpacks PCL's rgb and rgba, and names
+/// normals nx, ny and nz.
+/// \throws ReadError if there are no points or no coordinates, or two fields have the same name
 Cloud
 makeCloud (std::vector<Field> fields, std::size_t size);
 
-/// Leaves out the points that have a NaN or an infinity among their coordinates, and renumbers the
-/// triangles, which must not use such points. Nothing is moved or copied.
-/// \return how many were removed
+/// Leaves out the points with a NaN or infinite coordinate, and renumbers the triangles, which must
+/// not use such points. No values are moved or copied.
+/// \return the number of points left out
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One field of all points of a cloud, where it lies.
+// One field of all points of a cloud.
 #pragma once
 
 #include "byte_order.h"
@@ -29,7 +29,7 @@ enum class ScalarType
   FLOAT64
 };
 
-/// Calls visitor (T{}) with the C++ type that `type` stands for and returns its result.
+/// Calls visitor (T{}) with the C++ type T of `type`, and returns its result.
 template <typename Visitor>
 auto
 visitType (ScalarType type, Visitor&& visitor)
@@ -59,34 +59,34 @@ visitType (ScalarType type, Visitor&& visitor)
   return visitor (double{});
 }
 
-/// Bytes of one value.
+/// Size of one value in bytes.
 inline std::size_t
 sizeOf (ScalarType type)
 {
   return visitType (type, [] (auto tag) { return sizeof (tag); });
 }
 
-/// One named field of all points: a view of bytes, which live as long as it does. The `count`
-/// values of a point stand together. Copies are cheap.
+/// One named field of all points: a view of bytes, which it keeps alive. The `count` values of a
+/// point are consecutive. Copies are cheap.
 struct Field
 {
   std::string name;
   ScalarType type = ScalarType::FLOAT32;
   std::size_t count = 1;
-  std::shared_ptr<const char> first = {}; ///< the first value of the first point; any alignment
-  std::size_t stride = 0;                 ///< bytes from a point to the next
+  std::shared_ptr<const char> first = {}; ///< first value of the first point; any alignment
+  std::size_t stride = 0;                 ///< bytes from one point to the next
   ByteOrder order = HOST_BYTE_ORDER;
 
   std::size_t pointBytes () const { return count * sizeOf (type); }
 
-  /// Value c of a point; T must be the type that `type` stands for.
+  /// Value c of a point; T must be the C++ type of `type`.
   template <typename T>
   T value (std::size_t point, std::size_t c = 0) const
   {
     return readNumber<T> (first.get () + point * stride + c * sizeof (T), order);
   }
 
-  /// Value of a point as a double; exact but for 64-bit integers.
+  /// Value of a point as a double; exact except for 64-bit integers.
   double asDouble (std::size_t point) const
   {
     return visitType (
@@ -94,8 +94,8 @@ struct Field
   }
 };
 
-/// Lets fields of consecutive bytes be views of those of points from `first` on: all fields of a
-/// point, then those of the next.
+/// Makes the fields views of rows: all fields of the first point from `first` on, then all fields
+/// of the next.
 inline void
 viewRows (const std::vector<Field*>& fields, const std::shared_ptr<const char>& first,
           ByteOrder order)
@@ -112,8 +112,8 @@ viewRows (const std::vector<Field*>& fields, const std::shared_ptr<const char>& 
   }
 }
 
-/// Makes an array for the values of `points` points, point by point in the byte order of this
-/// machine, of which the fields are views.
+/// Allocates rows for the values of `points` points, in the byte order of this machine, and makes
+/// the fields views of them.
 inline std::shared_ptr<char>
 allocateRows (const std::vector<Field*>& fields, std::size_t points)
 {

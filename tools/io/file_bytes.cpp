@@ -22,15 +22,15 @@ namespace floater
 {
 namespace
 {
-/// Ranges of addresses, where a signal handler may read them. Files beyond these are merely not
-/// known to it.
+/// Addresses of the mapped files, for the signal handler. It does not know files beyond
+/// MOST_RANGES.
 struct MappedRange
 {
   std::atomic<std::uintptr_t> first{0}, last{0}; // both 0: free
 };
 constexpr std::size_t MOST_RANGES = 8;
 std::array<MappedRange, MOST_RANGES> mapped_ranges;
-std::mutex ranges_mutex; // held while one begins or ends
+std::mutex ranges_mutex; // held while a range is added or removed
 
 bool
 isSameTime (const timespec& a, const timespec& b)
@@ -111,7 +111,7 @@ struct FileBytes::Holder
   }
 
   int descriptor = -1;
-  struct stat status = {}; // when the file was opened
+  struct stat status = {}; // as it was when the file was opened
   void* mapped = nullptr;
   std::size_t mapped_size = 0;
   std::string own;

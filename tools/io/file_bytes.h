@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bytes of a file, without a copy where that can be.
+// The bytes of a file, without a copy where possible.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace pcl
 {
 namespace floater
 {
-/// The bytes of a file: mapped into memory, so that they take none of it for long, or read where
-/// there is nothing to map, as of a pipe. Copies share them.
+/// The bytes of a file. A regular file is mapped, so that the system can take its pages out of
+/// memory again; a pipe is read. Copies share the bytes.
 ///
-/// A file that others write to while it is mapped changes under our eyes; hasChanged () tells. If
-/// it gets shorter, reading what is gone is a signal, SIGBUS, which handleSignals () makes an
-/// orderly end of the program.
+/// If another program writes to a mapped file, the bytes change; hasChanged () tells. If it
+/// truncates the file, reading the missing bytes raises SIGBUS, on which handleSignals () ends the
+/// program in an orderly way.
 class FileBytes
 {
 public:
@@ -26,21 +26,22 @@ public:
   /// \throws ReadError if the file does not exist, is a folder, or cannot be read
   explicit FileBytes (const std::filesystem::path& path);
 
-  /// Bytes of the caller's, which must live as long as all copies of this.
+  /// Bytes of the caller, which must outlive all copies of this object.
   explicit FileBytes (std::string_view bytes) : bytes_ (bytes) {}
 
   std::string_view view () const { return bytes_; }
 
-  /// The byte at `offset` and, for as long as the pointer lives, all others.
+  /// The byte at `offset`. The pointer keeps all bytes alive.
   std::shared_ptr<const char> at (std::size_t offset) const
   {
     return {holder_, bytes_.data () + offset};
   }
 
-  /// Gives the memory of a mapped file back. What is looked at again is fetched again.
+  /// Gives the memory of a mapped file back. Bytes that are used again are read from the file
+  /// again.
   void giveBack () const;
 
-  /// True if a mapped file has been written to since it was opened.
+  /// Whether a mapped file has been written to since it was opened.
   bool hasChanged () const;
 
 private:
@@ -49,11 +50,11 @@ private:
   std::string_view bytes_;
 };
 
-/// The same for all files that are mapped now. Any thread may call it at any time.
+/// Calls giveBack () for all mapped files. May be called by any thread.
 void
 giveBackMappedFiles ();
 
-/// True if the address is in a file that is mapped now. For signal handlers.
+/// Whether the address is in a mapped file. May be called by signal handlers.
 bool
 isInMappedFile (const void* address);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// File formats go by their extensions.
+// The format of a file is given by its extension.
 #pragma once
 
 #include <algorithm>

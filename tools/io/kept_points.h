@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which points of a cloud stay.
+// The points of a cloud that are kept.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@ namespace pcl
 {
 namespace floater
 {
-/// Some of the rows of a file, numbered anew. A fifth of a byte per row; nothing if all are kept.
+/// A subset of the rows of a file, renumbered from 0. Takes a fifth of a byte per row, and no
+/// memory if all rows are kept.
 class KeptPoints
 {
 public:
-  /// All rows; takes no memory.
+  /// All rows.
   KeptPoints () = default;
 
-  /// Those for which keep (row) is true.
+  /// The rows for which keep (row) is true.
   template <typename Keep>
   KeptPoints (std::size_t rows, const Keep& keep)
   {
@@ -37,7 +38,7 @@ public:
 
   bool areAll () const { return words_.empty (); }
 
-  /// How many are kept, if not all.
+  /// Number of rows that are kept, unless all are.
   std::size_t size () const { return kept_; }
 
   /// The new number of a row that is kept.
@@ -50,7 +51,7 @@ public:
     return word.before + static_cast<std::uint32_t> (__builtin_popcountll (word.bits & below));
   }
 
-  /// The row of a new number, which should be below size (). O(log rows) if not all are kept.
+  /// The row of a new number; 0 if it is not below size (). O(log rows) if not all rows are kept.
   std::size_t row (std::size_t number) const
   {
     if (areAll ())
@@ -62,7 +63,7 @@ public:
     }
     std::uint64_t bits = words_[first].bits;
     for (std::size_t i = words_[first].before; i < number; ++i)
-      bits &= bits - 1; // without the lowest
+      bits &= bits - 1; // clears the lowest bit
     if (bits == 0)
       return 0; // beyond size ()
     return first * WORD_ROWS + static_cast<std::size_t> (__builtin_ctzll (bits));
@@ -74,7 +75,7 @@ private:
   struct Word
   {
     std::uint64_t bits = 0;   // kept rows
-    std::uint32_t before = 0; // kept rows of all words before
+    std::uint32_t before = 0; // number of kept rows in the words before
   };
 
   std::vector<Word> words_;

@@ -9,27 +9,26 @@ namespace pcl
 {
 namespace floater
 {
-/// True if meshes are written to files with this extension (.vtk, .ply, .obj, .stl; case does not
-/// matter).
+/// Whether meshes can be written to files with this extension: .vtk, .ply, .obj, .stl, in any case.
 bool
 isMeshFile (const std::filesystem::path& path);
 
-/// Writes the mesh in the format that the extension of `path` tells. All coordinates must be
-/// finite. Where the format can hold it, vertex k is point k of the cloud with all its fields, and
-/// every number reads back as the same bits. \param path only its extension counts; the bytes go to
-/// `file` \return what the format could not hold, one sentence each \throws WriteError
+/// Writes the mesh in the format given by the extension of `path`. All coordinates must be finite.
+/// As far as the format allows, vertex k is point k of the cloud with all its fields, and every
+/// number reads back exactly. \param path only its extension is used; the bytes are written to
+/// `file` \return losses of the format, one sentence each \throws WriteError
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
            const Triangles& triangles);
 
-/// Legacy VTK 3.0, binary, polydata. Colours are the unsigned char scalars "RGB", which viewers
-/// show as they are and PCL knows by that name; normals are point normals; other fields are arrays.
+/// Legacy VTK 3.0, binary, polydata. Colours are unsigned char scalars named "RGB", which viewers
+/// show unchanged and PCL reads by that name; normals are point normals; other fields are arrays.
 void
 writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
-/// PLY, binary little endian. A field of several values becomes as many properties, name_0 and so
-/// on. \return the names of 64-bit integer fields, which PLY has no type for: they are written as
-/// double
+/// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
+/// ... \return names of the 64-bit integer fields, which are written as double, because PLY has no
+/// type for them
 std::vector<std::string>
 writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 

@@ -10,7 +10,7 @@ namespace floater
 {
 namespace
 {
-/// Values of all points, three for each, as three fields.
+/// Appends three fields that share an array of three values per point.
 template <typename T>
 void
 addFields (std::vector<T>&& values, ScalarType type, const std::array<const char*, 3>& names,
@@ -33,7 +33,7 @@ colorByte (const TextScanner& scanner, double channel)
   return static_cast<std::uint8_t> (std::lround (255.0 * channel));
 }
 
-/// Numbers in the rest of the line.
+/// Reads the numbers in the rest of the line. \return how many
 std::size_t
 readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
 {
@@ -76,7 +76,7 @@ parseObj (const FileBytes& file)
     }
   }
   if (coordinates.empty ())
-    throw ReadError ("it holds no points");
+    throw ReadError ("it has no points");
   const std::size_t size = coordinates.size () / 3;
   std::vector<Field> fields;
   std::vector<std::string> warnings;

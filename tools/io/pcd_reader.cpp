@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "byte_order.h"
 #include "cloud_reader.h"
+#include "plural.h"
 #include "text_scanner.h"
 
 #include <lzf.h>
@@ -16,7 +17,7 @@ namespace
 {
 struct PcdHeader
 {
-  std::vector<Field> fields; ///< without their bytes
+  std::vector<Field> fields; ///< without bytes
   std::size_t points = 0;
   std::string_view data; ///< ascii, binary or binary_compressed
 };
@@ -49,7 +50,7 @@ pcdType (std::string_view type, std::size_t size)
   return std::nullopt;
 }
 
-/// The lines of the header as they stand.
+/// The lines of the header, not yet checked.
 struct HeaderLines
 {
   std::vector<std::string> names;
@@ -73,7 +74,7 @@ readSizes (TextScanner& scanner, std::vector<std::size_t>& numbers, const char* 
   eachWord (scanner, [&] (std::string_view word) {
     std::uint32_t number = 0;
     if (!parseNumber (word, number) || number == 0)
-      scanner.fail (std::string (what) + " must be whole numbers from 1, not '" +
+      scanner.fail (std::string (what) + " must be whole numbers, 1 or more, not '" +
                     std::string (word) + "'");
     numbers.push_back (number);
   });
@@ -93,7 +94,7 @@ makeFields (const TextScanner& scanner, const HeaderLines& lines)
     const std::optional<ScalarType> type = pcdType (lines.types[f], lines.sizes[f]);
     if (!type)
       scanner.fail ("field '" + lines.names[f] + "' has TYPE " + lines.types[f] + " and SIZE " +
-                    std::to_string (lines.sizes[f]) + ", which is no type of PCD");
+                    std::to_string (lines.sizes[f]) + ", which is not a type of PCD");
     fields.push_back ({lines.names[f], *type, lines.counts.empty () ? 1 : lines.counts[f]});
   }
   return fields;
@@ -103,11 +104,11 @@ std::size_t
 countPoints (const TextScanner& scanner, const HeaderLines& lines)
 {
   if (!lines.width && !lines.points)
-    scanner.fail ("the header tells neither POINTS nor WIDTH");
+    scanner.fail ("the header has neither POINTS nor WIDTH");
   const std::size_t height = lines.height.value_or (1);
   const std::size_t width = lines.width.value_or (height > 0 ? *lines.points / height : 0);
   if (height > 0 && width > std::numeric_limits<std::size_t>::max () / height)
-    scanner.fail ("WIDTH times HEIGHT is beyond all bounds");
+    scanner.fail ("WIDTH times HEIGHT is too large");
   const std::size_t points = lines.points.value_or (width * height);
   if (points != width * height)
     scanner.fail ("POINTS is " + std::to_string (points) + ", but WIDTH times HEIGHT is " +
@@ -140,7 +141,7 @@ readHeader (TextScanner& scanner)
     else if (key == "DATA")
       return {makeFields (scanner, lines), countPoints (scanner, lines), scanner.word ()};
     else
-      scanner.fail ("this is no line of a PCD header");
+      scanner.fail ("this is not a line of a PCD header");
   }
   throw ReadError ("the PCD header has no DATA line; the file may be truncated");
 }
@@ -154,15 +155,15 @@ pointBytes (const std::vector<Field>& fields, bool with_padding)
   return bytes;
 }
 
-/// Checked before anything is allocated: a header may claim any number of points.
+/// Checks the number of points before anything is allocated, because a header may claim any.
 void
 requireSize (std::size_t points, std::size_t bytes_of_point, std::size_t bytes)
 {
   if (bytes_of_point == 0 || points > bytes / bytes_of_point)
-    throw ReadError ("the header promises " + std::to_string (points) + " points of " +
-                     std::to_string (bytes_of_point) + " bytes or more, but there are only " +
-                     std::to_string (bytes) +
-                     " bytes of data; the file is truncated or its header wrong");
+    throw ReadError ("the header promises " + counted (points, "point") + " of at least " +
+                     counted (bytes_of_point, "byte") + " each, but there are only " +
+                     counted (bytes, "byte") +
+                     " of data; the file is truncated or its header is wrong");
 }
 
 std::vector<Field*>
@@ -186,9 +187,9 @@ readAscii (TextScanner& scanner, PcdHeader& header)
   char* to = rows.get ();
   for (std::size_t i = 0; i < header.points; ++i) {
     if (!scanner.nextFilledLine ())
-      throw ReadError ("the header promises " + std::to_string (header.points) +
-                       " points, but there are only " + std::to_string (i) +
-                       "; the file is truncated or its header wrong");
+      throw ReadError ("the header promises " + counted (header.points, "point") +
+                       ", but the file has only " + std::to_string (i) +
+                       "; it is truncated or its header is wrong");
     for (const Field& field : header.fields) {
       if (field.name != PADDING)
         to = scanField (scanner, field, to);
@@ -211,12 +212,13 @@ readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
   for (Field& field : header.fields)
     all.push_back (&field);
   viewRows (all, file.at (begin), ByteOrder::LITTLE);
-  // PCL's own writer fills the last block of the disk with zeros.
+  // PCL's writer fills the last block of the disk with zeros.
   const std::string_view rest = file.view ().substr (begin + header.points * stride);
   return rest.find_first_not_of ('\0') != std::string_view::npos;
 }
 
-/// Two 32-bit sizes, compressed and not, then all values field by field, compressed with LZF.
+/// Two 32-bit numbers, the compressed and the uncompressed size, then all values field by field,
+/// compressed with LZF.
 void
 readCompressed (std::string_view bytes, PcdHeader& header)
 {
@@ -229,9 +231,9 @@ readCompressed (std::string_view bytes, PcdHeader& header)
       readNumber<std::uint32_t> (bytes.data () + sizeof (std::uint32_t), ByteOrder::LITTLE);
   bytes.remove_prefix (SIZES);
   if (compressed > bytes.size ())
-    throw ReadError ("there should be " + std::to_string (compressed) +
-                     " bytes of compressed data, but there are " + std::to_string (bytes.size ()) +
-                     "; the file is truncated");
+    throw ReadError ("there should be " + counted (compressed, "byte") +
+                     " of compressed data, but the file has only " +
+                     std::to_string (bytes.size ()) + "; it is truncated");
   const std::size_t point_bytes = pointBytes (header.fields, false);
   requireSize (header.points, point_bytes, expected);
   if (header.points * point_bytes != expected || expected / MOST_PER_BYTE > compressed)
@@ -257,7 +259,7 @@ parsePcd (const FileBytes& file)
   PcdHeader header = readHeader (scanner);
   bool has_more = false;
   if (header.points == 0)
-    throw ReadError ("it holds no points");
+    throw ReadError ("it has no points");
   if (header.data == "ascii")
     has_more = readAscii (scanner, header);
   else if (header.data == "binary")
@@ -274,9 +276,9 @@ parsePcd (const FileBytes& file)
   if (header.data == "binary")
     cloud.file = file;
   if (has_more)
-    cloud.warnings.push_back ("the input file holds more data than the " +
-                              std::to_string (header.points) +
-                              " points of its header; the rest was ignored");
+    cloud.warnings.push_back ("the input file has more data than the " +
+                              counted (header.points, "point") +
+                              " of its header; the rest was ignored");
   return cloud;
 }
 

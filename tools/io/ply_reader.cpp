@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "byte_order.h"
 #include "cloud_reader.h"
+#include "plural.h"
 #include "text_scanner.h"
 
 #include <optional>
@@ -13,7 +14,7 @@ namespace
 {
 struct Property
 {
-  Field field; ///< for lists: type of the entries, no bytes
+  Field field; ///< of a list: name, and type of the entries
   bool is_list = false;
   ScalarType length_type = ScalarType::UINT8;
 };
@@ -27,8 +28,8 @@ struct Element
 
 struct PlyHeader
 {
-  std::optional<ByteOrder> byte_order; ///< none: ascii
-  std::vector<Element> elements;       ///< as far as the vertices, which are the last
+  std::optional<ByteOrder> byte_order; ///< none if ascii
+  std::vector<Element> elements;       ///< up to the vertices, which are the last
 };
 
 ScalarType
@@ -54,7 +55,7 @@ plyType (const TextScanner& scanner, std::string_view name)
   for (const auto& [known_name, type] : known)
     if (name == known_name)
       return type;
-  scanner.fail ("'" + std::string (name) + "' is no type of PLY");
+  scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
 }
 
 Property
@@ -80,7 +81,7 @@ PlyHeader
 readHeader (TextScanner& scanner)
 {
   if (!scanner.nextLine () || scanner.word () != "ply")
-    throw ReadError ("it does not begin with 'ply': this is no PLY file");
+    throw ReadError ("it does not begin with 'ply', so it is not a PLY file");
   PlyHeader header;
   bool has_format = false;
   bool is_after_vertices = false;
@@ -95,7 +96,7 @@ readHeader (TextScanner& scanner)
       else if (format == "binary_big_endian")
         header.byte_order = ByteOrder::BIG;
       else if (format != "ascii")
-        scanner.fail ("'" + std::string (format) + "' is no format of PLY");
+        scanner.fail ("'" + std::string (format) + "' is not a format of PLY");
       has_format = true;
     }
     else if (key == "element") {
@@ -121,7 +122,7 @@ readHeader (TextScanner& scanner)
       return header;
     }
     else
-      scanner.fail ("this is no line of a PLY header");
+      scanner.fail ("this is not a line of a PLY header");
   }
   throw ReadError ("the PLY header has no end; the file may be truncated");
 }
@@ -129,9 +130,9 @@ readHeader (TextScanner& scanner)
 [[noreturn]] void
 failTruncated (const Element& element, std::size_t found)
 {
-  throw ReadError ("the header promises " + std::to_string (element.count) + " of element '" +
-                   element.name + "', but there are only " + std::to_string (found) +
-                   "; the file is truncated or its header wrong");
+  throw ReadError ("the header promises the element '" + element.name + "' " +
+                   counted (element.count, "time") + ", but the file has only " +
+                   std::to_string (found) + "; it is truncated or its header is wrong");
 }
 
 std::vector<Field*>
@@ -144,7 +145,8 @@ fieldsOf (Element& element)
   return fields;
 }
 
-/// Keeps the values of an element, but for lists, in rows of its fields.
+/// Reads an element.
+/// \param keep whether to store its values, without lists, in rows of its fields
 void
 readAscii (TextScanner& scanner, Element& element, bool keep)
 {
@@ -170,7 +172,7 @@ readAscii (TextScanner& scanner, Element& element, bool keep)
   }
 }
 
-/// As readAscii, for an element with lists; returns the bytes that follow it.
+/// As readAscii, for a binary element with lists. \return the bytes that follow it
 std::string_view
 readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
 {
@@ -209,7 +211,8 @@ readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
   return bytes;
 }
 
-/// Where there are no lists the fields are views of the file. Returns the bytes that follow.
+/// As readAscii, for a binary element. Without lists, the fields are views of the file.
+/// \return the bytes that follow it
 std::string_view
 readBinary (const FileBytes& file, std::string_view bytes, ByteOrder order, Element& element,
             bool keep)
@@ -221,10 +224,10 @@ readBinary (const FileBytes& file, std::string_view bytes, ByteOrder order, Elem
   for (const Field* field : fields)
     row += field->pointBytes ();
   viewRows (fields, file.at (file.view ().size () - bytes.size ()), order);
-  return bytes.substr (element.count * row); // not more than there are: see checkCount
+  return bytes.substr (element.count * row); // within the file: see checkCount
 }
 
-/// Rejects counts that the file cannot hold before anything is allocated or counted.
+/// Rejects counts that are too large for the file, before anything is allocated.
 void
 checkCount (const Element& element, bool is_ascii, std::size_t bytes)
 {
@@ -233,9 +236,10 @@ checkCount (const Element& element, bool is_ascii, std::size_t bytes)
     fewest += is_ascii ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
   // The last line of a text may end without a newline.
   if (element.count > 0 && (fewest == 0 || element.count > (bytes + (is_ascii ? 1 : 0)) / fewest))
-    throw ReadError ("the header promises " + std::to_string (element.count) + " of element '" +
-                     element.name + "', more than the " + std::to_string (bytes) +
-                     " bytes of data can hold; the file is truncated or its header wrong");
+    throw ReadError ("the header promises the element '" + element.name + "' " +
+                     counted (element.count, "time") + ", which is more than fits into " +
+                     counted (bytes, "byte") +
+                     " of data; the file is truncated or its header is wrong");
 }
 
 } // namespace

@@ -58,8 +58,8 @@ writeHeader (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
               "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
-/// Values of points `first` to `last`, as doubles or as they are, into a column of rows.
-/// \return bytes of the column in a row
+/// Writes the values of points `first` to `last` into a column of rows, as doubles or unchanged.
+/// \return width of the column in bytes
 std::size_t
 fillColumn (const Cloud& cloud, const Field& field, bool as_double, std::size_t first,
             std::size_t last, char* to, std::size_t row_bytes)
@@ -79,7 +79,7 @@ fillColumn (const Cloud& cloud, const Field& field, bool as_double, std::size_t 
   });
 }
 
-/// Through blocks of rows, so that the type of a field is looked at once for many points.
+/// Writes blocks of rows, so that the type of a field is looked up once per block.
 void
 writePoints (AtomicFile& file, const Cloud& cloud)
 {

@@ -7,7 +7,7 @@ namespace pcl
 {
 namespace floater
 {
-/// A file cannot be used as input. The text names the cause, not the file.
+/// A file cannot be used as input. The message names the cause, not the file.
 class ReadError : public std::runtime_error
 {
 public:

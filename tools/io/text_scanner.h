@@ -14,9 +14,9 @@ namespace pcl
 {
 namespace floater
 {
-/// Parses the whole of a word as a number. Unlike the streams it knows nan and inf, does not depend
-/// on the locale, and takes numbers beyond the range of T as infinite or zero.
-/// \return false if the word is not a number, or not one that an integer type can hold
+/// Parses a whole word as a number. Unlike streams it knows nan and inf and does not depend on the
+/// locale. Numbers beyond the range of a floating-point type become infinite or zero.
+/// \return false if the word is not a number, or out of the range of an integer type
 template <typename T>
 bool
 parseNumber (std::string_view word, T& number)
@@ -41,14 +41,14 @@ parseNumber (std::string_view word, T& number)
   return false;
 }
 
-/// Walks over a text. Lines end with \n or \r\n; words are separated by blanks and tabs.
+/// Scans a text. Lines end with \n or \r\n; words are separated by blanks and tabs.
 class TextScanner
 {
 public:
   /// \param text must outlive the scanner
   explicit TextScanner (std::string_view text) : text_ (text) {}
 
-  /// Goes to the next line; there is none at the end of the text.
+  /// Goes to the next line. \return false at the end of the text
   bool nextLine ()
   {
     if (next_ >= text_.size ())
@@ -61,7 +61,7 @@ public:
     return true;
   }
 
-  /// Goes to the next line with a word in it.
+  /// Goes to the next line with a word in it. \return false at the end of the text
   bool nextFilledLine ()
   {
     while (nextLine ()) {
@@ -72,7 +72,7 @@ public:
     return false;
   }
 
-  /// Takes the next word of the line; empty at its end.
+  /// Reads the next word of the line; empty at its end.
   std::string_view word ()
   {
     skipBlanks ();
@@ -82,7 +82,7 @@ public:
     return text_.substr (first, at_ - first);
   }
 
-  /// Takes what is left of the line.
+  /// Reads the rest of the line.
   std::string_view restOfLine ()
   {
     const std::size_t first = at_;
@@ -90,7 +90,7 @@ public:
     return text_.substr (first, end_ - first);
   }
 
-  /// What follows the line.
+  /// The text after the line.
   std::string_view rest () const { return text_.substr (next_); }
 
   /// Throws a ReadError that names the line.
@@ -99,8 +99,8 @@ public:
     throw ReadError ("line " + std::to_string (line_) + ": " + cause);
   }
 
-  /// Takes a word that must be a number.
-  /// \throws ReadError if it is not one or the line has ended
+  /// Reads the next word of the line as a number.
+  /// \throws ReadError if it is not a number of this type, or the line has ended
   template <typename T>
   T number ()
   {
@@ -127,18 +127,18 @@ private:
   {
     constexpr std::size_t LONGEST = 40;
     if (text.empty ())
-      fail ("it has fewer values than there must be");
+      fail ("it has fewer values than it must have");
     fail ("'" + std::string (text.substr (0, LONGEST)) + "' is not a number of the right type");
   }
 
   std::string_view text_;
   std::size_t at_ = 0;   // next character
   std::size_t end_ = 0;  // end of the line
-  std::size_t next_ = 0; // begin of the next line
+  std::size_t next_ = 0; // start of the next line
   std::size_t line_ = 0; // number of the line, from 1
 };
 
-/// Parses `field.count` words as values of a point, and returns where the next ones go.
+/// Parses `field.count` words as values of a point. \return where the next values go
 inline char*
 scanField (TextScanner& scanner, const Field& field, char* to)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Written here and not by VTK, whose libraries cost every start of the tool more than most clouds
-// take to reconstruct. The tests read the files back with VTK and PCL.
+// Does not use VTK, because loading its libraries takes longer than reconstructing most clouds. The
+// tests read the files back with VTK and PCL.
 #include "mesh_writer.h"
 
 #include <algorithm>

@@ -33,9 +33,11 @@ fail (ExitCode code, const std::string& message)
 int
 main (int argc, char** argv)
 {
-  CLI::App app{"Draws a triangle mesh, and beside it its parameterization, into a PNG file.\n"
-               "Front sides are blue, back sides orange, boundary edges red.\n"
-               "Exit codes: 0 done, 1 wrong usage, 2 cannot read, 3 cannot draw, 4 cannot write."};
+  CLI::App app{
+      "Draws a triangle mesh, and beside it its parameterization, into a PNG file.\n"
+      "Front sides are blue, back sides orange, boundary edges red.\n"
+      "Exit codes: 0 success, 1 usage, 2 an input cannot be read, 3 the picture cannot be\n"
+      "drawn, 4 the output cannot be written."};
   std::vector<std::string> files;
   int height = 700;
   app.add_option ("files", files, "meshes as .vtk or .ply, and the picture to write")
@@ -71,7 +73,7 @@ main (int argc, char** argv)
   if (!pcl::floater::displayAvailable ())
     return fail (
         CANNOT_DRAW,
-        "there is no X display to draw on; put tools/picture/on_virtual_display.sh in front");
+        "there is no X display to draw on; tools/picture/on_virtual_display.sh provides one");
   std::vector<unsigned char> png;
   try {
     pcl::floater::PictureOptions options;

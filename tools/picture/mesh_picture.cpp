@@ -37,15 +37,15 @@ namespace floater
 {
 namespace
 {
-constexpr int SUPERSAMPLING = 2;              // pixels drawn per pixel of the picture, each way
+constexpr int SUPERSAMPLING = 2; // pixels drawn per pixel of the picture, in each direction
 constexpr vtkIdType MOST_DRAWN_EDGES = 15000; // polygons of a shaded mesh up to which edges show
 constexpr int STRONGEST_COMPRESSION = 9;      // of a PNG file
 constexpr int COLOUR_STEP = 5;                // of 256 levels of each colour
-constexpr double MARGIN = 1.06;               // side of the picture over that of what it shows
+constexpr double MARGIN = 1.06;               // side of the picture over that of the mesh in it
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
-constexpr double CLOSED = 1e-3; // length of the mean normal below which a mesh is as good as closed
-constexpr double ONE_SIDED = 0.55;      // length of the mean normal from which a mesh faces one way
-constexpr double SHEET = 0.8;           // the same from which it is a sheet
+constexpr double CLOSED = 1e-3;         // a mesh with a shorter mean normal counts as closed
+constexpr double ONE_SIDED = 0.55;      // a mesh with a longer mean normal faces one way ...
+constexpr double SHEET = 0.8;           // ... and is a sheet if it is longer than this
 constexpr double NEARLY_PARALLEL = 0.8; // cosine
 constexpr double TIP_BACK = 50.0, FROM_ABOVE = 15.0, TURN = 20.0; // degrees
 
@@ -76,8 +76,8 @@ centreOf (const std::vector<Eigen::Vector3d>& points)
   return sum / static_cast<double> (points.size ());
 }
 
-// Mean of the unit normals, weighted by area, on the outer side if the surface bulges: its length
-// tells how one-sided the mesh is.
+// Mean of the unit normals, weighted by area, on the outer side if the surface bulges. The longer
+// it is, the more of the mesh faces one way.
 Eigen::Vector3d
 meanNormal (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
 {
@@ -114,9 +114,9 @@ axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
   return axis.sum () < 0.0 ? Eigen::Vector3d (-axis) : axis;
 }
 
-// What faces one way is seen from there, a sheet tipped back; its upright direction is y as in
-// scans, or z. What faces all ways is seen across its flattest direction; it opens downwards if it
-// is open, for the mean normal points away from the opening.
+// A mesh that faces one way is seen from there, and a sheet is tipped back; up is y, as in scans,
+// or z. A mesh that faces all ways is seen along its axis of least variance; if it is open, its
+// opening is below, because the mean normal points away from it.
 View
 chooseView (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
 {
@@ -149,7 +149,7 @@ makeActor (vtkPolyDataMapper* mapper, const Colour& colour)
   return actor;
 }
 
-// Lines that lie on the surface.
+// Draws lines that lie on the surface.
 void
 addLines (vtkRenderer* renderer, vtkPolyData* edges, const Colour& colour)
 {
@@ -188,7 +188,7 @@ addSurface (vtkRenderer* renderer, vtkPolyData* mesh, bool flat_shading)
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData (mesh);
   normals->SplittingOff ();
-  normals->ConsistencyOff (); // show the orientation of the mesh as it is
+  normals->ConsistencyOff (); // keep the orientation of the mesh
   normals->AutoOrientNormalsOff ();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection (normals->GetOutputPort ());
@@ -218,7 +218,7 @@ addWireframe (vtkRenderer* renderer, vtkPolyData* mesh)
   addBoundary (renderer, mesh);
 }
 
-// The light comes over the viewer's left shoulder, with a weaker one from the lower right.
+// One light over the left shoulder of the viewer, and a weaker one from the lower right.
 void
 addLights (vtkRenderer* renderer)
 {
@@ -233,7 +233,7 @@ addLights (vtkRenderer* renderer)
   }
 }
 
-// Parallel projection, so that the points fill the square picture whatever their shape.
+// Parallel projection, scaled so that the points fill the square picture.
 void
 aimCamera (vtkRenderer* renderer, const View& view, const std::vector<Eigen::Vector3d>& points)
 {
@@ -255,7 +255,7 @@ aimCamera (vtkRenderer* renderer, const View& view, const std::vector<Eigen::Vec
   renderer->ResetCameraClippingRange ();
 }
 
-// Invisible, but the file becomes a third smaller.
+// Rounds the colours, which is invisible and makes the file a third smaller.
 void
 coarsenColours (vtkImageData* image)
 {
@@ -300,9 +300,9 @@ readMesh (const std::string& path)
     mesh = reader->GetOutput ();
   }
   else
-    throw std::runtime_error ("cannot read '" + path + "': only .vtk and .ply files are known");
+    throw std::runtime_error ("cannot read '" + path + "': its extension must be .vtk or .ply");
   if (mesh == nullptr || mesh->GetNumberOfPolys () == 0)
-    throw std::runtime_error ("cannot read '" + path + "': there is no mesh in it");
+    throw std::runtime_error ("cannot read '" + path + "': it has no polygons");
   return mesh;
 }
 
@@ -359,7 +359,7 @@ toPng (vtkImageData* image)
   writer->Write ();
   vtkUnsignedCharArray* bytes = writer->GetResult ();
   if (bytes == nullptr || bytes->GetNumberOfValues () == 0)
-    throw std::runtime_error ("VTK could not make a picture");
+    throw std::runtime_error ("VTK could not write the picture");
   return {bytes->Begin (), bytes->End ()};
 }
 

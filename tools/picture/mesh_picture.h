@@ -18,25 +18,26 @@ namespace floater
 vtkSmartPointer<vtkPolyData>
 readMesh (const std::string& path);
 
-/// What else a picture of a mesh shows.
+/// Options of a picture.
 struct PictureOptions
 {
-  vtkPolyData* parameterization = nullptr; ///< drawn beside the mesh: its edges, seen from above
-  vtkPolyData* marked_edges = nullptr;     ///< lines on the mesh, drawn in magenta
-  bool flat_shading = false;               ///< true: each triangle in one shade, so that bumps show
+  vtkPolyData* parameterization =
+      nullptr;                         ///< mesh in the plane whose edges are drawn beside the mesh
+  vtkPolyData* marked_edges = nullptr; ///< lines on the mesh, drawn in magenta
+  bool flat_shading = false;           ///< one shade for each triangle, which shows bumps
 };
 
-/// Draws a mesh: shaded from both sides (blue in front, orange behind), boundary edges red, all
-/// edges if there are few, seen from where most of it faces. Needs an X display. \param height of
-/// the picture in pixels; the picture is as wide for each of mesh and parameterization
+/// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
+/// are few. It is seen from the side to which most of it faces. Needs an X display. \param height
+/// in pixels; mesh and parameterization are as wide each
 vtkSmartPointer<vtkImageData>
 drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options = {});
 
-/// A picture as a PNG file. \throw std::runtime_error if VTK fails
+/// The bytes of a PNG file of a picture. \throw std::runtime_error if VTK fails
 std::vector<unsigned char>
 toPng (vtkImageData* image);
 
-/// Whether there is an X display to draw on; without one VTK would end the process.
+/// Whether there is an X display to draw on. Without one, VTK would end the process.
 bool
 displayAvailable ();
 

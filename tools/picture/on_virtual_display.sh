@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs a command on an X display of its own that needs no screen. Exits as the command does
-# (xvfb-run of Debian 12 sometimes exits with 5 instead).
+# Runs a command on a virtual X display and exits with its exit code. (xvfb-run of Debian 12
+# sometimes exits with 5 instead.)
 set -euo pipefail
 
 if (($# == 0)); then
@@ -13,10 +13,11 @@ if ! command -v Xvfb >/dev/null; then
   exit 1
 fi
 
-# Xvfb chooses a free display and writes its number when it is ready.
+# Xvfb chooses a free display, and writes its number when it is ready.
 coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null; }
 server_id=$!
-# A server that is still going down may take the socket of the next one of its number with it.
+# Waits for the end of the server, which would else remove the socket of the next one that takes its
+# number.
 trap 'kill "$server_id" 2>/dev/null || true; wait "$server_id" 2>/dev/null || true' EXIT
 if ! read -r -t 60 display <&"${server[0]}"; then
   echo "on_virtual_display.sh: Xvfb did not start" >&2

@@ -2,12 +2,12 @@
 #include "command_line.h"
 
 #include "atomic_file.h"
+#include "check_options.h"
 #include "cloud_reader.h"
 #include "format.h"
 #include "memory_limit.h"
 #include "mesh_writer.h"
 #include "text_scanner.h"
-#include "check_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -20,11 +20,12 @@ namespace
 const char* const GENERAL = "General";
 
 const char* const DESCRIPTION =
-    "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of "
+    "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of\n"
+    "the cloud, in the same order and with all their fields. The surface may be open or closed,\n"
+    "with holes, handles or several components. It is put together from the triangles on which "
     "the\n"
-    "cloud, in the same order and with all their fields. The surface may be open or closed, with\n"
-    "holes, handles or several components; a disc is made by Floater's meshless parameterization.\n"
-    "Nothing needs to be tuned.\n";
+    "Delaunay stars of neighbouring points agree. A disc can also be laid out in the plane, by\n"
+    "Floater's meshless parameterization. The defaults need no tuning.\n";
 
 const char* const FOOTER =
     R"(Examples:
@@ -36,11 +37,11 @@ const char* const FOOTER =
 
 Notes:
   Input formats: .pcd, .ply, .obj. Output formats: .vtk (pcl_viewer opens it), .ply, .obj, .stl.
-  Points with a coordinate that is not finite are left out of the output, and the vertices after
-  them move up; the report lists them. All other points are vertices, also if no triangle uses them,
-  as outliers and repeated points; the report lists these, too.
-  An output appears when it is whole; a file that is there already is replaced. After a failure
-  there is no mesh, and what was there before is unchanged.
+  Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
+  them move up. All other points are vertices of the output, also those that are in no triangle:
+  outliers, repeated points, and points that could not be connected. The report lists them all.
+  An output file appears when it is complete, and replaces an existing one. After a failure there is
+  no new mesh, and existing files are unchanged.
 
 Exit codes:
   0  success
@@ -49,7 +50,7 @@ Exit codes:
   3  the cloud cannot be reconstructed; the message and the report name the status
   4  an output cannot be written
   5  out of memory, or an internal error
-  6  with --strict: there are warnings; no mesh is written, a report is
+  6  with --strict: there are warnings; the report is written, but no mesh
 )";
 
 template <typename Enum, std::size_t N>
@@ -112,14 +113,15 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
       throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
                                                       formatSize (leastMemory (0)) + " or more");
   };
-  app.add_option_function<std::string> (
-         "--max-memory", parse,
-         "stay below so many bytes of memory, and keep what\nis not in use on disk; not for discs")
+  app.add_option_function<std::string> ("--max-memory", parse,
+                                        "limit on the memory in use, in bytes; arrays that "
+                                        "are\nnot in use are kept on disk; not for discs")
       ->option_text ("SIZE (no limit)")
       ->group (GENERAL);
-  addPath (app, "--scratch", line.scratch,
-           "--max-memory: where that is; its files have no\nnames, and go with the run", GENERAL,
-           "FOLDER (that of OUTPUT)");
+  addPath (
+      app, "--scratch", line.scratch,
+      "--max-memory: where the arrays are kept; these files\nhave no names and end with the run",
+      GENERAL, "FOLDER (that of OUTPUT)");
 }
 
 /// \throws UsageError
@@ -128,13 +130,14 @@ checkMemoryLimit (CommandLine& line)
 {
   if (line.max_memory == 0) {
     if (!line.scratch.empty ())
-      throw UsageError ("--scratch is for --max-memory, which is not given");
+      throw UsageError ("--scratch is of no use without --max-memory");
     return;
   }
-  // The factors of the linear system are the solver's own arrays, and the larger part.
+  // The solver allocates the factors of the linear system itself, and they are the larger part.
   if (line.options.topology == Topology::DISC)
-    throw UsageError ("--max-memory cannot limit what the linear system of a disc takes; use it "
-                      "with --topology surface or auto, without --loop and --parameterization");
+    throw UsageError ("--max-memory cannot limit the memory for the linear system of a disc; use "
+                      "it with --topology surface or auto, and without --loop and "
+                      "--parameterization");
   if (line.scratch.empty ())
     line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }
@@ -144,41 +147,50 @@ addTopology (CLI::App& app, Options& options)
 {
   const std::string surface = "Surface";
   addChoice (app, "--topology", options.topology, TOPOLOGY_CHOICES,
-             "what is made: one disc, any surface, or what\nthe points tell", surface);
+             "what the points are taken for: a disc (one component\nwith one boundary loop), any "
+             "surface, or whichever\ngives the better mesh",
+             surface);
   addChoice (
       app, "--holes", options.holes.policy, HOLE_CHOICES,
-      "holes that stay open: those where the sampling\nends, none, the largest of each component, "
-      "some of\nthe largest, or those above a size",
+      "boundary loops that stay open: those beyond which\nthere are no points, none, the largest "
+      "of each\ncomponent, a number of the largest, or those above a\nsize",
       surface);
   addNumber (app, "--kept-loops", options.holes.kept_loops,
-             "keep-count: boundary loops that stay, 0 or more", surface);
+             "keep-count: boundary loops that stay open, 0 or more", surface);
   addNumber (app, "--largest-hole", options.holes.largest_hole,
-             "by-size: widest hole to close, in local spacings;\n0: not looked at", surface);
+             "by-size: width of the widest hole to fill, in local\nspacings; 0: no limit", surface);
   addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
              "by-size: the same in units of the cloud", surface);
   addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
              "leave points that lie off any surface out of\nthe mesh", surface);
   addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
-             "where noise is strong, connect points as they\nlie in local planes", surface);
+             "where noise is strong, connect points as they lie\nwhen projected on local planes",
+             surface);
   addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
-             "flip edges on the surface at the end", surface);
+             "flip edges in space and repair folds at the end", surface);
 }
 
 void
-addOptions (CLI::App& app, CommandLine& line)
+addGeneral (CLI::App& app, CommandLine& line)
 {
   Options& options = line.options;
   addNumber (app, "-j,--threads", options.threads,
-             "threads, 0 for all cores; the result is the same", GENERAL);
+             "threads, 0: one for each core; the result is the\nsame", GENERAL);
   addNumber (app, "--blocks", options.blocks,
-             "components in which a surface is made, 0 to choose;\nthe result is the same", GENERAL);
+             "blocks in which the nearest neighbours are searched,\n0: chosen by the number of "
+             "points; the result is\nthe same",
+             GENERAL);
   addMemoryLimit (app, line);
-  app.add_flag ("--json", line.json, "print a summary as one line of JSON, the last")
+  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);
-  app.add_flag ("-q,--quiet", line.quiet, "print errors only (and the line of --json)")
+  app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
       ->group (GENERAL);
-  app.add_flag ("--strict", line.strict, "take warnings for a failure: write no mesh")
-      ->group (GENERAL);
+}
+
+void
+addFiles (CLI::App& app, CommandLine& line)
+{
   const auto positional = [&app] (const std::string& name, std::filesystem::path& path,
                                   const std::string& text) {
     app.add_option_function<std::string> (
@@ -188,76 +200,100 @@ addOptions (CLI::App& app, CommandLine& line)
   };
   positional ("INPUT", line.input, "point cloud: .pcd, .ply or .obj");
   positional ("OUTPUT", line.output, "mesh to write: .vtk, .ply, .obj or .stl");
+  const std::string output = "More output";
+  addPath (app, "--report", line.report, "write a report on the run as JSON", output);
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh laid out in the plane z = 0, in any of\nthe mesh formats; makes a disc",
+           output);
+}
 
-  addTopology (app, options);
-
+void
+addNeighbors (CLI::App& app, Options& options)
+{
   const std::string neighborhoods = "Neighbourhoods";
-  addNumber (app, "-k,--neighbors", options.neighbors.k, "nearest neighbours of each point, 6 to 200",
-             neighborhoods);
+  addNumber (app, "-k,--neighbors", options.neighbors.k,
+             "nearest neighbours of each point, 6 to 200", neighborhoods);
   addChoice (app, "--neighborhood", options.neighbors.kind, NEIGHBORHOOD_CHOICES,
-             "points that a point is a mean of", neighborhoods);
+             "points that a point of a disc is a mean of: the\nnearest, those in a ball, or the "
+             "Delaunay star among\neither",
+             neighborhoods);
   addNumber (app, "--ball-radius", options.neighbors.ball_radius,
-             "ball, ball-delaunay: radius in mean distances\nto the 6 nearest, 1 to 10",
+             "ball, ball-delaunay: radius, in mean distances of a\npoint to its 6 nearest, 1 to 10",
              neighborhoods);
   addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
-             "leave out neighbours on another sheet", neighborhoods);
+             "drop neighbours on another sheet of the surface", neighborhoods);
+}
 
+void
+addBoundary (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
   const std::string boundary = "Boundary of a disc";
   addChoice (app, "--boundary", options.boundary.method, BOUNDARY_CHOICES,
-             "how the boundary loop is found: along a\nspanning tree of boundary points; as the "
-             "largest\nrim of triangles that stars agree on (consensus); or\nas in the report "
+             "how the boundary loop is found: in a spanning tree of\nthe boundary points; as the "
+             "largest boundary loop of\nthe consensus of the stars; or as in TW 385, section 3\n"
              "(two-segments)",
              boundary);
   addPath (app, "--loop", line.loop,
-           "take the loop from this text file: indices of\npoints in order, from 0; makes a disc",
+           "read the loop from this text file: indices of points,\nfrom 0, in order; makes a disc",
            boundary);
   addNumber (app, "--opening-angle", options.boundary.opening_angle,
-             "degrees: a boundary point sees a wider sector\nwithout neighbours", boundary);
+             "two-segments: degrees; a boundary point has a wider\nsector without neighbours",
+             boundary);
   addNumber (app, "--cluster-tolerance", options.boundary.cluster_tolerance,
-             "two-segments: growing distance of clusters as\nfraction of the bounding box diagonal",
+             "two-segments: distance over which clusters grow, as\na fraction of the bounding box "
+             "diagonal",
              boundary);
   addNumber (app, "--cluster-neighbors", options.boundary.cluster_k,
-             "two-segments: nearest boundary points appended\nin cluster growing", boundary);
+             "two-segments: boundary points that a cluster takes in\nat a time, 1 or more",
+             boundary);
+}
 
+void
+addParameterization (CLI::App& app, Options& options)
+{
   const std::string parameterization = "Parameterization of a disc";
   addChoice (app, "--domain", options.domain.curve, DOMAIN_CHOICES,
              "convex curve on which the loop is laid", parameterization);
   addNumber (app, "--sides", options.domain.polygon_sides, "sides of the polygon, 3 or more",
              parameterization);
   addChoice (app, "--spacing", options.domain.loop_spacing, SPACING_CHOICES,
-             "how the points of the loop share that curve", parameterization);
+             "how the points of the loop are spaced on that curve", parameterization);
   addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
-             "weights of a point in its neighbours", parameterization);
+             "weights of the neighbours of a point", parameterization);
+}
 
+void
+addSystem (CLI::App& app, Options& options)
+{
   const std::string system = "Linear system";
-  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "what solves it", system);
+  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "what solves the system",
+             system);
   addChoice (app, "--ordering", options.solver.ordering, ORDERING_CHOICES, "order of the unknowns",
              system);
   addNumber (app, "--tolerance", options.solver.tolerance,
-             "bicgstab-ilut, gauss-seidel: relative residual\nto reach, above 0 and below 1",
+             "bicgstab-ilut, gauss-seidel: relative residual to\nreach, above 0 and below 1",
              system);
   addNumber (app, "--max-iterations", options.solver.max_iterations,
-             "bicgstab-ilut, gauss-seidel: iterations to give\nup after, 1 or more", system);
-  addNumber (app, "--ilut-fill", options.solver.ilut_fill,
-             "bicgstab-ilut: entries kept in a row of each\nfactor, 1 or more", system);
-  addNumber (app, "--ilut-drop", options.solver.ilut_drop,
-             "bicgstab-ilut: entries dropped from the factors,\nas a share of their row, 0 to 1",
+             "bicgstab-ilut, gauss-seidel: iterations after which\nthey give up, 1 or more",
              system);
-
-  const std::string output = "More output";
-  addPath (app, "--report", line.report, "write all there is to say about the run as JSON", output);
-  addPath (app, "--parameterization", line.parameterization,
-           "write the mesh in the plane z = 0, in any of the\nmesh formats; makes a disc", output);
+  addNumber (app, "--ilut-fill", options.solver.ilut_fill,
+             "bicgstab-ilut: entries kept in a row of each factor,\n1 to 10000", system);
+  addNumber (
+      app, "--ilut-drop", options.solver.ilut_drop,
+      "bicgstab-ilut: entries of the factors below this\nfraction of their row are dropped, 0 "
+      "to 1",
+      system);
 }
 
-/// The same file under whatever names; files need not exist.
+/// Whether two paths name the same file, which need not exist.
 bool
 areSame (const std::filesystem::path& a, const std::filesystem::path& b)
 {
   std::error_code error;
   if (std::filesystem::equivalent (a, b, error) && !error)
     return true;
-  // Made absolute first: a relative path of which nothing exists would stay as it stands.
+  // weakly_canonical would leave a relative path as it is if no part of it exists.
   const auto full = [&error] (const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
   };
@@ -277,7 +313,13 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,
                         "print the version and exit")
       ->group (GENERAL);
-  addOptions (app, command_line);
+  addGeneral (app, command_line);
+  addTopology (app, command_line.options);
+  addNeighbors (app, command_line.options);
+  addBoundary (app, command_line);
+  addParameterization (app, command_line.options);
+  addSystem (app, command_line.options);
+  addFiles (app, command_line);
   try {
     app.parse (argc, argv);
   }
@@ -344,7 +386,7 @@ readLoop (const std::filesystem::path& path)
       if (!parseNumber (word, loop.emplace_back ()))
         scanner.fail ("'" + std::string (word) + "' is not the index of a point");
   if (loop.empty ())
-    throw ReadError ("it holds no indices of points");
+    throw ReadError ("it has no indices of points");
   return loop;
 }
 

@@ -26,7 +26,7 @@ enum ExitCode
   EXIT_WARNINGS = 6
 };
 
-/// The command line asks for something that makes no sense.
+/// The command line is wrong, or asks for something impossible.
 class UsageError : public std::runtime_error
 {
 public:
@@ -41,12 +41,12 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  std::filesystem::path scratch; ///< folder, used with a limit only
-  std::size_t max_memory = 0;    ///< bytes; 0 for no limit
-  Options options;               ///< but for the loop, which is still in its file
+  std::filesystem::path scratch; ///< folder; used with a limit only
+  std::size_t max_memory = 0;    ///< bytes; 0: no limit
+  Options options;               ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
-  bool strict = false; ///< no mesh if there is a warning
+  bool strict = false; ///< write no mesh if there is a warning
 };
 
 /// Words for the values of an enumeration, on the command line and in reports.
@@ -108,20 +108,21 @@ choiceName (const Choices<Enum, N>& choices, Enum value)
   return "unknown";
 }
 
-/// Parses the command line; prints help and version.
-/// \return the exit code if there is nothing more to do
+/// Parses the command line. Prints the help or the version if asked for.
+/// \return the exit code if there is nothing else to do
 /// \throws UsageError
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line);
 
-/// Checks all paths against each other and the disk, so that nothing fails after the work is done.
+/// Checks all paths against each other and against the disk, before the work begins.
 /// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
 /// ReadError if the extension of the input is unknown
 void
 checkPaths (const CommandLine& command_line);
 
-/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines; # begins
-/// a comment. \throws ReadError
+/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
+/// that begins with # begins a comment, up to the end of the line.
+/// \throws ReadError
 std::vector<std::uint32_t>
 readLoop (const std::filesystem::path& path);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One file for each array, with all its room reserved when it is made: freeing the array frees the
-// file, no page of it can lack a block when it is written (which would be SIGBUS), and a descriptor
-// is open only while it is mapped.
+// Each array has a file of its own, so that the file goes when the array is freed. Its space is
+// reserved when it is made: a page without a block on the disk would be SIGBUS when it is written.
+// The descriptor is closed as soon as the file is mapped.
 #include "large_arrays.h"
 
 #include "atomic_file.h"
@@ -30,27 +30,24 @@ namespace floater
 {
 namespace
 {
-// Addresses of arrays in files are multiples of this. Such a pointer is hardly ever one of
-// malloc's, so that all others are freed without a look at the table.
-constexpr std::size_t ALIGNMENT = std::size_t{1} << 21U;
-
-/// All arrays in files. Nothing may be freed under the lock of the table, for that may lead to the
-/// table again; allocating its nodes is harmless, they are small.
+/// All arrays in files. Nothing may be freed while the table is locked, because operator delete may
+/// lock it as well. Allocating nodes of the table is safe: they are too small to be in it.
 struct ScratchArrays
 {
-  std::mutex mutex;                         // of the next three
+  std::mutex mutex;                         // guards the next three
   std::map<std::uintptr_t, std::size_t> at; // bytes by address
-  std::uintptr_t hand = 0;                  // dropNextPiece goes on here
+  std::uintptr_t hand = 0;                  // where dropNextChunk () continues
   ScratchUse use;
 
-  std::string folder;                          // set once, like the next
-  std::function<void (std::size_t)> make_room; // before an array of so many bytes
+  // Both are set once, before there are arrays.
+  std::string folder;
+  std::function<void (std::size_t)> make_room; // called before an array of so many bytes is made
 
   std::mutex failure_mutex;
   std::string failure;
 };
 
-// Never destroyed: arrays may be freed until the very end.
+// Never destroyed, because arrays may be freed until the process ends.
 ScratchArrays&
 scratchArrays ()
 {
@@ -66,7 +63,7 @@ pointerTo (std::uintptr_t address)
   return reinterpret_cast<char*> (address);
 }
 
-/// A file without a name; -1 and errno if there is none.
+/// Makes a file without a name. \return its descriptor; -1 and errno if there is none
 int
 makeScratchFile (const std::string& folder)
 {
@@ -83,25 +80,26 @@ makeScratchFile (const std::string& folder)
   return named;
 }
 
-/// Addresses that begin at a multiple of ALIGNMENT.
-/// \return 0 if there are none
+/// Reserves addresses that begin at a multiple of LARGE_ARRAY_ALIGNMENT.
+/// \return the first address; 0 if there are none
 std::uintptr_t
 reserveAddresses (std::size_t bytes)
 {
-  void* all = ::mmap (nullptr, bytes + ALIGNMENT, PROT_NONE,
+  void* all = ::mmap (nullptr, bytes + LARGE_ARRAY_ALIGNMENT, PROT_NONE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (all == MAP_FAILED)
     return 0;
   const auto first = reinterpret_cast<std::uintptr_t> (all);
-  const std::uintptr_t begin = (first + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+  const std::uintptr_t begin =
+      (first + LARGE_ARRAY_ALIGNMENT - 1) / LARGE_ARRAY_ALIGNMENT * LARGE_ARRAY_ALIGNMENT;
   if (begin > first)
     ::munmap (all, begin - first);
-  if (begin < first + ALIGNMENT)
-    ::munmap (pointerTo (begin + bytes), first + ALIGNMENT - begin);
+  if (begin < first + LARGE_ARRAY_ALIGNMENT)
+    ::munmap (pointerTo (begin + bytes), first + LARGE_ARRAY_ALIGNMENT - begin);
   return begin;
 }
 
-/// Maps the array there. \return 0, or the error
+/// Maps a new scratch file at reserved addresses. \return 0, or the error number
 int
 mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
 {
@@ -124,20 +122,28 @@ describeFailure (ScratchArrays& all, std::size_t bytes, int error)
   const auto megabytes = [] (std::size_t count) {
     return std::to_string (count / 1'000'000) + " MB";
   };
-  const std::size_t there = scratchUse ().bytes;
+  const std::size_t used = scratchUse ().bytes;
   const std::lock_guard<std::mutex> lock (all.failure_mutex);
   all.failure = "no room in the scratch folder '" + all.folder + "': " + std::strerror (error) +
-                "; " + megabytes (there) + " are there, " + megabytes (bytes) + " more are needed" +
+                "; it holds " + megabytes (used) + ", and " + megabytes (bytes) +
+                " more are needed" +
                 (error == EFBIG ? "; raise the limit on file sizes (ulimit -f)"
                                 : "; free some space or name another folder by --scratch");
 }
 
-/// \return nullptr if there is no room, which is then described
+} // namespace
+
+bool
+hasScratchFolder ()
+{
+  return has_scratch;
+}
+
 void*
-mapArray (std::size_t size)
+mapLargeArray (std::size_t size)
 {
   constexpr std::size_t PAGE = 4096; // or a part of one
-  if (size > PTRDIFF_MAX - 2 * ALIGNMENT)
+  if (size > PTRDIFF_MAX - 2 * LARGE_ARRAY_ALIGNMENT)
     return nullptr;
   const std::size_t bytes = (size + PAGE - 1) / PAGE * PAGE;
   const std::uintptr_t begin = reserveAddresses (bytes);
@@ -158,15 +164,14 @@ mapArray (std::size_t size)
     describeFailure (all, bytes, error);
   }
   catch (const std::bad_alloc&) {
-    // No room for the entry, or for the words: it is out of memory either way.
+    // There is no memory for the entry or for the message: it fails like the array itself.
   }
   ::munmap (pointerTo (begin), bytes);
   return nullptr;
 }
 
-/// \return false if there is no such array
 bool
-unmapArray (void* pointer)
+unmapLargeArray (void* pointer)
 {
   ScratchArrays& all = scratchArrays ();
   decltype (all.at)::node_type node; // freed without the lock
@@ -180,51 +185,6 @@ unmapArray (void* pointer)
   ::munmap (pointer, node.mapped ());
   return true;
 }
-
-void*
-allocate (std::size_t size, std::size_t alignment) noexcept
-{
-  if (size >= LARGE_ARRAY && alignment <= ALIGNMENT && has_scratch)
-    return mapArray (size);
-  if (alignment <= alignof (std::max_align_t))
-    return std::malloc (std::max<std::size_t> (size, 1));
-  return std::aligned_alloc (alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-void*
-allocateOrThrow (std::size_t size, std::size_t alignment = alignof (std::max_align_t))
-{
-  for (;;) {
-    if (void* pointer = allocate (size, alignment))
-      return pointer;
-    const std::new_handler handler = std::get_new_handler ();
-    if (handler == nullptr)
-      throw std::bad_alloc ();
-    handler ();
-  }
-}
-
-void*
-allocateOrNull (std::size_t size, std::size_t alignment = alignof (std::max_align_t)) noexcept
-{
-  try {
-    return allocateOrThrow (size, alignment);
-  }
-  catch (...) {
-    return nullptr;
-  }
-}
-
-void
-release (void* pointer) noexcept
-{
-  const bool may_be_mapped =
-      reinterpret_cast<std::uintptr_t> (pointer) % ALIGNMENT == 0 && has_scratch;
-  if (pointer == nullptr || !may_be_mapped || !unmapArray (pointer))
-    std::free (pointer);
-}
-
-} // namespace
 
 void
 keepLargeArraysIn (const std::filesystem::path& scratch_folder,
@@ -252,10 +212,10 @@ liesInMemory (const std::filesystem::path& folder)
 }
 
 std::size_t
-dropNextPiece ()
+dropNextChunk ()
 {
   ScratchArrays& all = scratchArrays ();
-  // Held throughout, so that the component is not unmapped, and its addresses taken by something else.
+  // Locked throughout, so that the chunk is not unmapped and its addresses are not used again.
   const std::lock_guard<std::mutex> lock (all.mutex);
   if (all.at.empty ())
     return 0;
@@ -267,8 +227,9 @@ dropNextPiece ()
     all.hand = 0;
   }
   const std::uintptr_t begin = std::max (all.hand, array->first);
-  const std::uintptr_t end = std::min (begin + DROPPED_PIECE, array->first + array->second);
-  // Of a shared mapping of a file this drops the pages from the table only, not what they hold.
+  const std::uintptr_t end = std::min (begin + DROPPED_CHUNK, array->first + array->second);
+  // With a shared mapping of a file, this removes the pages from the page table; the contents stay
+  // in the file.
   ::madvise (pointerTo (begin), end - begin, MADV_DONTNEED);
   all.use.dropped += end - begin;
   all.hand = end;
@@ -293,113 +254,3 @@ largeArrayFailure ()
 
 } // namespace floater
 } // namespace pcl
-
-using pcl::floater::allocateOrNull;
-using pcl::floater::allocateOrThrow;
-using pcl::floater::release;
-
-// All forms, for a sanitizer's runtime has its own of each, which know nothing of these.
-void*
-operator new (std::size_t size)
-{
-  return allocateOrThrow (size);
-}
-void*
-operator new[] (std::size_t size)
-{
-  return allocateOrThrow (size);
-}
-void*
-operator new (std::size_t size, const std::nothrow_t& /*tag*/) noexcept
-{
-  return allocateOrNull (size);
-}
-void*
-operator new[] (std::size_t size, const std::nothrow_t& /*tag*/) noexcept
-{
-  return allocateOrNull (size);
-}
-void*
-operator new (std::size_t size, std::align_val_t alignment)
-{
-  return allocateOrThrow (size, static_cast<std::size_t> (alignment));
-}
-void*
-operator new[] (std::size_t size, std::align_val_t alignment)
-{
-  return allocateOrThrow (size, static_cast<std::size_t> (alignment));
-}
-void*
-operator new (std::size_t size, std::align_val_t alignment, const std::nothrow_t& /*tag*/) noexcept
-{
-  return allocateOrNull (size, static_cast<std::size_t> (alignment));
-}
-void*
-operator new[] (std::size_t size, std::align_val_t alignment,
-                const std::nothrow_t& /*tag*/) noexcept
-{
-  return allocateOrNull (size, static_cast<std::size_t> (alignment));
-}
-
-void
-operator delete (void* pointer) noexcept
-{
-  release (pointer);
-}
-void
-operator delete[] (void* pointer) noexcept
-{
-  release (pointer);
-}
-void
-operator delete (void* pointer, std::size_t /*size*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete[] (void* pointer, std::size_t /*size*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete (void* pointer, const std::nothrow_t& /*tag*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete[] (void* pointer, const std::nothrow_t& /*tag*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete (void* pointer, std::align_val_t /*alignment*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete[] (void* pointer, std::align_val_t /*alignment*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete (void* pointer, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete[] (void* pointer, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete (void* pointer, std::align_val_t /*alignment*/,
-                 const std::nothrow_t& /*tag*/) noexcept
-{
-  release (pointer);
-}
-void
-operator delete[] (void* pointer, std::align_val_t /*alignment*/,
-                   const std::nothrow_t& /*tag*/) noexcept
-{
-  release (pointer);
-}

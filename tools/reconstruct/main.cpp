@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a cloud, reconstructs its surface, writes the mesh. The core is called directly and not
-// through the PCL class, so that coordinates keep their double precision.
+// Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
+// class, so that coordinates keep their double precision.
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
 #include "mesh_writer.h"
+#include "plural.h"
 #include "progress.h"
 #include "remaining_time.h"
 #include "report_json.h"
@@ -36,7 +37,7 @@ secondsSince (std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
 }
 
-/// As a read error, but with the name of the file.
+/// Calls read (), and adds the name of the file to a ReadError.
 template <typename Read>
 auto
 readNamed (const std::filesystem::path& path, Read&& read)
@@ -67,7 +68,7 @@ exitCode (const Report& report, const RunFigures& run)
   }
 }
 
-/// The positions, which leave the rest of the cloud in its file until it is written.
+/// Copies the positions. The other fields of the cloud stay in its file until they are written.
 Input
 makeInput (const Cloud& cloud)
 {
@@ -95,8 +96,8 @@ reconstructInput (Input input, Options options, Progress& progress)
   return reconstruct (std::move (input), options);
 }
 
-/// The mesh in the plane: points at their parameters, which the cloud only looks at, without
-/// normals, for those are of the surface.
+/// The mesh in the plane z = 0. Its cloud refers to the parameters of the result, and has no
+/// normals, because these are those of the surface in space.
 std::pair<Cloud, Triangles>
 flatMesh (const Cloud& cloud, const Result& result)
 {
@@ -136,10 +137,10 @@ checkMemory (const CommandLine& line, std::size_t points)
   const std::size_t least = leastMemory (points);
   if (line.max_memory > 0 && line.max_memory < least)
     throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
-                      std::to_string (points) + " points; use " + formatSize (least) + " or more");
+                      counted (points, "point") + "; use " + formatSize (least) + " or more");
 }
 
-/// Says what came of the limit and the scratch folder.
+/// Adds to the report what went wrong with the memory limit and the scratch folder.
 void
 reportMemory (const CommandLine& line, Report& report)
 {
@@ -150,11 +151,11 @@ reportMemory (const CommandLine& line, Report& report)
     return;
   if (liesInMemory (line.scratch))
     report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
-                               "' lies in memory itself; name one on a disk by --scratch");
+                               "' is in memory itself; use --scratch to name one on a disk");
   const std::size_t peak = peakMemory ();
   if (peak > line.max_memory)
-    report.warnings.push_back ("memory grew to " + formatSize (peak) + ", above --max-memory " +
-                               formatSize (line.max_memory) + "; use " + formatSize (peak));
+    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
+                               ", above --max-memory " + formatSize (line.max_memory));
 }
 
 using Files = std::vector<std::unique_ptr<AtomicFile>>;
@@ -169,7 +170,7 @@ stageReport (const CommandLine& line, const Report& report, const RunFigures& ru
   file.close ();
 }
 
-/// Writes all outputs under temporary names; none is visible yet.
+/// Writes all outputs under temporary names, so that none is visible yet.
 void
 stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
 {
@@ -186,18 +187,21 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
     result.report.warnings.push_back (
-        std::to_string (removed) +
-        " points without finite coordinates were left out of the output; the vertices "
-        "after them moved up");
+        counted (removed, "point") +
+        (removed == 1
+             ? " without finite coordinates was left out of the output; the vertices after it "
+               "moved up"
+             : " without finite coordinates were left out of the output; the vertices after them "
+               "moved up"));
   run.vertices = cloud.size ();
   stage (line.output, cloud, result.triangles);
   if (cloud.file.hasChanged ())
     result.report.warnings.emplace_back (
-        "the input file was written to while it was in use: what the mesh is made of may be a "
-        "mixture; keep the file as it is and run again");
+        "the input file changed while it was in use, so that the mesh may mix old and new points; "
+        "run again on a file that does not change");
 }
 
-/// Writes nothing but the report if there is no mesh, or one that --strict refuses.
+/// Writes the outputs, or only the report if there is no mesh or --strict refuses it.
 void
 stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
 {
@@ -207,10 +211,8 @@ stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run
   run.is_refused = line.strict && report.status == Status::OK && !report.warnings.empty ();
   if (run.is_refused) {
     files.clear ();
-    const std::size_t count = report.warnings.size ();
-    report.message = count == 1
-                         ? "1 warning, which --strict does not allow"
-                         : std::to_string (count) + " warnings, which --strict does not allow";
+    report.message =
+        counted (report.warnings.size (), "warning") + ", which --strict does not allow";
   }
   stageReport (line, report, run, files);
 }
@@ -229,15 +231,15 @@ printWarnings (const Report& report)
     std::fprintf (stderr, "warning: %s\n", warning.c_str ());
 }
 
-/// Method, components, handles and loops.
+/// Prints method, components, genus and boundary loops.
 void
 printShape (const Report& report)
 {
   const MeshCheck& check = report.check;
   std::printf ("topology   %s%s%s\n", choiceName (TOPOLOGY_CHOICES, report.topology),
                report.topology_reason.empty () ? "" : ": ", report.topology_reason.c_str ());
-  std::printf ("shape      %zu %s, genus %lld, %s\n", check.components,
-               check.components == 1 ? "component" : "components", static_cast<long long> (check.genus),
+  std::printf ("shape      %s, genus %lld, %s\n", counted (check.components, "component").c_str (),
+               static_cast<long long> (check.genus),
                check.loops.empty () ? "closed" : "with boundary");
   if (check.loops.empty ())
     return;
@@ -258,15 +260,16 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
   const Statistics& statistics = report.statistics;
   constexpr double MEGABYTE = 1e6;
   std::printf (
-      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %zu outliers, %zu "
-      "unused)\n",
+      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
       run.input_points, statistics.used_points, statistics.duplicate_points,
-      statistics.non_finite_points, report.outliers.size (), report.unused.size ());
+      statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
+      report.unused.size ());
   std::printf ("triangles  %zu\n", statistics.triangles);
   printShape (report);
   if (report.denoised)
-    std::printf ("noise      %.2g spacings: connected as the points lie in local planes\n",
-                 statistics.noise);
+    std::printf (
+        "noise      %.2g spacings: points were projected on local planes to connect them\n",
+        statistics.noise);
   std::printf ("seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
                run.read_seconds, run.reconstruct_seconds, run.write_seconds,
                static_cast<double> (peakMemory ()) / MEGABYTE);
@@ -376,15 +379,15 @@ int
 main (int argc, char** argv)
 {
 #ifdef __GLIBC__
-  // Large arrays go back to the system as soon as they are freed; else the threshold grows with the
-  // first of them, and the peak memory by a tenth.
+  // A fixed threshold, so that large arrays go back to the system as soon as they are freed. By
+  // default glibc raises it with the first of them, which costs a tenth more peak memory.
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
   const int code = pcl::floater::runTool (argc, argv);
   if (code != pcl::floater::EXIT_INTERNAL)
     return code;
-  // Where memory has run out, a worker thread of OpenBLAS may wait for some for ever; leaving in
-  // the usual way would wait for that thread.
+  // After memory has run out, a worker thread of OpenBLAS may wait for memory for ever. A normal
+  // exit would wait for that thread.
   std::fflush (nullptr);
   std::_Exit (code);
 }

@@ -18,21 +18,21 @@ namespace floater
 {
 namespace
 {
-// Room between the limit and the resident bytes above which pages are dropped. In it the other
-// threads go on while the watcher sleeps, waits for a processor or works: a share of the limit, and
-// more of a small one, for threads are no slower there.
+// Room between the limit and the resident set above which pages are dropped. The other threads may
+// fill it while the watcher sleeps, waits for a processor or works. It is a fraction of the limit,
+// and a larger one of a small limit, because threads fill it at the same speed there.
 constexpr double ROOM = 0.20;
 constexpr double ROOM_OF_SMALL = 0.50;
 constexpr double MOST_ROOM_OF_SMALL = 160e6; // bytes
-constexpr double STEP = 0.10;                // share of the limit that is dropped at a time
+constexpr double STEP = 0.10;                // fraction of the limit that is dropped at a time
 
-// Bytes that are in memory whatever is dropped: the program with its libraries and stacks, and
-// arrays that are not large; and what is in use, lest it be dropped all the time.
+// Bytes that stay in memory: the program with its libraries and stacks, arrays that are not large,
+// and pages in use, which would come back at once.
 constexpr double FIXED = 20e6;
 constexpr double PER_POINT = 25.0;
 
-// Bytes per second by which the resident set grows at most. What was dropped comes back 16 pages at
-// a time, and faster than it can be read.
+// Largest growth of the resident set, in bytes per second. Dropped pages come back 16 at a time,
+// faster than they can be read.
 constexpr double FASTEST_GROWTH = 100e9;
 constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.00025};
 constexpr std::chrono::duration<double> LONGEST_SLEEP{0.005};
@@ -67,7 +67,7 @@ formatSize (std::size_t bytes)
 std::size_t
 leastMemory (std::size_t points)
 {
-  // It has to fit below the room and the step: the room of a large limit, or of a smaller one.
+  // What stays in memory must fit below room and step, whichever of the two rooms applies.
   const double kept = FIXED + PER_POINT * static_cast<double> (points);
   return static_cast<std::size_t> (
       std::max (kept / (1.0 - ROOM - STEP), std::min (kept / (1.0 - ROOM_OF_SMALL - STEP),
@@ -93,7 +93,7 @@ ResidentSet::resident () const
 {
   std::array<char, 128> text{};
   const ssize_t size = ::pread (statm_, text.data (), text.size () - 1, 0);
-  // The size of the program, then its resident part, in pages.
+  // The first number is the size of the program, the second its resident set, both in pages.
   const std::string_view words (text.data (), size > 0 ? static_cast<std::size_t> (size) : 0);
   const std::string_view rest = words.substr (std::min (words.find (' '), words.size ()));
   TextScanner scanner (rest);
@@ -110,14 +110,14 @@ ResidentSet::makeRoom (std::size_t bytes) const
   if (resident () + wanted <= high_)
     return;
   giveBackMappedFiles ();
-  // Once round all arrays and no further: what is left then is not theirs.
+  // Stops after all arrays have been dropped once: what is resident then is something else.
   const double enough = std::min (low_, high_ - wanted);
   const std::size_t all = scratchUse ().bytes;
   for (std::size_t dropped = 0; dropped < all && resident () > enough;) {
-    const std::size_t component = dropNextPiece ();
-    if (component == 0)
+    const std::size_t chunk = dropNextChunk ();
+    if (chunk == 0)
       return;
-    dropped += component;
+    dropped += chunk;
   }
 }
 

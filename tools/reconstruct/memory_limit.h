@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keeps the program's resident set below a limit.
+// Keeps the resident set of the program below a limit.
 #pragma once
 
 #include <chrono>
@@ -16,24 +16,24 @@ namespace pcl
 {
 namespace floater
 {
-/// Parses a size: a number, and K, M, G or T for thousands, millions, ... of bytes, in either case.
-/// \return false if it is none, or beyond the range
+/// Parses a size in bytes: a number, with K, M, G or T (or lower case) for powers of 1000.
+/// \return false if the word is not a size or out of range
 bool
 parseSize (std::string_view word, std::size_t& bytes);
 
-/// The same the other way round, in whole millions of bytes, rounded up.
+/// Formats a size for parseSize (), in millions of bytes, rounded up ("500M").
 std::string
 formatSize (std::size_t bytes);
 
-/// Bytes that a cloud of so many points needs in memory, however much lies in the scratch folder.
+/// Least limit, in bytes, below which a cloud of so many points can be kept.
 std::size_t
 leastMemory (std::size_t points);
 
-/// The pages of the program that are in memory, and how many there may be.
+/// The resident set of the program, and its limit.
 class ResidentSet
 {
 public:
-  /// \param limit bytes
+  /// \param limit in bytes
   explicit ResidentSet (std::size_t limit);
   ~ResidentSet ();
   ResidentSet (const ResidentSet&) = delete;
@@ -41,28 +41,28 @@ public:
   ResidentSet (ResidentSet&&) = delete;
   ResidentSet& operator= (ResidentSet&&) = delete;
 
-  /// Drops pages of mapped files and large arrays if with `bytes` more the limit would be near. Any
-  /// thread may call it at any time.
+  /// Drops pages of mapped files and large arrays if `bytes` more would come near the limit. May be
+  /// called by any thread.
   void makeRoom (std::size_t bytes) const;
 
-  /// Time in which the limit cannot come near.
+  /// Time during which the resident set cannot come near the limit.
   std::chrono::duration<double> timeToSleep () const;
 
 private:
   double resident () const; // bytes; 0 if unknown
 
   double limit_; // bytes, as the others
-  double high_;  // above it pages are dropped
-  double low_;   // until it is reached
+  double high_;  // pages are dropped above this ...
+  double low_;   // ... until this is reached
   int statm_;    // descriptor of /proc/self/statm
 };
 
-/// As long as it exists, a thread watches the resident set and drops pages of large arrays from it
-/// before it reaches the limit. Arrays stay in their scratch files after it has ended.
+/// While it exists, a thread watches the resident set and drops pages before the limit is reached.
+/// Large arrays stay in their scratch files after its end.
 class MemoryLimit
 {
 public:
-  /// \param bytes at least leastMemory (0)
+  /// \param bytes the limit, at least leastMemory (0)
   /// \throws WriteError if the folder cannot be used
   MemoryLimit (std::size_t bytes, const std::filesystem::path& scratch_folder);
   ~MemoryLimit ();
@@ -74,7 +74,7 @@ public:
 private:
   void watch ();
 
-  std::shared_ptr<ResidentSet> resident_set_; // shared with arrays that outlive this
+  std::shared_ptr<ResidentSet> resident_set_; // shared: large arrays may be made after this
   std::mutex mutex_;
   std::condition_variable ended_;
   bool is_ending_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One line on a terminal that tells what is being done.
+// A status line on the terminal.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +11,8 @@ namespace pcl
 {
 namespace floater
 {
-/// Shows steps on the standard error stream if that is a terminal. The line is wiped at the end.
+/// Shows the current step on the standard error stream if that is a terminal. The line is erased at
+/// the end.
 class Progress
 {
 public:

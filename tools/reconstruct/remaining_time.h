@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long a run will still take.
+// Estimate of the time that a run still takes.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace pcl
 {
 namespace floater
 {
-/// Estimates the time that is left from the time that has passed and the share that is done,
-/// smoothed, since stages do not take their shares exactly.
+/// Estimates the time left from the time passed and the fraction done. The estimate is smoothed,
+/// because the fraction does not grow evenly.
 class RemainingTime
 {
 public:
-  /// To be told every now and then. Both must not decrease.
+  /// Adds a measurement. Neither number may decrease from one call to the next.
   void update (double seconds, double fraction)
   {
     if (fraction <= 0.0)
@@ -28,7 +28,7 @@ public:
     fraction_ = fraction;
   }
 
-  /// Seconds left; nothing in the first moments and of a run that will soon be over.
+  /// Seconds left; nothing at the beginning of a run.
   std::optional<double> left () const
   {
     if (seconds_ < FIRST || fraction_ < LEAST)
@@ -36,7 +36,7 @@ public:
     return std::max (0.0, total_ - seconds_);
   }
 
-  /// "34 %, 12 s left", or nothing as above.
+  /// "34 %, 12 s left"; empty if left () is nothing.
   std::string text () const
   {
     const std::optional<double> seconds = left ();
@@ -51,12 +51,13 @@ public:
   }
 
 private:
-  static constexpr double SMOOTHING = 3.0; // seconds in which most of an old estimate is forgotten
-  static constexpr double FIRST = 1.5;     // seconds; before, there is nothing to wait for
-  static constexpr double LEAST = 0.02;    // of the run; before, an estimate is a guess
+  static constexpr double SMOOTHING =
+      3.0; // seconds after which an old estimate has lost most of its weight
+  static constexpr double FIRST = 1.5;  // seconds; a run that ends before needs no estimate
+  static constexpr double LEAST = 0.02; // fraction of the run; before, an estimate is unreliable
 
   double seconds_ = 0.0, fraction_ = 0.0;
-  double total_ = 0.0; // seconds of the whole run, estimated
+  double total_ = 0.0; // estimated seconds of the whole run
 };
 
 } // namespace floater

@@ -115,7 +115,7 @@ secondsJson (const Statistics& statistics, const RunFigures& run)
   return seconds;
 }
 
-/// Names of files need not be UTF-8, JSON is.
+/// JSON is UTF-8; in names of files, bytes that are not are replaced.
 std::string
 dump (const Json& json)
 {
@@ -129,7 +129,7 @@ fileName (const std::filesystem::path& path)
   return path.empty () ? Json () : Json (path.string ());
 }
 
-/// Nothing if there is none.
+/// Null if there is no limit.
 Json
 memoryLimitJson (const CommandLine& line)
 {
@@ -147,7 +147,7 @@ memoryLimitJson (const CommandLine& line)
 std::size_t
 peakMemory ()
 {
-  constexpr std::size_t UNIT = 1024; // Linux counts in kB
+  constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
   rusage usage{};
   return ::getrusage (RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t> (usage.ru_maxrss) * UNIT
                                                 : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run tells about itself, as JSON.
+// The report on a run as JSON.
 #pragma once
 
 #include "cloud.h"
@@ -13,14 +13,14 @@ namespace pcl
 {
 namespace floater
 {
-/// A run as the tool sees it.
+/// Figures of a run that the core does not know.
 struct RunFigures
 {
   std::size_t input_points = 0;
-  std::vector<std::string> input_fields; ///< other than the coordinates
-  bool single_precision = true;          ///< of the coordinates
-  std::size_t vertices = 0;              ///< in the output
-  bool is_refused = false;               ///< no mesh is written because of warnings
+  std::vector<std::string> input_fields; ///< fields of the points but the coordinates
+  bool single_precision = true;          ///< whether the coordinates are 32-bit floats
+  std::size_t vertices = 0;              ///< vertices of the output
+  bool is_refused = false;               ///< --strict: no mesh is written because of warnings
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;
   double write_seconds = 0.0;
@@ -30,15 +30,15 @@ struct RunFigures
 std::size_t
 peakMemory ();
 
-/// Name of the outcome: that of the status, or "WARNINGS" if the mesh is refused because of these.
+/// Name of the status, or "WARNINGS" if the mesh is refused because of warnings.
 std::string
 outcomeName (const Report& report, const RunFigures& run);
 
-/// The whole report; one line for each entry of the outermost object.
+/// The whole report as a JSON object, with one line for each of its keys.
 std::string
 reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
 
-/// The most important figures in one line without newline.
+/// The most important figures as a JSON object on one line, without newline.
 std::string
 summaryLine (const CommandLine& command_line, const Report& report, const RunFigures& run);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface reconstruction by Floater's meshless parameterization, as a class of PCL.
+// Surface reconstruction from unorganized points, as a class of PCL.
 #pragma once
 
 #include <pcl/surface/floater/options.h>
@@ -16,11 +16,8 @@
 
 namespace pcl
 {
-/** \brief Triangulates an unorganized point cloud so that its points are the vertices of the mesh.
- *
- * The points are laid out flat by one sparse linear system (M. S. Floater, M. Reimers: Meshless
- * parameterization and surface reconstruction, 2001; in the form of report TW 385, K.U.Leuven),
- * triangulated there by Delaunay, and the triangles are carried back to the points:
+/** \brief Reconstructs a surface from an unorganized point cloud. The vertices of the mesh are the
+ * points of the cloud.
  *
  * \code
  * pcl::FloaterReconstruction<pcl::PointXYZ> floater;
@@ -31,28 +28,46 @@ namespace pcl
  *   std::cerr << floater.getMessage () << '\n';
  * \endcode
  *
- * That is the method for a disc, one component of surface with one border however it is bent. Any
- * other surface, closed or with holes, handles or several components, is made of the triangles on
- * which the Delaunay stars of neighbouring points agree, and holes are closed by the same
- * parameterization of a patch around them. Which of the two, setTopology() says; by default the
- * points do.
+ * There are two methods:
  *
- * - \b Input: points of a surface. Only x, y, z are read. Points with a NaN or infinity, and all
- * but one of equal points, stay in the cloud but in no triangle. So do outliers, which
- *   setRemoveOutliers() is about. setIndices() selects points; an index given twice counts once.
- * - \b Output: the whole input cloud, unchanged and in its order, with every field of PointT; one
- *   consistently oriented manifold of triangles, whose indices count in the whole cloud also with
- *   setIndices(). The order of points and the number of threads make no difference.
- * - \b Failure: an empty cloud, no polygons, one line by PCL_ERROR, and the cause in getStatus()
- *   and getMessage(). What is odd about a mesh, getReport().warnings, is also given by PCL_WARN.
- *   No exception leaves reconstruct().
- * - \b Search: its own kd-tree, in parallel; for balls, PCL's octree. A method given to
- * setSearchMethod() is asked instead, by one thread; like for all of PCL's classes its input cloud
- * is then set by each run.
+ * - \b Consensus, by default: the neighbours of each point, projected on its tangent plane, have a
+ *   Delaunay star there. The surface is put together from the triangles on which the stars of
+ *   neighbouring points agree. It may be open or closed, with holes, handles or several components.
+ *   Boundary loops that are gaps in the sampling are filled by minimum-cost triangulations.
+ * - \b Disc: a surface with one boundary loop and no handles, however bent, is laid out in the
+ * plane by Floater's meshless parameterization. The boundary loop is laid on a convex curve, and
+ * every other point is a convex combination of its neighbours: one sparse linear system. The
+ * Delaunay triangulation of the parameters gives the triangles.
+ *
+ * The disc method is used for Topology::DISC and where the boundary loop is given. With
+ * Topology::AUTO, a surface of up to 300,000 points that comes out as one disc, but with folds or
+ * with points left over, is made by both methods, and the better mesh is taken. getReport() tells
+ * which method made the mesh, and why.
+ *
+ * After either method, points without a triangle are inserted, edges are flipped in space, folds
+ * are repaired, and every component is turned to face outwards.
+ *
+ * Sources: M. S. Floater, "Parametrization and smooth approximation of surface triangulations",
+ * 1997; M. S. Floater and M. Reimers, "Meshless parameterization and surface reconstruction", 2001;
+ * M. S. Floater, "Mean value coordinates", 2003; "Efficient triangulation of point clouds using
+ * Floater parameterization", report TW 385, K.U.Leuven, 2004, called TW 385 below.
+ *
+ * - \b Input: points of a surface, of which x, y and z are read. Points with a NaN or an infinity,
+ *   all but one of equal points, and outliers (see setRemoveOutliers()) are in no triangle.
+ *   setIndices() selects points; an index given twice counts once.
+ * - \b Output: the whole input cloud, unchanged and in its order, with every field of PointT; and
+ *   one consistently oriented manifold of triangles. Their indices count in the whole cloud, also
+ *   with setIndices(). The result does not depend on the order of the points or on the number of
+ *   threads.
+ * - \b Failure: the output is empty, the cause is in getStatus() and getMessage(), and one line is
+ *   printed by PCL_ERROR. Warnings about a mesh are in getReport().warnings and are printed by
+ *   PCL_WARN. reconstruct() does not throw.
+ * - \b Search: a kd-tree of its own, in parallel; for balls, PCL's octree. A method given to
+ *   setSearchMethod() is used instead, in one thread; each run sets its input cloud.
  * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after
- *   another cloud or option has been set. A run changes no parameter.
- * - \b Types: the library holds the class for all of PCL_XYZ_POINT_TYPES. For a type of your own
- *   define PCL_NO_PRECOMPILE before the first header of PCL, and link FLANN::FLANN, too.
+ *   another cloud or option has been set. A run changes no option.
+ * - \b Types: the library holds the class for all of PCL_XYZ_POINT_TYPES. For a type of your own,
+ *   define PCL_NO_PRECOMPILE before the first header of PCL, and link FLANN::FLANN as well.
  *
  * An object may be used for one cloud after another, but by one thread at a time.
  * \ingroup surface
@@ -65,7 +80,7 @@ public:
   using ConstPtr = shared_ptr<const FloaterReconstruction<PointT>>;
   using PointCloud = pcl::PointCloud<PointT>;
 
-  /** \brief All parameters at their defaults, which need no tuning. */
+  /** \brief All options at their defaults, which need no tuning. */
   FloaterReconstruction () { check_tree_ = false; }
 
   /** \brief Reconstructs the surface of setInputCloud() and setIndices().
@@ -77,179 +92,220 @@ public:
    * \param[out] polygons the triangles, as indices of the whole cloud */
   void reconstruct (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
 
-  /** \brief What surface the points are taken for; default AUTO: as they tell. DISC lays all out in
-   * the plane, with Status::NO_BOUNDARY or NOT_A_DISC where that cannot be; SURFACE takes any.
-   * Which one a run has taken, and why, is in getReport(). */
+  /** \brief The kind of surface that the points are taken for; default AUTO. With DISC, a run ends
+   * with Status::NO_BOUNDARY, NOT_A_DISC or UNREACHABLE if the surface is not a disc. */
   void setTopology (floater::Topology topology) { options_.topology = topology; }
+  /** \brief The kind of surface asked for; getReport() has the one that was made. */
   floater::Topology getTopology () const { return options_.topology; }
 
-  /** \brief Which holes of a surface stay open; default AUTO: those where the sampling ends. A disc
-   * has none: with Topology::DISC only AUTO and KEEP_LARGEST are taken, which are then the same. */
+  /** \brief Which boundary loops of a surface stay open; default AUTO: those beyond which the
+   * points have no neighbours. Topology::DISC takes AUTO and KEEP_LARGEST only, which mean the same
+   * there. */
   void setHolePolicy (floater::HolePolicy policy) { options_.holes.policy = policy; }
+  /** \brief Which boundary loops of a surface stay open. */
   floater::HolePolicy getHolePolicy () const { return options_.holes.policy; }
 
-  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay, the largest ones of the whole
+  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open, the largest ones of the whole
    * surface; 0 or more, default 1. */
   void setKeptLoops (int loops) { options_.holes.kept_loops = loops; }
+  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open. */
   int getKeptLoops () const { return options_.holes.kept_loops; }
 
-  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is closed, in local spacings;
-   * default 0: not looked at. This or setLargestHoleLength() must be above 0; if both are, a hole
-   * is closed that exceeds neither. */
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in local spacings, 0 or
+   * more; default 0: no limit. This or setLargestHoleLength() must be above 0. If both are, a hole
+   * is filled if it exceeds neither. */
   void setLargestHole (double spacings) { options_.holes.largest_hole = spacings; }
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in local spacings. */
   double getLargestHole () const { return options_.holes.largest_hole; }
 
-  /** \brief HolePolicy::BY_SIZE: the same in units of the cloud; default 0: not looked at. */
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in units of the cloud, 0
+   * or more; default 0: no limit. */
   void setLargestHoleLength (double length) { options_.holes.largest_hole_length = length; }
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in units of the cloud. */
   double getLargestHoleLength () const { return options_.holes.largest_hole_length; }
 
-  /** \brief Whether points that lie off any surface are left out of the mesh; default true. They
-   * are in getOutlierIndices(). */
+  /** \brief Whether points that lie off any surface are left out of the mesh; default true.
+   * getOutlierIndices() has them. */
   void setRemoveOutliers (bool remove_outliers) { options_.remove_outliers = remove_outliers; }
+  /** \brief Whether points that lie off any surface are left out of the mesh. */
   bool getRemoveOutliers () const { return options_.remove_outliers; }
 
-  /** \brief Whether points are connected as they lie in their local planes where noise is strong;
-   * default true. The points themselves stay where they are. */
+  /** \brief Whether points are connected as they lie when projected on local planes, where noise is
+   * strong; default true. The vertices of the mesh are not moved. */
   void setDenoise (bool denoise) { options_.denoise = denoise; }
+  /** \brief Whether strong noise is projected away before points are connected. */
   bool getDenoise () const { return options_.denoise; }
 
-  /** \brief Nearest neighbours of each point, 6 to 200; default 20. */
+  /** \brief Number of nearest neighbours of each point, 6 to 200; default 20. Not for balls. */
   void setKNearest (int k) { options_.neighbors.k = k; }
+  /** \brief Number of nearest neighbours of each point. */
   int getKNearest () const { return options_.neighbors.k; }
 
-  /** \brief Which points a point is a convex combination of; default NEAREST_DELAUNAY. Balls, of a
-   * radius that follows the local density, replace the k nearest everywhere. */
+  /** \brief Which points a point of a disc is a convex combination of; default NEAREST_DELAUNAY. A
+   * surface takes Delaunay stars in any case. With BALL and BALL_DELAUNAY, the points in a ball
+   * replace the k nearest in all stages (TW 385, sections 2.1 and 6). */
   void setNeighborhood (floater::Neighborhood neighborhood)
   {
     options_.neighbors.kind = neighborhood;
   }
+  /** \brief Which points a point of a disc is a convex combination of. */
   floater::Neighborhood getNeighborhood () const { return options_.neighbors.kind; }
 
-  /** \brief Radius of balls in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
-   * about 20 neighbours. */
+  /** \brief Radius of balls, in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
+   * which gives about 20 neighbours. */
   void setBallRadius (double spacings) { options_.neighbors.ball_radius = spacings; }
+  /** \brief Radius of balls, in mean distances of a point to its 6 nearest. */
   double getBallRadius () const { return options_.neighbors.ball_radius; }
 
-  /** \brief Above 0 and below 360 degrees, default 160: a point of the boundary sees a wider sector
-   * without neighbours. */
+  /** \brief BoundaryMethod::TWO_SEGMENTS: opening angle in degrees, above 0 and below 360; default
+   * 160. A boundary point has a wider sector without neighbours (TW 385, section 3.1). */
   void setOpeningAngle (double degrees) { options_.boundary.opening_angle = degrees; }
+  /** \brief BoundaryMethod::TWO_SEGMENTS: opening angle in degrees. */
   double getOpeningAngle () const { return options_.boundary.opening_angle; }
 
-  /** \brief How boundary points become one loop; default SPANNING_TREE. */
+  /** \brief How the boundary loop of a disc is found; default SPANNING_TREE. */
   void setBoundaryMethod (floater::BoundaryMethod method) { options_.boundary.method = method; }
+  /** \brief How the boundary loop of a disc is found. */
   floater::BoundaryMethod getBoundaryMethod () const { return options_.boundary.method; }
 
-  /** \brief Distance over which clusters of boundary points grow (BoundaryMethod::TWO_SEGMENTS), as
-   * a fraction of the diagonal of the bounding box: above 0, at most 1; default 0.05. */
+  /** \brief BoundaryMethod::TWO_SEGMENTS: distance over which clusters of boundary points grow, as
+   * a fraction of the bounding box diagonal, above 0, at most 1; default 0.05 (TW 385,
+   * section 3.2).
+   */
   void setClusterTolerance (double fraction) { options_.boundary.cluster_tolerance = fraction; }
+  /** \brief BoundaryMethod::TWO_SEGMENTS: distance over which clusters grow, as a fraction of the
+   * bounding box diagonal. */
   double getClusterTolerance () const { return options_.boundary.cluster_tolerance; }
 
-  /** \brief Nearest boundary points that such a cluster takes in at a time, 1 or more; default 10.
-   */
+  /** \brief BoundaryMethod::TWO_SEGMENTS: nearest boundary points that a cluster takes in at a
+   * time, 1 or more; default 10 (TW 385, section 3.2). */
   void setClusterK (int k) { options_.boundary.cluster_k = k; }
+  /** \brief BoundaryMethod::TWO_SEGMENTS: boundary points that a cluster takes in at a time. */
   int getClusterK () const { return options_.boundary.cluster_k; }
 
-  /** \brief Gives the boundary loop, which makes the surface a disc: cloud indices in order, either
-   * way round, each once, 3 or more. Empty, the default: it is found from the points. Not for
+  /** \brief Gives the boundary loop: cloud indices in order, either way round, each once, 3 or
+   * more. The surface is then made as a disc. Default empty: the loop is found. Not with
    * Topology::SURFACE. */
   void setPrescribedLoop (const pcl::Indices& loop) { prescribed_loop_ = loop; }
+  /** \brief The given boundary loop; empty: the loop is found. */
   const pcl::Indices& getPrescribedLoop () const { return prescribed_loop_; }
 
-  /** \brief Convex curve on which the loop is laid; default CIRCLE. */
+  /** \brief Convex curve on which the boundary loop is laid; default CIRCLE (TW 385, section 2.1).
+   */
   void setDomain (floater::Domain domain) { options_.domain.curve = domain; }
+  /** \brief Convex curve on which the boundary loop is laid. */
   floater::Domain getDomain () const { return options_.domain.curve; }
 
   /** \brief Sides of Domain::POLYGON, 3 or more; default 6. */
   void setPolygonSides (int sides) { options_.domain.polygon_sides = sides; }
+  /** \brief Sides of Domain::POLYGON. */
   int getPolygonSides () const { return options_.domain.polygon_sides; }
 
-  /** \brief How the points of the loop share that curve; default CHORD_LENGTH. */
+  /** \brief How the points of the loop are spaced along that curve; default CHORD_LENGTH. */
   void setLoopSpacing (floater::LoopSpacing spacing) { options_.domain.loop_spacing = spacing; }
+  /** \brief How the points of the loop are spaced along that curve. */
   floater::LoopSpacing getLoopSpacing () const { return options_.domain.loop_spacing; }
 
-  /** \brief Weights of a point in its neighbours; default MEAN_VALUE. */
+  /** \brief Weights of a point's neighbours; default MEAN_VALUE (Floater 2003; TW 385, eq. 2). */
   void setWeighting (floater::Weighting weighting) { options_.weighting = weighting; }
+  /** \brief Weights of a point's neighbours. */
   floater::Weighting getWeighting () const { return options_.weighting; }
 
-  /** \brief What solves the linear system; default UMFPACK. Status::SOLVER_UNAVAILABLE if the
-   * library was built without it. */
+  /** \brief Solver of the linear system; default UMFPACK (TW 385, section 4.2). A run ends with
+   * Status::SOLVER_UNAVAILABLE if the library was built without it. */
   void setSolver (floater::Solver solver) { options_.solver.method = solver; }
+  /** \brief Solver of the linear system. */
   floater::Solver getSolver () const { return options_.solver.method; }
 
   /** \brief Order of the unknowns; default AUTOMATIC. */
   void setOrdering (floater::Ordering ordering) { options_.solver.ordering = ordering; }
+  /** \brief Order of the unknowns. */
   floater::Ordering getOrdering () const { return options_.solver.ordering; }
 
   /** \brief Relative residual |b - A u| / |b| at which iterative solvers stop, above 0 and below 1;
-   * default 1e-15. A residual as small as rounding lets it be will do. */
+   * default 1e-15. A residual at the limit of rounding is accepted as well. */
   void setTolerance (double tolerance) { options_.solver.tolerance = tolerance; }
+  /** \brief Relative residual at which iterative solvers stop. */
   double getTolerance () const { return options_.solver.tolerance; }
 
-  /** \brief Iterations of an iterative solver, 1 or more, after which it gives up with
+  /** \brief Iterations of an iterative solver, 1 or more, after which a run ends with
    * Status::NOT_CONVERGED; default 1000. */
   void setMaxIterations (int iterations) { options_.solver.max_iterations = iterations; }
+  /** \brief Iterations after which an iterative solver gives up. */
   int getMaxIterations () const { return options_.solver.max_iterations; }
 
-  /** \brief Entries kept in a row of each factor of Solver::BICGSTAB_ILUT, 1 or more; default 15.
+  /** \brief Solver::BICGSTAB_ILUT: entries kept in a row of each factor, 1 to 10,000; default 15.
    */
   void setIlutFill (int entries) { options_.solver.ilut_fill = entries; }
+  /** \brief Solver::BICGSTAB_ILUT: entries kept in a row of each factor. */
   int getIlutFill () const { return options_.solver.ilut_fill; }
 
-  /** \brief Share of their row, 0 to 1, below which entries of these factors are dropped; default
-   * 1e-2. */
-  void setIlutDropTolerance (double share) { options_.solver.ilut_drop = share; }
+  /** \brief Solver::BICGSTAB_ILUT: entries of the factors below this fraction of their row are
+   * dropped, 0 to 1; default 1e-2. */
+  void setIlutDropTolerance (double fraction) { options_.solver.ilut_drop = fraction; }
+  /** \brief Solver::BICGSTAB_ILUT: fraction of its row below which an entry is dropped. */
   double getIlutDropTolerance () const { return options_.solver.ilut_drop; }
 
   /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
   void setFilterSheets (bool filter_sheets) { options_.filter_sheets = filter_sheets; }
+  /** \brief Whether neighbours on another sheet of the surface are dropped. */
   bool getFilterSheets () const { return options_.filter_sheets; }
 
-  /** \brief Whether edges are flipped on the surface towards Delaunay; default true. */
+  /** \brief Whether edges are flipped in space towards Delaunay, and folds repaired; default true.
+   */
   void setFlipEdges (bool flip_edges) { options_.flip_edges = flip_edges; }
+  /** \brief Whether edges are flipped in space and folds repaired. */
   bool getFlipEdges () const { return options_.flip_edges; }
 
-  /** \brief Threads of a run; default 0: all cores. Changes time only, not the result. */
+  /** \brief Number of threads, 0 or more; default 0: one for each core. The result is the same. */
   void setNumberOfThreads (int threads = 0) { options_.threads = threads; }
+  /** \brief Number of threads; 0: one for each core. */
   int getNumberOfThreads () const { return options_.threads; }
 
-  /** \brief ComponentSets in which a surface is made, each of nearest neighbours and a little
-   * around it; default 0: one up to 262144 points, then of at most 131072 points each. Changes time
-   * and memory only, not the result. With a search method of one's own, balls or a disc there is
-   * one. */
+  /** \brief Number of blocks in which the nearest neighbours are searched, 0 or more; default 0:
+   * one block up to 262,144 points, above that blocks of at most 131,072 points. It changes the
+   * time and the memory of the search only; the result is the same. Discs, balls and a search
+   * method of one's own have one block. */
   void setNumberOfBlocks (int blocks = 0) { options_.blocks = blocks; }
+  /** \brief Number of blocks in which the nearest neighbours are searched; 0: chosen. */
   int getNumberOfBlocks () const { return options_.blocks; }
 
-  /** \brief Called as each stage of a run begins, by the thread that called reconstruct(). An
-   * exception from it ends the run with Status::INTERNAL_ERROR. Default: empty. */
+  /** \brief Called when a stage of a run begins, by the thread that called reconstruct(); default
+   * none. An exception from it ends the run with Status::INTERNAL_ERROR. */
   void setStageCallback (std::function<void (floater::Stage)> callback)
   {
     options_.stage_callback = std::move (callback);
   }
+  /** \brief The function that is called when a stage begins; empty if there is none. */
   const std::function<void (floater::Stage)>& getStageCallback () const
   {
     return options_.stage_callback;
   }
 
-  /** \brief Called with the share of the run that is done, from 0 to 1 and never less than before:
-   * when a stage begins, up to 20 times a second within it, and with 1 at the end. An estimate from
-   * typical runs; the solver of a disc is one step. Else as setStageCallback(). */
+  /** \brief Called with the fraction of the run that is done, from 0 to 1 and never decreasing:
+   * when a stage begins, up to 20 times a second within it, and with 1 at the end; default none.
+   * The fraction is estimated from typical runs, and does not move while a linear system is solved.
+   * Thread and exceptions are as for setStageCallback(). */
   void setProgressCallback (std::function<void (double fraction)> callback)
   {
     options_.progress_callback = std::move (callback);
   }
+  /** \brief The function that is called with the fraction done; empty if there is none. */
   const std::function<void (double)>& getProgressCallback () const
   {
     return options_.progress_callback;
   }
 
-  /** \brief Asked as often, whether the run is to be stopped: true ends it with Status::CANCELLED
-   * and an empty mesh, mostly within a tenth of a second; direct solvers, CGAL's triangulation and
-   * a search method of PCL are waited for. Another thread may set what it reads, if that is atomic.
-   * Else as setStageCallback(). */
+  /** \brief Asked whether the run is to be cancelled, as often as the progress callback is called;
+   * default none. If it returns true, the run ends with Status::CANCELLED and an empty mesh, mostly
+   * within a tenth of a second; direct solvers, CGAL's triangulation and a search method of PCL are
+   * waited for. It may read an atomic variable that another thread sets. Thread and exceptions are
+   * as for setStageCallback(). */
   void setCancelledCallback (std::function<bool ()> callback)
   {
     options_.cancelled_callback = std::move (callback);
   }
+  /** \brief The function that is asked whether to cancel; empty if there is none. */
   const std::function<bool ()>& getCancelledCallback () const
   {
     return options_.cancelled_callback;
@@ -261,27 +317,27 @@ public:
   /** \brief Cause of a failure and what to do, in one sentence; empty if the status is OK. */
   const std::string& getMessage () const { return report_.message; }
 
-  /** \brief All that the last run told. */
+  /** \brief The whole report on the last run. */
   const floater::Report& getReport () const { return report_; }
 
-  /** \brief Counts, times and figures of the solver. */
+  /** \brief Counts, times and figures of the last run. */
   const floater::Statistics& getStatistics () const { return report_.statistics; }
 
-  /** \brief What the mesh is, as examined at the end of the last run: components, genus, boundary
-   * loops with their sizes, folds and more. */
+  /** \brief The mesh as examined at the end of the last run: components, genus, boundary loops with
+   * their sizes, folds and more. */
   const floater::MeshCheck& getMeshCheck () const { return report_.check; }
 
   /** \brief The longest boundary loop in order, each point once; empty if the surface is closed. */
   pcl::Indices getBoundaryLoop () const;
 
-  /** \brief Place of every point of the cloud in the plane, if the surface was made as a disc; NaN
-   * where a point was not used. Else empty. */
+  /** \brief Position of every cloud point in the plane, if the mesh was made as a disc; NaN where a
+   * point was not used. Else empty. */
   const std::vector<Eigen::Vector2d>& getParameters () const { return report_.parameters; }
 
   /** \brief Finite points, neither duplicates nor outliers, that are in no triangle; ascending. */
   pcl::Indices getUnusedIndices () const;
 
-  /** \brief Points left out of the mesh since they lie off any surface; ascending. */
+  /** \brief Points left out of the mesh because they lie off any surface; ascending. */
   pcl::Indices getOutlierIndices () const;
 
   /** \brief Points with a NaN or infinite coordinate; ascending. */
@@ -304,20 +360,22 @@ protected:
   void performReconstruction (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
 
 private:
-  /// Runs a reconstruction with all guards; false, with the failure told, if there is no mesh.
+  /// Runs a reconstruction and turns exceptions into failures. Prints failure and warnings.
+  /// \return false if there is no mesh
   bool guarded (const std::function<void ()>& reconstruction);
 
   /// Records a failure. \return false
   bool fail (floater::Status status, const std::string& message);
 
-  /// Points and options for the core; false, with the failure recorded, if there is nothing to run.
+  /// Makes points and options for the core.
+  /// \return false, with the failure recorded, if the input cannot be used
   bool makeInput (floater::Input& input, floater::Options& options);
 
-  /// Triangles of the cloud, or none and a report that says why.
+  /// Makes the triangles, or none and a report that says why.
   void triangulate (std::vector<pcl::Vertices>& polygons);
 
-  floater::Options options_;     // but for the loop
-  pcl::Indices prescribed_loop_; // apart, for indices that the core's type cannot hold
+  floater::Options options_;     // without the loop
+  pcl::Indices prescribed_loop_; // may hold indices that the core's type cannot
   floater::Report report_;
 };
 

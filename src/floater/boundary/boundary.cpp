@@ -15,12 +15,7 @@ namespace floater
 {
 namespace
 {
-// A loop this short in a cloud of more than a few points is a gap in the sampling of a closed
-// surface.
-constexpr std::size_t SHORTEST_LOOP = 10;
-constexpr std::size_t FEW_POINTS = 100;
-
-// Cloud indices to points; a duplicate means the point that stands for it.
+// The user's loop, given in cloud indices. A duplicate means the point that stands for it.
 Boundary
 fromUser (const Points& points, const std::vector<Index>& user_loop)
 {
@@ -65,7 +60,7 @@ fromUser (const Points& points, const std::vector<Index>& user_loop)
 
 Boundary
 byTwoSegments (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-               const RunContext& run)
+               const RunContext& run, const LoopLimits& limits)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   Boundary boundary;
@@ -73,9 +68,9 @@ byTwoSegments (const Points& points, const LocalGeometry& geometry, const Bounda
       positions, geometry.neighbors, geometry.stars.normals, options.opening_angle * DEGREE, run);
   boundary.candidates = candidates.size ();
   const std::vector<std::vector<Index>> clusters = clusterBoundaryPoints (
-      positions, candidates, options.cluster_tolerance * points.diagonal, options.cluster_k);
+      positions, candidates, options.cluster_tolerance * points.diagonal, options.cluster_k, run);
   if (!clusters.empty ())
-    boundary.loop = twoSegmentLoop (positions, clusters.front ());
+    boundary.loop = twoSegmentLoop (positions, clusters.front (), run, limits);
   return boundary;
 }
 
@@ -83,38 +78,42 @@ byTwoSegments (const Points& points, const LocalGeometry& geometry, const Bounda
 
 Boundary
 findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-              const RunContext& run)
+              const RunContext& run, const LoopLimits& limits)
 {
   if (!options.loop.empty ())
     return fromUser (points, options.loop);
   if (options.method == BoundaryMethod::TWO_SEGMENTS)
-    return byTwoSegments (points, geometry, options, run);
-  LongestLoop found =
-      spanningTreeLoop (points.workingPositions (), geometry.stars, geometry.spacing);
-  Boundary boundary;
-  boundary.loop = std::move (found.points);
-  boundary.candidates = found.candidates;
-  return boundary;
+    return byTwoSegments (points, geometry, options, run, limits);
+  return spanningTreeLoop (points.workingPositions (), geometry.stars, geometry.spacing, run,
+                           limits);
 }
 
 void
 checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_given,
-               Boundary& boundary)
+               Boundary& boundary, const LoopLimits& limits)
 {
   if (boundary.problem)
     return;
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
-  const bool a_mere_gap =
-      !is_given && boundary.loop.size () < SHORTEST_LOOP && points.size () > FEW_POINTS;
-  if (boundary.loop.size () < 3 || a_mere_gap) {
+  const bool is_mere_gap = !is_given && boundary.loop.size () < limits.shortest_loop &&
+                           points.size () > limits.few_points;
+  if (boundary.loop.size () < 3 || is_mere_gap) {
     boundary.loop.clear ();
     boundary.problem = {
         Status::NO_BOUNDARY,
-        "no boundary loop found among " + std::to_string (boundary.candidates) +
-            " boundary points: the surface seems closed or is not one disc; cut it open, "
-            "or give the loop"};
-    return;
+        "no boundary loop was found among " + std::to_string (boundary.candidates) +
+            (boundary.candidates == 1 ? " boundary point" : " boundary points") +
+            ": the surface seems to be closed, or it is not one disc; cut it open, or give the "
+            "loop"};
   }
+  measureSteps (points.workingPositions (), spacing, boundary);
+}
+
+void
+measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+              Boundary& boundary)
+{
+  boundary.largest_step = 0.0;
+  boundary.longest_from = NONE;
   for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
     const Index p = boundary.loop[i];
     const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];

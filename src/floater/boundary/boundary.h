@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Section 3 of TW 385: from stars to one ordered loop.
+// The boundary stage (TW 385, section 3): from the geometry around each point to one ordered loop.
 #pragma once
 
 #include "core/problem.h"
 #include "core/run_context.h"
+#include "floater/boundary/loop_limits.h"
 #include "local/local_geometry.h"
 #include "points/points.h"
 
@@ -15,27 +16,38 @@ namespace pcl
 {
 namespace floater
 {
-/// The loop that the surface is hung in.
+/// The boundary loop of a disc.
 struct Boundary
 {
   std::vector<Index> loop;    ///< points in order, each once; empty if there is a problem
-  std::size_t candidates = 0; ///< points that look like boundary
-  double largest_step = 0.0;  ///< longest edge of the loop, in local spacings ...
-  Index longest_from = NONE;  ///< ... and the point where it begins
+  std::size_t candidates = 0; ///< points that may lie on the boundary
+  double largest_step = 0.0;  ///< longest edge of the loop, in local spacings
+  Index longest_from = NONE;  ///< point where that edge begins
   Problem problem;            ///< NO_BOUNDARY or INVALID_LOOP
 };
 
-/// The user's loop if there is one, else by the method of the options, SPANNING_TREE or
-/// TWO_SEGMENTS. Not yet checked.
+/// The loop that the options give, or else the one that their method finds (SPANNING_TREE or
+/// TWO_SEGMENTS; for CONSENSUS see consensus_loop.h). An INVALID_LOOP is told here; call
+/// checkBoundary () for everything else.
 Boundary
 findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-              const RunContext& run);
+              const RunContext& run, const LoopLimits& limits = {});
 
-/// Sets the largest step of the loop. Makes it a problem, NO_BOUNDARY, if there is no loop, or one
-/// that is a mere gap in the sampling. For loops that were found, not given.
+/// Measures the steps of the loop (see measureSteps ()). A loop of fewer than 3 points becomes
+/// NO_BOUNDARY, and so does one that was found but is so short that it is a mere gap in the
+/// sampling. Does nothing if there is a problem already.
+/// \param spacing  per point: local spacing
+/// \param is_given the loop was given by the user
 void
 checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_given,
-               Boundary& boundary);
+               Boundary& boundary, const LoopLimits& limits = {});
+
+/// Sets the largest step of the loop and the point where it begins. A step is measured in the mean
+/// of the local spacings at its two ends. O(loop).
+/// \param spacing per point: local spacing, in the unit of the positions
+void
+measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+              Boundary& boundary);
 
 } // namespace floater
 } // namespace pcl

@@ -12,8 +12,8 @@ namespace floater
 {
 namespace
 {
-/// Counts points in spheres. A sphere of the growing distance holds a good part of a dense
-/// boundary, so a node that lies inside is counted whole instead of point by point.
+// A tree that counts points in spheres. A sphere with the growing distance as its radius holds a
+// good part of a dense boundary, so a node that lies inside of it is counted as a whole.
 class SphereCounter
 {
 public:
@@ -47,12 +47,12 @@ public:
 private:
   static constexpr Index LEAF_SIZE = 8;
 
-  // Nodes are in depth-first order; skip is the next node that is not below this one.
+  // Nodes are in depth-first order.
   struct Node
   {
     Eigen::Vector3d lower, upper;
     Index first, last;
-    std::size_t skip;
+    std::size_t skip; // the next node that is not below this one
     bool leaf;
   };
 
@@ -84,14 +84,19 @@ private:
   std::vector<Node> nodes_;
 };
 
-/// Rows of the boundary points, the one with most boundary points around it first, ties by row.
+// Places of the points in the list: that with the most points around it first, of equal ones the
+// first in the list.
 std::vector<Index>
-byDescendingDensity (const std::vector<Eigen::Vector3d>& points, double radius)
+byDescendingDensity (const std::vector<Eigen::Vector3d>& points, double radius,
+                     const RunContext& run)
 {
+  ProgressLoop progress (run, points.size ());
   const SphereCounter counter (points);
   std::vector<std::size_t> density (points.size ());
-  for (std::size_t i = 0; i < points.size (); ++i)
+  for (std::size_t i = 0; i < points.size (); ++i) {
+    progress.next ();
     density[i] = counter.count (points[i], radius * radius);
+  }
   std::vector<Index> order (points.size ());
   std::iota (order.begin (), order.end (), Index{0});
   std::stable_sort (order.begin (), order.end (),
@@ -103,26 +108,30 @@ byDescendingDensity (const std::vector<Eigen::Vector3d>& points, double radius)
 
 std::vector<std::vector<Index>>
 clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
-                       const std::vector<Index>& boundary_points, double tolerance, int k)
+                       const std::vector<Index>& boundary_points, double tolerance, int k,
+                       const RunContext& run)
 {
   std::vector<Eigen::Vector3d> points;
   points.reserve (boundary_points.size ());
   for (const Index p : boundary_points)
     points.push_back (positions[p]);
 
-  const KdTree tree (points, 1);
+  const KdTree tree (points, run);
   const std::size_t appended = static_cast<std::size_t> (std::max (k, 0));
   std::vector<std::uint8_t> taken (points.size (), 0);
   std::vector<Neighbor> nearest;
   std::vector<std::vector<Index>> clusters;
-  for (const Index start : byDescendingDensity (points, tolerance)) {
+  const std::vector<Index> starts = byDescendingDensity (points, tolerance, run);
+  ProgressLoop progress (run, points.size ());
+  for (const Index start : starts) {
     if (taken[start])
       continue;
     std::vector<Index> cluster{start};
     taken[start] = 1;
-    // In which order the points are processed does not matter: the cluster is all that can be
-    // reached from its start among the points that no earlier cluster took.
+    // The order in which points are processed does not matter: a cluster is all that can be reached
+    // from its start among the points that no earlier cluster has taken.
     for (std::size_t processed = 0; processed < cluster.size (); ++processed) {
+      progress.next ();
       const Index p = cluster[processed];
       tree.nearest (points[p], appended + 1, nearest);
       std::size_t rank = 0;

@@ -2,6 +2,7 @@
 // Clusters of boundary points (TW 385, section 3.2).
 #pragma once
 
+#include "core/run_context.h"
 #include "core/types.h"
 
 #include <vector>
@@ -10,14 +11,19 @@ namespace pcl
 {
 namespace floater
 {
-/// Region growing from the densest unprocessed point; clusters are disjoint, largest first, ties by
-/// smallest point; points ascending in each. O(n log n) for points along curves.
+/// Clusters by region growing, each from the densest point that no earlier cluster has taken.
+/// O(n log n) for n points along curves.
+/// \param positions       per point
 /// \param boundary_points ascending
-/// \param tolerance growing distance and density radius, in the unit of the positions (xi D)
-/// \param k         nearest boundary points appended at each step
+/// \param tolerance       largest growing distance and radius in which density is counted, in the
+///                        unit of the positions (xi D in TW 385)
+/// \param k               nearest boundary points that are appended at a time
+/// \return disjoint clusters of points, ascending in each; the largest cluster first, of equally
+///         large ones that with the smallest point
 std::vector<std::vector<Index>>
 clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
-                       const std::vector<Index>& boundary_points, double tolerance, int k);
+                       const std::vector<Index>& boundary_points, double tolerance, int k,
+                       const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -3,7 +3,9 @@
 
 #include "core/geometry.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl
 {
@@ -11,7 +13,8 @@ namespace floater
 {
 namespace
 {
-// Circumradius of the origin, a and b: product of the sides over four times the area.
+// Circumradius of the triangle of the origin, a and b: the product of its sides over four times its
+// area.
 double
 circumradius (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -23,11 +26,15 @@ circumradius (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 } // namespace
 
 std::vector<Gap>
-findGaps (const Stars& stars, const std::vector<float>& spacing, double alpha)
+findGaps (const Stars& stars, const std::vector<float>& spacing, double circumradius_ratio,
+          const RunContext& run)
 {
+  ProgressLoop progress (run, stars.neighbors.rows ());
   std::vector<Gap> gaps;
-  std::vector<std::uint8_t> missing; // per sector of a star: from neighbour i to the next
+  std::vector<std::uint8_t>
+      missing; // per sector of a star: sector i goes from neighbour i to the next
   for (Index p = 0; p < stars.neighbors.rows (); ++p) {
+    progress.next ();
     const Row star = stars.neighbors.row (p);
     const Eigen::Vector2d* offsets = stars.offsets_in_plane.data () + stars.neighbors.offsets[p];
     const std::size_t count = star.size ();
@@ -37,9 +44,12 @@ findGaps (const Stars& stars, const std::vector<float>& spacing, double alpha)
     std::size_t present = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t j = (i + 1) % count;
-      const double scale = (spacing[p] + spacing[star[i]] + spacing[star[j]]) / 3.0;
-      const bool behind = stars.open[p] != 0 && i + 1 == count;
-      missing[i] = behind || circumradius (offsets[i], offsets[j]) > alpha * scale ? 1 : 0;
+      const double mean_spacing = (spacing[p] + spacing[star[i]] + spacing[star[j]]) / 3.0;
+      const bool has_no_triangle = stars.open[p] != 0 && i + 1 == count;
+      missing[i] = has_no_triangle ||
+                           circumradius (offsets[i], offsets[j]) > circumradius_ratio * mean_spacing
+                       ? 1
+                       : 0;
       present += missing[i] == 0 ? 1 : 0;
     }
     if (present == count)

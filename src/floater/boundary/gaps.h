@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gaps in stars: sectors where the surface seems to end.
+// Gaps in stars: sectors in which the surface seems to end.
 #pragma once
 
+#include "core/run_context.h"
 #include "local/stars.h"
 
 #include <vector>
@@ -10,20 +11,24 @@ namespace pcl
 {
 namespace floater
 {
-/// A run of sectors of one star that have no triangle or one with a wide empty circle. The two
-/// neighbours at its ends are the next boundary points as seen from this one.
+/// A run of consecutive sectors of one star without a triangle, or with one whose circumcircle is
+/// too wide. The neighbours at its two ends are the next boundary points as seen from this one.
 struct Gap
 {
   Index point;
-  Index first; ///< neighbour where the gap begins, anti-clockwise in the point's star
-  Index last;  ///< neighbour where it ends; equal to `first` if only one neighbour is joined
+  Index first; ///< neighbour at which the gap begins, anti-clockwise in the point's star
+  Index last;  ///< neighbour at which it ends; the same as `first` if only one neighbour is left
 };
 
-/// Gaps of all stars, ordered by point. A triangle counts as missing if its circumradius exceeds
-/// `alpha` times the mean spacing of its corners. A star without any triangle gives a gap from its
-/// nearest neighbour to itself. O(entries).
+/// The gaps of all stars, ordered by point. A star without any triangle has one gap, which goes
+/// from its nearest neighbour to the same neighbour. O(entries).
+/// \param stars              with their offsets
+/// \param spacing            per point: local spacing, in the unit of the offsets
+/// \param circumradius_ratio a triangle counts as missing if its circumradius exceeds this many
+///                           times the mean local spacing of its corners
 std::vector<Gap>
-findGaps (const Stars& stars, const std::vector<float>& spacing, double alpha);
+findGaps (const Stars& stars, const std::vector<float>& spacing, double circumradius_ratio,
+          const RunContext& run = 1);
 
 } // namespace floater
 } // namespace pcl

@@ -15,10 +15,13 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t WINDOW = 30; // 2-opt: farthest edges along the loop that are exchanged
-constexpr double DETOUR = 3.0;     // spacings: longest detour for a point beyond the loop
-constexpr double ON_EDGE = 0.1;    // of an edge's length: nearer to it counts as beyond
-constexpr std::size_t NEAR_LOOP_POINTS = 4;
+// Largest number of steps along the loop between two edges that 2-opt exchanges. A longer reversal
+// does not undo a crossing of neighbouring jags, and the time grows with the window.
+constexpr std::size_t WINDOW = 30;
+constexpr int UNTANGLE_PASSES = 10; // each of them only after one that changed something
+constexpr int INSERTION_PASSES = 4; // a candidate may lie beyond an edge to one just inserted
+// Nearest points of the loop whose edges are tried for a candidate.
+constexpr std::size_t TRIED_LOOP_POINTS = 4;
 
 double
 distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
@@ -26,17 +29,20 @@ distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
   return (positions[p] - positions[q]).norm ();
 }
 
-// Reverses stretches of the loop while that shortens it.
+// 2-opt: reverses stretches of the loop while that shortens it.
 void
-untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loop)
+untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loop,
+          const RunContext& run)
 {
+  ProgressLoop progress (run);
   const std::size_t n = loop.size ();
   const std::size_t window = std::min (WINDOW, n - 2);
   const auto at = [&] (std::size_t i) -> Index& { return loop[i % n]; };
   bool changed = n > 4;
-  for (int pass = 0; changed && pass < 10; ++pass) {
+  for (int pass = 0; changed && pass < UNTANGLE_PASSES; ++pass) {
     changed = false;
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
+      progress.next ();
       for (std::size_t j = i + 2; j <= i + window; ++j) {
         // Edges (i, i + 1) and (j, j + 1) become (i, j) and (i + 1, j + 1).
         if ((j + 1) % n == i)
@@ -51,11 +57,13 @@ untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loo
           changed = true;
         }
       }
+    }
   }
 }
 
-// Which side of the loop the surface is on. The normals of the loop points are turned to agree from
-// each to the next; then all edges vote on whether their stars lie to the left or to the right.
+// Tells on which side of the loop the surface lies. The normals of the loop's points are turned so
+// that each agrees with the one before. Then the edges vote whether the neighbours of their points
+// lie to the left or to the right.
 class LoopSides
 {
 public:
@@ -84,8 +92,8 @@ public:
         normal = -normal;
   }
 
-  /// Distance of c from the line through a and b, positive on the surface's side; `at` is a's place
-  /// in the loop that this was made for.
+  // Distance of c from the line through a and b, positive on the surface's side. `at` is the place
+  // of a in the loop.
   double inside (std::size_t at, Index a, Index b, Index c) const
   {
     return normals_[at]
@@ -99,11 +107,12 @@ private:
   std::vector<Eigen::Vector3d> normals_;
 };
 
-// Inserts candidates that lie on or beyond an edge of the loop. Returns how many.
+// Inserts candidates that lie on or beyond an edge of the loop.
+// \return how many
 std::size_t
 insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
               const std::vector<float>& spacing, const std::vector<Index>& candidates,
-              std::vector<Index>& loop)
+              std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
 {
   const LoopSides sides (positions, stars, loop);
   std::vector<std::uint8_t> on_loop (positions.size (), 0);
@@ -112,20 +121,22 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
     on_loop[p] = 1;
     places.push_back (positions[p]);
   }
-  const KdTree tree (places, 1);
+  const KdTree tree (places, run);
   struct Insertion
   {
     std::size_t after; // place in the loop
-    double along;      // position along the edge, for several on one edge
+    double along;      // place along the edge: several points may go to one edge
     Index point;
   };
   std::vector<Insertion> insertions;
   std::vector<Neighbor> found;
+  ProgressLoop progress (run);
   for (Index c : candidates) {
+    progress.next ();
     if (on_loop[c] != 0)
       continue;
-    tree.nearest (positions[c], NEAR_LOOP_POINTS, found);
-    double smallest = DETOUR * spacing[c];
+    tree.nearest (positions[c], TRIED_LOOP_POINTS, found);
+    double smallest = limits.largest_detour * spacing[c];
     Insertion best{0, 0.0, NONE};
     for (const Neighbor& neighbor : found)
       for (const std::size_t i :
@@ -136,7 +147,7 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
         if (detour >= smallest)
           continue;
         smallest = detour;
-        const bool beyond = sides.inside (i, a, b, c) < ON_EDGE * edge;
+        const bool beyond = sides.inside (i, a, b, c) < limits.edge_margin * edge;
         best = {i, (positions[c] - positions[a]).dot (positions[b] - positions[a]),
                 beyond ? c : NONE};
       }
@@ -162,12 +173,13 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
 void
 refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
             const std::vector<float>& spacing, const std::vector<Index>& candidates,
-            std::vector<Index>& loop)
+            std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
 {
-  untangle (positions, loop);
-  for (int pass = 0; pass < 4 && insertBeyond (positions, stars, spacing, candidates, loop) > 0;
+  untangle (positions, loop, run);
+  for (int pass = 0; pass < INSERTION_PASSES &&
+                     insertBeyond (positions, stars, spacing, candidates, loop, run, limits) > 0;
        ++pass)
-    untangle (positions, loop);
+    untangle (positions, loop, run);
 }
 
 } // namespace floater

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Last touches to a boundary loop.
+// Corrections of a boundary loop that has been found.
 #pragma once
 
+#include "core/run_context.h"
+#include "floater/boundary/loop_limits.h"
 #include "local/stars.h"
 
 #include <vector>
@@ -10,14 +12,19 @@ namespace pcl
 {
 namespace floater
 {
-/// Undoes crossings by 2-opt in a window, and inserts candidates that lie beside an edge of the
-/// loop where that costs little detour: left out, such a point would be an interior point beyond
-/// the border, and the surface would fold there. \param candidates points that look like boundary,
-/// those of the loop among them
+/// Undoes crossings by 2-opt in a window, and inserts candidates that lie on or beyond an edge of
+/// the loop where that is a small detour. Left out, such a point would be an interior point outside
+/// of the boundary, and the surface would fold there. O(points + c log n) for c candidates
+/// and a loop of n points.
+/// \param positions  per point
+/// \param stars      their normals tell on which side of the loop the surface lies
+/// \param spacing    per point: local spacing
+/// \param candidates points that may lie on the boundary; those of the loop may be among them
+/// \param loop       at least 3 points in order
 void
 refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
             const std::vector<float>& spacing, const std::vector<Index>& candidates,
-            std::vector<Index>& loop);
+            std::vector<Index>& loop, const RunContext& run = 1, const LoopLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

@@ -18,7 +18,7 @@ namespace floater
 {
 namespace
 {
-/// An edge from one component to another.
+// An edge from one component of the graph to another.
 struct Bridge
 {
   double sqr_length = std::numeric_limits<double>::infinity ();
@@ -30,8 +30,8 @@ struct Bridge
   }
 };
 
-/// Finds the nearest point of another component. A node all of whose points are of one component
-/// bears its label and is passed over by queries from there.
+// A kd-tree that finds the nearest point of another component. A node whose points all belong to
+// one component carries the label of that component; queries from there pass over it.
 class ComponentTree
 {
 public:
@@ -45,7 +45,7 @@ public:
   void setLabels (std::vector<Index> labels)
   {
     labels_ = std::move (labels);
-    for (std::size_t n = nodes_.size (); n-- > 0;) { // children come behind their parent
+    for (std::size_t n = nodes_.size (); n-- > 0;) { // children follow their parent
       Node& node = nodes_[n];
       node.label = node.right == NONE ? labels_[ids_[node.first]] : nodes_[n + 1].label;
       const bool uniform = node.right == NONE
@@ -57,7 +57,7 @@ public:
     }
   }
 
-  /// Replaces `shortest` by a shorter bridge from p, if there is one.
+  // Replaces `shortest` if there is a shorter bridge from p.
   void shorten (Bridge& shortest, Index p) const { search (0, p, shortest); }
 
 private:
@@ -68,7 +68,7 @@ private:
     Eigen::AlignedBox3d box;
     Index first, last;
     Index right; // the left child is the next node; NONE at a leaf
-    Index label; // NONE if there are several
+    Index label; // of the component; NONE if there are several
   };
 
   void build (Index first, Index last)
@@ -124,10 +124,11 @@ private:
   std::vector<Index> labels_;
 };
 
-/// Appends bridges until the graph is connected: in each round, the shortest from every component
-/// (Boruvka's algorithm).
+// Appends bridges until the graph is connected: in each round the shortest bridge from every
+// component (Boruvka's algorithm).
 void
-connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points, Index rank)
+connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points, Index rank,
+         const RunContext& run)
 {
   DisjointSets sets (points.size ());
   std::size_t components = points.size ();
@@ -136,14 +137,17 @@ connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& p
   if (components < 2)
     return;
   ComponentTree tree (points);
+  ProgressLoop progress (run);
   while (components > 1) {
     std::vector<Index> labels (points.size ());
     for (Index p = 0; p < points.size (); ++p)
       labels[p] = sets.find (p);
     tree.setLabels (labels);
-    std::vector<Bridge> shortest (points.size ()); // used at the label of each component
-    for (Index p = 0; p < points.size (); ++p)
+    std::vector<Bridge> shortest (points.size ()); // by the label of the component
+    for (Index p = 0; p < points.size (); ++p) {
+      progress.next ();
       tree.shorten (shortest[labels[p]], p);
+    }
     for (const Bridge& bridge : shortest)
       if (bridge.a != NONE && sets.join (bridge.a, bridge.b)) {
         edges.push_back ({bridge.a, bridge.b, rank, std::sqrt (bridge.sqr_length)});
@@ -155,12 +159,14 @@ connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& p
 } // namespace
 
 std::vector<NeighborEdge>
-neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k)
+neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunContext& run)
 {
-  const KdTree tree (points, 1);
+  const KdTree tree (points, run);
   std::vector<NeighborEdge> edges;
   std::vector<Neighbor> nearest;
+  ProgressLoop progress (run, points.size ());
   for (Index p = 0; p < points.size (); ++p) {
+    progress.next ();
     tree.nearest (points[p], std::size_t{k} + 1, nearest);
     Index rank = 0;
     for (const Neighbor& neighbor : nearest)
@@ -168,7 +174,7 @@ neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k)
         edges.push_back ({std::min (p, neighbor.point), std::max (p, neighbor.point), rank++,
                           std::sqrt (neighbor.sqr_distance)});
   }
-  connect (edges, points, k);
+  connect (edges, points, k, run);
   std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
     return std::tie (e.a, e.b, e.rank) < std::tie (f.a, f.b, f.rank);
   });

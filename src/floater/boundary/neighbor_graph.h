@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A connected graph of near points, on which boundary points are ordered.
+// A connected graph of neighbouring points, on which boundary points are ordered.
 #pragma once
 
+#include "core/run_context.h"
 #include "core/types.h"
 
 #include <vector>
@@ -10,23 +11,24 @@ namespace pcl
 {
 namespace floater
 {
-/// Two near points.
+/// An edge between two neighbouring points.
 struct NeighborEdge
 {
   Index a, b;    ///< a < b
-  Index rank;    ///< 0 if one is the nearest point of the other, 1 if the second nearest, and so on
+  Index rank;    ///< 0 if one point is the nearest of the other, 1 if it is the second nearest, ...
   double length; ///< distance
 };
 
-/// The k nearest neighbours of every point, made symmetric and connected: a gap that no
-/// neighbourhood spans is bridged where it is narrowest, by an edge of rank k. Each pair once, with
-/// its smaller rank, ascending in (a, b). O(n (k + log n)), and O(n log^2 n) at most where there
-/// are gaps.
+/// The k nearest neighbours of every point as a symmetric, connected graph. Gaps that no
+/// neighbourhood spans are bridged where they are narrowest, by edges of rank k. O(n (k + log n)),
+/// where there are gaps O(n log^2 n) at most.
+/// \return each pair once, with the smaller of its two ranks, ascending in (a, b)
 std::vector<NeighborEdge>
-neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k);
+neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunContext& run);
 
-/// The edges of rank below k of a connected graph of `size` points, and the shortest others that
-/// keep it connected.
+/// The part of a connected graph in which edges have a rank below k, and the shortest others that
+/// keep it connected. O(edges log edges).
+/// \param size points of the graph
 std::vector<NeighborEdge>
 nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k);
 

@@ -7,8 +7,8 @@
 #include "points/kd_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace pcl
 {
@@ -16,76 +16,39 @@ namespace floater
 {
 namespace
 {
-constexpr double ALPHAS[] = {1.5, 2.0, 2.5};
-constexpr double LARGEST_STEP = 6.0;  // spacings: longer edges are not tried
-constexpr double ACCEPTED_STEP = 4.0; // spacings: a loop without a longer edge is trusted
+using Positions = std::vector<Eigen::Vector3d>;
+
+// Nearest candidates that a candidate is joined to, besides those at the ends of its gaps.
 constexpr std::size_t NEAR_CANDIDATES = 8;
-constexpr double MUTUAL_COST = 0.05; // relative to an edge between candidates that are merely near
-constexpr double ONE_SIDED_COST = 0.4;
 
 struct CandidateEdge
 {
-  Index a, b; // candidates, a < b
+  Index a, b; // numbers of candidates, a < b
   float length;
   float cost;
 };
 
-// Numbers the points that have a gap.
+// The points that have a gap, numbered.
 struct Candidates
 {
-  std::vector<Index> points; // ascending
-  std::vector<Index> of_point;
+  std::vector<Index> points;          // ascending
+  std::vector<Index> number_of_point; // NONE if the point is no candidate
 
-  Candidates (const std::vector<Gap>& gaps, std::size_t n) : of_point (n, NONE)
+  Candidates (const std::vector<Gap>& gaps, std::size_t n) : number_of_point (n, NONE)
   {
     for (const Gap& gap : gaps)
-      if (of_point[gap.point] == NONE) {
-        of_point[gap.point] = static_cast<Index> (points.size ());
+      if (number_of_point[gap.point] == NONE) {
+        number_of_point[gap.point] = static_cast<Index> (points.size ());
         points.push_back (gap.point);
       }
   }
 };
 
-std::vector<CandidateEdge>
-joinCandidates (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-                const std::vector<Gap>& gaps, const Candidates& candidates)
+// Keeps the cheapest of several edges between the same candidates, and sorts by cost, then by the
+// candidates' numbers.
+void
+sortByCost (std::vector<CandidateEdge>& edges)
 {
-  std::vector<CandidateEdge> edges;
-  const auto add = [&] (Index p, Index q, double relative_cost) {
-    const Index a = candidates.of_point[p];
-    const Index b = candidates.of_point[q];
-    const double length = (positions[p] - positions[q]).norm ();
-    if (a == b || a == NONE || b == NONE || length > LARGEST_STEP * 0.5 * (spacing[p] + spacing[q]))
-      return;
-    edges.push_back ({std::min (a, b), std::max (a, b), static_cast<float> (length),
-                      static_cast<float> (relative_cost * length)});
-  };
-  const auto sees = [&] (Index p, Index q) { // gaps are ordered by point
-    const auto first =
-        std::lower_bound (gaps.begin (), gaps.end (), p,
-                          [] (const Gap& gap, Index point) { return gap.point < point; });
-    for (auto gap = first; gap != gaps.end () && gap->point == p; ++gap)
-      if (gap->first == q || gap->last == q)
-        return true;
-    return false;
-  };
-  for (const Gap& gap : gaps)
-    for (const Index q : {gap.first, gap.last})
-      add (gap.point, q, sees (q, gap.point) ? MUTUAL_COST : ONE_SIDED_COST);
-
-  std::vector<Eigen::Vector3d> places;
-  places.reserve (candidates.points.size ());
-  for (Index p : candidates.points)
-    places.push_back (positions[p]);
-  const KdTree tree (places, 1);
-  std::vector<Neighbor> found;
-  for (Index p : candidates.points) {
-    tree.nearest (positions[p], NEAR_CANDIDATES + 1, found);
-    for (const Neighbor& neighbor : found)
-      add (p, candidates.points[neighbor.point], 1.0);
-  }
-
-  // The cheapest of equal edges first; then by cost, ties by candidates.
   std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
     return std::tie (x.a, x.b, x.cost) < std::tie (y.a, y.b, y.cost);
   });
@@ -97,21 +60,75 @@ joinCandidates (const std::vector<Eigen::Vector3d>& positions, const std::vector
   std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
     return std::tie (x.cost, x.a, x.b) < std::tie (y.cost, y.a, y.b);
   });
+}
+
+// \param gaps ordered by point
+// \return edges by cost
+std::vector<CandidateEdge>
+joinCandidates (const Positions& positions, const std::vector<float>& spacing,
+                const std::vector<Gap>& gaps, const Candidates& candidates, const RunContext& run,
+                const LoopLimits& limits)
+{
+  std::vector<CandidateEdge> edges;
+  const auto add = [&] (Index p, Index q, double cost_per_length) {
+    const Index a = candidates.number_of_point[p];
+    const Index b = candidates.number_of_point[q];
+    const double length = (positions[p] - positions[q]).norm ();
+    if (a == b || a == NONE || b == NONE ||
+        length > limits.longest_edge * 0.5 * (spacing[p] + spacing[q]))
+      return;
+    edges.push_back ({std::min (a, b), std::max (a, b), static_cast<float> (length),
+                      static_cast<float> (cost_per_length * length)});
+  };
+  const auto sees = [&] (Index p, Index q) {
+    const auto first =
+        std::lower_bound (gaps.begin (), gaps.end (), p,
+                          [] (const Gap& gap, Index point) { return gap.point < point; });
+    for (auto gap = first; gap != gaps.end () && gap->point == p; ++gap)
+      if (gap->first == q || gap->last == q)
+        return true;
+    return false;
+  };
+  ProgressLoop progress (run, gaps.size () + candidates.points.size ());
+  for (const Gap& gap : gaps) {
+    progress.next ();
+    for (const Index q : {gap.first, gap.last})
+      add (gap.point, q, sees (q, gap.point) ? limits.mutual_cost : limits.one_sided_cost);
+  }
+
+  Positions places;
+  places.reserve (candidates.points.size ());
+  for (Index p : candidates.points)
+    places.push_back (positions[p]);
+  const KdTree tree (places, run);
+  std::vector<Neighbor> found;
+  for (Index p : candidates.points) {
+    progress.next ();
+    tree.nearest (positions[p], NEAR_CANDIDATES + 1, found); // the candidate itself among them
+    for (const Neighbor& neighbor : found)
+      add (p, candidates.points[neighbor.point], 1.0);
+  }
+  sortByCost (edges);
   return edges;
 }
 
-// Minimum spanning forest with ancestors, for lengths of tree paths.
+// A minimum spanning forest. Every node knows its ancestors 1, 2, 4, ... steps up, so that the
+// length of the path between two nodes takes O(log nodes).
 class SpanningForest
 {
 public:
-  // Kruskal's algorithm; `edges` by cost. Edges left outside the forest are moved to `outside`.
+  // Kruskal's algorithm.
+  // \param edges   by cost
+  // \param outside where the edges that are not in the forest are appended
   SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges,
-                  std::vector<CandidateEdge>& outside)
+                  std::vector<CandidateEdge>& outside, const RunContext& run)
       : root_distance_ (nodes, 0.0), depth_ (nodes, 0), tree_ (nodes, NONE)
   {
     DisjointSets trees (nodes);
-    std::vector<std::vector<std::pair<Index, float>>> adjacent (nodes);
+    Adjacency adjacent (nodes);
+    ProgressLoop progress (run);
     for (const CandidateEdge& edge : edges) {
+      progress.next ();
       if (!trees.join (edge.a, edge.b)) {
         outside.push_back (edge);
         continue;
@@ -120,27 +137,9 @@ public:
       adjacent[edge.b].emplace_back (edge.a, edge.length);
     }
     ancestors_.emplace_back (nodes, NONE);
-    std::vector<Index> stack;
-    for (Index root = 0; root < nodes; ++root) {
-      if (tree_[root] != NONE)
-        continue;
-      tree_[root] = root;
-      ancestors_[0][root] = root;
-      stack.push_back (root);
-      while (!stack.empty ()) {
-        const Index x = stack.back ();
-        stack.pop_back ();
-        for (const auto& [y, length] : adjacent[x]) {
-          if (tree_[y] != NONE)
-            continue;
-          tree_[y] = root;
-          ancestors_[0][y] = x;
-          depth_[y] = depth_[x] + 1;
-          root_distance_[y] = root_distance_[x] + length;
-          stack.push_back (y);
-        }
-      }
-    }
+    for (Index root = 0; root < nodes; ++root)
+      if (tree_[root] == NONE)
+        growTree (root, adjacent, progress);
     const Index deepest = nodes == 0 ? 0 : *std::max_element (depth_.begin (), depth_.end ());
     for (Index step = 1; step <= deepest; step *= 2) {
       const std::vector<Index>& half = ancestors_.back ();
@@ -153,13 +152,14 @@ public:
 
   double pathLength (Index a, Index b) const
   {
-    return root_distance_[a] + root_distance_[b] - 2.0 * root_distance_[meeting (a, b)];
+    return root_distance_[a] + root_distance_[b] -
+           2.0 * root_distance_[lowestCommonAncestor (a, b)];
   }
 
-  // Nodes of the path from a to b, both included.
+  // The nodes on the path from a to b, both included.
   std::vector<Index> path (Index a, Index b) const
   {
-    const Index top = meeting (a, b);
+    const Index top = lowestCommonAncestor (a, b);
     std::vector<Index> up, down;
     for (Index x = a; x != top; x = ancestors_[0][x])
       up.push_back (x);
@@ -171,7 +171,32 @@ public:
   }
 
 private:
-  Index meeting (Index a, Index b) const
+  using Adjacency = std::vector<std::vector<std::pair<Index, float>>>; // node, length of the edge
+
+  // Sets parents, depths and distances of all nodes that are connected with the root.
+  void growTree (Index root, const Adjacency& adjacent, ProgressLoop& progress)
+  {
+    std::vector<Index> stack{root};
+    tree_[root] = root;
+    ancestors_[0][root] = root;
+    while (!stack.empty ()) {
+      progress.next ();
+      const Index x = stack.back ();
+      stack.pop_back ();
+      for (const auto& [y, length] : adjacent[x]) {
+        if (tree_[y] != NONE)
+          continue;
+        tree_[y] = root;
+        ancestors_[0][y] = x;
+        depth_[y] = depth_[x] + 1;
+        root_distance_[y] = root_distance_[x] + length;
+        stack.push_back (y);
+      }
+    }
+  }
+
+  // The lowest common ancestor of two nodes of one tree.
+  Index lowestCommonAncestor (Index a, Index b) const
   {
     if (depth_[a] < depth_[b])
       std::swap (a, b);
@@ -186,75 +211,88 @@ private:
     return a == b ? a : ancestors_[0][a];
   }
 
-  std::vector<std::vector<Index>> ancestors_; // level l: 2^l steps up
-  std::vector<double> root_distance_;
-  std::vector<Index> depth_, tree_;
+  std::vector<std::vector<Index>> ancestors_; // [l][x]: 2^l steps up from x; the root's is the root
+  std::vector<double> root_distance_;         // along the tree
+  std::vector<Index> depth_;                  // edges to the root
+  std::vector<Index> tree_;                   // the root of each node's tree
 };
 
-void
-measure (LongestLoop& loop, const std::vector<Eigen::Vector3d>& positions,
-         const std::vector<float>& spacing)
+double
+perimeter (const std::vector<Index>& loop, const Positions& positions)
 {
-  loop.length = 0.0;
-  loop.largest_step = 0.0;
-  for (std::size_t i = 0; i < loop.points.size (); ++i) {
-    const Index p = loop.points[i];
-    const Index q = loop.points[(i + 1) % loop.points.size ()];
-    const double step = (positions[p] - positions[q]).norm ();
-    loop.length += step;
-    loop.largest_step = std::max (loop.largest_step, step / (0.5 * (spacing[p] + spacing[q])));
-  }
+  double length = 0.0;
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    length += (positions[loop[i]] - positions[loop[(i + 1) % loop.size ()]]).norm ();
+  return length;
 }
 
-LongestLoop
-loopForAlpha (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-              const std::vector<float>& spacing, double alpha)
+// The longest cycle that an edge outside of the forest closes, as points; empty if there is none.
+std::vector<Index>
+longestCycle (const SpanningForest& forest, const std::vector<CandidateEdge>& outside,
+              const Candidates& candidates, const RunContext& run)
 {
-  LongestLoop loop;
-  const std::vector<Gap> gaps = findGaps (stars, spacing, alpha);
-  const Candidates candidates (gaps, positions.size ());
-  loop.candidates = candidates.points.size ();
-  std::vector<CandidateEdge> outside;
-  const SpanningForest forest (candidates.points.size (),
-                               joinCandidates (positions, spacing, gaps, candidates), outside);
+  constexpr double ROUNDING =
+      1e-9; // lengths that differ by less are equal; then the first edge wins
   const CandidateEdge* closing = nullptr;
   double longest = 0.0;
+  ProgressLoop progress (run);
   for (const CandidateEdge& edge : outside) {
+    progress.next ();
     const double length = forest.pathLength (edge.a, edge.b) + edge.length;
-    if (length > longest * (1.0 + 1e-9)) {
+    if (length > longest * (1.0 + ROUNDING)) {
       longest = length;
       closing = &edge;
     }
   }
-  if (closing == nullptr)
-    return loop;
-  for (Index candidate : forest.path (closing->a, closing->b))
-    loop.points.push_back (candidates.points[candidate]);
-  if (loop.points.size () < 3) {
-    loop.points.clear ();
-    return loop;
-  }
-  refineLoop (positions, stars, spacing, candidates.points, loop.points);
-  measure (loop, positions, spacing);
-  return loop;
+  std::vector<Index> cycle;
+  if (closing != nullptr)
+    for (Index candidate : forest.path (closing->a, closing->b))
+      cycle.push_back (candidates.points[candidate]);
+  if (cycle.size () < 3)
+    cycle.clear ();
+  return cycle;
+}
+
+Boundary
+findLoop (const Positions& positions, const Stars& stars, const std::vector<float>& spacing,
+          double circumradius_ratio, const RunContext& run, const LoopLimits& limits)
+{
+  Boundary boundary;
+  const std::vector<Gap> gaps = findGaps (stars, spacing, circumradius_ratio, run);
+  const Candidates candidates (gaps, positions.size ());
+  boundary.candidates = candidates.points.size ();
+  std::vector<CandidateEdge> outside;
+  const SpanningForest forest (candidates.points.size (),
+                               joinCandidates (positions, spacing, gaps, candidates, run, limits),
+                               outside, run);
+  boundary.loop = longestCycle (forest, outside, candidates, run);
+  if (boundary.loop.empty ())
+    return boundary;
+  refineLoop (positions, stars, spacing, candidates.points, boundary.loop, run, limits);
+  measureSteps (positions, spacing, boundary);
+  return boundary;
 }
 
 } // namespace
 
-LongestLoop
-spanningTreeLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                  const std::vector<float>& spacing)
+Boundary
+spanningTreeLoop (const Positions& positions, const Stars& stars, const std::vector<float>& spacing,
+                  const RunContext& run, const LoopLimits& limits)
 {
-  LongestLoop best;
-  for (const double alpha : ALPHAS) {
-    LongestLoop loop = loopForAlpha (positions, stars, spacing, alpha);
-    if (loop.points.empty () && !best.points.empty ())
+  Boundary best;
+  double best_length = 0.0;
+  for (const double ratio : limits.circumradius_ratios) {
+    Boundary boundary = findLoop (positions, stars, spacing, ratio, run, limits);
+    if (boundary.loop.empty () && !best.loop.empty ())
       continue;
-    const bool trusted = loop.largest_step <= ACCEPTED_STEP;
-    const bool best_trusted = best.largest_step <= ACCEPTED_STEP;
-    if (best.points.empty () || (trusted && !best_trusted) ||
-        (trusted == best_trusted && loop.length > 1.02 * best.length))
-      best = std::move (loop);
+    const double length = perimeter (boundary.loop, positions);
+    const bool is_trusted = boundary.largest_step <= limits.largest_trusted_step;
+    const bool is_best_trusted = best.largest_step <= limits.largest_trusted_step;
+    if (best.loop.empty () || (is_trusted && !is_best_trusted) ||
+        (is_trusted == is_best_trusted && length > limits.least_gain * best_length)) {
+      best = std::move (boundary);
+      best_length = length;
+    }
   }
   return best;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/boundary/two_segment_loop.h"
 
+#include "core/csr_lists.h"
 #include "floater/boundary/neighbor_graph.h"
 
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -21,40 +21,31 @@ namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-/// k at which a segment begins to grow (TW 385, section 3.3).
-constexpr Index GROWING_K = 3;
-/// k up to which it may be incremented; beyond, a segment goes on over the bridges of the graph.
-constexpr Index LARGEST_K = 16;
-/// Neighbours of a point in the univariate parameterization: the shortest order of these is taken.
-constexpr std::array<Index, 3> UNIVARIATE_K = {3, 4, 5};
-
-/// Appends points to a segment that begins with `seed` until it has `size` points.
-///
-/// k is a property of the moment: neighbours up to the third come first, and a farther one is taken
-/// only when all of those are in the segment. Among candidates of one k the report leaves the
-/// choice open; the one nearest to the seed along the segment makes both ends advance alike, so
-/// that the last point appended lies at an end.
+// Appends points to a segment that begins with `seed` until it has `size` points.
+//
+// The first_k nearest neighbours of the points in the segment come first. A farther neighbour is
+// taken only while all of those are in the segment already. TW 385 leaves open which of several
+// candidates of one rank comes first. Here it is the one that is nearest to the seed along the
+// segment: both ends then advance alike, and the last point appended is an end.
 std::vector<Index>
-growSegment (const Positions& points, Index seed, std::size_t size)
+growSegment (const Positions& points, Index seed, std::size_t size, const RunContext& run,
+             const LoopLimits& limits)
 {
-  std::vector<NeighborEdge> edges = neighborGraph (points, LARGEST_K);
-  const std::size_t half = edges.size ();
-  for (std::size_t e = 0; e < half; ++e)
-    edges.push_back ({edges[e].b, edges[e].a, edges[e].rank, edges[e].length});
-  std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
-    return std::tie (e.a, e.b) < std::tie (f.a, f.b);
+  const std::vector<NeighborEdge> edges = neighborGraph (points, limits.largest_k, run);
+  const CsrLists edges_of_point = makeCsrLists (points.size (), [&edges] (const auto& emit) {
+    for (Index e = 0; e < edges.size (); ++e) {
+      emit (edges[e].a, e);
+      emit (edges[e].b, e);
+    }
   });
-  std::vector<std::size_t> offsets (points.size () + 1, 0);
-  for (const NeighborEdge& edge : edges)
-    ++offsets[edge.a + 1];
-  std::partial_sum (offsets.begin (), offsets.end (), offsets.begin ());
 
-  // (k - 1, length of the path from the seed, point)
+  // Rank, length of the path from the seed, point.
   using Candidate = std::tuple<Index, double, Index>;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
   std::vector<std::uint8_t> appended (points.size (), 0);
   std::vector<Index> segment;
   candidates.emplace (0, 0.0, seed);
+  ProgressLoop progress (run, size);
   while (segment.size () < size && !candidates.empty ()) {
     const auto [rank, path, p] = candidates.top ();
     candidates.pop ();
@@ -62,19 +53,22 @@ growSegment (const Positions& points, Index seed, std::size_t size)
       continue;
     appended[p] = 1;
     segment.push_back (p);
-    for (std::size_t e = offsets[p]; e < offsets[p + 1]; ++e)
-      if (!appended[edges[e].b])
-        candidates.emplace (std::max (edges[e].rank, GROWING_K - 1), path + edges[e].length,
-                            edges[e].b);
+    progress.next ();
+    for (const Index e : edges_of_point.row (p)) {
+      const NeighborEdge& edge = edges[e];
+      const Index q = edge.a == p ? edge.b : edge.a;
+      if (!appended[q])
+        candidates.emplace (std::max (edge.rank, limits.first_k - 1), path + edge.length, q);
+    }
   }
   return segment;
 }
 
-/// Univariate Floater parameterization: t = 0 at the first point, t = 1 at the last one, every
-/// other point a convex combination of its neighbours with weights proportional to 1 / distance.
-/// Each row is multiplied by its sum of 1 / distance: the matrix is then symmetric, and positive
-/// definite as the graph is connected.
-/// \return points ascending in t; empty if two points coincide or the system is singular
+// The univariate Floater parameterization: t = 0 at the first point, t = 1 at the last one, and
+// every other point is a convex combination of its neighbours with weights proportional to
+// 1 / distance. Each row is multiplied by its sum of 1 / distance. The matrix is then symmetric,
+// and positive definite since the graph is connected.
+// \return points ascending in t; empty if two points coincide or the system is singular
 std::vector<Index>
 univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
 {
@@ -113,21 +107,24 @@ univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
   return order;
 }
 
-/// Orders a segment, whose ends are its first and last point. How many neighbours serve best
-/// depends on the jags of the border: too few leave some of them hanging at one parameter, too many
-/// smooth them out. Both show as a longer way through the points.
+// Orders a segment between its ends, which are its first and its last point. How many neighbours
+// serve best depends on the jags of the border: with too few, several points get the same
+// parameter; with too many, jags are smoothed out. Both make the way through the points longer, so
+// the shortest order is taken.
 std::vector<Index>
-orderSegment (const Positions& positions, const std::vector<Index>& segment)
+orderSegment (const Positions& positions, const std::vector<Index>& segment, const RunContext& run,
+              const LoopLimits& limits)
 {
   Positions points;
   points.reserve (segment.size ());
   for (const Index p : segment)
     points.push_back (positions[p]);
-  const std::vector<NeighborEdge> graph = neighborGraph (points, LARGEST_K);
+  const std::vector<NeighborEdge> graph = neighborGraph (points, limits.largest_k, run);
   const Index size = static_cast<Index> (points.size ());
   std::vector<Index> shortest;
   double shortest_length = std::numeric_limits<double>::infinity ();
-  for (const Index k : UNIVARIATE_K) {
+  for (const Index k : limits.univariate_k) {
+    run.poll ();
     std::vector<Index> order = univariateOrder (nearestPart (graph, size, k), size);
     if (order.empty ())
       return {};
@@ -147,7 +144,8 @@ orderSegment (const Positions& positions, const std::vector<Index>& segment)
 } // namespace
 
 std::vector<Index>
-twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster)
+twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
+                const RunContext& run, const LoopLimits& limits)
 {
   if (cluster.size () < 4)
     return {};
@@ -156,9 +154,9 @@ twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector
   for (const Index p : cluster)
     points.push_back (positions[p]);
 
-  std::vector<Index> segment1 = growSegment (points, 0, points.size () / 2 + 1);
+  std::vector<Index> segment1 = growSegment (points, 0, points.size () / 2 + 1, run, limits);
 
-  // Segment 2 begins at the end of segment 1 and takes all that is left.
+  // Segment 2 begins at the end of segment 1 and takes all other points.
   std::vector<std::uint8_t> in_segment1 (points.size (), 0);
   for (const Index p : segment1)
     in_segment1[p] = 1;
@@ -170,13 +168,13 @@ twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector
   points2.reserve (segment2.size ());
   for (const Index p : segment2)
     points2.push_back (points[p]);
-  const Index segment2_last = growSegment (points2, 0, points2.size ()).back ();
+  const Index segment2_last = growSegment (points2, 0, points2.size (), run, limits).back ();
   std::swap (segment2[segment2_last], segment2.back ());
 
   // The end of segment 2 is the start of segment 1.
   segment1.insert (segment1.begin (), segment2.back ());
-  std::vector<Index> loop = orderSegment (points, segment1);
-  const std::vector<Index> way_back = orderSegment (points, segment2);
+  std::vector<Index> loop = orderSegment (points, segment1, run, limits);
+  const std::vector<Index> way_back = orderSegment (points, segment2, run, limits);
   if (loop.empty () || way_back.empty ())
     return {};
   loop.insert (loop.end (), way_back.begin () + 1, way_back.end () - 1);

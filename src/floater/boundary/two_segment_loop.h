@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's ordering of a boundary cluster (TW 385, section 3.3).
+// The order of a boundary cluster by two segments (TW 385, section 3.3).
 #pragma once
 
-#include "core/types.h"
+#include "core/run_context.h"
+#include "floater/boundary/loop_limits.h"
 
 #include <vector>
 
@@ -10,18 +11,25 @@ namespace pcl
 {
 namespace floater
 {
-/// Splits a cluster in two connected segments that share their ends, orders each by the univariate
-/// Floater parameterization between its ends (reciprocal distance weights), and joins them to a
-/// loop. The seed is the first point of the cluster (the report takes a random one). Where the
-/// report leaves a choice: a segment grows nearest to its start first; its neighbourhoods are
-/// symmetric, those of the parameterization hold 3, 4 or 5 points, whichever gives the shorter way;
-/// gaps wider than any neighbourhood are bridged where they are narrowest. O(n log n).
-/// Weakness: where the cluster is a thick band, or the border turns back on itself within the
-/// neighbourhood, the order along it is not that of the border.
-/// \return every point of the cluster once, in order; empty if it has fewer than 4 points, two of
-///         them coincide, or a segment's system is singular
+/// Splits a cluster into two connected segments with common ends, orders each of them between its
+/// ends by the univariate Floater parameterization (reciprocal distance weights), and joins them to
+/// a loop. O(n log n).
+///
+/// The choices that TW 385 leaves open, or that are made differently here: the seed is the first
+/// point of the cluster (TW 385 takes a random one); a segment first takes the point that is
+/// nearest to the seed along the segment; neighbourhoods are symmetric; those of the
+/// parameterization hold as many points as give the shortest order (LoopLimits::univariate_k); gaps
+/// wider than any neighbourhood are bridged where they are narrowest.
+///
+/// Weakness: where the cluster is a thick band, or the border turns back on itself within a
+/// neighbourhood, the order is not that along the border.
+/// \param positions per point
+/// \param cluster   distinct points, in any order
+/// \return every point of the cluster once, in order; empty if the cluster has fewer than 4 points,
+///         if two of them coincide, or if the system of a segment is singular
 std::vector<Index>
-twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster);
+twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster,
+                const RunContext& run, const LoopLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

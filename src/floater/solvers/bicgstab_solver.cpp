@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "core/run_context.h"
+#include "floater/solvers/floating_unknowns.h"
 #include "floater/solvers/iterative.h"
 
 #include <Eigen/IterativeLinearSolvers>
@@ -27,8 +28,8 @@ public:
   std::size_t nonZeros () const { return static_cast<std::size_t> (m_lu.nonZeros ()); }
 };
 
-// Lends one factorization to the solvers of both sides, and counts its uses: Eigen's own count
-// begins anew when the solver restarts.
+// A preconditioner that borrows one factorization for both right-hand sides and counts its own
+// uses: Eigen's count of iterations begins anew when the solver restarts.
 class SharedPreconditioner
 {
 public:
@@ -70,16 +71,18 @@ private:
   mutable std::size_t uses_ = 0;
 };
 
-// |b| and what is least of a residual: see Residual::isWithin.
+// The residual at which to stop: see Residual::isWithin ().
+// \param magnitudes absolute values of the matrix
 double
-leastResidual (const Matrix& magnitudes, const Vector& rhs, const Vector& solution,
-               double tolerance)
+targetResidual (const Matrix& magnitudes, const Vector& rhs, const Vector& solution,
+                double tolerance)
 {
   constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon ();
   const Vector terms = magnitudes * solution.cwiseAbs () + rhs.cwiseAbs ();
   return std::max (tolerance * rhs.norm (), ROUNDING * terms.norm ());
 }
 
+// Solves for one right-hand side.
 // \return iterations
 std::size_t
 iterate (const Eigen::Map<const Matrix>& matrix, const Matrix& magnitudes, const Vector& rhs,
@@ -92,12 +95,12 @@ iterate (const Eigen::Map<const Matrix>& matrix, const Matrix& magnitudes, const
   double norm = rhs.norm ();
   std::size_t iterations = 0;
   const auto most = static_cast<std::size_t> (options.max_iterations);
-  for (double wanted = options.tolerance * norm; norm > wanted && iterations < most;
-       wanted = leastResidual (magnitudes, rhs, solution, options.tolerance)) {
+  for (double target = options.tolerance * norm; norm > target && iterations < most;
+       target = targetResidual (magnitudes, rhs, solution, options.tolerance)) {
     Eigen::BiCGSTAB<Matrix, SharedPreconditioner> bicgstab;
     bicgstab.preconditioner ().share (factors, run);
     bicgstab.compute (matrix);
-    bicgstab.setTolerance (wanted / norm);
+    bicgstab.setTolerance (target / norm);
     bicgstab.setMaxIterations (static_cast<Eigen::Index> (most - iterations));
     const Vector step = bicgstab.solve (rest);
     iterations += bicgstab.preconditioner ().uses () / USES_PER_ITERATION;
@@ -121,7 +124,7 @@ Solution
 solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run)
 {
   Solution solution;
-  if (refuseIslands (system, solution))
+  if (refuseFloatingUnknowns (system, solution))
     return solution;
   const auto n = static_cast<Eigen::Index> (system.unknowns ());
   const Eigen::Map<const Matrix> matrix (n, n, static_cast<Eigen::Index> (system.nonzeros ()),
@@ -130,7 +133,7 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
   const Matrix magnitudes = matrix.cwiseAbs ();
 
   IncompleteFactors factors;
-  // Eigen keeps half of `factor` mean rows of the matrix in a row of L, and half in one of U.
+  // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
   const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
   factors.setFillfactor (static_cast<int> (std::ceil (2.0 * options.ilut_fill / mean_row)));
   factors.setDroptol (options.ilut_drop);

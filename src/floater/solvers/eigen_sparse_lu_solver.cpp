@@ -23,7 +23,7 @@ template <typename Order>
 class Factors : public Eigen::SparseLU<Matrix, Order>
 {
 public:
-  // min |U_kk| / max |U_kk|; the diagonal blocks of U are kept with L.
+  // min |U_kk| / max |U_kk|. Eigen stores the diagonal blocks of U with L.
   double pivotRatio () const
   {
     double least = std::numeric_limits<double>::infinity (), largest = 0.0;
@@ -64,7 +64,7 @@ solveOrdered (const LinearSystem& system, bool symmetric, const RunContext& run)
   solution.reciprocal_condition = factors.pivotRatio ();
   if (!(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
     solution.outcome = Solution::Outcome::SINGULAR;
-    solution.message = "factorization: a pivot is nothing but rounding errors";
+    solution.message = "factorization: a pivot consists of rounding errors only";
     return solution;
   }
   const std::array<const std::vector<double>*, 2> rhs{&system.rhs_u, &system.rhs_v};

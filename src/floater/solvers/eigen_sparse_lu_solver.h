@@ -11,10 +11,11 @@ namespace pcl
 {
 namespace floater
 {
-/// One factorization, two right-hand sides. The rows are passed as the columns of the transpose,
-/// where a dominant diagonal makes partial pivoting keep to it. Outcomes OK, SINGULAR,
-/// OUT_OF_MEMORY, FAILED; may throw std::bad_alloc.
-/// \param ordering NATURAL: as the unknowns come; all others: COLAMD
+/// Solves by one factorization for both right-hand sides. The rows are passed as the columns of the
+/// transpose: their dominant diagonal makes partial pivoting keep to the diagonal. Outcomes OK,
+/// SINGULAR, OUT_OF_MEMORY, FAILED.
+/// \param ordering NATURAL: as the unknowns come; any other: COLAMD
+/// \throws std::bad_alloc
 Solution
 solveWithEigenSparseLu (const LinearSystem& system, Ordering ordering, const RunContext& run);
 

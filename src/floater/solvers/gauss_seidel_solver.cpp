@@ -2,6 +2,7 @@
 #include "floater/solvers/gauss_seidel_solver.h"
 
 #include "core/run_context.h"
+#include "floater/solvers/floating_unknowns.h"
 #include "floater/solvers/iterative.h"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ namespace floater
 {
 namespace
 {
-// Measuring a residual costs as much as a sweep.
-constexpr int SWEEPS_BETWEEN_LOOKS = 10;
+// Sweeps between two measurements of the residual, each of which costs as much as a sweep.
+constexpr int SWEEPS_BETWEEN_CHECKS = 10;
 
 void
 sweep (const LinearSystem& system, std::vector<Eigen::Vector2d>& uv, const RunContext& run)
@@ -42,12 +43,12 @@ solveWithGaussSeidel (const LinearSystem& system, double tolerance, int max_iter
                       const RunContext& run)
 {
   Solution solution;
-  if (refuseIslands (system, solution))
+  if (refuseFloatingUnknowns (system, solution))
     return solution;
   solution.uv.assign (system.unknowns (), Eigen::Vector2d::Zero ());
   std::array<bool, 2> solved{};
   for (int sweeps = 0; sweeps < max_iterations && !(solved[0] && solved[1]);) {
-    const int next = std::min (sweeps + SWEEPS_BETWEEN_LOOKS, max_iterations);
+    const int next = std::min (sweeps + SWEEPS_BETWEEN_CHECKS, max_iterations);
     for (; sweeps < next; ++sweeps)
       sweep (system, solution.uv, run);
     const Residual residual = measureResidual (system, solution.uv);

@@ -9,10 +9,12 @@ namespace pcl
 {
 namespace floater
 {
-/// Sweeps over the rows in their order, each unknown becoming the mean of its neighbours, until the
-/// measured residual is within the tolerance. The error shrinks by a factor of 1 - O(1/n) a sweep,
-/// so that the sweeps needed grow with the number of unknowns.
-/// Outcomes OK, SINGULAR, NOT_CONVERGED, FAILED. \param max_iterations sweeps, for u and v together
+/// Sweeps over the rows in their order, in which each unknown becomes the weighted mean of its
+/// neighbours, until the measured residual is within the tolerance. A sweep shrinks the error by a
+/// factor of 1 - O(1/n) for n unknowns, so the number of sweeps grows with n. Outcomes OK,
+/// SINGULAR, NOT_CONVERGED, FAILED.
+/// \param tolerance      see Residual::isWithin ()
+/// \param max_iterations sweeps, each over both coordinates
 Solution
 solveWithGaussSeidel (const LinearSystem& system, double tolerance, int max_iterations,
                       const RunContext& run);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/iterative.h"
 
-#include "floater/solvers/islands.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -11,17 +9,6 @@ namespace pcl
 {
 namespace floater
 {
-bool
-refuseIslands (const LinearSystem& system, Solution& solution)
-{
-  const std::size_t floating = countFloatingUnknowns (system);
-  if (floating == 0)
-    return false;
-  solution.outcome = Solution::Outcome::SINGULAR;
-  solution.message = std::to_string (floating) + " unknowns do not depend on the boundary";
-  return true;
-}
-
 void
 concludeIteration (const LinearSystem& system, double tolerance, const char* name,
                    Solution& solution)
@@ -34,16 +21,16 @@ concludeIteration (const LinearSystem& system, double tolerance, const char* nam
     return;
   }
   std::ostringstream message;
-  message << name;
   if (std::isfinite (residual.largest)) {
     solution.outcome = Solution::Outcome::NOT_CONVERGED;
-    message << " has come to a relative residual of " << solution.relative_residual << " in "
-            << std::max (solution.iterations[0], solution.iterations[1]) << " iterations, not to "
+    const std::size_t iterations = std::max (solution.iterations[0], solution.iterations[1]);
+    message << name << " reached a relative residual of " << solution.relative_residual << " in "
+            << iterations << (iterations == 1 ? " iteration" : " iterations") << ", not "
             << tolerance;
   }
   else {
     solution.outcome = Solution::Outcome::FAILED;
-    message << ": the solution is not finite";
+    message << name << ": the solution is not finite";
   }
   solution.message = message.str ();
   solution.uv.clear ();

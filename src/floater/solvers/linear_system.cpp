@@ -9,7 +9,7 @@ namespace floater
 {
 namespace
 {
-// Place of each point of the loop in it; NONE for others.
+// Per point: its place in the loop, NONE if it is not on it.
 std::vector<Index>
 placesInLoop (const std::vector<Index>& loop, std::size_t points)
 {
@@ -33,7 +33,7 @@ numberUnknowns (const std::vector<Index>& place_in_loop, const std::vector<std::
     }
 }
 
-// The first pass: lengths of the rows, summed up.
+// Counts the entries of each row.
 void
 placeRows (const CsrLists& neighbors, const RunContext& run, LinearSystem& system)
 {
@@ -51,7 +51,7 @@ placeRows (const CsrLists& neighbors, const RunContext& run, LinearSystem& syste
     system.row_offsets[i + 1] += system.row_offsets[i];
 }
 
-// Puts an entry at its place among the row's entries [first, last). Rows are short.
+// Inserts an entry into the sorted entries [first, last) of a row. Rows are short.
 void
 insertEntry (LinearSystem& system, std::size_t first, std::size_t last, int column, double value)
 {

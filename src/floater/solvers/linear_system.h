@@ -13,29 +13,30 @@ namespace pcl
 {
 namespace floater
 {
-/// A u = b for both coordinates of the interior points, by rows.
+/// A u = b for both coordinates of the interior points, in compressed rows.
 struct LinearSystem
 {
-  std::vector<Index> point_of_unknown; ///< interior points that reach the loop, ascending
-  std::vector<Index> unknown_of_point; ///< NONE for points of the loop and points left out
-  std::vector<int> row_offsets;        ///< one more than unknowns
+  std::vector<Index> point_of_unknown; ///< interior points that take part, ascending
+  std::vector<Index> unknown_of_point; ///< per point; NONE for points of the loop and left out ones
+  std::vector<int> row_offsets;        ///< one more than there are unknowns
   std::vector<int> columns;            ///< ascending in each row
-  std::vector<double> values;          ///< diagonal: sum of the row's weights, loop included
-  std::vector<double> rhs_u, rhs_v;
+  std::vector<double> values;          ///< parallel to columns
+  std::vector<double> rhs_u, rhs_v;    ///< per unknown
 
   std::size_t unknowns () const { return point_of_unknown.size (); }
   std::size_t nonzeros () const { return values.size (); }
 };
 
-/// Assembles the system. A row's diagonal is the sum of its weights with those of loop points
-/// included, so that row sums are exact and the solution is as good as the solver. O(entries); the
-/// same for every number of threads.
-/// \param neighbors    rows of points, distinct in each row and without the row's own point; a
-///                     neighbour that is neither unknown nor on the loop is left out
-/// \param weights      parallel to neighbors.ids, positive
-/// \param loop         points of the loop in order
-/// \param loop_uv      their parameters
-/// \param reachable    per point, 1 if it takes part (see reachability.h)
+/// Assembles the system of TW 385, equation (1): the diagonal of a row is the sum of its weights,
+/// those of loop points included, and the weights of unknowns come with a negative sign. Since the
+/// diagonal is that sum instead of 1, rows sum up exactly, and the solution is as accurate as the
+/// solver. O(entries); the same for every number of threads.
+/// \param neighbors per point: distinct neighbours, not the point itself; a neighbour that is
+///                  neither an unknown nor on the loop is left out
+/// \param weights   parallel to neighbors.ids, positive
+/// \param loop      points of the loop in order
+/// \param loop_uv   their parameters
+/// \param reachable per point; 1 if the point takes part (see reachability.h)
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
                 const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,

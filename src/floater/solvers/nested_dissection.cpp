@@ -14,22 +14,22 @@ namespace floater
 {
 namespace
 {
-// Unknowns that stay as they come: their fronts are small whatever their order.
+// Sets of so few unknowns are not dissected: their fronts are small in any order.
 constexpr std::size_t SMALLEST_SET = 8;
-// Half the width of the band as a share of the set, and in rows of unknowns across the band, where
-// that is less. A wider band has smaller cuts and takes longer: twice as many rows save 2 % of the
-// factors and take half as long again.
+// Half the width of the band: as a share of the set, or in rows of unknowns if that is less. A
+// wider band gives smaller cuts and takes longer: twice as many rows save 2 % of the factors and
+// take one and a half times as long.
 constexpr double BAND_SHARE = 0.1;
 constexpr double BAND_ROWS = 5.0;
 
-// Places in the order.
+// A set of unknowns by its places in the order.
 struct Set
 {
   std::size_t begin, end;
   std::size_t size () const { return end - begin; }
 };
 
-// Calls visit (i, j) for every pair in the pattern of A + A^T without the diagonal, once each way.
+// Calls visit (i, j) for all i and j in the pattern of A + A^T, without the diagonal.
 template <typename Visit>
 void
 visitPairs (const LinearSystem& system, Visit&& visit)
@@ -52,8 +52,8 @@ visitPairs (const LinearSystem& system, Visit&& visit)
   }
 }
 
-// Parts sets of one level. Reads what the order was when the level began, and writes only to the
-// places of its set.
+// Parts the sets of one level. It reads places as they were when the level began, and writes only
+// to the places of its own set, so that several of them may work at the same time.
 class Dissector
 {
 public:
@@ -92,7 +92,8 @@ public:
   }
 
 private:
-  // Where an unknown is that has no place in the band, or not yet.
+  // Instead of a place in the band: the side of an unknown outside of it, or that it is within but
+  // has no place yet.
   static constexpr Index BELOW = NONE, ABOVE = NONE - 1, WITHIN = NONE - 2;
 
   const Eigen::Vector3d& positionOf (std::size_t i) const
@@ -134,7 +135,7 @@ private:
     }
   }
 
-  // Calls visit (i) for each neighbour of unknown i of the set that is in the set.
+  // Calls visit (j) for each neighbour j of unknown i within the set; both are numbered in the set.
   template <typename Visit>
   void visitNeighbors (const Set& set, std::size_t i, Visit&& visit) const
   {
@@ -143,7 +144,8 @@ private:
         visit (places_[neighbor] - set.begin);
   }
 
-  // Takes in what is below and has a neighbour above: no pair may pass the band by.
+  // Adds the unknowns below the band that have a neighbour above it, since no pair may bypass the
+  // band. Then gives all unknowns of the band their places.
   void widenBand (const Set& set)
   {
     for (std::size_t i = 0; i < unknowns_.size (); ++i)
@@ -185,21 +187,21 @@ private:
 
   std::vector<int> unknowns_; // of the set
   std::vector<std::pair<float, Index>> keys_;
-  std::vector<Index> where_; // of the set: place in the band, or on which side of it
-  std::vector<Index> band_;
+  std::vector<Index> where_; // per unknown of the set: place in the band, or side of it
+  std::vector<Index> band_;  // unknowns of the set that are in the band
   CsrLists band_graph_;
   std::vector<std::uint8_t> ends_;
   VertexCut cut_;
 };
 
-// Enters the halves of a set, and lists those that are to be parted in turn.
+// Adds the halves of a set to the sets, and to `next` if they are to be parted.
 void
 addHalves (Index whole, const std::array<Set, 2>& halves, std::vector<DissectedSet>& sets,
            std::vector<Index>& next)
 {
   const std::size_t size = sets[whole].end - sets[whole].begin;
   if (halves[0].size () == size || halves[1].size () == size)
-    return; // nothing tells one unknown from another
+    return; // all unknowns are in one place
   sets[whole].cut = static_cast<Index> (halves[1].end);
   for (std::size_t side = 0; side < 2; ++side) {
     const Set& half = halves[side];
@@ -234,12 +236,12 @@ dissect (const CsrLists& pattern, const std::vector<Index>& points,
   std::vector<Index> places (count);
   std::iota (places.begin (), places.end (), Index{0});
   result.sets.push_back ({0, 0, static_cast<Index> (count), {NONE, NONE}});
-  std::vector<Index> level; // those of its sets that are to be parted
+  std::vector<Index> level; // sets to be parted
   if (count > SMALLEST_SET)
     level.push_back (0);
   for (std::vector<std::array<Set, 2>> halves; !level.empty ();) {
     halves.resize (level.size ());
-    constexpr std::size_t CHUNKS = 64; // each with memory of its own
+    constexpr std::size_t CHUNKS = 64; // tasks, each with working memory of its own
     const std::size_t length = level.size () / CHUNKS + 1;
     parallelTasks (run, (level.size () + length - 1) / length, [&] (std::size_t chunk) {
       Dissector dissector (pattern, points, positions, places);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/ordering.h"
 
-#include <umfpack.h>
+#include "floater/solvers/nested_dissection.h"
+
+#include <amd.h>
+#include <cholmod.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace pcl
 {
@@ -17,50 +19,69 @@ namespace floater
 {
 namespace
 {
-struct FreeSymbolic
-{
-  void operator() (void* handle) const { umfpack_di_free_symbolic (&handle); }
-};
-
 void
-accept (int status, const char* call)
+fail (const char* call, int status, bool is_out_of_memory)
 {
-  if (status == UMFPACK_ERROR_out_of_memory)
+  if (is_out_of_memory)
     throw std::bad_alloc ();
-  if (status != UMFPACK_OK)
-    throw std::runtime_error (std::string (call) + ": UMFPACK status " + std::to_string (status));
+  throw std::runtime_error (std::string (call) + ": status " + std::to_string (status));
 }
 
-// The column order that UMFPACK's symmetric strategy would use: fill-reducing, then along the
-// elimination tree.
+// Approximate minimum degree (Amestoy, Davis and Duff 1996).
 std::vector<int>
-orderByUmfpack (const LinearSystem& system, int ordering)
+orderByAmd (const LinearSystem& system)
 {
-  const auto n = static_cast<int> (system.unknowns ());
-  std::array<double, UMFPACK_CONTROL> control{};
-  umfpack_di_defaults (control.data ());
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  control[UMFPACK_ORDERING] = ordering;
-  control[UMFPACK_SINGLETONS] = 0.0; // would come first, columns and rows in different orders
-  void* handle = nullptr;
-  const int status = umfpack_di_symbolic (n, n, system.row_offsets.data (), system.columns.data (),
-                                          nullptr, &handle, control.data (), nullptr);
-  const std::unique_ptr<void, FreeSymbolic> symbolic (handle);
-  accept (status, "symbolic analysis");
+  std::vector<int> order (system.unknowns ());
+  const int status =
+      amd_order (static_cast<int> (system.unknowns ()), system.row_offsets.data (),
+                 system.columns.data (), order.data (), nullptr, nullptr); // defaults, no figures
+  if (status != AMD_OK)
+    fail ("amd_order", status, status == AMD_OUT_OF_MEMORY);
+  return order;
+}
 
-  int rows = 0, columns = 0, singletons = 0, nonzeros = 0, fronts = 0, chains = 0;
-  const auto size = static_cast<std::size_t> (n) + 1;
-  std::vector<int> row_order (size), order (size);
-  std::array<std::vector<int>, 7> of_fronts; // not used, but written
-  for (std::vector<int>& one : of_fronts)
-    one.resize (size);
-  accept (umfpack_di_get_symbolic (&rows, &columns, &singletons, &nonzeros, &fronts, &chains,
-                                   row_order.data (), order.data (), of_fronts[0].data (),
-                                   of_fronts[1].data (), of_fronts[2].data (), of_fronts[3].data (),
-                                   of_fronts[4].data (), of_fronts[5].data (), of_fronts[6].data (),
-                                   handle),
-          "ordering");
-  order.pop_back ();
+// The workspace of CHOLMOD. Errors are told by its status alone and never printed.
+class CholmodWorkspace
+{
+public:
+  CholmodWorkspace ()
+  {
+    cholmod_start (&common_);
+    common_.print = 0;
+  }
+  ~CholmodWorkspace () { cholmod_finish (&common_); }
+  CholmodWorkspace (const CholmodWorkspace&) = delete;
+  CholmodWorkspace& operator= (const CholmodWorkspace&) = delete;
+
+  cholmod_common* get () { return &common_; }
+  int status () const { return common_.status; }
+
+private:
+  cholmod_common common_{};
+};
+
+// Nested dissection by METIS (Karypis and Kumar 1998), then along the elimination tree.
+std::vector<int>
+orderByMetis (const LinearSystem& system)
+{
+  const CsrLists symmetric = symmetricPattern (system);
+  std::vector<int> offsets (symmetric.offsets.begin (), symmetric.offsets.end ());
+  std::vector<int> rows (symmetric.ids.begin (), symmetric.ids.end ());
+  cholmod_sparse pattern{};
+  pattern.nrow = pattern.ncol = system.unknowns ();
+  pattern.nzmax = rows.size ();
+  pattern.p = offsets.data ();
+  pattern.i = rows.data ();
+  pattern.stype = 1; // symmetric, read from its upper triangle
+  pattern.itype = CHOLMOD_INT;
+  pattern.xtype = CHOLMOD_PATTERN;
+  pattern.dtype = CHOLMOD_DOUBLE;
+  pattern.packed = 1;
+  CholmodWorkspace workspace;
+  std::vector<int> order (system.unknowns ());
+  constexpr int POSTORDER = 1;
+  if (cholmod_metis (&pattern, nullptr, 0, POSTORDER, order.data (), workspace.get ()) == 0)
+    fail ("cholmod_metis", workspace.status (), workspace.status () == CHOLMOD_OUT_OF_MEMORY);
   return order;
 }
 
@@ -69,6 +90,8 @@ orderByUmfpack (const LinearSystem& system, int ordering)
 std::vector<int>
 orderUnknowns (const LinearSystem& system, Ordering ordering)
 {
+  if (system.unknowns () == 0)
+    return {};
   switch (ordering) {
   case Ordering::NATURAL: {
     std::vector<int> order (system.unknowns ());
@@ -78,9 +101,9 @@ orderUnknowns (const LinearSystem& system, Ordering ordering)
   case Ordering::REVERSE_CUTHILL_MCKEE:
     return reverseCuthillMckee (system);
   case Ordering::AMD:
-    return orderByUmfpack (system, UMFPACK_ORDERING_AMD);
+    return orderByAmd (system);
   case Ordering::METIS:
-    return orderByUmfpack (system, UMFPACK_ORDERING_METIS);
+    return orderByMetis (system);
   case Ordering::AUTOMATIC:
   case Ordering::COLAMD:
     break;

@@ -38,7 +38,7 @@ measureResidual (const LinearSystem& system, const std::vector<Eigen::Vector2d>&
       magnitude += term.abs ();
     }
     const double of_row = rest.abs ().maxCoeff<Eigen::PropagateNaN> ();
-    if (!(of_row <= residual.largest)) // also if it is not a number, which then stays
+    if (!(of_row <= residual.largest)) // true for NaN, too, which must not be replaced afterwards
       residual.largest = std::isnan (residual.largest) ? residual.largest : of_row;
     sqr_norm += rest.square ();
     sqr_rhs += rhs.square ();

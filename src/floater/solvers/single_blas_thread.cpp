@@ -38,7 +38,7 @@ openBlas ()
   return instance;
 }
 
-// OpenBLAS maps a work buffer at its first use, and tries for ever if there is no room for it.
+// OpenBLAS maps a work buffer when it is first used, and tries forever if there is no room for it.
 bool
 hasRoomForBuffer ()
 {

@@ -6,17 +6,16 @@ namespace pcl
 {
 namespace floater
 {
-/// Makes OpenBLAS use one thread while any instance lives, and its former number afterwards. More
-/// threads cost time on fronts as small as ours and change the last digits of the factors. OpenBLAS
-/// is looked up at run time; with another BLAS behind libblas this does nothing.
+/// Makes OpenBLAS use one thread while any instance exists, and its former number afterwards. More
+/// threads cost time on fronts as small as ours, and they change the last digits of the factors.
+/// OpenBLAS is looked up at run time; with any other BLAS this does nothing.
 ///
-/// The number is one for the whole process, so instances that live at the same time, in any
-/// threads, share it: the first saves it, the last restores it.
-///
-/// Throws std::bad_alloc where OpenBLAS would find no room for its work buffer.
+/// There is one number for the whole process, so all instances share it, whatever their threads:
+/// the first saves it, the last restores it.
 class SingleBlasThread
 {
 public:
+  /// \throws std::bad_alloc if OpenBLAS would find no room for its work buffer
   SingleBlasThread ();
   ~SingleBlasThread ();
   SingleBlasThread (const SingleBlasThread&) = delete;

@@ -19,8 +19,8 @@ namespace floater
 {
 namespace
 {
-// From here on nested dissection is the faster one. Its factors are smaller than AMD's by a tenth
-// (127k, a closed shape with a hole) to a quarter (1M, a height field).
+// Above this number, nested dissection is faster than AMD. Its factors are smaller by a tenth (127k
+// unknowns, a closed shape with a hole) to a quarter (1M, a height field).
 constexpr std::size_t DISSECTION_UNKNOWNS = 100'000;
 
 const char*
@@ -43,7 +43,7 @@ solverName (Solver solver)
   return "unknown";
 }
 
-// Orderings that the solver makes itself, or that it can do without.
+// Whether the solver makes the ordering by itself, or needs none.
 bool
 ordersItself (Solver solver, Ordering ordering)
 {
@@ -75,7 +75,7 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
 #ifdef PCL_FLOATER_HAS_SUPERLU
     return solveWithSuperlu (system, ordering);
 #else
-    break; // refused before
+    break; // checkSolver () has refused it
 #endif
   case Solver::EIGEN_SPARSE_LU:
     return solveWithEigenSparseLu (system, ordering, run);
@@ -106,12 +106,12 @@ checkSolver (Solver solver, Ordering ordering)
   const std::string name = solverName (solver);
   if (ordering == Ordering::COLAMD && solver != Solver::UMFPACK_UNSYMMETRIC &&
       solver != Solver::SUPERLU && solver != Solver::EIGEN_SPARSE_LU)
-    return {Status::INVALID_OPTION,
-            name + " cannot take the ordering COLAMD, which is for columns alone; choose another"};
+    return {Status::INVALID_OPTION, name + " does not take the ordering COLAMD, which orders "
+                                           "columns alone; choose another ordering"};
   if (!isAvailable (solver))
     return {Status::SOLVER_UNAVAILABLE,
-            "this build of pcl_floater is without " + name +
-                "; choose another solver, or build it where the library is installed"};
+            "this build of pcl_floater does not have " + name +
+                "; choose another solver, or build pcl_floater where that library is installed"};
   return {};
 }
 
@@ -137,7 +137,7 @@ solve (const LinearSystem& system, const SolverOptions& options,
   if (ordersItself (options.method, options.ordering))
     return solveAsItIs (system, options.ordering, options, run);
 
-  // Rows and columns in the new order, then solved as they come; every solver can do that.
+  // Any solver can solve the reordered system as it comes.
   const std::vector<int> order = orderUnknowns (system, options.ordering);
   solution = solveAsItIs (permuteSystem (system, order), Ordering::NATURAL, options, run);
   std::vector<Eigen::Vector2d> uv (solution.uv.size ());

@@ -12,21 +12,23 @@ namespace pcl
 {
 namespace floater
 {
-/// True if this build has the library of the solver.
+/// Whether this build has the library of the solver.
 bool
 isAvailable (Solver solver);
 
-/// INVALID_OPTION if the solver cannot take the ordering, SOLVER_UNAVAILABLE if this build is
-/// without the solver.
+/// INVALID_OPTION if the solver does not take the ordering, SOLVER_UNAVAILABLE if this build is
+/// without the solver, OK otherwise.
 Problem
 checkSolver (Solver solver, Ordering ordering);
 
 /// Solves for both coordinates with options.method in the order options.ordering. An empty system
-/// is OK. A singular system is refused by every solver: those with pivots on the diagonal see one
-/// of rounding errors, the others look for islands first. An iterative solver that does not reach
-/// options.tolerance, as measured (see Residual::isWithin), returns NOT_CONVERGED and no solution.
-/// May throw std::bad_alloc. The result does not depend on the number of threads.
-/// \param positions per point; nullptr: not known, and UMFPACK's automatic ordering is always AMD
+/// is OK. Every solver refuses a singular system: those with pivots on the diagonal notice a pivot
+/// of rounding errors, the others look for floating unknowns first. An iterative solver whose
+/// measured residual does not reach options.tolerance (see Residual::isWithin ()) returns
+/// NOT_CONVERGED and no solution. The result does not depend on the number of threads.
+/// \param positions per point, for nested dissection; nullptr: UMFPACK's automatic ordering is
+///                  always AMD
+/// \throws std::bad_alloc
 Solution
 solve (const LinearSystem& system, const SolverOptions& options,
        const std::vector<Eigen::Vector3d>* positions, const RunContext& run);

@@ -16,7 +16,7 @@ namespace floater
 {
 namespace
 {
-// A matrix of SuperLU's, freed by the function that its kind asks for. Empty until it has a store.
+// A matrix of SuperLU, freed by the function for its kind. It is empty until it has a store.
 template <void (*release) (SuperMatrix*)>
 struct Owned
 {
@@ -40,7 +40,7 @@ struct Counters
   SuperLUStat_t stat{};
 };
 
-// min |U_kk| / max |U_kk|; the diagonal blocks of U are kept with L.
+// min |U_kk| / max |U_kk|. SuperLU stores the diagonal blocks of U with L.
 double
 pivotRatio (const SuperMatrix& factor)
 {
@@ -73,7 +73,7 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering)
                     : ordering == Ordering::NATURAL ? NATURAL
                                                     : MMD_AT_PLUS_A;
 
-  // SuperLU takes pointers to what it only reads.
+  // SuperLU only reads these arrays, though its pointers are not const.
   Owned<Destroy_SuperMatrix_Store> transpose;
   dCreate_CompCol_Matrix (&transpose.matrix, n, n, static_cast<int> (system.nonzeros ()),
                           const_cast<double*> (system.values.data ()),
@@ -94,15 +94,14 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering)
   dgstrf (&control, &ordered.matrix, sp_ienv (RELAX), sp_ienv (PANEL_SIZE), tree.data (), nullptr,
           0, column_order.data (), row_order.data (), &lower.matrix, &upper.matrix, &working,
           &counters.stat, &info);
-  if (info > n) { // nothing was made
+  if (info > n) { // out of memory: there are no factors
     lower.matrix.Store = upper.matrix.Store = nullptr;
     solution.outcome = Solution::Outcome::OUT_OF_MEMORY;
-    solution.message =
-        "factorization: SuperLU got no more than " + std::to_string (info - n) + " bytes";
+    solution.message = "factorization: SuperLU got only " + std::to_string (info - n) + " bytes";
     return solution;
   }
   if (info < 0) {
-    solution.message = "factorization: SuperLU refuses argument " + std::to_string (-info);
+    solution.message = "factorization: SuperLU does not accept argument " + std::to_string (-info);
     return solution;
   }
   mem_usage_t memory{};
@@ -116,18 +115,18 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering)
   if (!(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
     solution.outcome = Solution::Outcome::SINGULAR;
     solution.message = info > 0 ? "factorization: pivot " + std::to_string (info) + " is zero"
-                                : "factorization: a pivot is nothing but rounding errors";
+                                : "factorization: a pivot consists of rounding errors only";
     return solution;
   }
 
-  std::vector<double> unknowns (system.rhs_u); // in place, one column after the other
+  std::vector<double> unknowns (system.rhs_u); // solved in place, column by column
   unknowns.insert (unknowns.end (), system.rhs_v.begin (), system.rhs_v.end ());
   Owned<Destroy_SuperMatrix_Store> sides;
   dCreate_Dense_Matrix (&sides.matrix, n, 2, unknowns.data (), n, SLU_DN, SLU_D, SLU_GE);
   dgstrs (TRANS, &lower.matrix, &upper.matrix, column_order.data (), row_order.data (),
           &sides.matrix, &counters.stat, &info);
   if (info != 0) {
-    solution.message = "solution: SuperLU refuses argument " + std::to_string (-info);
+    solution.message = "solution: SuperLU does not accept argument " + std::to_string (-info);
     return solution;
   }
   solution.uv.resize (system.unknowns ());

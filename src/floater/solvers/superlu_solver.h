@@ -11,11 +11,12 @@ namespace pcl
 {
 namespace floater
 {
-/// One factorization, two right-hand sides. The rows are passed as the columns of the transpose,
-/// where a dominant diagonal makes partial pivoting keep to it; one BLAS thread. SuperLU itself
-/// ends the process if it cannot get small working arrays; the factors running out of memory is an
-/// outcome. Outcomes OK, SINGULAR, OUT_OF_MEMORY, FAILED; may throw std::bad_alloc.
-/// \param ordering NATURAL: as the unknowns come; COLAMD; all others: minimum degree on A + A^T
+/// Solves by one factorization for both right-hand sides, with one BLAS thread. The rows are passed
+/// as the columns of the transpose: their dominant diagonal makes partial pivoting keep to the
+/// diagonal. If the factors do not fit into memory, that is an outcome; if SuperLU cannot get one
+/// of its small working arrays, it ends the process. Outcomes OK, SINGULAR, OUT_OF_MEMORY, FAILED.
+/// \param ordering NATURAL: as the unknowns come; COLAMD; any other: minimum degree on A + A^T
+/// \throws std::bad_alloc
 Solution
 solveWithSuperlu (const LinearSystem& system, Ordering ordering);
 

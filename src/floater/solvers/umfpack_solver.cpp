@@ -2,7 +2,8 @@
 #include "floater/solvers/umfpack_solver.h"
 
 #include "core/parallel.h"
-#include "floater/solvers/iterative.h"
+#include "floater/solvers/floating_unknowns.h"
+#include "floater/solvers/residual.h"
 #include "floater/solvers/single_blas_thread.h"
 
 #include <umfpack.h>
@@ -18,8 +19,8 @@ namespace floater
 {
 namespace
 {
-// The 32-bit interface holds factors of up to 2 GB, at about 1.2 kB per unknown, with an eighth
-// less memory than the 64-bit one.
+// Unknowns from which on the interface has 64-bit indices. That with 32 bits takes an eighth less
+// memory, and holds factors of up to 2 GB; there are about 1.2 kB of them per unknown.
 constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
 
 // UMFPACK's two integer types.
@@ -56,8 +57,8 @@ struct Release
 template <void (*release) (void**)>
 using Handle = std::unique_ptr<void, Release<release>>;
 
-// Records why a call did not end well.
-// \return true if it did
+// Records the reason if a call has failed.
+// \return true if it has not
 bool
 accept (double status, const char* call, Solution& solution)
 {
@@ -74,7 +75,7 @@ accept (double status, const char* call, Solution& solution)
   return false;
 }
 
-// The matrix with another type of index, or as it is.
+// The pattern of the matrix: a copy in another type of index, or the system's own.
 template <typename Int>
 struct Pattern
 {
@@ -95,7 +96,81 @@ struct Pattern<int>
   const std::vector<int>&offsets, &columns;
 };
 
-// \param order that of the unknowns; empty: as the ordering tells
+using Control = std::array<double, UMFPACK_CONTROL>;
+using Info = std::array<double, UMFPACK_INFO>;
+
+// \param is_order_given the columns are not to be reordered
+template <typename Interface>
+Control
+makeControl (Ordering ordering, bool is_order_given, UmfpackStrategy strategy)
+{
+  // Pivots off the diagonal cost digits, which refinement recovers.
+  constexpr double REFINEMENT_STEPS = 2.0;
+  const bool is_symmetric = strategy == UmfpackStrategy::SYMMETRIC;
+  Control control{};
+  Interface::DEFAULTS (control.data ());
+  control[UMFPACK_STRATEGY] =
+      is_symmetric ? UMFPACK_STRATEGY_SYMMETRIC : UMFPACK_STRATEGY_UNSYMMETRIC;
+  control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
+  control[UMFPACK_IRSTEP] = is_symmetric ? 0.0 : REFINEMENT_STEPS;
+  // UMFPACK_ORDERING_AMD is COLAMD with the unsymmetric strategy.
+  control[UMFPACK_ORDERING] =
+      ordering == Ordering::METIS ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
+  if (is_order_given) {
+    control[UMFPACK_FIXQ] = 1.0;
+    // Without AMD's estimate, UMFPACK would allocate far too much memory in advance. With 0 it
+    // begins with the least memory it needs, and grows in steps.
+    control[UMFPACK_ALLOC_INIT] = 0.0;
+  }
+  return control;
+}
+
+// Records what the factorization cost.
+void
+recordFigures (const Info& info, Solution& solution)
+{
+  // UMFPACK leaves -1 for figures that it did not compute.
+  const auto figure = [&info] (std::size_t entry) { return std::max (0.0, info[entry]); };
+  solution.peak_bytes =
+      static_cast<std::size_t> (figure (UMFPACK_PEAK_MEMORY) * figure (UMFPACK_SIZE_OF_UNIT));
+  solution.reciprocal_condition = figure (UMFPACK_RCOND);
+}
+
+// \param order of the unknowns; empty: UMFPACK makes the ordering
+// \return nullptr if it fails, with the reason in the solution
+template <typename Interface, typename Int = typename Interface::Int>
+Handle<Interface::FREE_NUMERIC>
+factorize (const LinearSystem& system, const Pattern<Int>& pattern, const std::vector<int>& order,
+           const Control& control, Solution& solution)
+{
+  const auto n = static_cast<Int> (system.unknowns ());
+  Info info{};
+  void* handle = nullptr;
+  if (!order.empty ()) {
+    const std::vector<Int> fixed (order.begin (), order.end ());
+    Interface::QSYMBOLIC (n, n, pattern.offsets.data (), pattern.columns.data (),
+                          system.values.data (), fixed.data (), &handle, control.data (),
+                          info.data ());
+  }
+  else
+    Interface::SYMBOLIC (n, n, pattern.offsets.data (), pattern.columns.data (),
+                         system.values.data (), &handle, control.data (), info.data ());
+  const Handle<Interface::FREE_SYMBOLIC> symbolic (handle);
+  if (!accept (info[UMFPACK_STATUS], "symbolic analysis", solution))
+    return nullptr;
+  handle = nullptr;
+  Interface::NUMERIC (pattern.offsets.data (), pattern.columns.data (), system.values.data (),
+                      symbolic.get (), &handle, control.data (), info.data ());
+  Handle<Interface::FREE_NUMERIC> numeric (handle);
+  recordFigures (info, solution);
+  if (!accept (info[UMFPACK_STATUS], "factorization", solution))
+    return nullptr;
+  solution.nnz_factors =
+      static_cast<std::size_t> (info[UMFPACK_LNZ] + info[UMFPACK_UNZ]) - system.unknowns ();
+  return numeric;
+}
+
+// \param order of the unknowns; empty: UMFPACK makes the ordering
 template <typename Interface>
 Solution
 solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& order,
@@ -103,78 +178,34 @@ solve (const LinearSystem& system, Ordering ordering, const std::vector<int>& or
 {
   using Int = typename Interface::Int;
   Solution solution;
-  std::array<double, UMFPACK_CONTROL> control{};
-  std::array<double, UMFPACK_INFO> info{};
-  Interface::DEFAULTS (control.data ());
-  control[UMFPACK_STRATEGY] = strategy == UmfpackStrategy::SYMMETRIC ? UMFPACK_STRATEGY_SYMMETRIC
-                                                                     : UMFPACK_STRATEGY_UNSYMMETRIC;
-  control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
-  // Sparse pivots off the diagonal cost digits, which refinement brings back.
-  constexpr double REFINEMENT_STEPS = 2.0;
-  const bool refine = strategy == UmfpackStrategy::UNSYMMETRIC;
-  control[UMFPACK_IRSTEP] = refine ? REFINEMENT_STEPS : 0.0;
-  // UMFPACK_ORDERING_AMD is COLAMD with the unsymmetric strategy.
-  control[UMFPACK_ORDERING] =
-      ordering == Ordering::METIS ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
-
-  const auto n = static_cast<Int> (system.unknowns ());
-  Handle<Interface::FREE_NUMERIC> numeric;
+  const Control control = makeControl<Interface> (ordering, !order.empty (), strategy);
   auto pattern = std::make_unique<const Pattern<Int>> (system);
-  {
-    void* handle = nullptr;
-    if (!order.empty ()) {
-      const std::vector<Int> fixed (order.begin (), order.end ());
-      control[UMFPACK_FIXQ] = 1.0;
-      // Without an estimate by AMD, UMFPACK takes far too much memory at once and tidies it up too
-      // late; from as little as it can do with, it grows in steps.
-      control[UMFPACK_ALLOC_INIT] = 0.0;
-      Interface::QSYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
-                            system.values.data (), fixed.data (), &handle, control.data (),
-                            info.data ());
-    }
-    else
-      Interface::SYMBOLIC (n, n, pattern->offsets.data (), pattern->columns.data (),
-                           system.values.data (), &handle, control.data (), info.data ());
-    const Handle<Interface::FREE_SYMBOLIC> symbolic (handle);
-    if (!accept (info[UMFPACK_STATUS], "symbolic analysis", solution))
+  Handle<Interface::FREE_NUMERIC> numeric =
+      factorize<Interface> (system, *pattern, order, control, solution);
+  if (!numeric)
+    return solution;
+  if (strategy == UmfpackStrategy::SYMMETRIC) {
+    if (!(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
+      solution.outcome = Solution::Outcome::SINGULAR;
+      solution.message = "factorization: a pivot consists of rounding errors only";
       return solution;
-    handle = nullptr;
-    Interface::NUMERIC (pattern->offsets.data (), pattern->columns.data (), system.values.data (),
-                        symbolic.get (), &handle, control.data (), info.data ());
-    numeric.reset (handle);
-  }
-  // Only refinement needs the matrix after the factorization.
-  if (!refine)
-    pattern.reset ();
-  // Figures that UMFPACK did not get to are -1.
-  const auto figure = [&] (int entry) { return std::max (0.0, info[entry]); };
-  solution.peak_bytes =
-      static_cast<std::size_t> (figure (UMFPACK_PEAK_MEMORY) * figure (UMFPACK_SIZE_OF_UNIT));
-  solution.reciprocal_condition = figure (UMFPACK_RCOND);
-  if (!accept (info[UMFPACK_STATUS], "factorization", solution))
-    return solution;
-  solution.nnz_factors =
-      static_cast<std::size_t> (info[UMFPACK_LNZ] + info[UMFPACK_UNZ]) - system.unknowns ();
-  if (strategy == UmfpackStrategy::SYMMETRIC &&
-      !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
-    solution.outcome = Solution::Outcome::SINGULAR;
-    solution.message = "factorization: a pivot is nothing but rounding errors";
-    return solution;
+    }
+    pattern.reset (); // only refinement needs the matrix after the factorization
   }
 
-  // The factors are only read, so both right-hand sides can go at once.
+  // The factors are only read, so both right-hand sides can be solved at the same time.
   const std::array<const std::vector<double>*, 2> rhs{&system.rhs_u, &system.rhs_v};
   std::array<std::vector<double>, 2> unknowns;
   for (auto& one : unknowns)
     one.resize (system.unknowns ());
   std::array<double, 2> status{};
   parallelTasks (run, 2, [&] (std::size_t side) {
-    std::array<double, UMFPACK_INFO> solve_info{};
+    Info info{};
     Interface::SOLVE (UMFPACK_At, pattern ? pattern->offsets.data () : nullptr,
                       pattern ? pattern->columns.data () : nullptr,
                       pattern ? system.values.data () : nullptr, unknowns[side].data (),
-                      rhs[side]->data (), numeric.get (), control.data (), solve_info.data ());
-    status[side] = solve_info[UMFPACK_STATUS];
+                      rhs[side]->data (), numeric.get (), control.data (), info.data ());
+    status[side] = info[UMFPACK_STATUS];
   });
   numeric.reset ();
   for (const double one : status)
@@ -198,13 +229,13 @@ solveInOrder (const LinearSystem& system, Ordering ordering, const std::vector<i
     solution.reciprocal_condition = 1.0;
     return solution;
   }
-  // With pivots off the diagonal, small ones do not tell of an island.
-  if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseIslands (system, solution))
+  // Pivots off the diagonal do not tell of floating unknowns by being small.
+  if (strategy == UmfpackStrategy::UNSYMMETRIC && refuseFloatingUnknowns (system, solution))
     return solution;
   const SingleBlasThread single_blas_thread;
   if (system.unknowns () <= LONG_INDEX_UNKNOWNS)
     solution = solve<IntInterface> (system, ordering, order, strategy, run);
-  // Running out of 32-bit indices is reported as running out of memory.
+  // UMFPACK reports running out of 32-bit indices as running out of memory.
   if (system.unknowns () > LONG_INDEX_UNKNOWNS ||
       solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
     solution = solve<LongInterface> (system, ordering, order, strategy, run);

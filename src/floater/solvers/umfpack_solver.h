@@ -11,28 +11,29 @@ namespace pcl
 {
 namespace floater
 {
-/// How UMFPACK looks for pivots.
+/// How UMFPACK chooses pivots.
 enum class UmfpackStrategy
 {
-  SYMMETRIC,  ///< on the diagonal, columns and rows in one order
-  UNSYMMETRIC ///< where they are sparse, columns in an order of their own
+  SYMMETRIC,  ///< on the diagonal; rows and columns in one order
+  UNSYMMETRIC ///< in sparse rows; columns in an order of their own
 };
 
-/// One factorization, two right-hand sides. UMFPACK takes columns, so the rows are passed as the
-/// transpose and solved with UMFPACK_At. No scaling, one BLAS thread (of OpenBLAS; restored
-/// afterwards). The symmetric strategy needs no refinement and knows islands by their pivots; the
-/// unsymmetric one is refined in two steps, and islands are looked for before. Above a million
-/// unknowns, indices have 64 bits. An empty system is OK. May throw std::bad_alloc; UMFPACK's own
-/// failures are outcomes.
-///
-/// \param ordering SYMMETRIC: AMD or AUTOMATIC (the same), METIS or NATURAL; UNSYMMETRIC: COLAMD or
-///        AUTOMATIC (the same), METIS (of A^T A) or NATURAL
-/// \param threads 2 or more: the two right-hand sides are solved at the same time; same result
+/// Solves by one factorization for both right-hand sides; these are solved at the same time if
+/// there are threads. UMFPACK takes columns, so the rows are passed as the transpose and solved
+/// with UMFPACK_At, without scaling and with one BLAS thread. With more than a million unknowns,
+/// indices have 64 bits. The symmetric strategy needs no refinement, and it detects floating
+/// unknowns by their pivots. The unsymmetric strategy takes two steps of refinement, and floating
+/// unknowns are looked for first. An empty system is OK. Failures of UMFPACK are outcomes. The
+/// result does not depend on the number of threads.
+/// \param ordering SYMMETRIC: AMD or AUTOMATIC (the same), METIS, or NATURAL;
+///                 UNSYMMETRIC: COLAMD or AUTOMATIC (the same), METIS (of A^T A), or NATURAL
+/// \throws std::bad_alloc
 Solution
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,
                   UmfpackStrategy strategy = UmfpackStrategy::SYMMETRIC);
 
-/// The same with the symmetric strategy, unknown order[i] as the i-th pivot.
+/// The same with the symmetric strategy and a given order.
+/// \param order entry i is the unknown of the i-th pivot
 Solution
 solveWithUmfpack (const LinearSystem& system, const std::vector<int>& order, const RunContext& run);
 

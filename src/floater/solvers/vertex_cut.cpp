@@ -7,32 +7,32 @@ namespace floater
 {
 namespace
 {
-constexpr Index SIDE = NONE - 1; // instead of a vertex: a way begins or ends there
+constexpr Index SIDE = NONE - 1; // instead of a vertex, where a path begins or ends
 
 } // namespace
 
-// How many arcs leave a state, those that cannot be used among them.
+// The number of arcs that leave a state, those that cannot be used included.
 Index
 VertexCut::successors (State s) const
 {
   return s % 2 == 0 ? 1 : 1 + static_cast<Index> (graph_->row (s / 2).size ());
 }
 
-// Arcs of the residual network: forward where no way goes, back where one does. NONE if the arc
-// cannot be used.
+// The state to which an arc of the residual network leads: forwards where there is no path yet,
+// backwards along a path. NONE if the arc cannot be used.
 VertexCut::State
 VertexCut::successor (State s, Index arc) const
 {
   const Index v = s / 2;
   if (s % 2 == 0) {
-    if (!isOnWay (v))
+    if (!isOnPath (v))
       return s + 1;
-    return before_[v] == SIDE ? NONE : wayOut (before_[v]);
+    return before_[v] == SIDE ? NONE : exitOf (before_[v]);
   }
   if (arc == 0)
-    return isOnWay (v) ? s - 1 : NONE;
+    return isOnPath (v) ? s - 1 : NONE;
   const Index w = graph_->row (v)[arc - 1];
-  return w == after_[v] || w == before_[v] ? NONE : wayInto (w);
+  return w == after_[v] || w == before_[v] ? NONE : entryOf (w);
 }
 
 bool
@@ -41,16 +41,17 @@ VertexCut::isLast (State s) const
   return s % 2 == 1 && ((*ends_)[s / 2] & NEXT_TO_SECOND) != 0 && after_[s / 2] != SIDE;
 }
 
-// Numbers the states by their distance from the first side, as far as the nearest last one, or all.
-// \return true if a last one was reached
+// Sets the levels of the states up to the first one at which a path can end.
+// \param whole of all states that can be reached
+// \return true if there was such a state; always false if `whole`
 bool
 VertexCut::layer (bool whole)
 {
   level_.assign (before_.size () * 2, NONE);
   queue_.clear ();
   for (const Index v : starts_) {
-    level_[wayInto (v)] = 0;
-    queue_.push_back (wayInto (v));
+    level_[entryOf (v)] = 0;
+    queue_.push_back (entryOf (v));
   }
   for (std::size_t head = 0; head < queue_.size (); ++head) {
     const State s = queue_[head];
@@ -67,13 +68,13 @@ VertexCut::layer (bool whole)
   return false;
 }
 
-// Looks for a way along ascending levels. What has led nowhere is not tried again (see arc_).
+// Looks for a path along ascending levels. Arcs that have led nowhere are not tried again.
 bool
-VertexCut::findWay (State start)
+VertexCut::findPath (State start)
 {
-  way_.assign (1, start);
-  while (!way_.empty ()) {
-    const State s = way_.back ();
+  path_.assign (1, start);
+  while (!path_.empty ()) {
+    const State s = path_.back ();
     if (isLast (s))
       return true;
     State next = NONE;
@@ -85,34 +86,34 @@ VertexCut::findWay (State start)
       }
     }
     if (next != NONE) {
-      way_.push_back (next);
+      path_.push_back (next);
       continue;
     }
-    way_.pop_back ();
-    if (!way_.empty ())
-      ++arc_[way_.back ()];
+    path_.pop_back ();
+    if (!path_.empty ())
+      ++arc_[path_.back ()];
   }
   return false;
 }
 
-// Adds the way that was found. Where it goes back along another one, the two exchange their ends.
+// Adds the path that was found. Where it goes back along another path, the two exchange their ends.
 void
-VertexCut::useWay ()
+VertexCut::usePath ()
 {
-  for (const State s : way_)
-    level_[s] = NONE; // serves one way at a time
-  for (std::size_t i = 0; i + 1 < way_.size (); ++i)
-    if (way_[i] % 2 == 0 && way_[i + 1] / 2 != way_[i] / 2) {
-      before_[way_[i] / 2] = NONE;
-      after_[way_[i + 1] / 2] = NONE;
+  for (const State s : path_)
+    level_[s] = NONE; // a state serves one path only
+  for (std::size_t i = 0; i + 1 < path_.size (); ++i)
+    if (path_[i] % 2 == 0 && path_[i + 1] / 2 != path_[i] / 2) {
+      before_[path_[i] / 2] = NONE;
+      after_[path_[i + 1] / 2] = NONE;
     }
-  for (std::size_t i = 0; i + 1 < way_.size (); ++i)
-    if (way_[i] % 2 == 1 && way_[i + 1] / 2 != way_[i] / 2) {
-      after_[way_[i] / 2] = way_[i + 1] / 2;
-      before_[way_[i + 1] / 2] = way_[i] / 2;
+  for (std::size_t i = 0; i + 1 < path_.size (); ++i)
+    if (path_[i] % 2 == 1 && path_[i + 1] / 2 != path_[i] / 2) {
+      after_[path_[i] / 2] = path_[i + 1] / 2;
+      before_[path_[i + 1] / 2] = path_[i] / 2;
     }
-  before_[way_.front () / 2] = SIDE;
-  after_[way_.back () / 2] = SIDE;
+  before_[path_.front () / 2] = SIDE;
+  after_[path_.back () / 2] = SIDE;
 }
 
 const std::vector<CutPart>&
@@ -131,14 +132,14 @@ VertexCut::find (const CsrLists& graph, const std::vector<std::uint8_t>& ends)
   while (layer (false)) {
     arc_.assign (count * 2, 0);
     for (const Index v : starts_)
-      if (before_[v] != SIDE && findWay (wayInto (v)))
-        useWay ();
+      if (before_[v] != SIDE && findPath (entryOf (v)))
+        usePath ();
   }
   layer (true);
   parts_.resize (count);
   for (Index v = 0; v < count; ++v)
-    parts_[v] = level_[wayOut (v)] != NONE    ? CutPart::FIRST
-                : level_[wayInto (v)] != NONE ? CutPart::CUT
+    parts_[v] = level_[exitOf (v)] != NONE    ? CutPart::FIRST
+                : level_[entryOf (v)] != NONE ? CutPart::CUT
                                               : CutPart::SECOND;
   return parts_;
 }

@@ -46,7 +46,7 @@ range (Index first, Index last)
   return points;
 }
 
-/// Steps 2 to 5 of TW 385, section 3.2, word by word.
+// Steps 2 to 5 of TW 385, section 3.2, exactly as they are written.
 Clusters
 literalClusters (const Positions& positions, const std::vector<Index>& boundary_points,
                  double tolerance, int k)
@@ -102,7 +102,7 @@ TEST (Clusters, SeparateLoopsLargestFirst)
   appendCircle (positions, {0, 0, 0}, 0.1, 20);
   appendCircle (positions, {3, 0, 0}, 1.0, 100);
   appendCircle (positions, {6, 0, 0}, 0.2, 40);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.3, 10),
+  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.3, 10, 1),
              (Clusters{range (20, 120), range (120, 160), range (0, 20)}));
 }
 
@@ -113,22 +113,22 @@ TEST (Clusters, EqualSizesComeBySmallestPoint)
     positions.emplace_back (10.0 + i, 0.0, 0.0);
     positions.emplace_back (0.0 + i, 5.0, 0.0);
   }
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 1.5, 10),
+  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 1.5, 10, 1),
              (Clusters{{0, 2, 4, 6, 8}, {1, 3, 5, 7, 9}}));
 }
 
-TEST (Clusters, HoldOnlyBoundaryPoints)
+TEST (Clusters, ContainOnlyBoundaryPoints)
 {
   Positions positions;
   for (int i = 0; i < 30; ++i)
     positions.emplace_back (0.1 * i, 0.0, 0.0);
-  // Without 10 to 12 the line falls in two at a gap of 0.4.
+  // Without points 10 to 12 there is a gap of 0.4 in the line.
   std::vector<Index> boundary_points = range (0, 10);
   for (Index p = 13; p < 30; ++p)
     boundary_points.push_back (p);
-  EXPECT_EQ (clusterBoundaryPoints (positions, boundary_points, 0.35, 8),
+  EXPECT_EQ (clusterBoundaryPoints (positions, boundary_points, 0.35, 8, 1),
              (Clusters{range (13, 30), range (0, 10)}));
-  EXPECT_EQ (clusterBoundaryPoints (positions, boundary_points, 0.45, 8),
+  EXPECT_EQ (clusterBoundaryPoints (positions, boundary_points, 0.45, 8, 1),
              (Clusters{boundary_points}));
 }
 
@@ -137,8 +137,8 @@ TEST (Clusters, DistanceOfTheToleranceIsStillInside)
   Positions positions;
   for (int i = 0; i < 8; ++i)
     positions.emplace_back (0.25 * i, 0.0, 0.0); // exact in binary
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.25, 2).size (), 1U);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.2499, 2).size (), 8U);
+  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.25, 2, 1).size (), 1U);
+  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.2499, 2, 1).size (), 8U);
 }
 
 TEST (Clusters, FewNeighborsSplitWhatManyJoin)
@@ -147,19 +147,19 @@ TEST (Clusters, FewNeighborsSplitWhatManyJoin)
   Positions positions;
   appendCircle (positions, {0, 0, 0}, 0.1, 12);
   appendCircle (positions, {0.5, 0, 0}, 0.1, 12);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.5, 4).size (), 2U);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.5, 12).size (), 1U);
+  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.5, 4, 1).size (), 2U);
+  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.5, 12, 1).size (), 1U);
 }
 
 TEST (Clusters, OfNothingAndOfOnePoint)
 {
   const Positions positions{{0, 0, 0}, {1, 0, 0}};
-  EXPECT_TRUE (clusterBoundaryPoints (positions, {}, 1.0, 10).empty ());
-  EXPECT_EQ (clusterBoundaryPoints (positions, {1}, 1.0, 10), (Clusters{{1}}));
-  EXPECT_EQ (clusterBoundaryPoints (positions, {0, 1}, 0.5, 10), (Clusters{{0}, {1}}));
+  EXPECT_TRUE (clusterBoundaryPoints (positions, {}, 1.0, 10, 1).empty ());
+  EXPECT_EQ (clusterBoundaryPoints (positions, {1}, 1.0, 10, 1), (Clusters{{1}}));
+  EXPECT_EQ (clusterBoundaryPoints (positions, {0, 1}, 0.5, 10, 1), (Clusters{{0}, {1}}));
 }
 
-TEST (Clusters, EqualTheReportsStepsOnRandomPoints)
+TEST (Clusters, EqualTheStepsOfTw385OnRandomPoints)
 {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE (testing::Message () << "seed " << seed);
@@ -176,12 +176,12 @@ TEST (Clusters, EqualTheReportsStepsOnRandomPoints)
         boundary_points.push_back (p);
     for (const double tolerance : {0.05, 0.1, 0.2})
       for (const int k : {2, 10})
-        EXPECT_EQ (clusterBoundaryPoints (positions, boundary_points, tolerance, k),
+        EXPECT_EQ (clusterBoundaryPoints (positions, boundary_points, tolerance, k, 1),
                    literalClusters (positions, boundary_points, tolerance, k));
   }
 }
 
-TEST (Clusters, EqualTheReportsStepsWhereDistancesTie)
+TEST (Clusters, EqualTheStepsOfTw385WhereDistancesTie)
 {
   std::mt19937 random (7);
   Positions positions;
@@ -192,7 +192,7 @@ TEST (Clusters, EqualTheReportsStepsWhereDistancesTie)
   std::shuffle (positions.begin (), positions.end (), random);
   for (const double tolerance : {1.0, 1.5, 2.0})
     for (const int k : {1, 3, 5})
-      EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), tolerance, k),
+      EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), tolerance, k, 1),
                  literalClusters (positions, allOf (positions), tolerance, k));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Deep surfaces: regions that collapse in the plane, and what their recursion makes of them.
+// Deep surfaces: regions that collapse in the plane, and that are laid out again.
 #include "floater/collapsed_regions.h"
 #include "floater/region_recursion.h"
 
@@ -18,13 +18,15 @@ namespace floater
 namespace
 {
 using samples::asInput;
+using samples::discOptions;
 using samples::Outline;
 using samples::PI;
 using samples::Positions;
 
-constexpr double RADIUS = 3.6; // of fingers, in spacings: 23 points around
+constexpr double RADIUS = 3.6; // of the fingers, in spacings; 23 points around
 
-// An open tube with a round tip, by the generator, its radius as above.
+// An open tube with a round tip.
+// \param length over its radius
 Positions
 finger (double length)
 {
@@ -35,7 +37,7 @@ finger (double length)
   return generateSurface (spec);
 }
 
-// Rings of points on a tube with a round tip, from one spacing above the ground on.
+// Adds rings of points on a tube with a round tip, from one spacing above the ground on.
 void
 addFinger (const Eigen::Vector2d& foot, double length, RandomStream& random, Positions& cloud)
 {
@@ -55,7 +57,8 @@ addFinger (const Eigen::Vector2d& foot, double length, RandomStream& random, Pos
   }
 }
 
-// A round plate with fingers, the lengths over radius as given, standing on a circle.
+// A round plate with fingers that stand on a circle.
+// \param lengths of the fingers over their radius
 samples::Sheet
 hand (const std::vector<double>& lengths)
 {
@@ -76,7 +79,7 @@ hand (const std::vector<double>& lengths)
   return sheet;
 }
 
-// One disc of all points whose edges are short.
+// Expects one disc of all points, with short edges.
 void
 expectWholeDisc (const Result& result, const Positions& cloud)
 {
@@ -98,14 +101,6 @@ expectWholeDisc (const Result& result, const Positions& cloud)
   EXPECT_LT (longest, 3.0); // spacings
 }
 
-Options
-discOptions ()
-{
-  Options options;
-  options.topology = Topology::DISC;
-  return options;
-}
-
 TEST (Depth, OpenFingers)
 {
   for (const double length : {1.0, 10.0, 30.0, 60.0, 100.0}) {
@@ -114,7 +109,8 @@ TEST (Depth, OpenFingers)
     const Result result = reconstruct (asInput (cloud), discOptions ());
     expectWholeDisc (result, cloud);
     const auto levels = static_cast<double> (result.report.statistics.levels);
-    EXPECT_NEAR (levels, length / 14.0, length < 12.0 ? 0.9 : 1.5); // a factor of a million each
+    EXPECT_NEAR (levels, length / 14.0,
+                 length < 12.0 ? 0.9 : 1.5); // each level shrinks by a million
   }
 }
 
@@ -146,7 +142,7 @@ TEST (Depth, SameForAnyNumberOfThreads)
   EXPECT_EQ (one.triangles, reconstruct (asInput (cloud), options).triangles);
 }
 
-// A flat disc, its own parameters, and in the plane pressed together around some centres.
+// A flat disc whose parameters are its own places, but pressed together around some centres.
 struct PressedDisc
 {
   static constexpr double RADIUS = 0.25;
@@ -171,7 +167,7 @@ struct PressedDisc
 
   std::vector<CollapsedRegion> find () const
   {
-    return findCollapsedRegions (mesh, uv, positions, loop);
+    return findCollapsedRegions (mesh, uv, positions, loop, 1);
   }
 };
 
@@ -194,19 +190,19 @@ TEST (CollapsedRegions, AreDiscsWithoutChords)
     EXPECT_EQ (samples::canonicalCycle (topology.loops.front ()),
                samples::canonicalCycle (region.loop));
     EXPECT_EQ (topology.vertices, region.loop.size () + region.interior.size ());
-    // All that is pressed together, but for its outermost ring.
+    // All points that are pressed together, but for the outermost ones.
     const bool left = pressed.positions[region.interior.front ()].x () < 0.0;
     std::size_t pressed_points = 0;
     for (const Eigen::Vector3d& p : pressed.positions)
       pressed_points +=
           (p.head<2> () - centres[left ? 0 : 1]).norm () < PressedDisc::RADIUS ? 1 : 0;
-    EXPECT_GE (topology.vertices, pressed_points - 5); // corners of none of the triangles
+    EXPECT_GE (topology.vertices, pressed_points - 5); // some have no collapsed triangle
     for (const Index p : region.interior) {
       EXPECT_LT ((pressed.positions[p].head<2> () - centres[left ? 0 : 1]).norm (),
                  PressedDisc::RADIUS);
       EXPECT_TRUE (seen.insert (p).second);
     }
-    // No edge outside of the region joins two points of the rim, but the rim's own.
+    // Outside of the region, only edges of its loop join two points of the loop.
     const std::set<Index> loop (region.loop.begin (), region.loop.end ());
     for (Index t = 0; t < pressed.mesh.triangles.size (); ++t) {
       if (std::binary_search (region.triangles.begin (), region.triangles.end (), t))
@@ -221,11 +217,11 @@ TEST (CollapsedRegions, AreDiscsWithoutChords)
   }
 }
 
-TEST (CollapsedRegions, TakeInWhatTheyEnclose)
+TEST (CollapsedRegions, ContainWhatTheyEnclose)
 {
   PressedDisc pressed ({{0.0, 0.0}});
   const std::size_t whole = pressed.find ().front ().triangles.size ();
-  // The point next to the centre in its place: its triangles have not collapsed.
+  // Put the middle point back in its place: its triangles have not collapsed.
   Index middle = 0;
   for (Index p = 0; p < pressed.positions.size (); ++p)
     if (pressed.positions[p].norm () < pressed.positions[middle].norm ())
@@ -233,7 +229,7 @@ TEST (CollapsedRegions, TakeInWhatTheyEnclose)
   pressed.uv[middle] = pressed.positions[middle].head<2> ();
   ASSERT_EQ (pressed.find ().size (), 1U);
   EXPECT_EQ (pressed.find ().front ().triangles.size (), whole);
-  // One without a triangle on the place of another, and one that has no place.
+  // Add a point without a triangle that coincides with it, and one without parameters.
   pressed.uv.emplace_back (pressed.uv[middle]);
   pressed.uv.emplace_back (Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
   for (int i = 0; i < 2; ++i) {
@@ -245,7 +241,27 @@ TEST (CollapsedRegions, TakeInWhatTheyEnclose)
   EXPECT_TRUE (std::binary_search (interior.begin (), interior.end (), middle));
 }
 
-TEST (CollapsedRegions, NeverTouchTheLoop)
+TEST (CollapsedRegions, SearchCanBeCancelled)
+{
+  const PressedDisc pressed ({{0.0, 0.0}});
+  Statistics statistics;
+  RunMonitor monitor ({{}, {}, [] { return true; }}, statistics);
+  EXPECT_THROW (findCollapsedRegions (pressed.mesh, pressed.uv, pressed.positions, pressed.loop,
+                                      RunContext (1, &monitor)),
+                Cancelled);
+}
+
+TEST (CollapsedRegions, DependOnTheLimit)
+{
+  const PressedDisc pressed ({{0.0, 0.0}}); // by a factor of 1e-9
+  DiscLimits limits;
+  limits.collapsed_scale = 1e-10;
+  EXPECT_TRUE (
+      findCollapsedRegions (pressed.mesh, pressed.uv, pressed.positions, pressed.loop, 1, limits)
+          .empty ());
+}
+
+TEST (CollapsedRegions, NeverTouchTheBoundary)
 {
   const PressedDisc pressed ({{0.9, 0.0}});
   for (const CollapsedRegion& region : pressed.find ())
@@ -255,7 +271,7 @@ TEST (CollapsedRegions, NeverTouchTheLoop)
   EXPECT_TRUE (PressedDisc ({}).find ().empty ());
 }
 
-// The stages up to the planar triangulation.
+// A cloud after the stages up to the planar triangulation.
 struct Layout
 {
   samples::Neighborhoods made;
@@ -265,20 +281,26 @@ struct Layout
 };
 
 Layout
-layOut (const Positions& cloud, const Options& options)
+layOut (const Positions& cloud)
 {
   Layout layout;
   layout.made = samples::makeNeighborhoods (cloud);
-  samples::Neighborhoods& made = layout.made;
-  layout.loop =
-      findBoundary (made.points, made.geometry.neighbors, made.geometry.stars, options).loop;
-  Statistics statistics;
-  StageClock clock (statistics, options.stage_callback);
+  const samples::Neighborhoods& made = layout.made;
+  layout.loop = findBoundary (made.points, made.geometry, {}, 1).loop;
   layout.uv = parameterize (made.points.positions, made.geometry.neighbors, made.geometry.stars,
-                            layout.loop, options, clock, statistics)
+                            layout.loop, {}, 1)
                   .uv;
   layout.mesh = triangulatePlane (layout.uv, layout.loop);
   return layout;
+}
+
+// \return levels
+std::size_t
+layOutAgain (Layout& layout, const CsrLists& neighbors)
+{
+  const samples::Neighborhoods& made = layout.made;
+  return layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, neighbors,
+                                 made.geometry.stars.normals, layout.loop, {}, {}, 1);
 }
 
 std::size_t
@@ -288,50 +310,39 @@ missingPoints (const TriangleMesh& mesh)
       std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE));
 }
 
-TEST (Depth, PointsThatCoincideComeBack)
+TEST (Depth, PointsThatCoincideGetTriangles)
 {
-  const Options options = discOptions ();
-  Layout layout = layOut (finger (100.0), options);
+  Layout layout = layOut (finger (100.0));
   const samples::Neighborhoods& made = layout.made;
   const std::size_t missing = missingPoints (layout.mesh);
   EXPECT_GT (missing, made.points.positions.size () / 20);
-  const RegionRecursion recursion = layOutCollapsedRegions (
-      layout.mesh, layout.uv, made.points.positions, made.geometry.neighbors,
-      made.geometry.stars.normals, layout.loop, options);
-  EXPECT_GT (recursion.levels, 4U);
+  const std::size_t levels = layOutAgain (layout, made.geometry.neighbors);
+  EXPECT_GT (levels, 4U);
   EXPECT_EQ (missingPoints (layout.mesh), 0U);
   RecordProperty ("missing_before", static_cast<int> (missing));
-  RecordProperty ("levels", static_cast<int> (recursion.levels));
+  RecordProperty ("levels", static_cast<int> (levels));
 }
 
-TEST (Depth, WhatCannotBeSolvedForStaysAsItWas)
+TEST (Depth, RegionsThatCannotBeParameterizedStayAsTheyWere)
 {
-  const Options options = discOptions ();
-  Layout layout = layOut (finger (40.0), options);
+  Layout layout = layOut (finger (40.0));
   const samples::Neighborhoods& made = layout.made;
   const std::vector<Triangle> before = layout.mesh.triangles;
-  CsrLists nobody; // no point hangs together with another
-  nobody.offsets.assign (made.points.positions.size () + 1, 0);
-  const RegionRecursion recursion =
-      layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, nobody,
-                              made.geometry.stars.normals, layout.loop, options);
-  EXPECT_EQ (recursion.levels, 0U);
-  EXPECT_EQ (recursion.regions, 0U);
+  CsrLists none; // no point has a neighbour
+  none.offsets.assign (made.points.positions.size () + 1, 0);
+  EXPECT_EQ (layOutAgain (layout, none), 0U);
   EXPECT_EQ (layout.mesh.triangles, before);
 }
 
 TEST (Depth, ShallowSurfacesStayAsTheyAre)
 {
-  const Options options = discOptions ();
-  Layout layout = layOut (finger (4.0), options);
+  Layout layout = layOut (finger (4.0));
   const samples::Neighborhoods& made = layout.made;
-  EXPECT_TRUE (
-      findCollapsedRegions (layout.mesh, layout.uv, made.points.positions, layout.loop).empty ());
+  EXPECT_TRUE (findCollapsedRegions (layout.mesh, layout.uv, made.points.positions, layout.loop, 1)
+                   .empty ());
   const std::vector<Triangle> before = layout.mesh.triangles;
-  const RegionRecursion recursion = layOutCollapsedRegions (
-      layout.mesh, layout.uv, made.points.positions, made.geometry.neighbors,
-      made.geometry.stars.normals, layout.loop, options);
-  EXPECT_EQ (recursion.levels, 0U);
+  const std::size_t levels = layOutAgain (layout, made.geometry.neighbors);
+  EXPECT_EQ (levels, 0U);
   EXPECT_EQ (layout.mesh.triangles, before);
 }
 

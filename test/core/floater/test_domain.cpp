@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/domain.h"
 
+#include "core/geometry.h"
+#include "floater/own_shape.h"
 #include "random_stream.h"
 
 #include <gtest/gtest.h>
@@ -15,15 +17,14 @@ namespace floater
 {
 namespace
 {
-constexpr double PI = 3.14159265358979323846;
 constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
                                   Domain::OWN_SHAPE};
 constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
                                         LoopSpacing::UNIFORM};
-constexpr double LARGEST_BULGE = 2.6e-4; // of the square, the largest of those tested here
+constexpr double LARGEST_BULGE = 2.6e-4; // of a square's side, the largest of all tested here
 constexpr int SIDES = 6;
 
-// A closed loop around a slanted circle, at fractions of a turn.
+// A loop on a slanted circle, its points at given fractions of a turn.
 struct Loop
 {
   std::vector<Eigen::Vector3d> positions;
@@ -41,7 +42,7 @@ struct Loop
   std::size_t size () const { return points.size (); }
   std::vector<Eigen::Vector2d> lay (Domain domain, int sides = SIDES) const
   {
-    return layLoop (positions, points, domain, sides);
+    return layLoop (positions, points, {domain, sides});
   }
   double chord (std::size_t i) const
   {
@@ -58,7 +59,7 @@ evenLoop (std::size_t count)
   return Loop (turns);
 }
 
-// Steps over about two orders of magnitude.
+// Step lengths vary by about two orders of magnitude.
 Loop
 unevenLoop (std::size_t count, std::uint64_t seed)
 {
@@ -74,14 +75,8 @@ unevenLoop (std::size_t count, std::uint64_t seed)
   return Loop (turns);
 }
 
-double
-cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x () * b.y () - a.y () * b.x ();
-}
-
-// Turns left at every point, and once around in all. Differences of near doubles are exact, so the
-// sign of the product is right.
+// Expects a left turn at every point, and one turn in all. Differences of nearly equal doubles are
+// exact, so the sign of the cross product is right.
 void
 expectStrictlyConvex (const std::vector<Eigen::Vector2d>& uv)
 {
@@ -106,7 +101,7 @@ rightOf (const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Ve
   return cross (point - from, to - from) / (to - from).norm ();
 }
 
-TEST (Domain, CircleIsByChordLength)
+TEST (Domain, CircleByChordLength)
 {
   const Loop loop = unevenLoop (40, 1);
   const std::vector<Eigen::Vector2d> uv = loop.lay (Domain::CIRCLE);
@@ -124,7 +119,7 @@ TEST (Domain, CircleIsByChordLength)
   }
 }
 
-TEST (Domain, SquareIsByChordLengthAlongItsSides)
+TEST (Domain, SquareByChordLength)
 {
   const Loop loop = evenLoop (20);
   const std::vector<Eigen::Vector2d> uv = loop.lay (Domain::SQUARE);
@@ -182,7 +177,7 @@ TEST (Domain, CornersGoToTheNearestLoopPoints)
 
 TEST (Domain, EveryCornerHasItsOwnPoint)
 {
-  // All corners but the first are nearest to the last point, or nearest to the first ones.
+  // All corners but the first are nearest to the last point, or to the first points.
   const std::vector<double> late{0.0, 0.0001, 0.0002, 0.0003, 0.0004, 0.5};
   const std::vector<double> early{0.0, 0.5, 0.9996, 0.9997, 0.9998, 0.9999};
   for (const auto& turns : {late, early})
@@ -217,7 +212,7 @@ TEST (Domain, LongLoopsAreStrictlyConvex)
   }
 }
 
-TEST (Domain, PointsThatNearlyCoincideKeepDistinctParameters)
+TEST (Domain, PointsThatNearlyCoincideGetDistinctParameters)
 {
   for (const double gap : {0.0, 1e-16, 1e-14, 1e-12, 1e-9}) {
     std::vector<double> turns (10000); // a hundred groups of a hundred points
@@ -245,10 +240,10 @@ TEST (Domain, ALoopWithoutLengthIsLaidEvenly)
   const std::vector<Eigen::Vector3d> same (8, Eigen::Vector3d::Ones ());
   const std::vector<Index> points{0, 1, 2, 3, 4, 5, 6, 7};
   for (const Domain domain : ALL_DOMAINS)
-    expectStrictlyConvex (layLoop (same, points, domain, SIDES));
+    expectStrictlyConvex (layLoop (same, points, {domain, SIDES}));
 }
 
-// A loop in a slanted plane, through corners with `steps` equal steps between two of them.
+// A loop in a slanted plane. It goes from corner to corner in `steps` equal steps.
 struct SlantedLoop
 {
   std::vector<Eigen::Vector3d> positions;
@@ -268,11 +263,11 @@ struct SlantedLoop
   }
   std::vector<Eigen::Vector2d> lay (LoopSpacing spacing = LoopSpacing::CHORD_LENGTH) const
   {
-    return layLoop (positions, points, Domain::OWN_SHAPE, 3, spacing);
+    return layLoop (positions, points, {Domain::OWN_SHAPE, 3, spacing});
   }
 };
 
-TEST (Domain, SpacingsAreOfTheStepsTheirRootsOrEqual)
+TEST (Domain, StepsAreByLengthByItsRootOrEqual)
 {
   const Loop loop = unevenLoop (50, 6);
   for (const LoopSpacing spacing : ALL_SPACINGS) {
@@ -285,7 +280,7 @@ TEST (Domain, SpacingsAreOfTheStepsTheirRootsOrEqual)
     for (std::size_t i = 0; i < loop.size (); ++i)
       total += step (i);
     const std::vector<Eigen::Vector2d> uv =
-        layLoop (loop.positions, loop.points, Domain::CIRCLE, SIDES, spacing);
+        layLoop (loop.positions, loop.points, {Domain::CIRCLE, SIDES, spacing});
     double length = 0.0;
     for (std::size_t i = 0; i < loop.size (); ++i) {
       const double angle = 2.0 * PI * length / total;
@@ -294,12 +289,12 @@ TEST (Domain, SpacingsAreOfTheStepsTheirRootsOrEqual)
       length += step (i);
     }
     for (const Domain domain : ALL_DOMAINS)
-      expectStrictlyConvex (layLoop (loop.positions, loop.points, domain, SIDES, spacing));
+      expectStrictlyConvex (layLoop (loop.positions, loop.points, {domain, SIDES, spacing}));
   }
 }
 
-// A convex loop is its own shape: all distances stay, up to one scale and the bulge of the sides.
-TEST (Domain, OwnShapeOfAConvexLoopIsItself)
+// All distances keep their proportions, up to the bulge of the sides.
+TEST (Domain, OwnShapeOfAConvexLoopIsTheLoop)
 {
   const SlantedLoop loop ({{0, 0}, {4, 0}, {5, 2}, {3, 4}, {-1, 3}}, 8);
   const std::vector<Eigen::Vector2d> uv = loop.lay ();
@@ -319,7 +314,7 @@ TEST (Domain, OwnShapeOfAConvexLoopIsItself)
     }
 }
 
-TEST (Domain, OwnShapeDoesNotDependOnWhereTheLoopBeginsNorOnItsSense)
+TEST (Domain, OwnShapeDoesNotDependOnTheFirstPointNorOnTheOrientation)
 {
   SlantedLoop loop ({{0, 0}, {4, 0}, {5, 2}, {2, 1.5}, {3, 4}, {-1, 3}}, 5);
   const std::vector<Eigen::Vector2d> uv = loop.lay ();
@@ -338,7 +333,7 @@ TEST (Domain, OwnShapeDoesNotDependOnWhereTheLoopBeginsNorOnItsSense)
   expectStrictlyConvex (reversed);
 }
 
-// What lies in a bay of the outline goes on the side that closes the bay, by the spacing rule.
+// Points in a bay of the outline go on the side that closes the bay, spaced as on any side.
 TEST (Domain, OwnShapeClosesBays)
 {
   const SlantedLoop loop ({{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}, 4);
@@ -357,16 +352,32 @@ TEST (Domain, ALoopWithoutAShapeIsLaidOnTheCircle)
   const SlantedLoop line ({{0, 0}, {1, 0}, {3, 0}}, 5);
   for (const Eigen::Vector2d& p : line.lay ())
     EXPECT_NEAR (p.norm (), 1.0, 1e-14);
-  // A figure of eight still has a hull: whatever is made of it is convex.
+  // A figure of eight still has a hull. Whatever comes out is convex.
   const SlantedLoop eight ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10);
   expectStrictlyConvex (eight.lay ());
+}
+
+// A box with walls: of two points one above the other the first is the corner. Points on the sides
+// are no corners.
+TEST (Domain, OwnShapeOfCoincidingAndCollinearPoints)
+{
+  const std::vector<Eigen::Vector3d> positions{{0, 0, 0}, {0, 0, 1}, {2, 0, 1}, {4, 0, 1},
+                                               {4, 0, 0}, {4, 3, 0}, {4, 3, 1}, {2, 3, 1},
+                                               {0, 3, 1}, {0, 3, 0}};
+  std::vector<Index> loop{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const SideLimits limits{1e-3, 4e-6};
+  EXPECT_EQ (findOwnShape (positions, loop, limits).corners,
+             (std::vector<std::size_t>{0, 3, 5, 8}));
+  std::rotate (loop.begin (), loop.begin () + 1, loop.end ());
+  EXPECT_EQ (findOwnShape (positions, loop, limits).corners,
+             (std::vector<std::size_t>{0, 2, 4, 7}));
 }
 
 TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
 {
   RandomStream random (7);
   for (int round = 0; round < 60; ++round) {
-    // Star-shaped outlines from nearly round to wild, with up to thousands of points.
+    // Star-shaped outlines, from nearly round to very rough, with up to thousands of points.
     const std::size_t count = 3 + random.below (round % 3 == 0 ? 3000 : 60);
     const double roughness = std::pow (10.0, -8.0 * random.uniform ());
     std::vector<Eigen::Vector2d> corners;

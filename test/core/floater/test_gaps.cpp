@@ -13,7 +13,7 @@ namespace
 {
 using samples::PI;
 
-// A star of point 0 with neighbours 1, 2, ... and no others.
+// One star: point 0 with neighbours 1, 2, and so on. The neighbours have no stars.
 Stars
 starOf (const std::vector<Eigen::Vector2d>& offsets, bool open)
 {
@@ -30,78 +30,78 @@ starOf (const std::vector<Eigen::Vector2d>& offsets, bool open)
 }
 
 std::vector<std::array<Index, 3>>
-gapsOf (const Stars& stars, double alpha)
+gapsOf (const Stars& stars, double circumradius_ratio)
 {
   std::vector<std::array<Index, 3>> gaps;
   const std::vector<float> spacing (stars.open.size (), 1.0F);
-  for (const Gap& gap : findGaps (stars, spacing, alpha))
+  for (const Gap& gap : findGaps (stars, spacing, circumradius_ratio))
     gaps.push_back ({gap.point, gap.first, gap.last});
   return gaps;
 }
 
 using Gaps = std::vector<std::array<Index, 3>>;
 
-TEST (Gaps, AClosedStarOfSmallTrianglesHasNone)
+TEST (Gaps, AreNoneInAClosedStarOfSmallTriangles)
 {
   EXPECT_EQ (gapsOf (starOf ({{1, 0}, {0, 1}, {-1, 0}, {0, -1}}, false), 1.5), Gaps{});
 }
 
-TEST (Gaps, BehindAnOpenStar)
+TEST (Gaps, OfAnOpenStarGoFromItsLastNeighborToItsFirst)
 {
-  // From the last neighbour to the first.
   EXPECT_EQ (gapsOf (starOf ({{1, 0}, {0, 1}, {-1, 0}}, true), 1.5), (Gaps{{0, 3, 1}}));
   EXPECT_EQ (gapsOf (starOf ({{1, 0}, {0, 1}}, true), 1.5), (Gaps{{0, 2, 1}}));
 }
 
-TEST (Gaps, TriangleWithAWideCircle)
+TEST (Gaps, AreTrianglesWithAWideCircumcircle)
 {
-  // Right angles: the radius is half of the far side, sqrt (1 + 9) / 2 = 1.58, and 3 sqrt (2) / 2.
+  // Right angles at the centre: the circumradius is half of the opposite side, sqrt (1 + 9) / 2 =
+  // 1.58, on both sides of the long neighbour.
   const Stars stars = starOf ({{1, 0}, {0, 1}, {-3, 0}, {0, -1}}, false);
   EXPECT_EQ (gapsOf (stars, 1.55), (Gaps{{0, 2, 4}}));
   EXPECT_EQ (gapsOf (stars, 1.6), Gaps{});
-  // One triangle only.
+  // Only one triangle is too wide.
   EXPECT_EQ (gapsOf (starOf ({{1, 0}, {0, 1}, {-3, 0}, {-1.5, -0.5}, {0, -1}}, false), 2.0),
              (Gaps{{0, 3, 4}}));
 }
 
-TEST (Gaps, ARunOfMissingTrianglesIsOneGap)
+TEST (Gaps, AreRunsOfMissingTriangles)
 {
-  // Around the end of the row, too.
+  // The run may go on at the beginning of the row.
   const Stars stars = starOf ({{5, 0}, {0, 1}, {-1, 0}, {0, -1}, {4, -4}}, false);
   EXPECT_EQ (gapsOf (stars, 2.0), (Gaps{{0, 4, 2}}));
-  // The sector behind an open star joins its neighbours.
+  // The open sector of a star is part of the run.
   const Stars open = starOf ({{5, 0}, {0.5, 1}, {-1, 0.5}, {-5, 0}}, true);
   EXPECT_EQ (gapsOf (open, 2.0), (Gaps{{0, 3, 2}}));
 }
 
-TEST (Gaps, TwoGapsWhereSheetsTouch)
+TEST (Gaps, AreTwoWhereSheetsTouch)
 {
   const Stars stars = starOf ({{1, -0.5}, {1, 0.5}, {-1, 0.5}, {-1, -0.5}}, false);
-  // The triangles above and below have a radius of 1.25, those beside 0.625.
+  // The triangles above and below have a circumradius of 1.25, the other two one of 0.625.
   EXPECT_EQ (gapsOf (stars, 1.0), (Gaps{{0, 2, 3}, {0, 4, 1}}));
 }
 
-TEST (Gaps, WithoutAnyTriangleFromTheNearestToItself)
+TEST (Gaps, OfAStarWithoutTrianglesGoFromItsNearestNeighborToTheSame)
 {
   EXPECT_EQ (gapsOf (starOf ({{2, 0}}, true), 1.5), (Gaps{{0, 1, 1}}));
   EXPECT_EQ (gapsOf (starOf ({{9, 0}, {0, 8}, {-9, -1}}, false), 1.5), (Gaps{{0, 2, 2}}));
   EXPECT_EQ (gapsOf (starOf ({}, true), 1.5), Gaps{});
 }
 
-TEST (Gaps, NeighborsOppositeToEachOther)
+TEST (Gaps, BetweenNeighborsOppositeToEachOther)
 {
-  // No triangle, in floating point a circle without limit.
+  // They make no triangle: in floating point the circumradius is huge.
   EXPECT_EQ (gapsOf (starOf ({{1, 0}, {-1, 0}}, true), 1.5), (Gaps{{0, 1, 1}}));
 }
 
-TEST (Gaps, TheSpacingOfAllThreeCornersCounts)
+TEST (Gaps, DependOnTheSpacingOfAllThreeCorners)
 {
   const Stars stars = starOf ({{1, 0}, {0, 1}, {-3, 0}, {0, -1}}, false);
   const std::vector<Gap> gaps = findGaps (stars, {1.0F, 1.0F, 1.0F, 2.0F, 1.0F}, 1.55);
   EXPECT_TRUE (gaps.empty ());
 }
 
-TEST (Gaps, OfASheetAreItsBorder)
+TEST (Gaps, OfASheetAreAtItsBorder)
 {
   const samples::Sheet sheet = samples::disc (0.05, 1);
   const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);

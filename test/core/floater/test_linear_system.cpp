@@ -18,9 +18,9 @@ namespace
 {
 using Ids = std::vector<Index>;
 
-TEST (System, OfTwoUnknowns)
+TEST (LinearSystem, WithTwoUnknowns)
 {
-  // Points 1 and 3 are unknown, 0, 2 and 5 the loop; 4 is left out.
+  // Points 1 and 3 are unknowns, 0, 2 and 5 are the loop, and 4 is left out.
   CsrLists neighbors;
   neighbors.offsets = {0, 1, 5, 5, 9, 10, 10};
   neighbors.ids = {1, /* 1: */ 3, 0, 4, 2, /* 3: */ 5, 2, 1, 4, /* 4: */ 3};
@@ -32,14 +32,14 @@ TEST (System, OfTwoUnknowns)
   EXPECT_EQ (system.unknown_of_point, (Ids{NONE, 0, NONE, 1, NONE, NONE}));
   EXPECT_EQ (system.row_offsets, (std::vector<int>{0, 2, 4}));
   EXPECT_EQ (system.columns, (std::vector<int>{0, 1, 0, 1}));
-  // The diagonal lacks the weights of 4, and has those of the loop.
+  // The diagonal contains the weights of the loop, but not those of point 4.
   EXPECT_EQ (system.values, (std::vector<double>{0.75, -0.5, -0.375, 0.75}));
   EXPECT_EQ (system.rhs_u, (std::vector<double>{1.0, -4.0}));
   EXPECT_EQ (system.rhs_v, (std::vector<double>{2.0, 4.0}));
 }
 
-// Against a dense matrix, entry by entry.
-TEST (System, OfASheetWithPointsLeftOut)
+// Compared with a dense matrix, entry by entry.
+TEST (LinearSystem, OfASheetWithPointsLeftOut)
 {
   const TriangulatedGrid grid (12, 0.1, 1);
   const std::vector<double> weights = computeWeights (grid.stars, Weighting::MEAN_VALUE, 1);
@@ -94,7 +94,7 @@ TEST (System, OfASheetWithPointsLeftOut)
   }
 }
 
-TEST (System, DoesNotDependOnTheThreads)
+TEST (LinearSystem, DoesNotDependOnTheThreads)
 {
   const TriangulatedGrid grid (60, 0.12, 3);
   const std::vector<double> weights = computeWeights (grid.stars, Weighting::MEAN_VALUE, 1);
@@ -110,7 +110,7 @@ TEST (System, DoesNotDependOnTheThreads)
   EXPECT_EQ (one.rhs_v, three.rhs_v);
 }
 
-TEST (System, OfALoopAloneIsEmpty)
+TEST (LinearSystem, OfALoopAloneIsEmpty)
 {
   CsrLists neighbors;
   neighbors.offsets = {0, 2, 4, 6};
@@ -122,7 +122,7 @@ TEST (System, OfALoopAloneIsEmpty)
   EXPECT_EQ (system.row_offsets, std::vector<int>{0});
 }
 
-TEST (System, KeepsARowWithoutNeighborsForTheSolverToFind)
+TEST (LinearSystem, KeepsRowsWithoutNeighbors)
 {
   CsrLists neighbors;
   neighbors.offsets = {0, 0, 0, 0, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The connected graph on which boundary points are ordered.
+// The connected graph of neighbouring points on which boundary points are ordered.
 #include "floater/boundary/neighbor_graph.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ randomPoints (int count, unsigned seed)
   return points;
 }
 
-/// Dense clumps far apart, so that no neighbourhood leads from one to another.
+// Dense clumps that are so far apart that no neighbourhood leads from one to another.
 Positions
 clumps (int count, int points_in_each, unsigned seed)
 {
@@ -51,7 +51,7 @@ ranks (const std::vector<NeighborEdge>& graph)
   return result;
 }
 
-/// Pairs of k nearest neighbours, by sorting all distances.
+// The pairs of k nearest neighbours, found by sorting all distances.
 std::map<Pair, Index>
 literalRanks (const Positions& points, Index k)
 {
@@ -71,7 +71,7 @@ literalRanks (const Positions& points, Index k)
   return result;
 }
 
-/// Edges of the minimum spanning tree, by Prim's algorithm on all pairs.
+// The edges of the minimum spanning tree, found by Prim's algorithm on all pairs.
 std::set<Pair>
 spanningTree (const Positions& points)
 {
@@ -120,11 +120,11 @@ countComponents (const std::vector<NeighborEdge>& graph, std::size_t size)
   return components;
 }
 
-TEST (NeighborGraph, HoldsTheNearestPairsOnce)
+TEST (NeighborGraph, HasEachNearestPairOnce)
 {
   for (const Index k : {4U, 10U}) {
     const Positions points = randomPoints (150, k);
-    const std::vector<NeighborEdge> graph = neighborGraph (points, k);
+    const std::vector<NeighborEdge> graph = neighborGraph (points, k, 1);
     EXPECT_EQ (ranks (graph), literalRanks (points, k));
     EXPECT_EQ (ranks (graph).size (), graph.size ());
     for (std::size_t e = 0; e < graph.size (); ++e) {
@@ -142,15 +142,15 @@ TEST (NeighborGraph, BreaksTiesByPoint)
   for (int x = 0; x < 9; ++x)
     for (int y = 0; y < 9; ++y)
       points.emplace_back ((x * 4) % 9, (y * 2) % 9, 0.0);
-  EXPECT_EQ (ranks (neighborGraph (points, 4)), literalRanks (points, 4));
+  EXPECT_EQ (ranks (neighborGraph (points, 4, 1)), literalRanks (points, 4));
 }
 
-// The edge to the nearest neighbour is always one of the tree, and so is every bridge after it.
-TEST (NeighborGraph, OfOneNeighborIsTheMinimumSpanningTree)
+// The edge to the nearest neighbour is always in the tree, and so is every bridge.
+TEST (NeighborGraph, WithOneNeighborIsTheMinimumSpanningTree)
 {
   for (unsigned seed = 1; seed <= 5; ++seed)
     for (const Positions& points : {randomPoints (200, seed), clumps (20, 10, seed)}) {
-      const std::vector<NeighborEdge> graph = neighborGraph (points, 1);
+      const std::vector<NeighborEdge> graph = neighborGraph (points, 1, 1);
       std::set<Pair> pairs;
       for (const NeighborEdge& edge : graph)
         pairs.emplace (edge.a, edge.b);
@@ -161,7 +161,7 @@ TEST (NeighborGraph, OfOneNeighborIsTheMinimumSpanningTree)
 TEST (NeighborGraph, BridgesClumpsWhereTheyAreNearest)
 {
   const Positions points = clumps (15, 12, 3);
-  const std::vector<NeighborEdge> graph = neighborGraph (points, 5);
+  const std::vector<NeighborEdge> graph = neighborGraph (points, 5, 1);
   EXPECT_EQ (countComponents (graph, points.size ()), 1U);
   std::set<Pair> bridges;
   for (const NeighborEdge& edge : graph)
@@ -176,16 +176,16 @@ TEST (NeighborGraph, BridgesClumpsWhereTheyAreNearest)
 
 TEST (NeighborGraph, OfFewPoints)
 {
-  EXPECT_TRUE (neighborGraph ({}, 3).empty ());
-  EXPECT_TRUE (neighborGraph ({{1, 2, 3}}, 3).empty ());
-  EXPECT_EQ (neighborGraph ({{0, 0, 0}, {1, 0, 0}}, 3).size (), 1U);
-  EXPECT_EQ (neighborGraph ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 3).size (), 6U);
+  EXPECT_TRUE (neighborGraph ({}, 3, 1).empty ());
+  EXPECT_TRUE (neighborGraph ({{1, 2, 3}}, 3, 1).empty ());
+  EXPECT_EQ (neighborGraph ({{0, 0, 0}, {1, 0, 0}}, 3, 1).size (), 1U);
+  EXPECT_EQ (neighborGraph ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 3, 1).size (), 6U);
 }
 
 TEST (NearestPart, KeepsTheNearestAndStaysConnected)
 {
   const Positions points = clumps (10, 20, 9);
-  const std::vector<NeighborEdge> graph = neighborGraph (points, 12);
+  const std::vector<NeighborEdge> graph = neighborGraph (points, 12, 1);
   for (const Index k : {0U, 1U, 2U, 3U, 12U, 13U}) {
     std::vector<NeighborEdge> nearest;
     std::copy_if (graph.begin (), graph.end (), std::back_inserter (nearest),

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/nested_dissection.h"
 
+#include "floater/grid_system.h"
 #include "floater/solvers/solver.h"
 #include "floater/solvers/umfpack_solver.h"
-#include "floater/weights.h"
-#include "triangulated_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -16,15 +15,7 @@ namespace floater
 {
 namespace
 {
-LinearSystem
-systemOf (const TriangulatedGrid& grid)
-{
-  return assembleSystem (
-      grid.stars.neighbors, computeWeights (grid.stars, Weighting::MEAN_VALUE, 1), grid.loop,
-      grid.loopInPlace (), std::vector<std::uint8_t> (grid.positions.size (), 1), 1);
-}
-
-// The pattern of random rows, in which far points are joined as well as near ones.
+// Random rows: distant points are joined as well as close ones.
 LinearSystem
 randomPattern (std::size_t unknowns, RandomStream& random)
 {
@@ -65,22 +56,22 @@ largestDifference (const Solution& a, const Solution& b)
 TEST (NestedDissection, FactorsAreAsSmallAsWithMetis)
 {
   const TriangulatedGrid grid (120, 0.1, 7101);
-  const LinearSystem system = systemOf (grid);
+  const LinearSystem system = gridSystem (grid);
   const std::vector<int> order = dissectUnknowns (system, grid.positions, 1);
   expectPermutation (order, system.unknowns ());
-  const Solution dissected = solveWithUmfpack (system, order);
-  const Solution metis = solveWithUmfpack (system, Ordering::METIS);
+  const Solution dissected = solveWithUmfpack (system, order, 1);
+  const Solution metis = solveWithUmfpack (system, Ordering::METIS, 1);
   ASSERT_EQ (dissected.outcome, Solution::Outcome::OK);
   const auto fill = static_cast<double> (dissected.nnz_factors);
   EXPECT_LT (fill, 1.1 * static_cast<double> (metis.nnz_factors));
-  EXPECT_LT (fill,
-             0.5 * static_cast<double> (solveWithUmfpack (system, Ordering::NATURAL).nnz_factors));
+  EXPECT_LT (fill, 0.5 * static_cast<double> (
+                             solveWithUmfpack (system, Ordering::NATURAL, 1).nnz_factors));
   EXPECT_LT (dissected.residual, 1e-14);
   EXPECT_LT (largestDifference (dissected, metis), 1e-13);
 }
 
-// Sets are made of their halves and their cut, and no pair of the pattern joins two halves: also
-// where pairs are longer than any band is wide.
+// Expects that each set consists of its halves and its cut, and that no pair of the pattern joins
+// two halves, even if the pair is longer than any band is wide.
 void
 expectSeparated (const CsrLists& pattern, const Dissection& dissection)
 {
@@ -110,12 +101,12 @@ expectSeparated (const CsrLists& pattern, const Dissection& dissection)
 TEST (NestedDissection, HalvesAreNotJoined)
 {
   const TriangulatedGrid grid (60, 0.1, 7102);
-  const LinearSystem system = systemOf (grid);
+  const LinearSystem system = gridSystem (grid);
   const CsrLists pattern = symmetricPattern (system);
   const Dissection dissection = dissect (pattern, system.point_of_unknown, grid.positions, 1);
   expectSeparated (pattern, dissection);
   const DissectedSet& whole = dissection.sets[0];
-  EXPECT_LE (whole.end - whole.cut, 58U); // the square of the unknowns is 58 wide
+  EXPECT_LE (whole.end - whole.cut, 58U); // there are 58 x 58 unknowns
   for (const Index half : whole.halves)
     EXPECT_LT (dissection.sets[half].end - dissection.sets[half].begin, 6 * whole.end / 10);
 }
@@ -123,13 +114,13 @@ TEST (NestedDissection, HalvesAreNotJoined)
 TEST (NestedDissection, DoesNotDependOnTheThreads)
 {
   const TriangulatedGrid grid (150, 0.1, 7103);
-  const LinearSystem system = systemOf (grid);
+  const LinearSystem system = gridSystem (grid);
   const std::vector<int> order = dissectUnknowns (system, grid.positions, 1);
   EXPECT_EQ (order, dissectUnknowns (system, grid.positions, 2));
   EXPECT_EQ (order, dissectUnknowns (system, grid.positions, 7));
 }
 
-TEST (NestedDissection, TakesAnyPatternAndAnyPlaces)
+TEST (NestedDissection, OfAnyPatternAndAnyPlaces)
 {
   RandomStream random (7104);
   for (const std::size_t unknowns : {0U, 1U, 2U, 8U, 9U, 50U, 700U}) {
@@ -153,14 +144,13 @@ TEST (NestedDissection, TakesAnyPatternAndAnyPlaces)
   }
 }
 
-// From where it is used on, with what it is worth.
 TEST (NestedDissection, IsTheAutomaticOrderOfLargeSystems)
 {
   const TriangulatedGrid grid (320, 0.1, 7105);
-  const LinearSystem system = systemOf (grid);
-  const Options options;
-  const Solution dissected = solve (system, options, &grid.positions);
-  const Solution amd = solve (system, options);
+  const LinearSystem system = gridSystem (grid);
+  const SolverOptions options;
+  const Solution dissected = solve (system, options, &grid.positions, 1);
+  const Solution amd = solve (system, options, nullptr, 1);
   ASSERT_EQ (dissected.outcome, Solution::Outcome::OK);
   EXPECT_LT (dissected.nnz_factors, amd.nnz_factors);
   EXPECT_LT (dissected.residual, 1e-14);

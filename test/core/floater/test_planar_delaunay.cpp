@@ -17,7 +17,7 @@ namespace
 using samples::PI;
 using Places = std::vector<Eigen::Vector2d>;
 
-// First the points of the hull in order, then others inside.
+// First the points of the hull in order, then points inside.
 struct Sites
 {
   Places uv;
@@ -43,7 +43,7 @@ inCircle (std::size_t hull, std::size_t inside, std::uint64_t seed)
   return sites;
 }
 
-// Positive if d is inside of the circle through a, b and c, which are anti-clockwise. Relative.
+// Positive if d is inside of the circle through a, b and c, which are anti-clockwise.
 double
 inCircleTest (Eigen::Vector2d a, Eigen::Vector2d b, Eigen::Vector2d c, const Eigen::Vector2d& d)
 {
@@ -56,13 +56,13 @@ inCircleTest (Eigen::Vector2d a, Eigen::Vector2d b, Eigen::Vector2d c, const Eig
   return rows.determinant ();
 }
 
-// A mesh of all points but `dropped`, with empty circles and the loop as its boundary.
+// Expects a mesh of all points but so many, with empty circumcircles and the loop as its boundary.
 void
 expectDelaunay (const Sites& sites, const TriangleMesh& mesh, std::size_t dropped)
 {
   TriangleMesh fresh;
   fresh.triangles = mesh.triangles;
-  ASSERT_TRUE (fresh.connect (sites.uv.size ()));
+  ASSERT_TRUE (fresh.connect (sites.uv.size (), 1));
   EXPECT_EQ (fresh.neighbors, mesh.neighbors);
   const samples::Topology topology = samples::topologyOf (mesh.triangles);
   EXPECT_TRUE (topology.manifold);
@@ -94,7 +94,7 @@ TEST (PlanarDelaunay, CirclesAreEmpty)
   }
 }
 
-TEST (PlanarDelaunay, HullOnly)
+TEST (PlanarDelaunay, OfTheHullAlone)
 {
   for (const std::size_t hull : {3U, 4U, 5U, 100U}) {
     const Sites sites = inCircle (hull, 0, 1);
@@ -102,7 +102,7 @@ TEST (PlanarDelaunay, HullOnly)
   }
 }
 
-TEST (PlanarDelaunay, CocircularPointsOfAGrid)
+TEST (PlanarDelaunay, OfCocircularPointsInAGrid)
 {
   Sites sites;
   const int side = 12;
@@ -131,7 +131,7 @@ TEST (PlanarDelaunay, DomainsKeepTheirBoundary)
   for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON}) {
     Sites sites;
     sites.loop = loop;
-    sites.uv = layLoop (sheet.positions, loop, domain, 7);
+    sites.uv = layLoop (sheet.positions, loop, {domain, 7});
     for (std::size_t p = sheet.border; p < sheet.positions.size (); ++p)
       sites.uv.emplace_back (0.6 * sheet.positions[p].head<2> ());
     expectDelaunay (sites, triangulatePlane (sites.uv, loop), 0);
@@ -140,7 +140,7 @@ TEST (PlanarDelaunay, DomainsKeepTheirBoundary)
 
 TEST (PlanarDelaunay, ASideThatIsNotExactlyStraightGetsNoSlivers)
 {
-  // Decimal coordinates on slanted sides: by rounding some lie inside of the hull.
+  // On slanted sides rounding puts some of the points inside of the hull.
   Sites sites;
   const Places corners = {{-0.4, -0.5}, {0.5, -0.2}, {0.2, 0.5}, {-0.6, 0.3}};
   for (std::size_t c = 0; c < 4; ++c)
@@ -169,7 +169,7 @@ TEST (PlanarDelaunay, OfCoincidentPointsOneIsAVertex)
   EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 3);
 }
 
-TEST (PlanarDelaunay, APointOfTheLoopGoesFirst)
+TEST (PlanarDelaunay, OfCoincidentPointsThatOfTheLoopIsTheVertex)
 {
   Sites sites = inCircle (30, 100, 5);
   for (const std::size_t at : {0U, 12U, 29U})
@@ -178,7 +178,7 @@ TEST (PlanarDelaunay, APointOfTheLoopGoesFirst)
   expectDelaunay (sites, mesh, 3);
   for (std::size_t p = 130; p < 133; ++p)
     EXPECT_EQ (mesh.triangle_of[p], NONE);
-  // Also when its number comes later.
+  // Also if it has the larger index.
   std::reverse (sites.uv.begin (), sites.uv.end ());
   for (Index& p : sites.loop)
     p = static_cast<Index> (sites.uv.size ()) - 1 - p;
@@ -212,7 +212,7 @@ TEST (PlanarDelaunay, PointsOnOrBeyondTheLoopAreLeftOut)
   expectDelaunay (sites, mesh, 3);
 }
 
-TEST (PlanarDelaunay, NothingOnALine)
+TEST (PlanarDelaunay, OfPointsOnALineIsEmpty)
 {
   Places line;
   for (int i = 0; i < 10; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/reachability.h"
 
+#include "local/stars.h"
 #include "random_stream.h"
 #include "triangulated_grid.h"
 
@@ -42,7 +43,7 @@ unflatten (const CsrLists& flat)
   return lists;
 }
 
-// Follows rows forwards until nothing changes: the definition, not the algorithm.
+// The definition instead of the algorithm: follows the rows until nothing changes.
 std::vector<std::uint8_t>
 reachableByDefinition (const Lists& rows, const std::vector<Index>& loop)
 {
@@ -79,7 +80,7 @@ line (std::size_t count)
   return positions;
 }
 
-// Takes every neighbour out of the rows that is not on the same side of the rim of a square.
+// The rows of a grid without all pairs of which one point is inside of a square and one is outside.
 Lists
 cutOut (const TriangulatedGrid& grid, double from, double to)
 {
@@ -99,7 +100,7 @@ TEST (Reachability, OfASheetIsComplete)
 {
   const TriangulatedGrid grid (20, 0.1, 1);
   const Reachability reach =
-      reachLoop (grid.stars.neighbors, grid.stars.neighbors, grid.positions, grid.loop);
+      reachLoop (grid.stars.neighbors, grid.stars.neighbors, grid.positions, grid.loop, 1);
   EXPECT_EQ (reach.reachable, std::vector<std::uint8_t> (grid.positions.size (), 1));
   EXPECT_TRUE (reach.links.empty ());
   EXPECT_EQ (reach.linked_points, 0u);
@@ -107,10 +108,10 @@ TEST (Reachability, OfASheetIsComplete)
 
 TEST (Reachability, FollowsArcsInTheirDirection)
 {
-  // 1 has the loop (0) in its row; 0 has 2 in its row, which does not help 2.
+  // Point 1 has the loop, point 0, in its row. Point 0 has 2 in its row, which does not help 2.
   const Lists rows{{2}, {0}, {3}, {2}};
   const Lists none (4);
-  const Reachability reach = reachLoop (flatten (rows), flatten (none), line (4), {0});
+  const Reachability reach = reachLoop (flatten (rows), flatten (none), line (4), {0}, 1);
   EXPECT_EQ (reach.reachable, (std::vector<std::uint8_t>{1, 1, 0, 0}));
   EXPECT_TRUE (reach.links.empty ());
 }
@@ -125,17 +126,17 @@ TEST (Reachability, MatchesItsDefinitionOnRandomGraphs)
       for (std::size_t i = random.below (3); i > 0; --i)
         row.push_back (static_cast<Index> (random.below (count)));
     const Reachability reach =
-        reachLoop (flatten (rows), flatten (Lists (count)), line (count), {0, 1});
+        reachLoop (flatten (rows), flatten (Lists (count)), line (count), {0, 1}, 1);
     EXPECT_EQ (reach.reachable, reachableByDefinition (rows, {0, 1}));
   }
 }
 
-TEST (Reachability, LinksTheWholeRimOfAnIsland)
+TEST (Reachability, LinksTheWholeEdgeOfAnUnconnectedPart)
 {
   const TriangulatedGrid grid (21, 0.1, 3);
   const Lists rows = cutOut (grid, 0.28, 0.72); // 9 x 9 points
   const Reachability reach =
-      reachLoop (flatten (rows), grid.stars.neighbors, grid.positions, grid.loop);
+      reachLoop (flatten (rows), grid.stars.neighbors, grid.positions, grid.loop, 1);
   EXPECT_EQ (reach.reachable, std::vector<std::uint8_t> (grid.positions.size (), 1));
   EXPECT_EQ (reachableWithLinks (rows, reach.links, grid.loop), reach.reachable);
   EXPECT_EQ (reach.linked_points, 32u);
@@ -149,28 +150,41 @@ TEST (Reachability, LinksTheWholeRimOfAnIsland)
 
 TEST (Reachability, LinksToTheNearest)
 {
-  // Point 4 at x = 4 has lost its row; 0 to 3 are the loop, further and further off.
+  // Point 4 has no neighbours. The loop is points 0 to 3, of which 3 is the nearest.
   const Lists rows (5), nearest{{}, {}, {}, {}, {0, 2, 1, 3}};
-  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (5), {0, 1, 2, 3});
+  const Reachability reach =
+      reachLoop (flatten (rows), flatten (nearest), line (5), {0, 1, 2, 3}, 1);
   EXPECT_EQ (reach.links, (Links{{4, 1}, {4, 2}, {4, 3}}));
   EXPECT_EQ (reach.linked_points, 1u);
 }
 
-TEST (Reachability, ReadsNearInBothDirections)
+TEST (Reachability, GivesAsManyLinksAsTheLimitsTell)
 {
-  // The lone point 2 sees nobody, but 0 and 1 see it; each only once although both list it.
-  const Lists rows (3), nearest{{2}, {2}, {}};
-  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (3), {0, 1});
-  EXPECT_EQ (reach.links, (Links{{2, 0}, {2, 1}}));
-  const Lists mutual{{2}, {2}, {0, 1}};
-  EXPECT_EQ (reachLoop (flatten (rows), flatten (mutual), line (3), {0, 1}).links, reach.links);
+  const Lists rows (5), nearest{{}, {}, {}, {}, {0, 2, 1, 3}};
+  DiscLimits limits;
+  limits.links_per_point = 2;
+  const Reachability reach =
+      reachLoop (flatten (rows), flatten (nearest), line (5), {0, 1, 2, 3}, 1, limits);
+  EXPECT_EQ (reach.links, (Links{{4, 2}, {4, 3}}));
 }
 
-TEST (Reachability, GoesOnFromLinkedPoints)
+TEST (Reachability, ReadsNearestNeighborsInBothDirections)
 {
-  // A chain of lone points, each near to the one before only, and 5, which has 4 in its row.
+  // Point 2 has no nearest neighbours, but it is one of 0 and 1. Each gives one link, also if both
+  // list each other.
+  const Lists rows (3), nearest{{2}, {2}, {}};
+  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (3), {0, 1}, 1);
+  EXPECT_EQ (reach.links, (Links{{2, 0}, {2, 1}}));
+  const Lists mutual{{2}, {2}, {0, 1}};
+  EXPECT_EQ (reachLoop (flatten (rows), flatten (mutual), line (3), {0, 1}, 1).links, reach.links);
+}
+
+TEST (Reachability, ContinuesFromLinkedPoints)
+{
+  // A chain of points without neighbours, of which each is near the one before, and point 5, which
+  // has 4 in its row.
   const Lists rows{{}, {}, {}, {}, {}, {4}}, nearest{{}, {0}, {1}, {2}, {3}, {}};
-  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (6), {0});
+  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (6), {0}, 1);
   EXPECT_EQ (reach.reachable, std::vector<std::uint8_t> (6, 1));
   EXPECT_EQ (reach.links, (Links{{1, 0}, {2, 1}, {3, 2}, {4, 3}}));
   EXPECT_EQ (reach.linked_points, 4u);
@@ -179,7 +193,7 @@ TEST (Reachability, GoesOnFromLinkedPoints)
 TEST (Reachability, LeavesOtherComponentsAlone)
 {
   const Lists rows{{}, {0}, {3}, {2}}, nearest{{1}, {0}, {3}, {2}};
-  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (4), {0});
+  const Reachability reach = reachLoop (flatten (rows), flatten (nearest), line (4), {0}, 1);
   EXPECT_EQ (reach.reachable, (std::vector<std::uint8_t>{1, 1, 0, 0}));
   EXPECT_TRUE (reach.links.empty ());
   EXPECT_EQ (reach.linked_points, 0u);
@@ -190,7 +204,7 @@ TEST (Reachability, DoesNotDependOnTheNumberingOfPoints)
   const TriangulatedGrid grid (15, 0.1, 4);
   const Lists rows = cutOut (grid, 0.25, 0.75);
   const Reachability reach =
-      reachLoop (flatten (rows), grid.stars.neighbors, grid.positions, grid.loop);
+      reachLoop (flatten (rows), grid.stars.neighbors, grid.positions, grid.loop, 1);
   ASSERT_FALSE (reach.links.empty ());
 
   const std::size_t count = rows.size ();
@@ -199,13 +213,13 @@ TEST (Reachability, DoesNotDependOnTheNumberingOfPoints)
   RandomStream random (5);
   for (std::size_t i = count; i > 1; --i)
     std::swap (renamed[i - 1], renamed[random.below (i)]);
-  Lists new_rows (count), new_near (count);
+  Lists new_rows (count), new_nearest (count);
   std::vector<Eigen::Vector3d> positions (count);
   for (std::size_t p = 0; p < count; ++p) {
     for (const Index q : rows[p])
       new_rows[renamed[p]].push_back (renamed[q]);
     for (const Index q : grid.stars.neighbors.row (p))
-      new_near[renamed[p]].push_back (renamed[q]);
+      new_nearest[renamed[p]].push_back (renamed[q]);
     positions[renamed[p]] = grid.positions[p];
   }
   std::vector<Index> loop;
@@ -215,12 +229,13 @@ TEST (Reachability, DoesNotDependOnTheNumberingOfPoints)
   for (const auto& link : reach.links)
     expected.push_back ({renamed[link[0]], renamed[link[1]]});
   std::sort (expected.begin (), expected.end ());
-  EXPECT_EQ (reachLoop (flatten (new_rows), flatten (new_near), positions, loop).links, expected);
+  EXPECT_EQ (reachLoop (flatten (new_rows), flatten (new_nearest), positions, loop, 1).links,
+             expected);
 }
 
 TEST (Reachability, OfNothingIsEmpty)
 {
-  const Reachability reach = reachLoop ({}, {}, {}, {});
+  const Reachability reach = reachLoop ({}, {}, {}, {}, 1);
   EXPECT_TRUE (reach.reachable.empty ());
   EXPECT_TRUE (reach.links.empty ());
 }

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <consensus>
+#include <complex>
 
 namespace pcl
 {
@@ -19,20 +19,28 @@ using samples::PI;
 using samples::Positions;
 using samples::Sheet;
 
-// The loop in cloud indices.
-std::vector<Index>
-loopOf (const Positions& positions, LongestLoop* details = nullptr)
+// A boundary whose points are cloud indices.
+Boundary
+boundaryOf (const Positions& positions)
 {
   const samples::Neighborhoods made = samples::makeNeighborhoods (positions);
-  const LongestLoop loop =
-      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing);
-  if (details != nullptr)
-    *details = loop;
+  Boundary boundary =
+      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing, 1);
+  EXPECT_FALSE (boundary.problem);
   std::vector<Index> cloud;
-  for (const Index p : loop.points)
+  for (const Index p : boundary.loop)
     cloud.push_back (made.points.cloud_index[p]);
   EXPECT_EQ (std::set<Index> (cloud.begin (), cloud.end ()).size (), cloud.size ());
-  return cloud;
+  boundary.loop = std::move (cloud);
+  if (boundary.longest_from != NONE)
+    boundary.longest_from = made.points.cloud_index[boundary.longest_from];
+  return boundary;
+}
+
+std::vector<Index>
+loopOf (const Positions& positions)
+{
+  return boundaryOf (positions).loop;
 }
 
 // All points of the outer border in order.
@@ -42,8 +50,8 @@ expectBorder (const Sheet& sheet)
   EXPECT_EQ (canonicalCycle (loopOf (sheet.positions)), samples::indices (sheet.border));
 }
 
-// Most of the border, in order, and nothing else: how the border passes by a corner or a jag of the
-// sampling is a matter of taste.
+// Most of the border, in order, and nothing else: it is open how the border passes a corner or a
+// jag of the sampling.
 void
 expectMostOfBorder (const Sheet& sheet, double share)
 {
@@ -59,17 +67,21 @@ TEST (SpanningTreeLoop, RoundSheets)
     expectBorder (samples::disc (0.06, seed));
 }
 
-TEST (SpanningTreeLoop, MeasuresItsLoop)
+TEST (SpanningTreeLoop, MeasuresItsSteps)
 {
-  LongestLoop loop;
   const Sheet sheet = samples::disc (0.06, 1);
-  loopOf (sheet.positions, &loop);
-  EXPECT_EQ (loop.points.size (), sheet.border);
-  EXPECT_GE (loop.candidates, loop.points.size ());
-  const double diagonal = 2.0 * std::sqrt (2.0);
-  EXPECT_NEAR (loop.length, 2.0 * PI / diagonal, 0.01);
-  EXPECT_GT (loop.largest_step, 0.7);
-  EXPECT_LT (loop.largest_step, 1.3);
+  const Boundary boundary = boundaryOf (sheet.positions);
+  EXPECT_EQ (boundary.loop.size (), sheet.border);
+  EXPECT_GE (boundary.candidates, boundary.loop.size ());
+  double length = 0.0;
+  for (std::size_t i = 0; i < boundary.loop.size (); ++i)
+    length += (sheet.positions[boundary.loop[(i + 1) % boundary.loop.size ()]] -
+               sheet.positions[boundary.loop[i]])
+                  .norm ();
+  EXPECT_NEAR (length, 2.0 * PI, 0.028);
+  EXPECT_GT (boundary.largest_step, 0.7);
+  EXPECT_LT (boundary.largest_step, 1.3);
+  EXPECT_LT (boundary.longest_from, sheet.border);
 }
 
 TEST (SpanningTreeLoop, SquareSheet)
@@ -100,7 +112,7 @@ TEST (SpanningTreeLoop, RegularGrid)
   expectBorder (sheet);
 }
 
-TEST (SpanningTreeLoop, OfAnAnnulusTheOuterBorder)
+TEST (SpanningTreeLoop, IsTheOuterBorderOfAnAnnulus)
 {
   const double step = 0.06;
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
@@ -144,13 +156,13 @@ TEST (SpanningTreeLoop, CombShapedBorder)
 
 TEST (SpanningTreeLoop, GradedDensity)
 {
-  // A jittered rectangle under exp (z): spacings from 1 to e^3 = 20.
+  // A jittered rectangle mapped by exp (z): the spacing varies by a factor of e^3 = 20.
   const double step = 0.1;
   const Outline rectangle = samples::resample ({{0, 0}, {3, 0}, {3, 4}, {0, 4}}, step);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Sheet sheet = samples::fillOutlines ({rectangle}, step, 0.3, seed);
     for (Eigen::Vector3d& p : sheet.positions) {
-      const std::consensus<double> graded = std::exp (std::consensus<double> (p.x (), p.y ()));
+      const std::complex<double> graded = std::exp (std::complex<double> (p.x (), p.y ()));
       p = {graded.real (), graded.imag (), 0.0};
     }
     expectMostOfBorder (sheet, 0.98);
@@ -171,7 +183,7 @@ TEST (SpanningTreeLoop, CurvedSheets)
   }
 }
 
-TEST (SpanningTreeLoop, PermutationAndMotionChangeNothing)
+TEST (SpanningTreeLoop, DoesNotChangeUnderPermutationAndMotion)
 {
   Sheet sheet = samples::disc (0.06, 5);
   for (Eigen::Vector3d& p : sheet.positions)
@@ -191,7 +203,7 @@ TEST (SpanningTreeLoop, PermutationAndMotionChangeNothing)
   EXPECT_EQ (canonicalCycle (found), expected);
 }
 
-TEST (SpanningTreeLoop, NothingAroundAClosedSurface)
+TEST (SpanningTreeLoop, IsEmptyForAClosedSurface)
 {
   Positions sphere (2000);
   for (std::size_t i = 0; i < sphere.size (); ++i) { // a spiral from pole to pole
@@ -200,9 +212,9 @@ TEST (SpanningTreeLoop, NothingAroundAClosedSurface)
     sphere[i] = {std::sqrt (1.0 - z * z) * std::cos (angle),
                  std::sqrt (1.0 - z * z) * std::sin (angle), z};
   }
-  LongestLoop loop;
-  EXPECT_TRUE (loopOf (sphere, &loop).empty ());
-  EXPECT_EQ (loop.candidates, 0U);
+  const Boundary boundary = boundaryOf (sphere);
+  EXPECT_TRUE (boundary.loop.empty ());
+  EXPECT_EQ (boundary.candidates, 0U);
 }
 
 TEST (SpanningTreeLoop, FewPoints)

@@ -28,7 +28,7 @@ allOf (const Positions& positions)
   return points;
 }
 
-/// The same cycle, written from its smallest point towards the smaller neighbour of that.
+// The same cycle from its smallest point on, towards that one's smaller neighbour.
 std::vector<Index>
 canonical (std::vector<Index> loop)
 {
@@ -38,19 +38,20 @@ canonical (std::vector<Index> loop)
   return loop;
 }
 
-/// Positions are given in the order of the border. Orders them from several seeds, in a shuffled
-/// numbering, and expects the border each time.
+// Orders the points of a border from several seeds, each time in a shuffled numbering, and expects
+// the border.
+// \param border positions in the order of the border
 void
 expectBorder (const Positions& border)
 {
   std::mt19937 random (5);
   for (int round = 0; round < 8; ++round) {
-    std::vector<Index> shuffled = allOf (border); // shuffled[new number] = place on the border
+    std::vector<Index> shuffled = allOf (border); // place on the border of each new number
     std::shuffle (shuffled.begin (), shuffled.end (), random);
     Positions positions;
     for (const Index p : shuffled)
       positions.push_back (border[p]);
-    std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions));
+    std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions), 1);
     for (Index& p : loop)
       p = shuffled[p];
     ASSERT_EQ (canonical (loop), allOf (border)) << "shuffle " << round;
@@ -64,7 +65,7 @@ expectEachOnce (std::vector<Index> loop, const std::vector<Index>& cluster)
   EXPECT_EQ (loop, cluster);
 }
 
-/// count points at even steps of the parameter, moved by up to jitter steps.
+// `count` points at even steps of the parameter, each moved by up to `jitter` steps.
 template <typename Curve>
 Positions
 sample (const Curve& curve, int count, double jitter)
@@ -124,7 +125,7 @@ TEST (TwoSegmentLoop, JaggedBorder)
   expectBorder (border);
 }
 
-TEST (TwoSegmentLoop, TiesOfARectanglesGrid)
+TEST (TwoSegmentLoop, RectangleWithTies)
 {
   for (const int side : {3, 4, 10, 25}) {
     Positions border;
@@ -141,7 +142,7 @@ TEST (TwoSegmentLoop, TiesOfARectanglesGrid)
   }
 }
 
-// Each dash holds more points than a neighbourhood may: only the bridges lead on.
+// Each dash has more points than a neighbourhood can have, so only bridges lead to the next one.
 TEST (TwoSegmentLoop, DashedCircle)
 {
   for (const int dashes : {2, 3, 17}) {
@@ -159,22 +160,22 @@ TEST (TwoSegmentLoop, Square)
   expectBorder ({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
 }
 
-TEST (TwoSegmentLoop, RefusesFewerThanFourPoints)
+TEST (TwoSegmentLoop, IsEmptyForFewerThanFourPoints)
 {
   const Positions positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-  EXPECT_TRUE (twoSegmentLoop (positions, {}).empty ());
-  EXPECT_TRUE (twoSegmentLoop (positions, {2}).empty ());
-  EXPECT_TRUE (twoSegmentLoop (positions, {0, 1, 3}).empty ());
-  EXPECT_EQ (twoSegmentLoop (positions, {0, 1, 2, 3}).size (), 4U);
+  EXPECT_TRUE (twoSegmentLoop (positions, {}, 1).empty ());
+  EXPECT_TRUE (twoSegmentLoop (positions, {2}, 1).empty ());
+  EXPECT_TRUE (twoSegmentLoop (positions, {0, 1, 3}, 1).empty ());
+  EXPECT_EQ (twoSegmentLoop (positions, {0, 1, 2, 3}, 1).size (), 4U);
 }
 
-TEST (TwoSegmentLoop, RefusesCoincidentPoints)
+TEST (TwoSegmentLoop, IsEmptyForCoincidentPoints)
 {
   const Positions circle_points = sample (circle, 12, 0.0);
   for (const Eigen::Vector3d& twin : circle_points) {
     Positions positions = circle_points;
     positions.push_back (twin);
-    EXPECT_TRUE (twoSegmentLoop (positions, allOf (positions)).empty ());
+    EXPECT_TRUE (twoSegmentLoop (positions, allOf (positions), 1).empty ());
   }
 }
 
@@ -187,10 +188,10 @@ TEST (TwoSegmentLoop, OrdersTheClusterAmongOtherPoints)
     cluster.push_back (static_cast<Index> (positions.size () - 1));
     positions.emplace_back (0.01 * i, 0.0, 0.0);
   }
-  EXPECT_EQ (canonical (twoSegmentLoop (positions, cluster)), cluster);
+  EXPECT_EQ (canonical (twoSegmentLoop (positions, cluster, 1)), cluster);
 }
 
-// In a band of two rows nothing says which row comes first; the way along it is still defined.
+// In a band of two rows it is open which row comes first, but the order along the band is not.
 TEST (TwoSegmentLoop, ThickBandIsFollowedAlongItsLength)
 {
   constexpr int columns = 100;
@@ -198,7 +199,7 @@ TEST (TwoSegmentLoop, ThickBandIsFollowedAlongItsLength)
   for (int i = 0; i < columns; ++i)
     for (const double radius : {1.0, 1.05})
       positions.push_back (radius * circle (2.0 * PI * i / columns));
-  const std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions));
+  const std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions), 1);
   expectEachOnce (loop, allOf (positions));
   ASSERT_EQ (loop.size (), positions.size ());
   int around = 0;
@@ -208,7 +209,7 @@ TEST (TwoSegmentLoop, ThickBandIsFollowedAlongItsLength)
     int step = (next - column + columns) % columns;
     if (step > columns / 2)
       step -= columns;
-    EXPECT_LE (std::abs (step), 3) << "behind place " << i;
+    EXPECT_LE (std::abs (step), 3) << "after place " << i;
     around += step;
   }
   EXPECT_EQ (std::abs (around), columns);
@@ -223,7 +224,7 @@ TEST (TwoSegmentLoop, DisorderlyPointsComeOnceEach)
     Positions positions;
     for (unsigned i = 0; i < 4 + seed * seed / 3; ++i)
       positions.emplace_back (uniform (random), uniform (random), uniform (random));
-    const std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions));
+    const std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions), 1);
     expectEachOnce (loop, allOf (positions));
   }
 }
@@ -233,19 +234,19 @@ TEST (TwoSegmentLoop, PointsOfALineComeOnceEach)
   Positions positions;
   for (int i = 0; i < 50; ++i)
     positions.emplace_back (i, 2.0 * i, 0.0);
-  expectEachOnce (twoSegmentLoop (positions, allOf (positions)), allOf (positions));
+  expectEachOnce (twoSegmentLoop (positions, allOf (positions), 1), allOf (positions));
 }
 
 TEST (TwoSegmentLoop, DoesNotChangeUnderMotionAndScaling)
 {
   const Positions border = sample (star, 150, 0.3);
-  const std::vector<Index> loop = twoSegmentLoop (border, allOf (border));
+  const std::vector<Index> loop = twoSegmentLoop (border, allOf (border), 1);
   const Eigen::AngleAxisd rotation (0.7, Eigen::Vector3d (1.0, 2.0, -1.0).normalized ());
   for (const double scale : {1e-6, 1.0, 1e6}) {
     Positions moved;
     for (const Eigen::Vector3d& p : border)
       moved.push_back (scale * (rotation * p + Eigen::Vector3d (3.0, -1.0, 2.0)));
-    EXPECT_EQ (twoSegmentLoop (moved, allOf (moved)), loop) << "scale " << scale;
+    EXPECT_EQ (twoSegmentLoop (moved, allOf (moved), 1), loop) << "scale " << scale;
   }
 }
 
@@ -253,7 +254,7 @@ TEST (TwoSegmentLoop, DoesNotChangeUnderMotionAndScaling)
 TEST (TwoSegmentLoop, LongBorder)
 {
   const Positions border = sample (star, 20000, 0.3);
-  EXPECT_EQ (canonical (twoSegmentLoop (border, allOf (border))), allOf (border));
+  EXPECT_EQ (canonical (twoSegmentLoop (border, allOf (border), 1)), allOf (border));
 }
 
 } // namespace

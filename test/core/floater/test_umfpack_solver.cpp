@@ -2,10 +2,8 @@
 #include "floater/solvers/umfpack_solver.h"
 
 #include "floater/domain.h"
+#include "floater/grid_system.h"
 #include "floater/solvers/single_blas_thread.h"
-#include "floater/weights.h"
-#include "random_stream.h"
-#include "triangulated_grid.h"
 
 #include <Eigen/SparseLU>
 
@@ -71,7 +69,7 @@ systemOf (const Matrix& matrix, RandomStream& random)
   return system;
 }
 
-// Rows with random entries and a diagonal that outdoes them; the pattern is not symmetric.
+// Random entries and a dominant diagonal. The pattern is not symmetric.
 LinearSystem
 randomSystem (int n, RandomStream& random)
 {
@@ -91,30 +89,22 @@ randomSystem (int n, RandomStream& random)
   return systemOf (matrix, random);
 }
 
+// Two unknowns that depend on the loop, and a ring of floating unknowns.
 LinearSystem
-gridSystem (const TriangulatedGrid& grid, Weighting weighting,
-            const std::vector<Eigen::Vector2d>& loop_uv)
-{
-  return assembleSystem (grid.stars.neighbors, computeWeights (grid.stars, weighting, 1), grid.loop,
-                         loop_uv, std::vector<std::uint8_t> (grid.positions.size (), 1), 1);
-}
-
-// Two unknowns that hang on the loop, and a ring of unknowns that hang on each other alone.
-LinearSystem
-systemWithIsland (int island, RandomStream& random)
+systemWithFloating (int floating, RandomStream& random)
 {
   std::vector<Eigen::Triplet<double>> entries{
       {0, 0, 1.0}, {0, 1, -0.5}, {1, 0, -0.25}, {1, 1, 1.0}};
-  for (int i = 0; i < island; ++i) {
+  for (int i = 0; i < floating; ++i) {
     double sum = 0.0;
-    for (const int step : {1, 2, island - 1}) {
+    for (const int step : {1, 2, floating - 1}) {
       const double weight = 0.1 + random.uniform ();
-      entries.emplace_back (2 + i, 2 + (i + step) % island, -weight);
+      entries.emplace_back (2 + i, 2 + (i + step) % floating, -weight);
       sum += weight;
     }
     entries.emplace_back (2 + i, 2 + i, sum);
   }
-  Matrix matrix (2 + island, 2 + island);
+  Matrix matrix (2 + floating, 2 + floating);
   matrix.setFromTriplets (entries.begin (), entries.end ());
   return systemOf (matrix, random);
 }
@@ -127,13 +117,13 @@ expectFailure (const Solution& solution, Outcome outcome)
   EXPECT_TRUE (solution.uv.empty ());
 }
 
-TEST (UmfpackSolver, PutsAFlatSheetInItsOwnPlace)
+TEST (UmfpackSolver, PutsAFlatSheetInItsPlace)
 {
   const TriangulatedGrid grid (40, 0.12, 1);
   for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING})
     for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS}) {
       const LinearSystem system = gridSystem (grid, weighting, grid.loopInPlace ());
-      const Solution solution = solveWithUmfpack (system, ordering);
+      const Solution solution = solveWithUmfpack (system, ordering, 1);
       ASSERT_EQ (solution.outcome, Outcome::OK) << solution.message;
       for (std::size_t i = 0; i < system.unknowns (); ++i) {
         const Eigen::Vector3d& position = grid.positions[system.point_of_unknown[i]];
@@ -148,9 +138,9 @@ TEST (UmfpackSolver, StaysInsideTheLoop)
   for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON})
     for (const Weighting weighting : {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
                                       Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE}) {
-      const std::vector<Eigen::Vector2d> loop_uv = layLoop (grid.positions, grid.loop, domain, 5);
+      const std::vector<Eigen::Vector2d> loop_uv = layLoop (grid.positions, grid.loop, {domain, 5});
       const Solution solution =
-          solveWithUmfpack (gridSystem (grid, weighting, loop_uv), Ordering::AUTOMATIC);
+          solveWithUmfpack (gridSystem (grid, weighting, loop_uv), Ordering::AUTOMATIC, 1);
       ASSERT_EQ (solution.outcome, Outcome::OK) << solution.message;
       for (const Eigen::Vector2d& uv : solution.uv)
         for (std::size_t i = 0; i < loop_uv.size (); ++i) {
@@ -170,7 +160,7 @@ TEST (UmfpackSolver, AgreesWithSparseLU)
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu (by_columns);
     const Eigen::MatrixX2d expected = lu.solve (rightHandSidesOf (system));
     for (const Ordering ordering : {Ordering::AMD, Ordering::METIS}) {
-      const Solution solution = solveWithUmfpack (system, ordering);
+      const Solution solution = solveWithUmfpack (system, ordering, 1);
       ASSERT_EQ (solution.outcome, Outcome::OK) << solution.message;
       EXPECT_LT ((unknownsOf (solution) - expected).cwiseAbs ().maxCoeff (), 1e-13) << n;
     }
@@ -180,9 +170,9 @@ TEST (UmfpackSolver, AgreesWithSparseLU)
 TEST (UmfpackSolver, TellsWhatTheFactorizationCost)
 {
   const TriangulatedGrid grid (50, 0.12, 4);
-  const LinearSystem system = gridSystem (grid, Weighting::MEAN_VALUE, grid.loopInPlace ());
-  const Solution amd = solveWithUmfpack (system, Ordering::AMD);
-  const Solution metis = solveWithUmfpack (system, Ordering::METIS);
+  const LinearSystem system = gridSystem (grid);
+  const Solution amd = solveWithUmfpack (system, Ordering::AMD, 1);
+  const Solution metis = solveWithUmfpack (system, Ordering::METIS, 1);
   ASSERT_EQ (amd.outcome, Outcome::OK) << amd.message;
   ASSERT_EQ (metis.outcome, Outcome::OK) << metis.message;
   EXPECT_LT ((unknownsOf (amd) - unknownsOf (metis)).cwiseAbs ().maxCoeff (), 1e-12);
@@ -202,7 +192,7 @@ TEST (UmfpackSolver, TellsWhatTheFactorizationCost)
   }
 }
 
-// No fill: L and U of a matrix that is triangular up to a permutation hold what the matrix holds.
+// A matrix that is triangular up to a permutation has no fill.
 TEST (UmfpackSolver, CountsTheDiagonalOnce)
 {
   RandomStream random (5);
@@ -210,7 +200,7 @@ TEST (UmfpackSolver, CountsTheDiagonalOnce)
   const std::vector<Eigen::Triplet<double>> entries{
       {0, 0, 1.0}, {1, 0, -0.5}, {1, 1, 2.0}, {2, 1, -1.0}, {2, 2, 4.0}};
   matrix.setFromTriplets (entries.begin (), entries.end ());
-  const Solution solution = solveWithUmfpack (systemOf (matrix, random), Ordering::AMD);
+  const Solution solution = solveWithUmfpack (systemOf (matrix, random), Ordering::AMD, 1);
   EXPECT_EQ (solution.nnz_factors, 5u);
   EXPECT_DOUBLE_EQ (solution.reciprocal_condition, 0.25);
 }
@@ -218,18 +208,18 @@ TEST (UmfpackSolver, CountsTheDiagonalOnce)
 TEST (UmfpackSolver, DoesNotDependOnTheThreads)
 {
   const TriangulatedGrid grid (50, 0.12, 6);
-  const LinearSystem system = gridSystem (grid, Weighting::MEAN_VALUE, grid.loopInPlace ());
+  const LinearSystem system = gridSystem (grid);
   const Solution one = solveWithUmfpack (system, Ordering::AMD, 1);
   const Solution two = solveWithUmfpack (system, Ordering::AMD, 2);
   ASSERT_EQ (one.outcome, Outcome::OK) << one.message;
   EXPECT_EQ (one.uv, two.uv);
 }
 
-TEST (UmfpackSolver, FindsNothingToDoInAnEmptySystem)
+TEST (UmfpackSolver, SolvesAnEmptySystem)
 {
   LinearSystem system;
   system.row_offsets = {0};
-  const Solution solution = solveWithUmfpack (system, Ordering::AUTOMATIC);
+  const Solution solution = solveWithUmfpack (system, Ordering::AUTOMATIC, 1);
   EXPECT_EQ (solution.outcome, Outcome::OK);
   EXPECT_TRUE (solution.uv.empty ());
   EXPECT_EQ (solution.residual, 0.0);
@@ -241,17 +231,17 @@ TEST (UmfpackSolver, ReportsARowWithoutWeights)
   LinearSystem system = randomSystem (30, random);
   for (int entry = system.row_offsets[11]; entry < system.row_offsets[12]; ++entry)
     system.values[static_cast<std::size_t> (entry)] = 0.0;
-  expectFailure (solveWithUmfpack (system, Ordering::AMD), Outcome::SINGULAR);
-  expectFailure (solveWithUmfpack (system, Ordering::METIS), Outcome::SINGULAR);
+  expectFailure (solveWithUmfpack (system, Ordering::AMD, 1), Outcome::SINGULAR);
+  expectFailure (solveWithUmfpack (system, Ordering::METIS, 1), Outcome::SINGULAR);
 }
 
-TEST (UmfpackSolver, ReportsIslands)
+TEST (UmfpackSolver, ReportsFloatingUnknowns)
 {
   RandomStream random (8);
-  for (const int island : {4, 50, 500, 5000})
+  for (const int floating : {4, 50, 500, 5000})
     for (const Ordering ordering : {Ordering::AMD, Ordering::METIS}) {
-      SCOPED_TRACE (island);
-      expectFailure (solveWithUmfpack (systemWithIsland (island, random), ordering),
+      SCOPED_TRACE (floating);
+      expectFailure (solveWithUmfpack (systemWithFloating (floating, random), ordering, 1),
                      Outcome::SINGULAR);
     }
 }
@@ -262,7 +252,7 @@ TEST (UmfpackSolver, ReportsAMalformedMatrix)
   LinearSystem system = randomSystem (10, random);
   ASSERT_GE (system.row_offsets[1], 2);
   std::swap (system.columns[0], system.columns[1]);
-  expectFailure (solveWithUmfpack (system, Ordering::AMD), Outcome::FAILED);
+  expectFailure (solveWithUmfpack (system, Ordering::AMD, 1), Outcome::FAILED);
 }
 
 TEST (UmfpackSolver, ReportsASolutionThatIsNotFinite)
@@ -270,11 +260,11 @@ TEST (UmfpackSolver, ReportsASolutionThatIsNotFinite)
   RandomStream random (10);
   LinearSystem system = randomSystem (10, random);
   system.rhs_v[3] = std::numeric_limits<double>::quiet_NaN ();
-  expectFailure (solveWithUmfpack (system, Ordering::AMD), Outcome::FAILED);
+  expectFailure (solveWithUmfpack (system, Ordering::AMD, 1), Outcome::FAILED);
 }
 
-// Above a million unknowns the 64-bit interface is used. A triangular matrix, to be quick about it:
-// each unknown is the mean of the one before and 1, or 0.
+// Above a million unknowns, indices have 64 bits. The matrix is triangular, which is quick: each
+// unknown is the mean of the one before it and of 1 or 0.
 TEST (UmfpackSolver, SolvesWithLongIndices)
 {
   constexpr int UNKNOWNS = 1000001, LENGTH = 4;
@@ -303,7 +293,7 @@ TEST (UmfpackSolver, SolvesWithLongIndices)
   }
 }
 
-// Of whatever BLAS the test runs with.
+// The threads of the BLAS that the test runs with.
 class BlasThreads : public testing::Test
 {
 protected:
@@ -327,7 +317,7 @@ protected:
   }
 };
 
-TEST_F (BlasThreads, AreOneInScopeAndRestoredAfterTheLast)
+TEST_F (BlasThreads, AreOneInScopeAndRestoredAfterwards)
 {
   {
     const SingleBlasThread outer;
@@ -341,14 +331,14 @@ TEST_F (BlasThreads, AreOneInScopeAndRestoredAfterTheLast)
   EXPECT_EQ (get_ (), 2);
 }
 
-// Fronts large enough for OpenBLAS to share out: with two threads the last digits would differ.
+// The fronts are so large that OpenBLAS would use both threads, and the last digits would differ.
 TEST_F (BlasThreads, DoNotChangeASolution)
 {
   RandomStream random (12);
   const LinearSystem system = randomSystem (1500, random);
-  const Solution two = solveWithUmfpack (system, Ordering::AMD);
+  const Solution two = solveWithUmfpack (system, Ordering::AMD, 1);
   set_ (1);
-  const Solution one = solveWithUmfpack (system, Ordering::AMD);
+  const Solution one = solveWithUmfpack (system, Ordering::AMD, 1);
   ASSERT_EQ (one.outcome, Outcome::OK) << one.message;
   EXPECT_EQ (one.uv, two.uv);
 }
@@ -356,13 +346,13 @@ TEST_F (BlasThreads, DoNotChangeASolution)
 TEST_F (BlasThreads, AreRestoredBySolversInAnyThread)
 {
   RandomStream random (11);
-  const LinearSystem good = randomSystem (200, random), bad = systemWithIsland (50, random);
+  const LinearSystem good = randomSystem (200, random), bad = systemWithFloating (50, random);
   std::vector<std::thread> solvers;
   solvers.reserve (4);
   for (int i = 0; i < 4; ++i)
     solvers.emplace_back ([&good, &bad, i] {
       for (int round = 0; round < 10; ++round)
-        EXPECT_EQ (solveWithUmfpack (i % 2 == 0 ? good : bad, Ordering::AMD).outcome,
+        EXPECT_EQ (solveWithUmfpack (i % 2 == 0 ? good : bad, Ordering::AMD, 1).outcome,
                    i % 2 == 0 ? Outcome::OK : Outcome::SINGULAR);
     });
   for (std::thread& solver : solvers)

@@ -14,7 +14,7 @@ namespace floater
 {
 namespace
 {
-using Edges = std::set<std::pair<Index, Index>>; // both ways
+using Edges = std::set<std::pair<Index, Index>>; // each in both directions
 
 CsrLists
 graphOf (Index count, const Edges& edges)
@@ -45,7 +45,7 @@ randomEdges (Index count, std::size_t pairs, RandomStream& random)
   return edges;
 }
 
-// True if no way leads from the first side to the second past the vertices removed.
+// True if no path leads from the first side to the second one without the vertices removed.
 bool
 separates (const CsrLists& graph, const std::vector<std::uint8_t>& ends,
            const std::vector<bool>& removed)
@@ -69,7 +69,7 @@ separates (const CsrLists& graph, const std::vector<std::uint8_t>& ends,
   return true;
 }
 
-// Fewest vertices that separate, by trying all sets of them.
+// The size of the smallest cut, found by trying all sets of vertices.
 int
 smallestCut (const CsrLists& graph, const std::vector<std::uint8_t>& ends)
 {
@@ -86,7 +86,7 @@ smallestCut (const CsrLists& graph, const std::vector<std::uint8_t>& ends)
   return smallest;
 }
 
-TEST (VertexCut, IsTheSmallestOfRandomGraphs)
+TEST (VertexCut, IsTheSmallestInRandomGraphs)
 {
   RandomStream random (7001);
   VertexCut cut;
@@ -115,8 +115,8 @@ TEST (VertexCut, IsTheSmallestOfRandomGraphs)
   }
 }
 
-// Two halls of 20 by 20 with a door of 3 between them. The ways of the first round fill the door
-// wrongly unless later ones can send them elsewhere.
+// Two halls of 20 by 20 vertices with a door of 3 between them. Paths of the first round block the
+// door unless later paths can reroute them.
 TEST (VertexCut, FindsTheDoor)
 {
   constexpr Index SIDE = 20, WIDTH = 2 * SIDE + 1;
@@ -143,7 +143,7 @@ TEST (VertexCut, FindsTheDoor)
   }
 }
 
-TEST (VertexCut, TakesWhatHasNoSides)
+TEST (VertexCut, WithoutSides)
 {
   VertexCut cut;
   EXPECT_TRUE (cut.find (graphOf (0, {}), {}).empty ());

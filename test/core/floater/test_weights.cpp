@@ -49,7 +49,8 @@ cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return a.x () * b.y () - a.y () * b.x ();
 }
 
-// 3 to 12 neighbours at distances over two orders of magnitude; no sector next to a half turn.
+// 3 to 12 neighbours; distances vary by two orders of magnitude, and no sector is nearly half a
+// turn.
 Star
 randomClosedStar (RandomStream& random)
 {
@@ -103,9 +104,9 @@ normalize (std::vector<double>& weights)
     weight /= sum;
 }
 
-// Equations (2) and (3), as they are printed.
+// Equations (2) and (3) of TW 385 as they are printed.
 std::vector<double>
-meanValueByTheReport (const Star& star, bool open)
+meanValueAsPrinted (const Star& star, bool open)
 {
   std::vector<double> weights (star.size (), 0.0);
   for (std::size_t i = 0; i < star.size () - (open ? 1 : 0); ++i) {
@@ -119,7 +120,7 @@ meanValueByTheReport (const Star& star, bool open)
   return weights;
 }
 
-// Floater 1997, by trying every edge for every neighbour.
+// Shape preserving weights (Floater 1997), found by trying every edge for every neighbour.
 std::vector<double>
 shapePreservingBySearch (const Star& star)
 {
@@ -179,14 +180,13 @@ TEST (Weights, MeanValueAndShapePreservingReproduceTheCentre)
   }
 }
 
-TEST (Weights, MeanValueIsTheReportsFormula)
+TEST (Weights, MeanValueIsTheFormulaOfTw385)
 {
   RandomStream random (3);
   for (int round = 0; round < 500; ++round) {
     const Star star = randomClosedStar (random);
     for (const bool open : {false, true})
-      expectNear (weigh (star, Weighting::MEAN_VALUE, open), meanValueByTheReport (star, open),
-                  1e-9);
+      expectNear (weigh (star, Weighting::MEAN_VALUE, open), meanValueAsPrinted (star, open), 1e-9);
   }
 }
 
@@ -218,7 +218,7 @@ TEST (Weights, OfARegularHexagonAreEqual)
     expectNear (weigh (star, weighting), std::vector<double> (6, 1.0 / 6.0), 1e-15);
 }
 
-TEST (Weights, UniformIgnoresAndInverseDistanceUsesTheLengths)
+TEST (Weights, UniformIgnoresLengthsAndInverseDistanceUsesThem)
 {
   const Star star{{1.0, 0.0}, {0.0, 2.0}, {-4.0, 0.0}, {0.0, -8.0}};
   expectNear (weigh (star, Weighting::UNIFORM), {0.25, 0.25, 0.25, 0.25}, 0.0);
@@ -251,7 +251,7 @@ TEST (Weights, OfASquareGridReproduceTheCentreThoughNeighborsAreOpposite)
       EXPECT_LT (centreError (star, weigh (star, weighting)), 1e-9);
 }
 
-// The centre on the segment between two neighbours, or next to it on either side by rounding.
+// The centre lies on the segment between two neighbours, or by rounding just beside it.
 TEST (Weights, StayFiniteInASectorOfHalfATurn)
 {
   for (const double lift : {0.0, 1e-17, -1e-17, 1e-12, -1e-12}) {
@@ -267,10 +267,10 @@ TEST (Weights, StayFiniteInASectorOfHalfATurn)
   }
 }
 
-TEST (Weights, TheGapOfAnOpenStarGivesNoTerm)
+TEST (Weights, GetNoTermFromTheGapOfAnOpenStar)
 {
-  // Half a regular octagon: three sectors of 45 degrees, ends with one of them, the others with
-  // two.
+  // Half a regular octagon: three sectors of 45 degrees. Each end is in one of them, each other
+  // neighbour in two.
   Star star;
   for (int i = 0; i < 4; ++i)
     star.push_back (direction (i * PI / 4.0));
@@ -302,7 +302,7 @@ TEST (Weights, OfDegenerateStarsArePositive)
       }
 }
 
-TEST (Weights, OfAnEmptyStarAreNone)
+TEST (Weights, OfAnEmptyStarAreEmpty)
 {
   for (const Weighting weighting : ALL_WEIGHTINGS)
     EXPECT_TRUE (weigh ({}, weighting, true).empty ());
@@ -322,8 +322,8 @@ TEST (Weights, DoNotDependOnTheThreads)
   }
 }
 
-// All points of a grid around its centre: up to three in one direction, others exactly opposite,
-// turned so that rounding puts either first.
+// All points of a grid around its centre: up to three lie in one direction, and others are exactly
+// opposite. The grid is rotated, so that rounding changes their order.
 TEST (Weights, OfAllNeighborsOfAGridReproduceTheCentre)
 {
   RandomStream random (7);
@@ -343,7 +343,7 @@ TEST (Weights, OfAllNeighborsOfAGridReproduceTheCentre)
       EXPECT_LT (centreError (star, weights), 1e-8) << round;
       EXPECT_GT (*std::min_element (weights.begin (), weights.end ()), 1e-3) << round;
     }
-    // (1, 0), (2, 0) and (3, 0): as one over their distances.
+    // The weights of (1, 0), (2, 0) and (3, 0) are as one over their distances.
     const std::vector<double> weights = weigh (star, Weighting::MEAN_VALUE);
     const auto of = [&] (double x) {
       for (std::size_t i = 0; i < star.size (); ++i)

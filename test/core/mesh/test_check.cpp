@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last look at a mesh, on meshes that are known, sound and broken; and what is told of it.
+// The examination of known meshes, sound and broken, and what the report says about them.
 #include "mesh/check.h"
 
 #include "mesh/triangle_mesh.h"
@@ -26,24 +26,24 @@ struct Mesh
   Triangles triangles;
 };
 
-// Points in the order given, as places of a cloud of another scale, of which they are every third.
+// Points in the order given. They are every third point of a cloud of another scale.
 Points
-setOf (const Positions& positions)
+pointsAt (const Positions& positions)
 {
-  Points set;
+  Points points;
   points.positions = positions;
   points.centre = {100.0, -20.0, 3.0};
   points.scale = 10.0;
   for (Index p = 0; p < positions.size (); ++p)
     points.cloud_index.push_back (3 * p + 1);
-  return set;
+  return points;
 }
 
 MeshExamination
 check (const Mesh& mesh, float spacing = 0.1F)
 {
-  return checkMesh (mesh.triangles, setOf (mesh.positions),
-                    std::vector<float> (mesh.positions.size (), spacing));
+  return checkMesh (mesh.triangles, pointsAt (mesh.positions),
+                    std::vector<float> (mesh.positions.size (), spacing), 1);
 }
 
 // A grid of cells, each cut in two; vertex (x, y) is `index (x, y)` at `place (x, y)`.
@@ -107,7 +107,7 @@ tetrahedron (double size = 1.0)
           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-// Both, side by side.
+// Both meshes, side by side.
 Mesh
 beside (Mesh a, const Mesh& b)
 {
@@ -119,7 +119,7 @@ beside (Mesh a, const Mesh& b)
   return a;
 }
 
-// Sound, of this topology, and without anything odd.
+// Expects a sound mesh of this topology.
 void
 expectSound (const Mesh& mesh, std::size_t components, std::int64_t euler, std::int64_t genus,
              const std::vector<std::size_t>& loop_points)
@@ -139,7 +139,7 @@ expectSound (const Mesh& mesh, std::size_t components, std::int64_t euler, std::
     EXPECT_EQ (found.loops[i].points.size (), loop_points[i]);
   }
   EXPECT_EQ (c.degenerate_triangles, 0U);
-  // The same as another count of it, and as the half-edges have it.
+  // The same as by an independent count, and by TriangleMesh.
   const samples::Topology topology = samples::topologyOf (mesh.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (c.components, topology.components);
@@ -147,13 +147,13 @@ expectSound (const Mesh& mesh, std::size_t components, std::int64_t euler, std::
   EXPECT_EQ (found.unused.size (), mesh.positions.size () - topology.vertices);
   TriangleMesh connected;
   connected.triangles = mesh.triangles;
-  ASSERT_TRUE (connected.connect (mesh.positions.size ()));
-  std::vector<std::vector<Index>> loops = boundaryLoops (connected), loops;
-  for (const CheckedLoop& loop : found.loops)
+  ASSERT_TRUE (connected.connect (mesh.positions.size (), 1));
+  std::vector<std::vector<Index>> expected_loops = boundaryLoops (connected, 1), loops;
+  for (const BoundaryLoop& loop : found.loops)
     loops.push_back (loop.points);
   std::sort (loops.begin (), loops.end ());
-  std::sort (loops.begin (), loops.end ());
-  EXPECT_EQ (loops, loops);
+  std::sort (expected_loops.begin (), expected_loops.end ());
+  EXPECT_EQ (loops, expected_loops);
 }
 
 TEST (MeshCheck, KnownSurfaces)
@@ -174,13 +174,14 @@ TEST (MeshCheck, KnownSurfaces)
   expectSound ({}, 0, 0, 0, {});
 }
 
-TEST (MeshCheck, ThePieceOfARim)
+TEST (MeshCheck, LoopsNameTheirComponents)
 {
   const MeshExamination found = check (beside (sheet (3), annulus (40)));
   ASSERT_EQ (found.loops.size (), 3U);
-  EXPECT_EQ (found.loops[0].component_points, 200U);
-  EXPECT_EQ (found.loops[1].component_points, 200U);
-  EXPECT_EQ (found.loops[2].component_points, 16U);
+  EXPECT_EQ (found.component_points, (std::vector<std::size_t>{16, 200}));
+  EXPECT_EQ (found.loops[0].component, 1U);
+  EXPECT_EQ (found.loops[1].component, 1U);
+  EXPECT_EQ (found.loops[2].component, 0U);
   EXPECT_EQ (found.smallest_component, 16U);
   EXPECT_EQ (found.smallest_component_at, 0U);
   EXPECT_EQ (found.largest_component, 200U);
@@ -188,7 +189,8 @@ TEST (MeshCheck, ThePieceOfARim)
 
 TEST (MeshCheck, LoopsHaveTheirSizeInTheCloud)
 {
-  // 100 and 500 points: the width of the short loops is exact, that of the long ones a bound.
+  // The width of the short loops is exact. That of the long ones is exact as well: their points lie
+  // opposite to each other at equal steps.
   for (const Index around : {100U, 500U}) {
     const MeshExamination found = check (annulus (around));
     ASSERT_EQ (found.check.loops.size (), 2U);
@@ -201,20 +203,69 @@ TEST (MeshCheck, LoopsHaveTheirSizeInTheCloud)
       EXPECT_EQ (loop.at, i == 0 ? 1U : 3 * 4 * around + 1);
     }
   }
-  // Of any long loop the bound is between 0.57 and 1 of the width.
-  RandomStream random (5);
-  Mesh ring = annulus (300);
-  for (Eigen::Vector3d& p : ring.positions)
-    p *= 0.2 + random.uniform ();
-  const MeshExamination found = check (ring);
-  for (const std::size_t i : {0U, 1U}) {
-    double width = 0.0;
-    for (const Index p : found.loops[i].points)
-      for (const Index q : found.loops[i].points)
-        width = std::max (width, 10.0 * (ring.positions[p] - ring.positions[q]).norm ());
-    EXPECT_LE (found.check.loops[i].width, width * (1.0 + 1e-12));
-    EXPECT_GE (found.check.loops[i].width, 0.57 * width);
+}
+
+// Two rings of a wheel: vertex 0, ring 1 to 6, ring 7 to 12.
+Mesh
+wheel (bool with_middle)
+{
+  Mesh mesh;
+  mesh.positions = samples::randomPoints (30, 1);
+  for (Index i = 0; i < 6; ++i) {
+    const Index j = (i + 1) % 6;
+    if (with_middle)
+      mesh.triangles.push_back ({0, 1 + i, 1 + j});
+    mesh.triangles.push_back ({1 + i, 7 + i, 7 + j});
+    mesh.triangles.push_back ({1 + i, 7 + j, 1 + j});
   }
+  return mesh;
+}
+
+TEST (MeshCheck, ADiscHasOneLoop)
+{
+  const MeshExamination found = check (wheel (true));
+  EXPECT_TRUE (found.isManifold ());
+  EXPECT_TRUE (found.isDisc ());
+  EXPECT_EQ (found.loops.front ().points, (std::vector<Index>{7, 8, 9, 10, 11, 12}));
+  EXPECT_EQ (found.unused.size (), 17U); // points without triangles do not matter
+  EXPECT_TRUE (check (sheet (6)).isDisc ());
+}
+
+TEST (MeshCheck, WhatIsNoDisc)
+{
+  const auto isManifoldDisc = [] (const Mesh& mesh) {
+    const MeshExamination found = check (mesh);
+    return found.isManifold () && found.isDisc ();
+  };
+  EXPECT_FALSE (isManifoldDisc ({wheel (true).positions, {}})) << "nothing";
+  EXPECT_FALSE (isManifoldDisc (wheel (false))) << "a hole";
+  EXPECT_FALSE (isManifoldDisc (tetrahedron ())) << "closed";
+  Mesh holed_torus = torus (20, 9);
+  holed_torus.triangles.pop_back ();
+  EXPECT_FALSE (isManifoldDisc (holed_torus)) << "a handle";
+  // Euler characteristic and loops are those of a disc.
+  EXPECT_FALSE (isManifoldDisc (beside (wheel (true), torus (3, 3)))) << "a torus beside it";
+  const auto expectBroken = [&] (const char* why, const std::function<void (Triangles&)>& change) {
+    Mesh mesh = wheel (true);
+    change (mesh.triangles);
+    EXPECT_FALSE (isManifoldDisc (mesh)) << why;
+  };
+  expectBroken ("two components", [] (Triangles& all) { all.push_back ({20, 21, 22}); });
+  expectBroken ("a closed component", [] (Triangles& all) {
+    for (const Triangle& t :
+         {Triangle{20, 22, 21}, Triangle{20, 21, 23}, Triangle{21, 22, 23}, Triangle{22, 20, 23}})
+      all.push_back (t);
+  });
+  expectBroken ("a triangle wound against the others",
+                [] (Triangles& all) { std::swap (all[3][0], all[3][1]); });
+  expectBroken ("a triangle twice", [] (Triangles& all) { all.push_back (Triangle (all[4])); });
+  expectBroken ("a vertex with two fans", [] (Triangles& all) { all.push_back ({0, 20, 21}); });
+  // Without one triangle at the boundary it is a disc within another loop.
+  Mesh smaller = wheel (true);
+  smaller.triangles.erase (smaller.triangles.end () - 2);
+  const MeshExamination found = check (smaller);
+  EXPECT_TRUE (found.isDisc ());
+  EXPECT_EQ (found.loops.front ().points, (std::vector<Index>{6, 7, 8, 9, 10, 11, 12}));
 }
 
 TEST (MeshCheck, WhatIsBrokenIsCounted)
@@ -255,7 +306,7 @@ TEST (MeshCheck, WhatIsBrokenIsCounted)
     EXPECT_EQ (found.check.components, broken.components);
     EXPECT_EQ (found.broken_at, 0U + (std::string (broken.what) == "a corner thrice" ? 2U : 0U));
     Report report;
-    const Problem problem = reportCheck (setOf (positions), found, {}, report);
+    const Problem problem = reportCheck (pointsAt (positions), found, {}, report);
     EXPECT_EQ (problem.status, Status::INTERNAL_ERROR);
     EXPECT_NE (problem.message.find ("no oriented manifold"), std::string::npos);
     EXPECT_TRUE (report.check.done);
@@ -282,8 +333,7 @@ TEST (MeshCheck, AMoebiusStripIsWoundAgainstItself)
   EXPECT_FALSE (found.isManifold ());
 }
 
-// Nothing that triangles may be makes the check fail; it agrees with the half-edges on what is
-// sound.
+// The check takes any triangles, and agrees with TriangleMesh::connect on what is a manifold.
 TEST (MeshCheck, AnyTriangles)
 {
   RandomStream random (11);
@@ -298,9 +348,9 @@ TEST (MeshCheck, AnyTriangles)
         p = static_cast<Index> (random.below (POINTS));
     TriangleMesh connected;
     connected.triangles = mesh.triangles;
-    const bool is_sound = connected.connect (POINTS);
+    const bool is_sound = connected.connect (POINTS, 1);
     const MeshExamination found = check (mesh);
-    // But for triangles back to back, which half-edges take for a sphere.
+    // But for two triangles back to back, which are a sphere for TriangleMesh.
     bool is_flat = false;
     for (const Triangle& t : mesh.triangles)
       is_flat |= std::count_if (mesh.triangles.begin (), mesh.triangles.end (),
@@ -315,7 +365,6 @@ TEST (MeshCheck, AnyTriangles)
 
 TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
 {
-  // A row of three unit squares of which the last is folded back; and a far corner.
   Mesh mesh = sheet (4);
   MeshExamination found = check (mesh);
   EXPECT_EQ (found.check.folds, 0U);
@@ -323,7 +372,7 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
   EXPECT_EQ (found.long_edges, 0U);
   EXPECT_NEAR (found.check.longest_edge, std::sqrt (2.0), 1e-6);
 
-  // The last column laid back over the one before, turned by 130 degrees; then by 110.
+  // The last column is folded back by 130 degrees, then by 110.
   for (const bool folded : {true, false}) {
     const double angle = (folded ? 130.0 : 110.0) * samples::PI / 180.0;
     for (Index y = 0; y < 5; ++y)
@@ -333,7 +382,7 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
     EXPECT_EQ (found.fold_at, folded ? 3U : NONE);
   }
 
-  // The corner, at which only boundary edges and a diagonal end, far away.
+  // A corner far away, where two boundary edges and a diagonal end.
   mesh = sheet (4);
   mesh.positions[24] = {1.4, 1.4, 0.0};
   found = check (mesh);
@@ -342,7 +391,8 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
   EXPECT_NEAR (found.longest_inside, 11.0 * std::sqrt (2.0), 1e-5);
   EXPECT_EQ (found.check.longest_edge_at, (std::array<Index, 2>{3 * 18 + 1, 3 * 24 + 1}));
 
-  // Three points on a line, to a tenth of the precision of coordinates, and to ten times.
+  // Three points on a line, up to a tenth of the precision of coordinates, or up to ten times of
+  // it.
   for (const bool flat : {true, false}) {
     const Mesh line{{{0, 0, 0}, {0.5, 0, flat ? 1e-8 : 1e-6}, {1, 0, 0}, {0.5, 1, 0}},
                     {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
@@ -351,7 +401,7 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
     EXPECT_EQ (found.degenerate_at, flat ? 0U : NONE);
     EXPECT_EQ (found.check.folds, 0U); // at right angles to the others, or none
   }
-  // What is merely small is not degenerate.
+  // Small triangles are not degenerate.
   EXPECT_EQ (check (tetrahedron (1e-9), 1e-10F).check.degenerate_triangles, 0U);
 }
 
@@ -359,7 +409,7 @@ std::vector<std::string>
 warningsOf (const Mesh& mesh, const Options& options = {})
 {
   Report report;
-  EXPECT_FALSE (reportCheck (setOf (mesh.positions), check (mesh), options, report));
+  EXPECT_FALSE (reportCheck (pointsAt (mesh.positions), check (mesh), options, report));
   return report.warnings;
 }
 
@@ -424,7 +474,7 @@ TEST (MeshCheck, TheReportHasCloudIndicesAndTheLongestLoop)
   const MeshExamination found = check (mesh);
   Report report;
   report.outliers = {3 * 166 + 1};
-  ASSERT_FALSE (reportCheck (setOf (mesh.positions), found, {}, report));
+  ASSERT_FALSE (reportCheck (pointsAt (mesh.positions), found, {}, report));
   EXPECT_EQ (report.unused, (std::vector<Index>{3 * 167 + 1}));
   EXPECT_EQ (report.statistics.used_points, 166U);
   ASSERT_EQ (report.loop.size (), 30U);
@@ -434,7 +484,7 @@ TEST (MeshCheck, TheReportHasCloudIndicesAndTheLongestLoop)
   EXPECT_EQ (report.check.loops.size (), 3U);
   // A loop that is there stays.
   report.loop = {1, 2, 3};
-  ASSERT_FALSE (reportCheck (setOf (mesh.positions), found, {}, report));
+  ASSERT_FALSE (reportCheck (pointsAt (mesh.positions), found, {}, report));
   EXPECT_EQ (report.loop, (std::vector<Index>{1, 2, 3}));
 }
 

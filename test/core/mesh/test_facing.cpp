@@ -51,7 +51,7 @@ struct Patch
     if (reversed)
       for (Triangle& t : mesh.triangles)
         std::swap (t[0], t[1]);
-    mesh.connect (positions.size ());
+    mesh.connect (positions.size (), 1);
   }
 };
 
@@ -74,13 +74,13 @@ shareFacing (const std::vector<Triangle>& triangles, const Positions& positions,
   return static_cast<double> (facing) / static_cast<double> (triangles.size ());
 }
 
-// The neighbours are those that the triangles tell.
+// Expects the neighbours that connect () finds.
 void
 expectConnected (const TriangleMesh& mesh)
 {
   TriangleMesh fresh;
   fresh.triangles = mesh.triangles;
-  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size ()));
+  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size (), 1));
   EXPECT_EQ (mesh.neighbors, fresh.neighbors);
   for (Index p = 0; p < mesh.triangle_of.size (); ++p) {
     const Triangle& t = mesh.triangles[mesh.triangle_of[p]];
@@ -154,23 +154,23 @@ forms ()
       {"of equal slope", [] (double u, double v) { return Eigen::Vector3d (u, v, u); }, up}};
 }
 
-TEST (Outward, EveryFormFacesOneWayWhateverItDidBefore)
+TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
 {
   for (const Form& form : forms ()) {
     SCOPED_TRACE (form.name);
     std::size_t turned = 0;
     for (const bool reversed : {false, true}) {
       Patch patch (form.shape, form.wraps_u, form.wraps_v, reversed);
-      turned += faceOutwards (patch.mesh, patch.positions);
+      turned += faceOutwards (patch.mesh, patch.positions, {}, 1);
       EXPECT_GT (shareFacing (patch.mesh.triangles, patch.positions, form.outside), 0.99);
       expectConnected (patch.mesh);
-      EXPECT_EQ (faceOutwards (patch.mesh, patch.positions), 0U);
+      EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, 1), 0U);
     }
     EXPECT_EQ (turned, 1U);
   }
 }
 
-TEST (Outward, PiecesAreTurnedOneByOne)
+TEST (Facing, ComponentsAreTurnedOneByOne)
 {
   const std::vector<Form> all = forms ();
   Patch patch (all[0].shape, true, true, true);
@@ -183,27 +183,27 @@ TEST (Outward, PiecesAreTurnedOneByOne)
   }
   patch.positions.insert (patch.positions.end (), sheet.positions.begin (), sheet.positions.end ());
   patch.positions.emplace_back (9.0, 9.0, 9.0); // no vertex
-  patch.mesh.connect (patch.positions.size ());
+  patch.mesh.connect (patch.positions.size (), 1);
   TriangleMesh before = patch.mesh;
   const bool torus_was_right =
       shareFacing ({before.triangles[0]}, patch.positions, all[0].outside) == 1.0;
-  EXPECT_EQ (faceOutwards (patch.mesh, patch.positions), torus_was_right ? 0U : 1U);
+  EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, 1), torus_was_right ? 0U : 1U);
   for (std::size_t t = sheet.mesh.triangles.size (); t < before.triangles.size (); ++t)
     EXPECT_EQ (patch.mesh.triangles[t], before.triangles[t]);
 }
 
-TEST (Outward, AMeshOfNothingStaysNothing)
+TEST (Facing, AMeshOfNothingStaysNothing)
 {
   TriangleMesh mesh;
-  EXPECT_EQ (faceOutwards (mesh, {}), 0U);
+  EXPECT_EQ (faceOutwards (mesh, {}, {}, 1), 0U);
   mesh.triangles = {{0, 1, 2}}; // without area
-  ASSERT_TRUE (mesh.connect (3));
-  faceOutwards (mesh, Positions (3, Eigen::Vector3d::Zero ()));
+  ASSERT_TRUE (mesh.connect (3, 1));
+  faceOutwards (mesh, Positions (3, Eigen::Vector3d::Zero ()), {}, 1);
   EXPECT_EQ (mesh.triangles.size (), 1U);
 }
 
 // Both methods, on a half sphere of scattered points in two orders.
-TEST (Outward, IsHowEveryResultFaces)
+TEST (Facing, IsHowEveryResultFaces)
 {
   const samples::Sheet sheet = samples::disc (0.06, 3);
   Positions points;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Insertion of missing points, edge flips and the repair of folds.
+// Edge flips, and the insertion of missing points.
 #include "mesh/flips.h"
 
 #include "floater/planar_delaunay.h"
-#include "mesh/finish.h"
 #include "mesh/fold_repair.h"
 #include "mesh/insertion.h"
 #include "samples.h"
@@ -60,7 +59,7 @@ expectDisc (const TriangleMesh& mesh, const Sheet& sheet)
   EXPECT_EQ (topology.loops.front (), samples::indices (sheet.border));
   TriangleMesh fresh;
   fresh.triangles = mesh.triangles;
-  ASSERT_TRUE (fresh.connect (sheet.positions.size ()));
+  ASSERT_TRUE (fresh.connect (sheet.positions.size (), 1));
   EXPECT_EQ (fresh.neighbors, mesh.neighbors);
 }
 
@@ -82,7 +81,7 @@ TEST (Flips, AreDelaunayInThePlane)
     const std::vector<Eigen::Vector3f> normals = upward (sheet.positions.size ());
     TriangleMesh mesh = triangulatePlane (planView (sheet.positions, 0.25), loop);
     const std::set<Triangle> before = unordered (mesh.triangles);
-    const std::size_t flips = flipEdges (mesh, TriangleCost (sheet.positions, normals));
+    const std::size_t flips = flipEdges (mesh, TriangleCost (sheet.positions, normals), 1);
     EXPECT_GT (flips, 100U);
     EXPECT_NE (unordered (mesh.triangles), before);
     expectDisc (mesh, sheet);
@@ -94,7 +93,7 @@ TEST (Flips, AreDelaunayInThePlane)
                      1e-6);
         }
       }
-    EXPECT_EQ (flipEdges (mesh, TriangleCost (sheet.positions, normals)), 0U);
+    EXPECT_EQ (flipEdges (mesh, TriangleCost (sheet.positions, normals), 1), 0U);
   }
 }
 
@@ -109,7 +108,7 @@ TEST (Flips, NeverRaiseTheCost)
       triangulatePlane (planView (sheet.positions, 0.4), samples::indices (sheet.border));
   const TriangleCost cost (sheet.positions, normals);
   const double before = totalCost (mesh, cost);
-  EXPECT_GT (flipEdges (mesh, cost), 0U);
+  EXPECT_GT (flipEdges (mesh, cost, 1), 0U);
   EXPECT_LT (totalCost (mesh, cost), before);
   expectDisc (mesh, sheet);
 }
@@ -150,7 +149,7 @@ TEST (Flips, EndOnStraightLines)
                                             .cross (Eigen::Vector3d (-0.3, 0.9, -0.7))
                                             .normalized ()
                                             .cast<float> ());
-  flipEdges (mesh, TriangleCost (sheet.positions, normals));
+  flipEdges (mesh, TriangleCost (sheet.positions, normals), 1);
   expectDisc (mesh, sheet);
 }
 
@@ -159,11 +158,11 @@ TEST (Flips, UnfoldAPair)
   const Positions positions = {{0, 0, 0}, {0.5, -0.5, 0}, {1, 0, 0}, {0.5, -0.2, 0}};
   TriangleMesh mesh;
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  ASSERT_TRUE (mesh.connect (4));
-  EXPECT_EQ (findFolds (mesh, positions).size (), 1U);
+  ASSERT_TRUE (mesh.connect (4, 1));
+  EXPECT_EQ (findFolds (mesh, positions, 1).size (), 1U);
   const std::vector<Eigen::Vector3f> normals = upward (4);
-  EXPECT_EQ (flipEdges (mesh, TriangleCost (positions, normals)), 1U);
-  EXPECT_TRUE (findFolds (mesh, positions).empty ());
+  EXPECT_EQ (flipEdges (mesh, TriangleCost (positions, normals), 1), 1U);
+  EXPECT_TRUE (findFolds (mesh, positions, 1).empty ());
   EXPECT_EQ (unordered (mesh.triangles), (std::set<Triangle>{{0, 1, 3}, {1, 2, 3}}));
 }
 
@@ -175,7 +174,7 @@ TEST (Flips, OrientNormalsLikeTheMesh)
     normals[p] = -normals[p];
   TriangleMesh mesh =
       triangulatePlane (planView (sheet.positions), samples::indices (sheet.border));
-  orientNormals (mesh, sheet.positions, normals);
+  orientNormals (mesh, sheet.positions, normals, 1);
   EXPECT_EQ (normals, upward (normals.size ()));
 }
 
@@ -199,12 +198,12 @@ TEST (Insertion, PutsEveryPointIn)
     }
   TriangleMesh mesh = triangulatePlane (some, loop);
   const TriangleCost cost (positions, normals);
-  EXPECT_EQ (insertMissingPoints (mesh, made.geometry.neighbors, cost), missing);
+  EXPECT_EQ (insertMissingPoints (mesh, made.geometry.neighbors, cost, false, 1), missing);
   EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 0);
   const samples::Topology topology = samples::topologyOf (mesh.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.euler, 1);
-  EXPECT_EQ (insertMissingPoints (mesh, made.geometry.neighbors, cost), 0U);
+  EXPECT_EQ (insertMissingPoints (mesh, made.geometry.neighbors, cost, false, 1), 0U);
   EXPECT_EQ (samples::topologyOf (mesh.triangles).loops.size (), 1U);
 }
 
@@ -219,8 +218,9 @@ TEST (Insertion, ARowOfPointsFindsItsWayIn)
   neighbors.ids = {4, 5, 0};
   TriangleMesh mesh;
   mesh.triangles = {{0, 1, 2}};
-  ASSERT_TRUE (mesh.connect (6));
-  EXPECT_EQ (insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals)), 3U);
+  ASSERT_TRUE (mesh.connect (6, 1));
+  EXPECT_EQ (insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals), false, 1),
+             3U);
   EXPECT_TRUE (samples::topologyOf (mesh.triangles).manifold);
   EXPECT_EQ (mesh.triangles.size (), 7U);
 }
@@ -234,8 +234,9 @@ TEST (Insertion, PointsWithoutVerticesNearbyStayOut)
   neighbors.ids = {4, 3};
   TriangleMesh mesh;
   mesh.triangles = {{0, 1, 2}};
-  ASSERT_TRUE (mesh.connect (5));
-  EXPECT_EQ (insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals)), 0U);
+  ASSERT_TRUE (mesh.connect (5, 1));
+  EXPECT_EQ (insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals), false, 1),
+             0U);
   EXPECT_EQ (mesh.triangle_of[3], NONE);
   EXPECT_EQ (mesh.triangles.size (), 1U);
 }
@@ -256,70 +257,6 @@ TEST (TriangleCost, DoesNotDependOnTheFirstCorner)
   }
 }
 
-TEST (SurfaceFinish, PutsPointsInOrderThatThePlaneHasMixedUp)
-{
-  const Sheet sheet = samples::disc (0.07, 9);
-  const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
-  std::vector<Index> loop (sheet.border);
-  for (Index p = 0; p < made.points.positions.size (); ++p)
-    if (made.points.cloud_index[p] < sheet.border)
-      loop[made.points.cloud_index[p]] = p;
-  Places mixed = planView (made.points.positions);
-  RandomStream random (10);
-  for (int i = 0; i < 6; ++i) {
-    const std::size_t p = random.below (mixed.size ());
-    const Index q = made.geometry.neighbors.row (p)[5];
-    if (made.points.cloud_index[p] >= sheet.border && made.points.cloud_index[q] >= sheet.border)
-      std::swap (mixed[p], mixed[q]);
-  }
-  Options options;
-  for (const bool flip : {false, true}) {
-    options.flip_edges = flip;
-    std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
-    TriangleMesh mesh = triangulatePlane (mixed, loop);
-    const std::set<Triangle> before = unordered (mesh.triangles);
-    const SurfaceFinish finish =
-        finishDisc (mesh, made.points.positions, made.geometry.neighbors, normals, options);
-    EXPECT_FALSE (finish.problem);
-    EXPECT_EQ (finish.folds.size (), findFolds (mesh, made.points.positions).size ());
-    const samples::Topology topology = samples::topologyOf (mesh.triangles);
-    EXPECT_TRUE (topology.manifold);
-    EXPECT_EQ (topology.euler, 1);
-    EXPECT_EQ (topology.vertices, made.points.positions.size ());
-    if (flip) {
-      EXPECT_TRUE (finish.folds.empty ());
-      EXPECT_GT (finish.flips, 0U);
-    }
-    else {
-      EXPECT_FALSE (finish.folds.empty ());
-      EXPECT_EQ (finish.flips, 0U);
-      EXPECT_EQ (unordered (mesh.triangles), before);
-    }
-  }
-}
-
-TEST (SurfaceFinish, RefusesASurfaceFoldedAllOver)
-{
-  // Points of a flat sheet, joined at random: no flips can put that in order.
-  const samples::Neighborhoods made =
-      samples::makeNeighborhoods (samples::disc (0.07, 9).positions);
-  RandomStream random (11);
-  Places scattered;
-  for (Index p = 0; p < made.points.positions.size (); ++p) {
-    const double angle =
-        p < 3 ? 2.0 * samples::PI * p / 3.0 : 2.0 * samples::PI * random.uniform ();
-    const double radius = p < 3 ? 1.0 : 0.4 * random.uniform ();
-    scattered.emplace_back (radius * std::cos (angle), radius * std::sin (angle));
-  }
-  TriangleMesh mesh = triangulatePlane (scattered, {0, 1, 2});
-  std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
-  const SurfaceFinish finish =
-      finishDisc (mesh, made.points.positions, made.geometry.neighbors, normals, Options{});
-  EXPECT_EQ (finish.problem.status, Status::NOT_A_DISC);
-  EXPECT_NE (finish.problem.message.find ("folded"), std::string::npos);
-}
-
 } // namespace
 } // namespace floater
-
 } // namespace pcl

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vertices taken out and put back elsewhere: changes undone, moves, kicks.
+// Vertices taken out and put back elsewhere: undone changes, moves, kicks.
 #include "mesh/fold_repair.h"
 
 #include "mesh/vertex_mover.h"
@@ -16,6 +16,7 @@ namespace
 using samples::Positions;
 
 constexpr Index SIDE = 9; // points along a grid
+constexpr std::size_t LARGEST_FAN = RepairLimits{}.largest_fan;
 
 // Points of a jittered square grid with spacing 1.
 Positions
@@ -59,7 +60,7 @@ struct Sheets
     mesh.triangles.insert (mesh.triangles.end (), more.begin (), more.end ());
     positions.insert (positions.end (), upper.begin (), upper.end ());
     normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    EXPECT_TRUE (mesh.connect (positions.size ()));
+    EXPECT_TRUE (mesh.connect (positions.size (), 1));
     neighbors.offsets.push_back (0);
     for (const Eigen::Vector3d& p : positions) {
       std::vector<Index> order = samples::indices (positions.size ());
@@ -77,7 +78,7 @@ struct Sheets
     for (Triangle& t : mesh.triangles)
       for (Index& corner : t)
         corner = corner == p ? q : corner == q ? p : corner;
-    EXPECT_TRUE (mesh.connect (positions.size ()));
+    EXPECT_TRUE (mesh.connect (positions.size (), 1));
   }
 
   // Makes random vertices change places, across sheets or not.
@@ -107,7 +108,7 @@ struct Sheets
 void
 moveWhileItHelps (Sheets& sheets, const TriangleCost& cost)
 {
-  VertexMover mover (sheets.mesh, sheets.neighbors, cost);
+  VertexMover mover (sheets.mesh, sheets.neighbors, cost, LARGEST_FAN, 1);
   for (bool moved = true; moved;) {
     moved = false;
     for (Index v = 0; v < sheets.positions.size (); ++v) {
@@ -127,7 +128,7 @@ totalCost (const TriangleMesh& mesh, const TriangleCost& cost)
     sum += cost (a, b, c);
     for (Index u : mesh.neighbors[t])
       if (u != NONE && t < u)
-        sum += TriangleCost::ofFold (
+        sum += cost.ofEdge (
             cost.value (a, b, c).unit_normal,
             cost.value (mesh.triangles[u][0], mesh.triangles[u][1], mesh.triangles[u][2])
                 .unit_normal);
@@ -140,7 +141,7 @@ expectConsistent (const TriangleMesh& mesh, std::size_t vertices)
 {
   TriangleMesh fresh;
   fresh.triangles = mesh.triangles;
-  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size ()));
+  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size (), 1));
   EXPECT_EQ (fresh.neighbors, mesh.neighbors);
   const samples::Topology topology = samples::topologyOf (mesh.triangles);
   EXPECT_TRUE (topology.manifold);
@@ -177,7 +178,7 @@ TEST (FoldRepair, UndoneChangesLeaveNoTrace)
   const TriangleCost cost (sheets.positions, sheets.normals);
   TriangleMesh& mesh = sheets.mesh;
   const TriangleMesh before = mesh;
-  VertexMover mover (mesh, sheets.neighbors, cost);
+  VertexMover mover (mesh, sheets.neighbors, cost, LARGEST_FAN, 1);
   std::size_t changed = 0;
   for (Index v = 0; v < sheets.positions.size (); v += 7)
     for (std::size_t rank = 0; rank < 6; ++rank) {
@@ -202,13 +203,13 @@ TEST (FoldRepair, TheBoundaryStays)
 {
   Sheets sheets (5.0, 5);
   const TriangleCost cost (sheets.positions, sheets.normals);
-  VertexMover mover (sheets.mesh, sheets.neighbors, cost);
+  VertexMover mover (sheets.mesh, sheets.neighbors, cost, LARGEST_FAN, 1);
   double change = 0.0;
   for (Index x = 0; x < SIDE; ++x) {
     EXPECT_FALSE (mover.moveTo (x, 0, change));
     EXPECT_EQ (mover.move (x * SIDE, 16), 0.0);
   }
-  EXPECT_EQ (mover.journal ().mark (), 0U);
+  EXPECT_EQ (sheets.mesh.mark (), 0U);
 }
 
 TEST (FoldRepair, AVertexOfTheWrongSheetGoesBack)
@@ -226,36 +227,38 @@ TEST (FoldRepair, AVertexOfTheWrongSheetGoesBack)
   sheets.mesh.split (sheets.mesh.triangle_of[4 * SIDE + 4], p, fan[4], fan[5]);
   ASSERT_FALSE (sheets.areApart ());
   const TriangleCost cost (sheets.positions, sheets.normals);
-  EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, cost, sheets.positions), 0U);
+  EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, cost, sheets.positions, {}, 1), 0U);
   EXPECT_TRUE (sheets.areApart ());
-  EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions).empty ());
+  EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions, 1).empty ());
   expectConsistent (sheets.mesh, sheets.positions.size ());
-  EXPECT_EQ (sheets.mesh.journal, nullptr);
+  // Changes are no longer recorded.
+  sheets.mesh.flip ({fan[0], sheets.mesh.sideOf (fan[0], ring[0])});
+  EXPECT_EQ (sheets.mesh.mark (), 0U);
 }
 
-TEST (FoldRepair, KicksEndFoldsThatNoSingleMoveEnds)
+TEST (FoldRepair, KicksRemoveFoldsThatNoSingleMoveRemoves)
 {
-  // Of vertices exchanged at random between near sheets, moves leave a fold for few seeds only;
-  // kicks end it for six of the first seven.
+  // Vertices are exchanged at random between close sheets. Moves leave a fold for a few seeds only,
+  // and kicks remove it for six of the first seven of these.
   for (const std::uint64_t seed : {11U, 37U, 42U, 110U, 114U}) {
     SCOPED_TRACE (seed);
     Sheets sheets (0.6 + 0.2 * static_cast<double> (seed % 6), 10 + seed);
     sheets.mixUp (1 + seed % 4, seed);
     const TriangleCost cost (sheets.positions, sheets.normals);
-    flipEdges (sheets.mesh, cost);
+    flipEdges (sheets.mesh, cost, 1);
     moveWhileItHelps (sheets, cost);
-    EXPECT_EQ (findFolds (sheets.mesh, sheets.positions).size (), 1U);
+    EXPECT_EQ (findFolds (sheets.mesh, sheets.positions, 1).size (), 1U);
     const double before = totalCost (sheets.mesh, cost);
-    EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, cost, sheets.positions), 0U);
-    EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions).empty ());
+    EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, cost, sheets.positions, {}, 1), 0U);
+    EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions, 1).empty ());
     EXPECT_LT (totalCost (sheets.mesh, cost), before);
     expectConsistent (sheets.mesh, sheets.positions.size ());
   }
 }
 
-TEST (FoldRepair, RememberedCostsAreTheCosts)
+TEST (FoldRepair, CachedCostsAreTheCosts)
 {
-  // More triangles than the table holds, asked for again and again and from any corner.
+  // More triangles than the table holds, asked for again and again, from any corner on.
   const Positions positions = samples::randomPoints (40, 7);
   const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
   const TriangleCost cost (positions, normals);

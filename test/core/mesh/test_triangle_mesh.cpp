@@ -17,7 +17,7 @@ meshOf (std::vector<Triangle> triangles, std::size_t points)
 {
   TriangleMesh mesh;
   mesh.triangles = std::move (triangles);
-  EXPECT_TRUE (mesh.connect (points));
+  EXPECT_TRUE (mesh.connect (points, 1));
   return mesh;
 }
 
@@ -37,13 +37,13 @@ gridTriangles (Index side)
 
 const std::vector<Triangle> TETRAHEDRON = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
-// The kept neighbours are those that connect() finds, and every vertex has one of its triangles.
+// Expects the neighbours that connect () finds, and one of its triangles for every vertex.
 void
 expectConsistent (const TriangleMesh& mesh)
 {
   TriangleMesh fresh;
   fresh.triangles = mesh.triangles;
-  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size ()));
+  ASSERT_TRUE (fresh.connect (mesh.triangle_of.size (), 1));
   EXPECT_EQ (mesh.neighbors, fresh.neighbors);
   for (Index p = 0; p < mesh.triangle_of.size (); ++p) {
     ASSERT_EQ (mesh.triangle_of[p] == NONE, fresh.triangle_of[p] == NONE);
@@ -188,7 +188,7 @@ TEST (TriangleMesh, ConnectTakesManifolds)
   TriangleMesh mesh = meshOf (TETRAHEDRON, 4);
   for (const auto& neighbors : mesh.neighbors)
     EXPECT_EQ (std::count (neighbors.begin (), neighbors.end (), NONE), 0);
-  EXPECT_TRUE (boundaryLoops (mesh).empty ());
+  EXPECT_TRUE (boundaryLoops (mesh, 1).empty ());
   mesh = meshOf ({}, 3);
   EXPECT_EQ (mesh.triangle_of, (std::vector<Index>{NONE, NONE, NONE}));
 }
@@ -207,9 +207,68 @@ TEST (TriangleMesh, ConnectRefusesWhatIsNoOrientedManifold)
   for (const auto& [why, triangles] : broken) {
     TriangleMesh mesh;
     mesh.triangles = triangles;
-    EXPECT_FALSE (mesh.connect (7)) << why;
+    EXPECT_FALSE (mesh.connect (7, 1)) << why;
     EXPECT_FALSE (samples::topologyOf (triangles).manifold) << why;
   }
+}
+
+// Corners, neighbours and the triangle of every vertex are the same.
+void
+expectEqual (const TriangleMesh& a, const TriangleMesh& b)
+{
+  EXPECT_EQ (a.triangles, b.triangles);
+  EXPECT_EQ (a.neighbors, b.neighbors);
+  EXPECT_EQ (a.triangle_of, b.triangle_of);
+}
+
+TEST (TriangleMesh, UndoesFlipsAndSplits)
+{
+  TriangleMesh mesh = meshOf (gridTriangles (6), 37);
+  mesh.split (0, 36); // not recorded
+  EXPECT_EQ (mesh.mark (), 0U);
+  const TriangleMesh before = mesh;
+  mesh.recordChanges ();
+  mesh.flip ({20, 1});
+  EXPECT_GT (mesh.mark (), 0U);
+  const std::size_t mark = mesh.mark ();
+  const TriangleMesh between = mesh;
+  mesh.flip ({20, 1});
+  mesh.flip ({30, 1});
+  std::vector<Index> changed;
+  mesh.journal.appendTriangles (changed);
+  for (const Index t : {20U, 30U})
+    EXPECT_NE (std::find (changed.begin (), changed.end (), t), changed.end ());
+  mesh.undo (mark);
+  expectEqual (mesh, between);
+  mesh.undo (0);
+  expectEqual (mesh, before);
+  mesh.recordChanges (false);
+  mesh.flip ({20, 1});
+  EXPECT_EQ (mesh.mark (), 0U);
+}
+
+TEST (TriangleMesh, ACopyHasAJournalOfItsOwn)
+{
+  TriangleMesh mesh = meshOf (gridTriangles (6), 36);
+  const TriangleMesh before = mesh;
+  mesh.recordChanges ();
+  mesh.flip ({20, 1});
+  const TriangleMesh flipped_once = mesh;
+  const std::size_t mark = mesh.mark ();
+  TriangleMesh copy = mesh;
+  copy.flip ({30, 1});
+  EXPECT_GT (copy.mark (), mark);
+  EXPECT_EQ (mesh.mark (), mark);
+  expectEqual (mesh, flipped_once);
+  copy.undo (mark);
+  expectEqual (copy, flipped_once);
+  // Undone in the copy, not in the original; then the other way round.
+  copy.undo (0);
+  expectEqual (copy, before);
+  expectEqual (mesh, flipped_once);
+  mesh.undo (0);
+  expectEqual (mesh, before);
+  expectConsistent (mesh);
 }
 
 TEST (TriangleMesh, BoundaryLoopsHaveTheSurfaceOnTheirLeft)
@@ -223,7 +282,7 @@ TEST (TriangleMesh, BoundaryLoopsHaveTheSurfaceOnTheirLeft)
   const TriangleMesh mesh = meshOf (annulus, 25);
   const std::vector<std::vector<Index>> expected = {
       {0, 1, 2, 3, 4, 9, 14, 19, 24, 23, 22, 21, 20, 15, 10, 5}, {6, 11, 17, 18, 13, 7}};
-  EXPECT_EQ (boundaryLoops (mesh), expected);
+  EXPECT_EQ (boundaryLoops (mesh, 1), expected);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Between PCL and the core: points out, indices back.
+// Passes the points of PCL's clouds to the core, and indices back.
 #pragma once
 
 #include <pcl/console/print.h>
@@ -21,7 +21,7 @@ namespace pcl
 {
 namespace floater
 {
-/// Asks a search method of PCL on behalf of the core.
+/// Lets the core use a search method of PCL.
 template <typename PointT>
 class SearchMethod : public NeighborSearch
 {
@@ -41,21 +41,21 @@ public:
   void nearest (std::uint32_t cloud_index, int k,
                 std::vector<std::uint32_t>& cloud_indices) override
   {
-    // By point: an index would count among the points given to build().
-    hand (search_->nearestKSearch ((*cloud_)[cloud_index], k, found_, sqr_distances_),
-          cloud_indices);
+    // By point, not by index: an index would count among the points given to build ().
+    copyFound (search_->nearestKSearch ((*cloud_)[cloud_index], k, found_, sqr_distances_),
+               cloud_indices);
   }
 
   bool within (std::uint32_t cloud_index, double radius,
                std::vector<std::uint32_t>& cloud_indices) override
   {
-    hand (search_->radiusSearch ((*cloud_)[cloud_index], radius, found_, sqr_distances_),
-          cloud_indices);
+    copyFound (search_->radiusSearch ((*cloud_)[cloud_index], radius, found_, sqr_distances_),
+               cloud_indices);
     return true;
   }
 
 private:
-  void hand (int found, std::vector<std::uint32_t>& cloud_indices) const
+  void copyFound (int found, std::vector<std::uint32_t>& cloud_indices) const
   {
     const std::size_t count =
         std::min (static_cast<std::size_t> (std::max (found, 0)), found_.size ());
@@ -70,7 +70,7 @@ private:
   std::vector<float> sqr_distances_;
 };
 
-/// PCL's octree, with about ten points of a surface in a leaf.
+/// PCL's octree, whose leaves hold about ten points of a surface each.
 template <typename PointT>
 typename pcl::search::Search<PointT>::Ptr
 makeOctree (const Input& input)
@@ -101,7 +101,7 @@ FloaterReconstruction<PointT>::guarded (const std::function<void ()>& reconstruc
 {
   report_ = floater::Report ();
   try {
-    // The base class looks into the cloud before it checks the pointer, and takes an empty one.
+    // Checked here: the base class dereferences a null pointer, and accepts an empty cloud.
     if (!input_)
       fail (floater::Status::NO_INPUT, "no input cloud: call setInputCloud () first");
     else if (input_->empty ())
@@ -154,7 +154,7 @@ template <typename PointT>
 void
 FloaterReconstruction<PointT>::performReconstruction (pcl::PolygonMesh& output)
 {
-  triangulate (output.polygons); // the base class has set the cloud
+  triangulate (output.polygons); // the base class copies the cloud
 }
 
 template <typename PointT>
@@ -173,28 +173,30 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
   constexpr std::size_t MAX_POINTS = std::numeric_limits<std::uint32_t>::max ();
   const std::size_t size = input_->size ();
   report_.statistics.cloud_points = size;
+  const std::string outside_the_cloud =
+      " is outside the cloud of " + std::to_string (size) + (size == 1 ? " point" : " points");
   if (size > MAX_POINTS)
-    return fail (floater::Status::OUT_OF_MEMORY, "more than " + std::to_string (MAX_POINTS) +
-                                                     " points: reconstruct parts of the cloud");
-  // Where memory ran out, PCLBase goes on with fewer indices of its own than there are points.
+    return fail (floater::Status::OUT_OF_MEMORY, "the cloud has more than " +
+                                                     std::to_string (MAX_POINTS) +
+                                                     " points; reconstruct parts of it");
+  // If memory runs out, PCLBase continues with fewer indices than there are points.
   if (fake_indices_ && indices_->size () != size)
     throw std::bad_alloc ();
 
-  // A negative index becomes a huge one.
+  // The conversion makes negative indices too large.
   const auto is_outside = [size] (pcl::index_t index) {
     return static_cast<std::size_t> (index) >= size;
   };
   const auto outside = std::find_if (indices_->begin (), indices_->end (), is_outside);
   if (outside != indices_->end ())
-    return fail (floater::Status::INVALID_INDICES, "index " + std::to_string (*outside) +
-                                                       " is outside the cloud of " +
-                                                       std::to_string (size) + " points");
+    return fail (floater::Status::INVALID_INDICES,
+                 "index " + std::to_string (*outside) + outside_the_cloud);
   const auto outside_in_loop =
       std::find_if (prescribed_loop_.begin (), prescribed_loop_.end (), is_outside);
   if (outside_in_loop != prescribed_loop_.end ())
-    return fail (floater::Status::INVALID_LOOP,
-                 "the given boundary loop names point " + std::to_string (*outside_in_loop) +
-                     ", outside the cloud of " + std::to_string (size) + " points");
+    return fail (floater::Status::INVALID_LOOP, "point " + std::to_string (*outside_in_loop) +
+                                                    " of the given boundary loop" +
+                                                    outside_the_cloud);
 
   input.cloud_size = size;
   input.positions.reserve (indices_->size ());
@@ -280,6 +282,6 @@ FloaterReconstruction<PointT>::getDuplicates () const
 
 } // namespace pcl
 
-// Only outside PCL_NO_PRECOMPILE, which makes PCL_INSTANTIATE do nothing.
+// For the library only: with PCL_NO_PRECOMPILE, PCL_INSTANTIATE does nothing.
 #define PCL_INSTANTIATE_FloaterReconstruction(T)                                                   \
   template class PCL_FLOATER_EXPORT pcl::FloaterReconstruction<T>;

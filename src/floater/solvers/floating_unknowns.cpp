@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/solvers/islands.h"
+#include "floater/solvers/floating_unknowns.h"
 
 #include <cmath>
+#include <string>
 
 namespace pcl
 {
@@ -9,7 +10,8 @@ namespace floater
 {
 namespace
 {
-// Rounding of a sum over a row, relative to it; the least weight of a row is far above.
+// Largest rounding error of the sum of a row, relative to it. The smallest weight of a row is far
+// larger (SMALLEST_WEIGHT).
 constexpr double ROUNDING = 1e-13;
 
 } // namespace
@@ -35,7 +37,7 @@ countFloatingUnknowns (const LinearSystem& system)
       queue.push_back (static_cast<Index> (i));
     }
   }
-  // Row j: the unknowns that have j in their row.
+  // Row j holds the unknowns that have j in their row.
   const CsrLists leading_to = makeCsrLists (n, [&] (const auto& emit) {
     for (std::size_t i = 0; i < n; ++i)
       entries (i, [&] (std::size_t j, double) {
@@ -50,6 +52,19 @@ countFloatingUnknowns (const LinearSystem& system)
         queue.push_back (i);
       }
   return n - queue.size ();
+}
+
+bool
+refuseFloatingUnknowns (const LinearSystem& system, Solution& solution)
+{
+  const std::size_t floating = countFloatingUnknowns (system);
+  if (floating == 0)
+    return false;
+  solution.outcome = Solution::Outcome::SINGULAR;
+  solution.message =
+      std::to_string (floating) + (floating == 1 ? " unknown does not depend on the boundary"
+                                                 : " unknowns do not depend on the boundary");
+  return true;
 }
 
 } // namespace floater

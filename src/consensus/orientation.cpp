@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "consensus/orientation.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// How candidates tie two sets of points, named by their representatives.
+struct OrientationVote
+{
+  Index a, b; // a < b
+  int weight; // votes of the candidates: positive for the same side, negative for opposite sides
+};
+
+bool
+runsClockwise (std::uint8_t clockwise, std::size_t corner)
+{
+  return ((clockwise >> corner) & 1U) != 0;
+}
+
+// Appends the votes of one candidate on the sets of its corners.
+void
+castVotes (const Candidate& candidate, SignedSets& sides, std::vector<OrientationVote>& votes)
+{
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1U) % 3U;
+    const SignedSets::Place a = sides.find (candidate.corners[i]),
+                            b = sides.find (candidate.corners[j]);
+    if (a.root == b.root)
+      continue;
+    const bool opposite = (runsClockwise (candidate.clockwise, i) !=
+                           runsClockwise (candidate.clockwise, j)) != (a.flipped != b.flipped);
+    votes.push_back ({std::min (a.root, b.root), std::max (a.root, b.root),
+                      opposite ? -candidate.votes : candidate.votes});
+  }
+}
+
+// Adds up the votes on each pair of sets.
+void
+addUp (std::vector<OrientationVote>& votes)
+{
+  std::stable_sort (votes.begin (), votes.end (),
+                    [] (const OrientationVote& p, const OrientationVote& q) {
+                      return std::tie (p.a, p.b) < std::tie (q.a, q.b);
+                    });
+  std::size_t pairs = 0;
+  for (const OrientationVote& vote : votes) {
+    if (pairs > 0 && votes[pairs - 1].a == vote.a && votes[pairs - 1].b == vote.b)
+      votes[pairs - 1].weight += vote.weight;
+    else
+      votes[pairs++] = vote;
+  }
+  votes.resize (pairs);
+}
+
+} // namespace
+
+bool
+Orientation::join (const Triangle& corners, std::uint8_t clockwise)
+{
+  const bool a = runsClockwise (clockwise, 0), b = runsClockwise (clockwise, 1),
+             c = runsClockwise (clockwise, 2);
+  const SignedSets::Place at_a = sides_.find (corners[0]), at_b = sides_.find (corners[1]),
+                          at_c = sides_.find (corners[2]);
+  const auto contradicts = [] (const SignedSets::Place& p, const SignedSets::Place& q,
+                               bool opposite) {
+    return p.root == q.root && (p.flipped != q.flipped) != opposite;
+  };
+  if (contradicts (at_a, at_b, a != b) || contradicts (at_a, at_c, a != c) ||
+      contradicts (at_b, at_c, b != c))
+    return false;
+  if (at_a.root != at_b.root)
+    sides_.join (corners[0], corners[1], a != b);
+  if (at_a.root != at_c.root)
+    sides_.join (corners[0], corners[2], a != c);
+  return true;
+}
+
+void
+Orientation::vote (const Candidate* const* first, const Candidate* const* last,
+                   const RunContext& run)
+{
+  std::vector<OrientationVote> votes;
+  ProgressLoop progress (run);
+  do {
+    votes.clear ();
+    for (const Candidate* const* candidate = first; candidate != last; ++candidate) {
+      progress.next ();
+      castVotes (**candidate, sides_, votes);
+    }
+    addUp (votes);
+    std::stable_sort (votes.begin (), votes.end (),
+                      [] (const OrientationVote& p, const OrientationVote& q) {
+                        return std::abs (p.weight) > std::abs (q.weight);
+                      });
+    std::unordered_set<Index> joined;
+    for (const OrientationVote& vote : votes) {
+      progress.next ();
+      const bool is_first_of_a = joined.insert (vote.a).second;
+      const bool is_first_of_b = joined.insert (vote.b).second;
+      if (is_first_of_a || is_first_of_b)
+        sides_.join (vote.a, vote.b, vote.weight < 0);
+    }
+  } while (!votes.empty ());
+}
+
+Triangle
+Orientation::turned (Triangle corners, std::uint8_t clockwise)
+{
+  if (runsClockwise (clockwise, 0) != sides_.find (corners[0]).flipped)
+    std::swap (corners[1], corners[2]);
+  return corners;
+}
+
+void
+Orientation::turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+{
+  ProgressLoop progress (run);
+  for (Index p = 0; p < normals.size (); ++p) {
+    progress.next ();
+    if (sides_.find (p).flipped)
+      normals[p] = -normals[p];
+  }
+}
+
+} // namespace floater
+} // namespace pcl

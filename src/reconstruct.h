@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The entry of the core with other limits than the usual ones, for benchmarks.
+#pragma once
+
+#include "stage_limits.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// See the function of the same name that takes no limits.
+Result
+reconstruct (Input input, const Options& options, const Limits& limits);
+
+} // namespace floater
+} // namespace pcl

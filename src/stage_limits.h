@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All limits: values that decide what a mesh is. Each stage says what its own mean and where they
+// come from.
+#pragma once
+
+#include "consensus/consensus_loop.h"
+#include "consensus/consensus_method.h"
+#include "floater/floater_method.h"
+#include "local/stars.h"
+#include "local/tangent_planes.h"
+#include "points/noise.h"
+#include "points/outliers.h"
+
+namespace pcl
+{
+namespace floater
+{
+struct Limits
+{
+  OutlierLimits outliers;
+  NoiseLimits noise;
+  PlaneLimits planes;
+  SheetLimits sheets;
+  SurfaceLimits surface;
+  LoopLimits loop;
+  DiscLimits disc;
+  CheckLimits check;
+};
+
+} // namespace floater
+} // namespace pcl

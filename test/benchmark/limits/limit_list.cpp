@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "limit_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+template <typename Value>
+Value
+scaled (Value value, double factor)
+{
+  if constexpr (std::is_floating_point_v<Value>)
+    return static_cast<Value> (value * factor);
+  const auto rounded = static_cast<Value> (std::lround (static_cast<double> (value) * factor));
+  const auto one = static_cast<Value> (1);
+  if (rounded != value)
+    return std::max (rounded, one);
+  return factor > 1.0 ? value + one : std::max (static_cast<Value> (value - one), one);
+}
+
+} // namespace
+
+// A member of Limits by its name in the code.
+#define PCL_FLOATER_LIMIT(member)                                                                  \
+  {                                                                                                \
+#member, [] (Limits & limits, double factor)                                                   \
+    { limits.member = scaled (limits.member, factor); },                                           \
+        [] (const Limits& limits) { return static_cast<double> (limits.member); }                  \
+  }
+
+std::vector<NamedLimit>
+allLimits ()
+{
+  return {
+      PCL_FLOATER_LIMIT (outliers.far),
+      PCL_FLOATER_LIMIT (outliers.off_plane),
+      PCL_FLOATER_LIMIT (outliers.flat),
+      PCL_FLOATER_LIMIT (outliers.stray),
+      PCL_FLOATER_LIMIT (outliers.cluster),
+      PCL_FLOATER_LIMIT (outliers.own),
+      PCL_FLOATER_LIMIT (outliers.owners),
+      PCL_FLOATER_LIMIT (noise.strong),
+      PCL_FLOATER_LIMIT (noise.fewest_points),
+      PCL_FLOATER_LIMIT (planes.core_points),
+      PCL_FLOATER_LIMIT (planes.sheet_sine),
+      PCL_FLOATER_LIMIT (sheets.plane_sine),
+      PCL_FLOATER_LIMIT (sheets.normal_cosine),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.circumradius_ratio[0]),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.circumradius_ratio[1]),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.circumradius_ratio[2]),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.normal_agreement[0]),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.normal_agreement[1]),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.normal_agreement[2]),
+      PCL_FLOATER_LIMIT (surface.consensus.smallest_island),
+      PCL_FLOATER_LIMIT (surface.consensus.shortest_seam),
+      PCL_FLOATER_LIMIT (surface.open_loops.empty_sector),
+      PCL_FLOATER_LIMIT (surface.open_loops.sheet_sine),
+      PCL_FLOATER_LIMIT (surface.open_loops.sheet_cosine),
+      PCL_FLOATER_LIMIT (surface.open_loops.open_share),
+      PCL_FLOATER_LIMIT (surface.open_loops.wide_steps),
+      PCL_FLOATER_LIMIT (surface.open_loops.whole_roots),
+      PCL_FLOATER_LIMIT (surface.open_loops.all_open_share),
+      PCL_FLOATER_LIMIT (surface.open_loops.small_steps),
+      PCL_FLOATER_LIMIT (surface.open_loops.half_open_share),
+      PCL_FLOATER_LIMIT (surface.open_loops.long_roots),
+      PCL_FLOATER_LIMIT (surface.hole_filling.area_cost),
+      PCL_FLOATER_LIMIT (surface.hole_filling.largest_polygon),
+      PCL_FLOATER_LIMIT (surface.finish.cost.turned_cosine),
+      PCL_FLOATER_LIMIT (surface.finish.cost.turned_cost),
+      PCL_FLOATER_LIMIT (surface.finish.cost.large_area),
+      PCL_FLOATER_LIMIT (surface.finish.cost.large_cost),
+      PCL_FLOATER_LIMIT (surface.finish.cost.fold_cost),
+      PCL_FLOATER_LIMIT (surface.finish.repair.largest_fan),
+      PCL_FLOATER_LIMIT (surface.finish.repair.passes),
+      PCL_FLOATER_LIMIT (surface.finish.repair.places),
+      PCL_FLOATER_LIMIT (surface.finish.repair.kicks),
+      PCL_FLOATER_LIMIT (surface.finish.repair.points_per_kick),
+      PCL_FLOATER_LIMIT (surface.finish.repair.passes_after_kick),
+      PCL_FLOATER_LIMIT (surface.finish.repair.places_after_kick),
+      PCL_FLOATER_LIMIT (surface.finish.facing.inside_share),
+      PCL_FLOATER_LIMIT (surface.finish.facing.equal_axes),
+      PCL_FLOATER_LIMIT (loop.circumradius_ratios[0]),
+      PCL_FLOATER_LIMIT (loop.circumradius_ratios[1]),
+      PCL_FLOATER_LIMIT (loop.circumradius_ratios[2]),
+      PCL_FLOATER_LIMIT (loop.longest_edge),
+      PCL_FLOATER_LIMIT (loop.largest_trusted_step),
+      PCL_FLOATER_LIMIT (loop.mutual_cost),
+      PCL_FLOATER_LIMIT (loop.one_sided_cost),
+      PCL_FLOATER_LIMIT (loop.least_gain),
+      PCL_FLOATER_LIMIT (loop.largest_detour),
+      PCL_FLOATER_LIMIT (loop.edge_margin),
+      PCL_FLOATER_LIMIT (loop.shortest_loop),
+      PCL_FLOATER_LIMIT (loop.few_points),
+      PCL_FLOATER_LIMIT (disc.least_reached_share),
+      PCL_FLOATER_LIMIT (disc.links_per_point),
+      PCL_FLOATER_LIMIT (disc.collapsed_scale),
+      PCL_FLOATER_LIMIT (disc.largest_fold_share),
+  };
+}
+
+#undef PCL_FLOATER_LIMIT
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What hangs on each limit: how many verdicts change if it is a fifth smaller or larger.
+#include "limit_list.h"
+#include "reconstruct.h"
+#include "truth.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+namespace
+{
+namespace floater = pcl::floater;
+
+struct Verdict
+{
+  std::vector<floater::Triangle> triangles;
+  std::string flaws;
+};
+
+std::vector<floater::Triangle>
+reconstruct (const floater::Truth& truth, const floater::Limits& limits, int threads)
+{
+  floater::Options options;
+  options.threads = threads;
+  return floater::reconstruct (
+             {truth.points.positions, truth.points.cloud_index, truth.points.size (), nullptr},
+             options, limits)
+      .triangles;
+}
+
+std::vector<floater::Truth>
+readCases (const std::filesystem::path& folder, std::size_t most_points, bool with_sensors)
+{
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator (folder)) {
+    const std::string name = entry.path ().filename ().string ();
+    if (name.size () > 7 && name.substr (name.size () - 7) == ".gt.ply" &&
+        (with_sensors || name.rfind ("sensor_", 0) != 0))
+      files.push_back (entry.path ());
+  }
+  std::sort (files.begin (), files.end ());
+  std::vector<floater::Truth> cases;
+  for (const std::filesystem::path& file : files) {
+    floater::Truth truth = floater::readTruth (file);
+    if (truth.points.size () <= most_points)
+      cases.push_back (std::move (truth));
+  }
+  return cases;
+}
+
+void
+run (const std::filesystem::path& folder, const std::string& only, std::size_t most_points,
+     bool with_sensors, int threads)
+{
+  const std::vector<floater::Truth> cases = readCases (folder, most_points, with_sensors);
+  if (cases.empty ())
+    throw std::runtime_error (folder.string () +
+                              " has no clouds with a ground truth (NAME.gt.ply)");
+  std::map<std::string, Verdict> by_default;
+  std::size_t clean = 0;
+  for (const floater::Truth& truth : cases) {
+    Verdict& verdict = by_default[truth.name];
+    verdict.triangles = reconstruct (truth, {}, threads);
+    verdict.flaws = floater::flawsOf (verdict.triangles, truth);
+    clean += verdict.flaws.empty () ? 1 : 0;
+    if (!verdict.flaws.empty ())
+      std::cout << truth.name << ": " << verdict.flaws << '\n';
+  }
+  std::cout << clean << " of " << cases.size () << " clean by default\n\n"
+            << "| limit | value | factor | meshes that change | become clean | no longer clean | "
+               "which |\n"
+            << "|---|---:|---:|---:|---:|---:|---|\n";
+  for (const floater::NamedLimit& limit : floater::allLimits ())
+    for (const double factor : {0.8, 1.2}) {
+      if (limit.name.find (only) == std::string::npos)
+        continue;
+      floater::Limits limits;
+      limit.scale (limits, factor);
+      std::size_t changed = 0, better = 0, worse = 0;
+      std::string which;
+      for (const floater::Truth& truth : cases) {
+        const Verdict& before = by_default.at (truth.name);
+        const std::vector<floater::Triangle> triangles = reconstruct (truth, limits, threads);
+        if (triangles == before.triangles)
+          continue;
+        ++changed;
+        const std::string flaws = floater::flawsOf (triangles, truth);
+        if (flaws.empty () == before.flaws.empty ())
+          continue;
+        ++(flaws.empty () ? better : worse);
+        which +=
+            (which.empty () ? "" : "; ") + truth.name + (flaws.empty () ? "" : " (" + flaws + ")");
+      }
+      std::cout << "| " << limit.name << " | " << limit.value ({}) << " | " << factor << " | "
+                << changed << " | " << better << " | " << worse << " | " << which << " |"
+                << std::endl; // a row takes seconds
+    }
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  CLI::App app ("Reconstructs all clouds of a folder that have a ground truth, NAME.gt.ply, by "
+                "default limits "
+                "and with each limit at 80 % and at 120 %; prints what changes.");
+  std::filesystem::path folder;
+  std::string only;
+  std::size_t most_points = 150'000;
+  bool with_sensors = false;
+  int threads = 0;
+  app.add_option ("folder", folder, "folder with NAME.gt.ply")
+      ->required ()
+      ->check (CLI::ExistingDirectory);
+  app.add_option ("--only", only, "limits whose name holds this text");
+  app.add_option ("--most-points", most_points, "largest cloud")->capture_default_str ();
+  app.add_flag ("--sensors", with_sensors, "also clouds whose name begins with sensor_");
+  app.add_option ("-j,--threads", threads, "threads; 0: all cores")->capture_default_str ();
+  CLI11_PARSE (app, argc, argv);
+  try {
+    run (folder, only, most_points, with_sensors, threads);
+  }
+  catch (const std::exception& error) {
+    std::cerr << "pcl_floater_limits: " << error.what () << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Linear systems of triangulated grids, for the tests of solvers and orderings.
+#pragma once
+
+#include "floater/solvers/linear_system.h"
+#include "floater/weights.h"
+#include "triangulated_grid.h"
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The system of all interior points.
+/// \param loop_uv parameters of the grid's loop
+inline LinearSystem
+gridSystem (const TriangulatedGrid& grid, Weighting weighting,
+            const std::vector<Eigen::Vector2d>& loop_uv)
+{
+  return assembleSystem (grid.stars.neighbors, computeWeights (grid.stars, weighting, 1), grid.loop,
+                         loop_uv, std::vector<std::uint8_t> (grid.positions.size (), 1), 1);
+}
+
+/// The same with the loop in its place. Weights that reproduce linear functions then leave all
+/// points in their places.
+inline LinearSystem
+gridSystem (const TriangulatedGrid& grid, Weighting weighting = Weighting::MEAN_VALUE)
+{
+  return gridSystem (grid, weighting, grid.loopInPlace ());
+}
+
+/// A random order of so many unknowns.
+inline std::vector<int>
+randomOrder (std::size_t count, std::uint64_t seed)
+{
+  std::vector<int> order (count);
+  std::iota (order.begin (), order.end (), 0);
+  RandomStream random (seed);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap (order[i - 1], order[random.below (i)]);
+  return order;
+}
+
+} // namespace floater
+} // namespace pcl

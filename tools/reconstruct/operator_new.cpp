@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Operators new and delete that put large arrays into scratch files once there is a scratch folder.
+#include "large_arrays.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+void*
+allocate (std::size_t size, std::size_t alignment) noexcept
+{
+  if (size >= LARGE_ARRAY && alignment <= LARGE_ARRAY_ALIGNMENT && hasScratchFolder ())
+    return mapLargeArray (size);
+  if (alignment <= alignof (std::max_align_t))
+    return std::malloc (std::max<std::size_t> (size, 1));
+  return std::aligned_alloc (alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+void*
+allocateOrThrow (std::size_t size, std::size_t alignment = alignof (std::max_align_t))
+{
+  for (;;) {
+    if (void* pointer = allocate (size, alignment))
+      return pointer;
+    const std::new_handler handler = std::get_new_handler ();
+    if (handler == nullptr)
+      throw std::bad_alloc ();
+    handler ();
+  }
+}
+
+void*
+allocateOrNull (std::size_t size, std::size_t alignment = alignof (std::max_align_t)) noexcept
+{
+  try {
+    return allocateOrThrow (size, alignment);
+  }
+  catch (...) {
+    return nullptr;
+  }
+}
+
+void
+release (void* pointer) noexcept
+{
+  const bool may_be_mapped =
+      reinterpret_cast<std::uintptr_t> (pointer) % LARGE_ARRAY_ALIGNMENT == 0 &&
+      hasScratchFolder ();
+  if (pointer == nullptr || !may_be_mapped || !unmapLargeArray (pointer))
+    std::free (pointer);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
+
+// All forms are replaced, because the runtime of a sanitizer brings its own version of each.
+void*
+operator new (std::size_t size)
+{
+  return pcl::floater::allocateOrThrow (size);
+}
+void*
+operator new[] (std::size_t size)
+{
+  return pcl::floater::allocateOrThrow (size);
+}
+void*
+operator new (std::size_t size, const std::nothrow_t& /*tag*/) noexcept
+{
+  return pcl::floater::allocateOrNull (size);
+}
+void*
+operator new[] (std::size_t size, const std::nothrow_t& /*tag*/) noexcept
+{
+  return pcl::floater::allocateOrNull (size);
+}
+void*
+operator new (std::size_t size, std::align_val_t alignment)
+{
+  return pcl::floater::allocateOrThrow (size, static_cast<std::size_t> (alignment));
+}
+void*
+operator new[] (std::size_t size, std::align_val_t alignment)
+{
+  return pcl::floater::allocateOrThrow (size, static_cast<std::size_t> (alignment));
+}
+void*
+operator new (std::size_t size, std::align_val_t alignment, const std::nothrow_t& /*tag*/) noexcept
+{
+  return pcl::floater::allocateOrNull (size, static_cast<std::size_t> (alignment));
+}
+void*
+operator new[] (std::size_t size, std::align_val_t alignment,
+                const std::nothrow_t& /*tag*/) noexcept
+{
+  return pcl::floater::allocateOrNull (size, static_cast<std::size_t> (alignment));
+}
+
+void
+operator delete (void* pointer) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete[] (void* pointer) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete (void* pointer, std::size_t /*size*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete[] (void* pointer, std::size_t /*size*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete (void* pointer, const std::nothrow_t& /*tag*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete[] (void* pointer, const std::nothrow_t& /*tag*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete (void* pointer, std::align_val_t /*alignment*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete[] (void* pointer, std::align_val_t /*alignment*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete (void* pointer, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete[] (void* pointer, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete (void* pointer, std::align_val_t /*alignment*/,
+                 const std::nothrow_t& /*tag*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
+void
+operator delete[] (void* pointer, std::align_val_t /*alignment*/,
+                   const std::nothrow_t& /*tag*/) noexcept
+{
+  pcl::floater::release (pointer);
+}
