@@ -8,6 +8,7 @@
 #include "floater/floater_method.h"
 #include "local/stars.h"
 #include "local/tangent_planes.h"
+#include "mesh/check.h"
 #include "points/noise.h"
 #include "points/outliers.h"
 

@@ -308,7 +308,7 @@ TEST (MeshCheck, WhatIsBrokenIsCounted)
     Report report;
     const Problem problem = reportCheck (pointsAt (positions), found, {}, report);
     EXPECT_EQ (problem.status, Status::INTERNAL_ERROR);
-    EXPECT_NE (problem.message.find ("no oriented manifold"), std::string::npos);
+    EXPECT_NE (problem.message.find ("not an oriented manifold"), std::string::npos);
     EXPECT_TRUE (report.check.done);
   }
 }
