@@ -30,7 +30,8 @@ struct PowerLaw
 PowerLaw
 fitPowerLaw (const GrowthSeries& series);
 
-/// Whether a power law can be told: at least two different numbers of points, all values positive.
+/// Whether a power law can be fitted: at least two different numbers of points, all values
+/// positive.
 bool
 hasPowerLaw (const GrowthSeries& series);
 

@@ -81,13 +81,14 @@ public:
   {
     report.heading ("Table 1: bytes per point");
     report.paragraph ("Measured, and by the formula of TW 385, (218 + 84 gamma) N, with our "
-                      "gamma. The search structure is a kd-tree here (what the allocator "
-                      "handed out for it), an octree in TW 385. The matrix has both "
-                      "right-hand sides and the numbering with it. Factors and permutations as "
-                      "UMFPACK counts them after the factorization: its L and U share patterns "
-                      "within supernodes, so that they need less than the formula's 12 bytes "
-                      "per nonzero. The last column is the peak while it factorizes, which the "
-                      "TW 385 does not count.");
+                      "gamma. The search structure is a kd-tree here, measured by what the "
+                      "allocator handed out for it, and an octree in TW 385. The matrix "
+                      "includes both right-hand sides and the numbering of the unknowns. Factors "
+                      "and permutations are what UMFPACK counts after the factorization: its L "
+                      "and U share patterns within supernodes, so they need less than the 12 "
+                      "bytes per nonzero of the formula. The last column is the peak during "
+                      "factorization, which TW "
+                      "385 does not count.");
     report.table ("table1_memory", table_);
   }
 

@@ -8,7 +8,7 @@ namespace pcl
 {
 namespace floater
 {
-/// What /proc tells of the processor; empty where there is no such file.
+/// Name of the processor according to /proc; empty where there is no such file.
 std::string
 processorName ();
 

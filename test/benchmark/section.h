@@ -12,7 +12,7 @@ namespace pcl
 {
 namespace floater
 {
-/// What all sections look at.
+/// A cloud that all sections measure.
 struct Sample
 {
   std::filesystem::path path;
@@ -28,7 +28,7 @@ struct Settings
   int repeats = 3; ///< the shortest time of so many runs is taken
 };
 
-/// One table or figure: measures one cloud after the other, then writes.
+/// One table or figure: measures one cloud after the other, then writes its part of the report.
 class Section
 {
 public:

@@ -142,7 +142,8 @@ public:
   {
     report.heading ("Table 3: seconds");
     report.paragraph (
-        "Wall time, shortest of " + std::to_string (settings_.repeats) + " runs with " +
+        "Wall time, shortest of " + std::to_string (settings_.repeats) +
+        (settings_.repeats == 1 ? " run with " : " runs with ") +
         std::to_string (settings_.threads) + (settings_.threads == 1 ? " thread. " : " threads. ") +
         "Neighbours: working set and the 20 nearest, which serve boundary and weights alike. "
         "Weights: tangent planes, Delaunay stars, mean value weights, assembly. UMFPACK, "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clouds on known surfaces and a look at the meshes made from them, for the tests of the PCL class.
+// Clouds on known surfaces and checks of the meshes made from them, for the tests of the PCL class.
 #pragma once
 
 #include "random_stream.h"
@@ -32,14 +32,14 @@ using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Polygons = std::vector<pcl::Vertices>;
 using Triangles = std::set<std::array<pcl::index_t, 3>>;
 
-/// Tells the seed in every failure.
+/// Every failure shows the seed.
 class FloaterClass : public testing::Test
 {
 private:
   testing::ScopedTrace trace_{__FILE__, __LINE__, "seed " + std::to_string (SEED)};
 };
 
-/// Points of a surface; the fields beside x, y, z are whatever PointT starts with.
+/// Points of a surface; fields other than x, y and z have the default values of PointT.
 template <typename PointT>
 typename pcl::PointCloud<PointT>::Ptr
 makeCloud (SurfaceKind kind, std::size_t points)
@@ -63,14 +63,14 @@ heightField (std::size_t points = 500)
   return makeCloud<pcl::PointXYZ> (SurfaceKind::HEIGHT_FIELD, points);
 }
 
-/// The class as a maker of discs: only they have parameters, and one loop over all points.
+/// The class with the topology of a disc, for what only discs have: parameters, and one loop.
 class Floater : public pcl::FloaterReconstruction<pcl::PointXYZ>
 {
 public:
   Floater () { setTopology (Topology::DISC); }
 };
 
-/// Triangles without their order, each from its smallest corner on; the orientation stays.
+/// Triangles without their order. Each begins at its smallest corner and keeps its orientation.
 inline Triangles
 trianglesOf (const Polygons& polygons)
 {
@@ -138,7 +138,7 @@ allOf (std::size_t size)
   return all;
 }
 
-/// Runs and returns the triangles; expects success, and a console that tells the warnings only.
+/// Runs and returns the triangles; expects success, and nothing but the warnings on the console.
 template <typename PointT>
 Triangles
 runWell (pcl::FloaterReconstruction<PointT>& floater)
@@ -148,14 +148,14 @@ runWell (pcl::FloaterReconstruction<PointT>& floater)
   testing::internal::CaptureStdout ();
   testing::internal::CaptureStderr ();
   floater.reconstruct (points, polygons);
-  const std::string told = testing::internal::GetCapturedStderr ();
+  const std::string printed = testing::internal::GetCapturedStderr ();
   EXPECT_EQ (testing::internal::GetCapturedStdout (), "");
   const std::vector<std::string>& warnings = floater.getReport ().warnings;
-  EXPECT_EQ (static_cast<std::size_t> (std::count (told.begin (), told.end (), '\n')),
+  EXPECT_EQ (static_cast<std::size_t> (std::count (printed.begin (), printed.end (), '\n')),
              warnings.size ())
-      << told;
+      << printed;
   for (const std::string& warning : warnings)
-    EXPECT_NE (told.find (LINE_START + warning + '\n'), std::string::npos) << told;
+    EXPECT_NE (printed.find (LINE_START + warning + '\n'), std::string::npos) << printed;
   EXPECT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
   EXPECT_EQ (floater.getMessage (), "");
   return trianglesOf (polygons);
@@ -171,13 +171,13 @@ runDisc (pcl::FloaterReconstruction<PointT>& floater, const std::set<pcl::index_
   return triangles;
 }
 
-/// Runs both forms with output that holds an old mesh; expects the status, nothing of the old mesh,
-/// and one line of error.
+/// Runs both forms of reconstruct (), with an old mesh in the output. Expects the status, an empty
+/// mesh, and one line of error on the console.
 template <typename PointT>
 void
 expectFailure (pcl::FloaterReconstruction<PointT>& floater, Status status)
 {
-  const auto expect_told = [&] {
+  const auto expect_error = [&] {
     const std::string error = testing::internal::GetCapturedStderr ();
     EXPECT_EQ (testing::internal::GetCapturedStdout (), "");
     EXPECT_EQ (std::count (error.begin (), error.end (), '\n'), 1) << error;
@@ -194,7 +194,7 @@ expectFailure (pcl::FloaterReconstruction<PointT>& floater, Status status)
   testing::internal::CaptureStdout ();
   testing::internal::CaptureStderr ();
   floater.reconstruct (mesh);
-  expect_told ();
+  expect_error ();
   EXPECT_EQ (mesh.cloud.width * mesh.cloud.height, 0U);
   EXPECT_TRUE (mesh.cloud.data.empty ());
   EXPECT_TRUE (mesh.polygons.empty ());
@@ -204,7 +204,7 @@ expectFailure (pcl::FloaterReconstruction<PointT>& floater, Status status)
   testing::internal::CaptureStdout ();
   testing::internal::CaptureStderr ();
   floater.reconstruct (points, polygons);
-  expect_told ();
+  expect_error ();
   EXPECT_TRUE (points.empty ());
   EXPECT_EQ (points.width * points.height, 0U);
   EXPECT_TRUE (polygons.empty ());

@@ -10,7 +10,7 @@ namespace floater
 {
 namespace
 {
-TEST_F (FloaterClass, TellsItsProgress)
+TEST_F (FloaterClass, CallsBackForEachStage)
 {
   std::vector<Stage> stages;
   Floater floater;
@@ -32,7 +32,7 @@ TEST_F (FloaterClass, TellsItsProgress)
   runWell (floater);
 }
 
-TEST_F (FloaterClass, TellsHowFarItIsAndCanBeCancelled)
+TEST_F (FloaterClass, ReportsProgressAndCanBeCancelled)
 {
   double done = -1.0;
   Floater floater;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What goes into FloaterReconstruction and what comes out: clouds, indices, meshes, failures.
+// Input and output of FloaterReconstruction: clouds, indices, meshes, failures.
 #include "mesh_check.h"
 
 #include <pcl/point_types.h>
@@ -133,7 +133,7 @@ TEST_F (FloaterClass, KeepsAllFields)
 
 TEST_F (FloaterClass, IndicesSelectAndPolygonsCountInTheWholeCloud)
 {
-  // The surface is at every third place, last point first; the rest is a heap beside it.
+  // Every third point is on the surface, in reverse order; the others are a heap beside it.
   const Cloud::Ptr surface = heightField ();
   const std::size_t n = surface->size ();
   RandomStream random (SEED);
@@ -257,7 +257,7 @@ TEST_F (FloaterClass, RefusesWhatIsNoDisc)
   expectFailure (floater, Status::TOO_FEW_POINTS);
 }
 
-TEST_F (FloaterClass, TellsOfPointsApart)
+TEST_F (FloaterClass, WarnsOfPointsApart)
 {
   const Cloud::Ptr cloud = heightField ();
   pcl::Indices island;
@@ -269,7 +269,7 @@ TEST_F (FloaterClass, TellsOfPointsApart)
   }
   Floater floater;
   floater.setInputCloud (cloud);
-  runDisc (floater, allOf (500)); // which looks for the warnings on the console
+  runDisc (floater, allOf (500)); // expects the warnings on the console
   EXPECT_EQ (floater.getUnusedIndices (), island);
   EXPECT_FALSE (floater.getReport ().warnings.empty ());
 }
@@ -316,7 +316,7 @@ TEST_F (FloaterClass, ServesOneCloudAfterAnother)
     else
       EXPECT_EQ (runWell (floater), alone (cloud));
   }
-  // What a run found stays until the next run.
+  // The results of a run are kept until the next run.
   const pcl::Indices loop = floater.getBoundaryLoop ();
   floater.setInputCloud (small);
   EXPECT_EQ (floater.getBoundaryLoop (), loop);

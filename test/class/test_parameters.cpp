@@ -11,7 +11,7 @@ namespace floater
 {
 namespace
 {
-/// A setter given a value, and the getter that must tell it, before and after a run.
+/// A setter given a value, and whether the getter returns that value.
 struct Choice
 {
   std::string name;
@@ -72,7 +72,7 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getStatistics ().cloud_points, 0U);
 }
 
-TEST_F (FloaterClass, EveryChoiceMakesADiscAndStays)
+TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
 {
   const std::vector<Choice> choices{
       CHOICE (HolePolicy, HolePolicy::KEEP_LARGEST),
@@ -172,7 +172,7 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
   }
 }
 
-// With every policy for holes: each keeps the one loop of a height field, or may be asked to.
+// Every policy for holes keeps the one loop of a height field, given the right parameters.
 TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
 {
   const Cloud::Ptr cloud = heightField ();
@@ -214,7 +214,7 @@ TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
   expectFailure (floater, Status::INVALID_OPTION);
 }
 
-// What the user gives is taken, and only a disc can be laid out in it.
+// A given loop is the boundary of a disc, whatever topology is to be found.
 TEST_F (FloaterClass, AGivenLoopMakesADisc)
 {
   Floater floater;
@@ -244,8 +244,8 @@ TEST_F (FloaterClass, ParametersChangeTheRun)
   EXPECT_EQ (floater.getParameters (), on_circle);
   EXPECT_EQ (floater.getStatistics ().flips, 0U);
 
-  // Border points lie on the domain: on a triangle, half as far from the centre as its corners at
-  // least; on the circle all equally far.
+  // Border points lie on the domain. On a triangle they are at least half as far from the centre as
+  // its corners, on the circle all equally far.
   floater.setDomain (Domain::POLYGON);
   floater.setPolygonSides (3);
   runWell (floater);
@@ -274,7 +274,7 @@ TEST_F (FloaterClass, TwoSegmentsFollowTheClusterParameters)
   runDisc (floater, allOf (500));
   EXPECT_GT (floater.getBoundaryLoop ().size (), whole);
 
-  // A cluster that may not grow as far holds a part of the border only, if that makes a loop.
+  // A cluster that may not grow so far holds only a part of the border.
   const auto expect_less = [&floater, whole] {
     Cloud points;
     Polygons polygons;
@@ -340,8 +340,8 @@ TEST_F (FloaterClass, TakesTheUsersLoop)
   const Triangles reversed = runWell (floater);
   EXPECT_TRUE (reversed == expected || turnedOver (reversed) == expected);
 
-  // Another loop is used, not looked for: without the first border point that one becomes interior,
-  // or is cut off.
+  // A given loop is used as it is: a border point that it leaves out becomes interior, or is cut
+  // off.
   loop.erase (loop.begin ());
   floater.setPrescribedLoop (loop);
   runWell (floater);
@@ -381,7 +381,7 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
   expectFailure (floater, Status::INVALID_LOOP);
 }
 
-TEST_F (FloaterClass, TellsOfASolverThatGaveUp)
+TEST_F (FloaterClass, ReportsASolverThatGaveUp)
 {
   Floater floater;
   floater.setInputCloud (heightField ());

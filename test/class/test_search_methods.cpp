@@ -17,7 +17,7 @@ namespace
 {
 using Search = pcl::search::Search<pcl::PointXYZ>;
 
-/// Counts what it is asked.
+/// Counts its queries.
 class CountingSearch : public pcl::search::KdTree<pcl::PointXYZ>
 {
 public:
@@ -66,7 +66,7 @@ TEST_F (FloaterClass, AsksTheUsersSearchMethod)
   EXPECT_EQ (counting->queries, indices->size () - 1);
 }
 
-// PCL's octree answers without being asked for by the user; the mesh is that of any other search.
+// Balls are searched by PCL's octree if the user gives no search; the mesh is that of any search.
 TEST_F (FloaterClass, TakesBallsByAnOctree)
 {
   const Cloud::Ptr cloud = heightField ();

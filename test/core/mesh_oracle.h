@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mesh is, topology and geometry; shares no code with the library.
+// Topology and geometry of a mesh, computed without any code of the library.
 #pragma once
 
 #include "core/types.h"
@@ -24,7 +24,7 @@ namespace samples
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-/// What triangles are, counted from their edges; shares no code with the library.
+/// Topology of a mesh, counted from its edges.
 struct Topology
 {
   bool manifold = true; ///< edges with one or two oppositely directed triangles, one fan per vertex
@@ -100,7 +100,7 @@ topologyOf (const std::vector<Triangle>& triangles)
   return topology;
 }
 
-/// Mean distance of each point to its six nearest, by looking at all. Equal points do not count.
+/// Mean distance of each point to its six nearest, by brute force. Equal points do not count.
 inline std::vector<double>
 spacingByBruteForce (const Positions& points)
 {
@@ -125,7 +125,7 @@ spacingByBruteForce (const Positions& points)
   return spacing;
 }
 
-/// Edges between triangles more than 120 degrees apart.
+/// Edges whose two triangles are more than 120 degrees apart.
 inline std::vector<std::array<Index, 2>>
 foldedEdges (const std::vector<Triangle>& triangles, const Positions& points)
 {
@@ -179,7 +179,7 @@ geometryOf (const std::vector<Triangle>& triangles, const Positions& points)
   return geometry;
 }
 
-/// For a look at what a test made: a PLY file in text.
+/// Saves a mesh that a test made as a PLY file in text, to be viewed.
 inline void
 savePly (const std::string& path, const Positions& points, const std::vector<Triangle>& triangles)
 {

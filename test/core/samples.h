@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sheets with a known border, and an independent look at triangles, for the tests of the stages.
+// Sheets with a known border, and other helpers for the tests of the stages.
 #pragma once
 
 #include "core/geometry.h"
@@ -163,7 +163,7 @@ makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int th
   return made;
 }
 
-/// A cycle from its smallest member on, towards the smaller of that one's two neighbours.
+/// A cycle that begins at its smallest member and goes on to the smaller of the two next to it.
 inline std::vector<Index>
 canonicalCycle (std::vector<Index> cycle)
 {
@@ -194,7 +194,7 @@ asInput (const Positions& positions, NeighborSearch* search = nullptr)
   return {positions, indices (positions.size ()), positions.size (), search};
 }
 
-/// The defaults, but for the method of TW 385 whatever the surface.
+/// The default options, but always with the method of TW 385.
 inline Options
 discOptions ()
 {

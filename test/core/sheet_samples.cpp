@@ -61,8 +61,8 @@ sheet (
   return made;
 }
 
-// Points along a straight line from 0 to `length`, the next one spacing further; both ends, but the
-// second one is left to the next side.
+// Places along a line from 0 to `length`, each about one local spacing after the one before it. The
+// end itself is left out: it is the begin of the next side.
 std::vector<double>
 steps (double length, const std::function<double (double)>& spacing)
 {
@@ -152,7 +152,7 @@ lattice (Lattice kind)
   made.loops = 1;
   for (int i = 0; i < SIDE; ++i)
     for (int j = 0; j < SIDE; ++j) {
-      // Hexagonal rows go to and fro, the others lean.
+      // Hexagonal rows are shifted to and fro, those of the other lattices by the shear alone.
       const int back = kind == Lattice::HEXAGONAL ? i / 2 : 0;
       const Eigen::Vector2d p = (j - back) * across + i * up;
       made.points.emplace_back (p.x (), p.y (), 0.0);

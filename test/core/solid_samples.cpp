@@ -37,8 +37,8 @@ generated (SurfaceKind kind, std::size_t points, double slenderness, std::uint64
   return made;
 }
 
-// Walls over an outline, a floor and perhaps a lid. Points of their own: the rim at floor and lid,
-// and uprights.
+// Walls over an outline, a floor and perhaps a lid. The upper and lower edges of the walls have
+// points of their own, and so have upright edges.
 KnownSurface
 prism (const Outline& corners, const Outline& loop, const Outline& uprights, double height,
        bool with_lid, std::uint64_t seed)

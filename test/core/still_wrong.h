@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Demands that are right but not yet met: on one list, so that none is forgotten.
+// Expectations that are right but not met yet, on one list so that none is forgotten.
 #pragma once
 
 #include <gtest/gtest-spi.h>
@@ -14,22 +14,22 @@ namespace pcl
 {
 namespace floater
 {
-/// Cases that do not work yet. These are skipped as long as they fail, and fail as soon as they
-/// work: then they are to be taken off this list.
+/// Cases that do not work yet. They are skipped as long as they fail. A case that works fails until
+/// it is taken off this list.
 inline const std::set<std::string>&
 stillWrong ()
 {
   static const std::set<std::string> names{
       // A border of 19 points at the end of a thin tube is taken for a defect and closed.
       "finger_100",
-      // Outliers less than 10 spacings away in the plane of a sheet are not told from it.
+      // Outliers less than 10 spacings away in the plane of a sheet are taken for a part of it.
       "sphere_outliers_near",
       // Close sheets, slits along sharp edges.
       "parallel_2", "wedge"};
   return names;
 }
 
-/// Calls `expect`, but skips the test with what it says if the case is known to be wrong.
+/// Calls `expect`. If the case is known to be wrong, its failures skip the test instead.
 inline void
 expectUnlessStillWrong (const std::string& name, const std::function<void ()>& expect)
 {

@@ -2,10 +2,10 @@
 // Points on surfaces of known topology, for the tests of whole reconstructions.
 //
 // Unless it says otherwise the unit of length is the mean spacing, so that there is about one point
-// for each unit of area. Points are irregular but even, as of a scan: those of generateSurface(),
-// or darts thrown at random, of which each keeps 0.8 spacings away from all before it. Borders and
+// for each unit of area. Points are irregular but even, as in a scan: those of generateSurface(),
+// or darts thrown at random, each at least 0.8 spacings away from all before it. Borders and
 // sharp edges have points of their own in steps of one spacing, so that the area of the true
-// surface is that of a good mesh; "ragged" sheets go without.
+// surface is that of a good mesh; "ragged" sheets have none.
 #pragma once
 
 #include "samples.h"
@@ -16,11 +16,11 @@ namespace floater
 {
 namespace samples
 {
-/// Points and what their surface is.
+/// Points and the surface that they lie on.
 struct KnownSurface
 {
   Positions points;
-  Positions clean; ///< of points with noise, where they were without
+  Positions clean; ///< where noisy points lie without the noise; else empty
   std::size_t components = 1;
   std::size_t loops = 0;
   std::size_t handles = 0;     ///< of all components together
@@ -92,11 +92,11 @@ sphere (std::size_t points, std::uint64_t seed);
 KnownSurface
 sphereWithThreeHoles (std::uint64_t seed);
 
-/// Radii 5 to 2.
+/// A torus whose radii are as 5 to 2.
 KnownSurface
 torus (std::size_t points, std::uint64_t seed);
 
-/// A figure of eight, as thick as a quarter of its holes.
+/// A tube along a figure of eight, a quarter as thick as its holes are wide.
 KnownSurface
 doubleTorus (std::uint64_t seed);
 
@@ -123,8 +123,8 @@ bracket (std::uint64_t seed);
 KnownSurface
 cylinder (std::uint64_t seed);
 
-/// A prism over a triangle with angles of 30, 75 and 75 degrees. Near the sharp edge points of both
-/// faces keep their distance from each other, too.
+/// A prism over a triangle with angles of 30, 75 and 75 degrees. Points on both faces beside the
+/// sharp edge keep their distance from each other, too.
 KnownSurface
 wedge (std::uint64_t seed);
 
@@ -135,7 +135,7 @@ KnownSurface
 withComponent (KnownSurface surface, const KnownSurface& more, double scale,
                const Eigen::Vector3d& place);
 
-/// Moves every coordinate by a normal deviate; the points before that are the clean ones.
+/// Adds normal noise to every coordinate; `clean` are the points before that.
 KnownSurface
 withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole method on samples of surfaces of known topology: what comes out is that surface.
+// The whole method on samples of surfaces of known topology: the mesh is that surface.
 //
-// Of the environment: PCL_FLOATER_SAVE, a folder into which the meshes are saved as PLY files;
-// PCL_FLOATER_SHOW_WRONG, set to anything, lets cases fail that are known not to work yet.
+// Environment variables: PCL_FLOATER_SAVE is a folder into which the meshes are saved as PLY files.
+// If PCL_FLOATER_SHOW_WRONG is set, cases that are known not to work yet fail instead of being
+// skipped.
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "mesh_oracle.h"
@@ -27,7 +28,7 @@ using samples::Positions;
 
 /// A mean edge of an even mesh is a little longer than the mean distance to the six nearest.
 constexpr double LEAST_MEAN_EDGE = 0.85, LARGEST_MEAN_EDGE = 1.25;
-/// No edge of a mesh without closed holes is longer, in spacings.
+/// Bound of all edges of a mesh without filled holes, in spacings.
 constexpr double LONGEST_EDGE = 4.0;
 
 struct Case
@@ -136,8 +137,8 @@ foldsOf (const std::vector<Triangle>& triangles, const Positions& points)
   return folds;
 }
 
-// Edges that may be folded: on sharp edges of the surface one in 0.8 spacings, and with noise as
-// many as there are when the points of the mesh of the clean surface are moved.
+// Number of edges that may be folded: one per 0.8 spacings of the sharp edges of the surface. With
+// noise, also as many as the mesh of the clean points has when its vertices are moved.
 double
 allowedFolds (const KnownSurface& surface)
 {
@@ -194,7 +195,7 @@ TEST_P (AnyTopology, IsTheSurface)
   expectUnlessStillWrong (one.name, [&one] { expectSurface (one); });
 }
 
-/// Triangles from their smallest corner on, in order; each corner replaced.
+/// Triangles with new labels, each from its smallest corner on, in order.
 std::vector<Triangle>
 relabelled (std::vector<Triangle> triangles, const std::vector<Index>& label)
 {
@@ -226,7 +227,7 @@ TEST_P (AnyTopology, ThreadsAndOrderChangeNothing)
     permuted.push_back (surface.points[p]);
   const Result other = reconstruct (samples::asInput (permuted), options);
   EXPECT_EQ (other.report.status, expected.report.status);
-  // Any of several equal points may stand for all: take the first one.
+  // Any of several equal points may stand for the others: take the first one.
   std::map<std::array<double, 3>, Index> first;
   std::vector<Index> plain, back (order.size ());
   for (Index p = 0; p < surface.points.size (); ++p) {
@@ -239,7 +240,7 @@ TEST_P (AnyTopology, ThreadsAndOrderChangeNothing)
   EXPECT_EQ (relabelled (other.triangles, back), relabelled (expected.triangles, plain));
 }
 
-// A surface without an orientation has no right mesh: it is refused, or cut, and this is said.
+// A surface without an orientation has no right mesh: it is refused, or cut with a warning.
 void
 expectRefusedOrCut (const KnownSurface& strip, Topology method)
 {
@@ -268,7 +269,7 @@ TEST (OneSided, IsNeverPassedOffAsRight)
     expectRefusedOrCut (strip, method);
 }
 
-// The method of TW 385 was made for these.
+// Surfaces for which the method of TW 385 is made.
 INSTANTIATE_TEST_SUITE_P (
     Discs, AnyTopology,
     testing::Values (

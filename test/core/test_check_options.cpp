@@ -16,7 +16,7 @@ namespace
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
 constexpr double INF = std::numeric_limits<double>::infinity ();
 
-// Tries values of an option in its group.
+// Checks which values of an option in a group are in range.
 template <typename Group, typename Value>
 void
 expectRange (Group Options::*group, Value Group::*option, std::initializer_list<Value> good,
@@ -35,7 +35,7 @@ expectRange (Group Options::*group, Value Group::*option, std::initializer_list<
   }
 }
 
-// Tries values of an option without a group.
+// The same for an option without a group.
 void
 expectRange (int Options::*option, std::initializer_list<int> good, std::initializer_list<int> bad)
 {
@@ -90,7 +90,7 @@ TEST (CheckOptions, PoliciesFitTheTopology)
       const bool fits = topology != Topology::DISC || holes == HolePolicy::AUTO ||
                         holes == HolePolicy::KEEP_LARGEST;
       EXPECT_EQ (checkOptions (options).status, fits ? Status::OK : Status::INVALID_OPTION);
-      // A size is needed by one policy alone, in either unit.
+      // Only one policy needs a size, in either unit.
       options.holes.largest_hole = 0.0;
       const bool fits_still = fits && holes != HolePolicy::BY_SIZE;
       EXPECT_EQ (checkOptions (options).status, fits_still ? Status::OK : Status::INVALID_OPTION);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Neighbourhoods, weights, domains, solvers and orderings with each other, on one small sheet.
+// Combinations of neighbourhoods, weights, domains, solvers and orderings on one small sheet.
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "floater/solvers/solver.h"
@@ -87,8 +87,8 @@ farthest (const Result& a, const Result& b)
   return distance;
 }
 
-// The triangulation of the plane that flips lead to has empty circles: on points of a plane that is
-// one mesh, whatever the way there.
+// Flips lead to a triangulation whose circumcircles are empty. For points in a plane there is only
+// one, whatever the mesh before the flips.
 TEST (Choices, MakeTheSameMeshOfAFlatSheet)
 {
   const Input input = sheet (0.0);
@@ -113,7 +113,8 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
       }
 }
 
-// Neither the neighbours nor their weights matter to a flat sheet that stays where it is.
+// A flat sheet in its own border is reproduced by any neighbours, and by all weights that reproduce
+// their centre.
 TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
 {
   const Input input = sheet (0.0);
@@ -127,7 +128,7 @@ TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
       options.weighting = weighting;
       const Result result = reconstruct (input, options);
       ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
-      // Loops may be laid either way round, with any point first: compare distances.
+      // A loop may be laid out in either direction and from any point on: compare distances.
       const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
       double worst = 0.0;
       for (std::size_t i = 0; i < uv.size (); ++i)
@@ -193,7 +194,7 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
   EXPECT_GT (nonzeros (Neighborhood::BALL, 3.5), 1.2 * ball);
 }
 
-TEST (Choices, OfALimitThatIsTooLowAreTold)
+TEST (Choices, OfALimitThatIsTooLowAreReported)
 {
   Options options;
   options.topology = Topology::DISC;

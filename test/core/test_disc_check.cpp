@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the last look at a mesh says of a disc that was laid out in a loop.
+// Whether the check of a mesh tells a disc in its loop from anything else.
 #include "mesh/check.h"
 
 #include "samples.h"
@@ -29,7 +29,7 @@ wheel (bool with_middle)
 
 const std::vector<Index> BORDER = {7, 8, 9, 10, 11, 12};
 
-// Whether the last look finds one manifold disc whose boundary is the loop.
+// Whether checkMesh () finds one manifold disc whose boundary is the loop.
 bool
 isDiscIn (const std::vector<Index>& loop, const std::vector<Triangle>& triangles,
           std::size_t points)

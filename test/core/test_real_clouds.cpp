@@ -160,7 +160,7 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
   RecordProperty ("folds", std::to_string (result.report.statistics.folds));
 }
 
-/// What the cloud is, as its ground truth tells, and the policy that tells what is ambiguous in it.
+/// Topology of a cloud by its ground truth, and the policy for holes where that is ambiguous.
 struct Known
 {
   const char* name;
@@ -224,8 +224,8 @@ INSTANTIATE_TEST_SUITE_P (
                      Known{"bunny_holes", 1, 5, 0, 0, HolePolicy::KEEP_COUNT, 5}),
     [] (const testing::TestParamInfo<Known>& cloud) { return std::string (cloud.param.name); });
 
-// Rims of triangles pass no point inside; ragged borders they may cut short.
-TEST (RealClouds, HaveTheirBoundaryOnARimOfTheComplex)
+// Boundary loops of the consensus mesh leave no point outside; they may cut ragged borders short.
+TEST (RealClouds, HaveTheirBoundaryOnALoopOfTheConsensus)
 {
   for (const Case& cloud :
        {Case{"snail", 1.0, 1.0}, Case{"tum_rabbit", 0.98, 0.98}, Case{"bunny", 0.65, 1.0}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run says when it fails, and while it goes on.
+// Status and message of runs that fail, and the stages of a run.
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "samples.h"
@@ -151,7 +151,7 @@ TEST (Status, ExceptionsBecomeStatuses)
                  "the tree fell over");
 }
 
-TEST (Progress, StagesComeInOrder)
+TEST (Stages, ComeInOrder)
 {
   const Positions cloud = samples::disc (0.1, 6).positions;
   Options options = discOptions ();
@@ -173,7 +173,7 @@ TEST (Progress, StagesComeInOrder)
   EXPECT_NEAR (statistics.total_seconds, sum, 1e-9);
 }
 
-TEST (Progress, StopsAtTheStageThatFails)
+TEST (Stages, EndWithTheOneThatFails)
 {
   Options options = discOptions ();
   std::vector<Stage> stages;

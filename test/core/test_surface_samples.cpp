@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The samples that other tests rely on: as even, as many and as large as they are said to be.
+// The samples that other tests rely on have the density and size that they are meant to have.
 #include "darts.h"
 #include "surface_samples.h"
 
@@ -39,7 +39,7 @@ TEST (SurfaceSamples, AreEvenWithOnePointForEachUnitOfArea)
 TEST (SurfaceSamples, LeaveNoGapInADisc)
 {
   const KnownSurface surface = taco (5.0, 1);
-  // Points of another sample are places as good as any.
+  // The points of another sample are test places all over the surface.
   const KnownSurface other = taco (5.0, 3);
   for (const Eigen::Vector3d& p : other.points) {
     double nearest = std::numeric_limits<double>::infinity ();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sheet whose stars are known without any search, for the tests of weights and linear system.
+// A sheet whose stars are known without a search, for the tests of weights and the linear system.
 #pragma once
 
 #include "local/stars.h"
@@ -49,7 +49,7 @@ struct TriangulatedGrid
       loop.push_back (at (0, i, side));
   }
 
-  /// The loop's own positions as its parameters.
+  /// Parameters of the loop: the positions of its points.
   std::vector<Eigen::Vector2d> loopInPlace () const
   {
     std::vector<Eigen::Vector2d> uv;

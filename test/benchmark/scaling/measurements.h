@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What scaling.sh measured: runs from its CSV file, and what they tell together.
+// What scaling.sh measured: runs from its CSV file, and the curves that they form.
 #pragma once
 
 #include "growth_chart.h"

@@ -28,7 +28,8 @@ TEST (CsrLists, OfOneListForEachRow)
   ASSERT_EQ (lists.rows (), 6U);
   EXPECT_EQ (lists.ids.size (), entries.size ());
   EXPECT_EQ (asVector (lists.row (0)), (std::vector<Index>{5, 1}));
-  EXPECT_EQ (asVector (lists.row (2)), (std::vector<Index>{7, 3, 7, 0})) << "in the order given";
+  EXPECT_EQ (asVector (lists.row (2)), (std::vector<Index>{7, 3, 7, 0}))
+      << "entries keep their order";
   EXPECT_EQ (asVector (lists.row (4)), (std::vector<Index>{9}));
   for (const std::size_t empty : {1U, 3U, 5U})
     EXPECT_EQ (lists.row (empty).size (), 0U);

@@ -19,7 +19,7 @@ TEST (DisjointSets, TheSmallestElementRepresentsASet)
   EXPECT_TRUE (sets.join (7, 5));
   EXPECT_TRUE (sets.join (3, 7));
   EXPECT_TRUE (sets.join (6, 2));
-  EXPECT_FALSE (sets.join (5, 3)) << "joined by way of 7";
+  EXPECT_FALSE (sets.join (5, 3)) << "7 has joined them";
   EXPECT_FALSE (sets.join (4, 4));
   for (const Index i : {3U, 5U, 7U})
     EXPECT_EQ (sets.find (i), 3U);
@@ -64,17 +64,17 @@ TEST (SignedSets, SignsAddUpAlongTheWay)
   EXPECT_FALSE (differ (0, 3));
   EXPECT_TRUE (differ (1, 3));
   EXPECT_NE (sets.find (4).root, sets.find (0).root);
-  EXPECT_FALSE (sets.find (5).flipped) << "of a set of its own";
+  EXPECT_FALSE (sets.find (5).flipped) << "a set of one element";
 }
 
-TEST (SignedSets, AContradictionIsToldAndChangesNothing)
+TEST (SignedSets, AContradictionIsReturnedAndChangesNothing)
 {
   SignedSets sets (3);
   EXPECT_TRUE (sets.join (0, 1, false));
   EXPECT_TRUE (sets.join (1, 2, true));
-  EXPECT_TRUE (sets.join (0, 2, true)) << "says the same again";
+  EXPECT_TRUE (sets.join (0, 2, true)) << "agrees with the first two";
   EXPECT_FALSE (sets.join (0, 2, false));
-  EXPECT_TRUE (sets.join (2, 1, true)) << "still as before";
+  EXPECT_TRUE (sets.join (2, 1, true)) << "a contradiction changes nothing";
   EXPECT_TRUE (sets.join (1, 1, false));
   EXPECT_FALSE (sets.join (1, 1, true));
 }

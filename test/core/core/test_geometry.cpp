@@ -9,7 +9,7 @@ namespace floater
 {
 namespace
 {
-// Whether there is a fold between normals at this angle, in degrees, for any lengths of them.
+// Whether normals at this angle, in degrees, make a fold. Expects the same for any lengths.
 bool
 isFoldAt (double angle)
 {

@@ -45,7 +45,7 @@ at (const std::vector<Eigen::Vector2d>& places)
   return neighbors;
 }
 
-// Anti-clockwise; an open star from one side of its gap to the other.
+// The star by CGAL, anti-clockwise; an open star begins after its gap.
 Star
 byCgal (const Neighbors& neighbors)
 {
@@ -151,8 +151,8 @@ TEST (PlanarStar, NeighborhoodsOfAnyScaleAreDelaunay)
       const double angle = 2.0 * PI * random.uniform ();
       neighbors[i] = {{length * std::cos (angle), length * std::sin (angle)}, i};
     }
-    // What is far from a much nearer neighbour may be in the star or not within rounding, but
-    // closedness and the nearest neighbour are certain.
+    // Whether a far neighbour behind a much nearer one is in the star may depend on rounding. That
+    // the star is closed, and has the nearest neighbour, does not.
     const Star star = make (neighbors);
     EXPECT_EQ (star.open, byCgal (neighbors).open);
     const auto nearest =
@@ -166,8 +166,8 @@ TEST (PlanarStar, NeighborhoodsOfAnyScaleAreDelaunay)
   }
 }
 
-// On grids, turned, stretched and moved by rounding errors, four of the eight cells' corners are on
-// one circle with the centre.
+// On a grid the corners of each cell lie on one circle, but for rounding after it was turned,
+// stretched and moved.
 TEST (PlanarStar, GridPointsAreSurroundedByTheirDirectNeighbors)
 {
   RandomStream random (4);
@@ -206,7 +206,7 @@ TEST (PlanarStar, OfNeighborsInOneDirectionTheNearestCounts)
   std::vector<Index> points = star.points;
   rotateToSmallest (points);
   EXPECT_EQ (points, (std::vector<Index>{1, 4, 5}));
-  // A direction across the ray where sorting by angle begins, apart by rounding.
+  // One direction, but for rounding, at the ray where sorting by angle begins.
   const Star across = make (at ({{2, 1e-13}, {1, -1e-14}, {3, -1e-13}, {-1, 1}, {-1, -1}}));
   EXPECT_FALSE (across.open);
   points = across.points;
@@ -221,7 +221,7 @@ TEST (PlanarStar, AHalfPlaneIsOpen)
   EXPECT_NEAR (above.opening_angle, PI, 1e-7);
   EXPECT_EQ (above.points.front (), 0U);
   EXPECT_EQ (above.points.back (), 2U);
-  // By rounding a little more or less than half a turn.
+  // A little more or less than half a turn, by rounding.
   for (const double tilt : {1e-15, -1e-15})
     EXPECT_TRUE (make (at ({{1, tilt}, {0, 1}, {-1, 0}})).open);
   // Clearly less.

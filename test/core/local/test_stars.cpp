@@ -18,7 +18,7 @@ using samples::PI;
 using samples::Positions;
 using samples::Sheet;
 
-// Points of two parallel sheets of side 1, `gap` spacings apart. Heights stay on either side of 0.
+// Points of two parallel sheets of side 1, `gap` spacings apart. Their heights have opposite signs.
 Positions
 twoSheets (double gap)
 {
@@ -34,7 +34,7 @@ twoSheets (double gap)
   return points;
 }
 
-// True if the whole neighbourhood is there, that is, the point is 2.5 spacings inside the sheet.
+// Whether the point is 2.5 spacings inside its sheet, so that it has neighbours on all sides.
 bool
 isInner (const Neighborhoods& sheets, std::size_t p)
 {
@@ -169,7 +169,7 @@ TEST (Stars, TheFilterKeepsSheetsApart)
     expectSane (filtered);
     EXPECT_LT (shareOfStrays (filtered), 0.001);
   }
-  // At 2 spacings it is enough that offsets keep their length; nearer, the filter has to act.
+  // At 2 spacings it is enough that offsets keep their length; nearer sheets need the filter.
   const Neighborhoods plain = makeNeighborhoods (twoSheets (1.7), false);
   expectSane (plain);
   EXPECT_GT (shareOfStrays (plain), 0.004);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Balls, and the order of all that is in them.
+// Neighbours in balls, and stars of all of them.
 #include "points/ball_neighbors.h"
 
 #include "local/planar_star.h"
@@ -59,7 +59,8 @@ ballBySearchingAll (const Points& points, Index p, double radius)
   return ball;
 }
 
-// Answers in units of the cloud, with the point itself and one too far.
+// A search of the caller's. It answers with the point itself among the neighbours and, within a
+// radius, with one that is too far away.
 class CloudSearch : public NeighborSearch
 {
 public:
@@ -134,7 +135,7 @@ TEST (BallNeighbors, AreTheSameByTheCallersSearch)
 
 TEST (BallNeighbors, AreNeitherFewNorTooMany)
 {
-  // A crowd, and a few points from where all of it is in reach.
+  // A crowd, and a few points with a ball that holds all of it.
   RandomStream random (3);
   std::vector<Eigen::Vector3d> positions (1000);
   for (Eigen::Vector3d& p : positions)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks: what they hold, and that neighbours found in them are those found in the whole.
+// Points of a block, and nearest neighbours that do not depend on the number of blocks.
 #include "points/point_block.h"
 
 #include "points/nearest_neighbors.h"
@@ -32,8 +32,8 @@ surface (SurfaceKind kind, std::size_t points, double density_ratio = 1.0, doubl
   return generateSurface (spec);
 }
 
-/// Two tori, three small clusters far away and apart, each of fewer points than have neighbours,
-/// and single points at all distances: halos of an even width are too narrow.
+/// Two tori, three small clusters far away, each of fewer points than a point has neighbours, and
+/// single points at all distances: halos of an even width are too narrow.
 Positions
 scattered ()
 {
@@ -78,8 +78,8 @@ neighborsIn (std::size_t blocks, const Points& points, int threads = 1)
   return findNearestNeighbors (points.positions, Rows::all (points.size ()), K, blocks, threads);
 }
 
-/// Points that have one of their neighbours outside the halo of their block: for these the block
-/// has to be cut again.
+/// Counts points with a neighbour beyond the halo of their block. For these the block has to be cut
+/// again, with a wider halo.
 std::size_t
 countPointsBeyondTheHalo (const Points& points, std::size_t blocks)
 {
@@ -157,7 +157,7 @@ TEST (BlockCutter, HalosOfAnEvenSurfaceAreWideEnoughAtOnce)
     EXPECT_LT (cutter.cut (i, {}).positions.size (), 12000U);
 }
 
-// Otherwise the test of equal neighbours would not see blocks that are cut again.
+// So the test of equal neighbours runs through blocks that are cut again.
 TEST (BlockCutter, HalosOfUnevenCloudsAreTooNarrow)
 {
   EXPECT_GT (countPointsBeyondTheHalo (workingPoints (scattered ()), 16), 0U);

@@ -52,7 +52,7 @@ compare (const Positions& points, std::size_t queries, std::uint64_t seed)
       tree.nearest (query, k, found);
       expectEqual (found, expected, std::min (k, points.size ()));
     }
-    // Radii that pass exactly through a point, and between points.
+    // Radii that end exactly at a point, and between points.
     const double farthest = std::sqrt (expected[expected.size () / 3].sqr_distance);
     for (const double radius : {farthest, 1.01 * farthest, 0.0}) {
       tree.within (query, radius, found);

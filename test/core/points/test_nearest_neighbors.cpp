@@ -150,7 +150,7 @@ TEST (NearestNeighbors, ThreadsDoNotMatter)
     expectEqual (byTree (points, 20, threads), expected);
 }
 
-// Row i is that of the i-th point asked for, whichever way it is searched.
+// Rows for some of the points are the same as those for all, whichever way they are searched.
 TEST (NearestNeighbors, OfSomePointsAreRowsOfThoseOfAll)
 {
   const Positions cloud = samples::randomPoints (700, 7);
@@ -175,9 +175,9 @@ TEST (NearestNeighbors, OfSomePointsAreRowsOfThoseOfAll)
   }
 }
 
-// The squares of such distances are 0: all points of a crowd are equally near and go by index. A
-// point with k + 1 others before it is not among its own k + 1 results, and the last row of all
-// must not be longer for that.
+// The squares of such distances underflow to 0: all points of a crowd are equally near, and their
+// order is that of their indices. So a point with k + 1 others before it is not among its own k + 1
+// results. Its row must not become longer by that, not even the last row of all.
 TEST (NearestNeighbors, DistancesWhoseSquaresUnderflow)
 {
   constexpr Index OTHERS = 200, CROWD = 60;

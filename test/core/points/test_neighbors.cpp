@@ -46,7 +46,7 @@ workingPoints (const Positions& positions)
   return makePoints (positions, samples::indices (positions.size ()), 1);
 }
 
-// Each point with the same probability; from `first_sure` on, in the order of the cloud, always.
+// Chooses each point with the same probability, and all points of the cloud from `first_sure` on.
 std::vector<Index>
 chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)
 {
@@ -58,7 +58,7 @@ chooseRemoved (const Points& points, double share, std::size_t first_sure, std::
   return removed;
 }
 
-// Lists that are renewed after these points were removed are those that a search finds.
+// Expects that lists which are renewed after the removal of points are those that a search finds.
 // \return the points that are left
 Points
 expectRenewed (const Points& all, const std::vector<Index>& removed,
@@ -97,7 +97,7 @@ TEST (RenewNeighbors, OfRandomPoints)
         expectRenewed (points, chooseRemoved (points, share, points.size (), seed), settings);
 }
 
-// A grid is full of equal distances: which of the equally near points are neighbours goes by index.
+// A grid is full of equal distances, where indices decide which points are the neighbours.
 TEST (RenewNeighbors, OfAGridWithTies)
 {
   Positions grid;
@@ -110,7 +110,7 @@ TEST (RenewNeighbors, OfAGridWithTies)
         expectRenewed (points, chooseRemoved (points, share, points.size (), seed), settings);
 }
 
-// With the outermost points the bounding box shrinks, and the rest is scaled again.
+// Without the outermost points the bounding box is smaller, and the positions are scaled again.
 TEST (RenewNeighbors, WhereTheBoxShrinks)
 {
   for (const bool on_grid : {false, true}) {

@@ -77,13 +77,13 @@ TEST (Noise, DependsOnNothingElse)
   Positions positions = surface (SurfaceKind::TORUS, 5000, 0.2);
   const double noise = Cloud (positions).noise ();
   EXPECT_EQ (Cloud (positions).noise (3), noise);
-  EXPECT_NEAR (Cloud (positions, 60).noise (), noise, 1e-12); // it looks at the 20 nearest
+  EXPECT_NEAR (Cloud (positions, 60).noise (), noise, 1e-12); // it takes the 20 nearest only
   std::reverse (positions.begin (), positions.end ());
   EXPECT_EQ (Cloud (positions).noise (), noise);
   const Eigen::AngleAxisd turn (1.0, Eigen::Vector3d (1.0, 2.0, 3.0).normalized ());
   for (Eigen::Vector3d& p : positions)
     p = 1e6 * (turn * p) + Eigen::Vector3d (1e5, 0.0, -1e6);
-  EXPECT_NEAR (Cloud (positions).noise (), noise, 0.02 * noise); // measured at other points
+  EXPECT_NEAR (Cloud (positions).noise (), noise, 0.02 * noise); // other points are sampled
 }
 
 TEST (Noise, DegenerateClouds)

@@ -36,7 +36,7 @@ outliersOf (const Positions& positions, int k = 20, int threads = 1)
   return removePoints (points, findOutliers (points.positions, neighbors, threads));
 }
 
-// A square of `side` by `side` points, 1 apart but for the jitter.
+// A square of `side` by `side` points, about 1 apart.
 Positions
 square (int side, double jitter, std::uint64_t seed)
 {
@@ -75,8 +75,8 @@ TEST (Outliers, NoneOnSurfaces)
     }
 }
 
-// One spacing on one side, another on the other; flat, or with the sparse side standing upright on
-// the dense one's border: its lowest points have neighbours on the dense side only.
+// A dense side and a sparse side, in one plane, or with the sparse side upright on the border of
+// the dense one. Then its lowest points have neighbours on the dense side only.
 TEST (Outliers, NoneWhereTheDensityChangesAbruptly)
 {
   for (const double ratio : {3.0, 5.5, 15.0})
@@ -127,7 +127,7 @@ TEST (Outliers, FlyingPixels)
   EXPECT_EQ (outliersOf (points), lastOf (points, flying));
   EXPECT_EQ (outliersOf (points, 20, 3), lastOf (points, flying));
   EXPECT_EQ (outliersOf (points, 30), lastOf (points, flying));
-  // A whole second sheet at that height is none.
+  // The points of a whole second sheet at that height are no outliers.
   const Positions other = square (60, 0.4, 2);
   for (const Eigen::Vector3d& p : other)
     points.emplace_back (p + Eigen::Vector3d (0.0, 0.0, 2.5));
@@ -195,7 +195,7 @@ TEST (Outliers, DegenerateClouds)
     }
   Positions few = square (4, 0.2, 1);
   few.emplace_back (0.0, 0.0, 1e3);
-  EXPECT_TRUE (outliersOf (few).empty ()); // too few to tell
+  EXPECT_TRUE (outliersOf (few).empty ()); // too few points
 }
 
 TEST (Outliers, AreReportedAndLeftOut)

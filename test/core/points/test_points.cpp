@@ -26,7 +26,7 @@ make (const Positions& positions, int threads = 1)
   return makePoints (positions, indices (positions.size ()), threads);
 }
 
-// Every input is a point, a duplicate of a point, or not finite; none is two of these.
+// Every input is exactly one of these: a point, a duplicate of a point, or not finite.
 void
 expectPartition (const Points& points, std::size_t count)
 {
@@ -44,7 +44,8 @@ expectPartition (const Points& points, std::size_t count)
   EXPECT_TRUE (std::is_sorted (points.duplicates.begin (), points.duplicates.end ()));
 }
 
-// Stages rely on it: finite, distinct, in a box of diagonal 1 around the origin.
+// What the stages rely on: points are finite and distinct, in a box of diagonal 1 around the
+// origin.
 void
 expectWorkable (const Points& points)
 {
@@ -87,7 +88,7 @@ TEST (Points, ConsecutivePointsAreNear)
   double sum = 0.0;
   for (std::size_t p = 1; p < points.positions.size (); ++p)
     sum += points.scale * (points.positions[p] - points.positions[p - 1]).norm ();
-  // A Hilbert curve whose cells are the grid's own has a mean of 1, Morton order one of 1.6.
+  // The mean step is 1 on a Hilbert curve through this grid, and 1.6 in Morton order.
   EXPECT_LT (sum / static_cast<double> (cube.size () - 1), 1.35);
 }
 
@@ -211,7 +212,7 @@ TEST (Points, MapCoordinatesKeepTheirDigits)
 
 TEST (Points, PointsThatScalingCannotTellApartAreOne)
 {
-  // Single precision tells these apart near the origin, which here is a corner of the box.
+  // The origin is a corner of the box, where even single precision has different values for these.
   Positions cloud = {{0, 0, 0}, {1, 1, 1}, {1, 0, 0}};
   for (int i = 1; i <= 40; ++i)
     cloud.emplace_back (1e-30 * (i % 7), 1e-25 * (i % 5), 1e-20 * i);
@@ -219,7 +220,7 @@ TEST (Points, PointsThatScalingCannotTellApartAreOne)
   expectPartition (points, cloud.size ());
   expectWorkable (points);
   EXPECT_EQ (points.positions.size (), 3U);
-  // Around its centre they stay apart.
+  // At the centre of the box they are different after scaling, too.
   for (Eigen::Vector3d& p : cloud)
     p -= p.squaredNorm () < 0.5 ? Eigen::Vector3d::Zero () : Eigen::Vector3d (2.0 * p);
   cloud.emplace_back (1, 1, 1);
@@ -232,7 +233,7 @@ TEST (Points, PointsThatScalingCannotTellApartAreOne)
 
 TEST (Points, ABoxAsSmallAsOneDigit)
 {
-  const double two_to_52 = 4503599627370496.0; // the next double is one more, and so on
+  const double two_to_52 = 4503599627370496.0; // from here on doubles are 1 apart
   for (const double base : {two_to_52, two_to_52 + 1, -two_to_52 - 1}) {
     const Points points = make ({{base, base, base},
                                  {base + 1, base, base},
@@ -275,7 +276,7 @@ TEST (CheckPoints, NotAllOnOneLine)
   }
 }
 
-// A cloud of random points in a cube, and two far away.
+// Random points in a cube, and two points far away.
 Positions
 withFarPoints ()
 {
@@ -285,7 +286,7 @@ withFarPoints ()
   return cloud;
 }
 
-// Rows of the points from this cloud index on, and of a point in between.
+// Rows of the points from this cloud index on, and of one more.
 std::vector<Index>
 rowsFrom (const Points& points, Index cloud_index, Index one_more)
 {
@@ -329,7 +330,7 @@ TEST (RemovePoints, ScalesByAPowerOfTwo)
   EXPECT_NEAR (points.diagonal, box.diagonal ().norm (), 1e-15);
   EXPECT_GE (points.diagonal, 0.5);
   EXPECT_LE (points.diagonal, 1.0);
-  // So distances are the same numbers but for their exponents, and compare as before.
+  // So distances differ in their exponents only, all by the same, and compare as before.
   const std::vector<Index> kept = [&before] {
     std::vector<Index> rows;
     for (Index p = 0; p < before.size (); ++p)

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Callbacks of a whole run: its progress, its cancellation, and what else a callback may do.
+#include <pcl/surface/floater/reconstruct.h>
+
+#include "samples.h"
+#include "surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::asInput;
+using samples::discOptions;
+using samples::Positions;
+
+// A little longer than a monitor waits between two polls.
+constexpr std::chrono::milliseconds UNTIL_NEXT_POLL{60};
+
+Positions
+surface (SurfaceKind kind, std::size_t points)
+{
+  SurfaceSpec spec;
+  spec.kind = kind;
+  spec.points = points;
+  return generateSurface (spec);
+}
+
+// A surface and options, which decide through which stages a run goes.
+struct Way
+{
+  const char* name;
+  SurfaceKind kind;
+  Options options;
+};
+
+std::vector<Way>
+allWays ()
+{
+  Options balls;
+  balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
+  Options iterative = discOptions ();
+  iterative.solver.method = Solver::BICGSTAB_ILUT;
+  return {{"surface", SurfaceKind::TORUS, {}},
+          {"balls", SurfaceKind::TORUS, balls},
+          {"disc", SurfaceKind::HEIGHT_FIELD, discOptions ()},
+          {"iterative", SurfaceKind::HEIGHT_FIELD, iterative},
+          {"deep disc", SurfaceKind::FINGER, discOptions ()}};
+}
+
+TEST (Progress, FractionsGrowFromZeroToOne)
+{
+  for (Way& way : allWays ()) {
+    SCOPED_TRACE (way.name);
+    std::vector<double> fractions;
+    way.options.progress_callback = [&] (double fraction) { fractions.push_back (fraction); };
+    const Result result = reconstruct (asInput (surface (way.kind, 4000)), way.options);
+    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_GE (fractions.size (), 7U); // when stages begin, and at the end
+    EXPECT_EQ (fractions.front (), 0.0);
+    EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
+    EXPECT_LT (fractions[fractions.size () - 2], 1.0);
+    EXPECT_EQ (fractions.back (), 1.0);
+  }
+}
+
+TEST (Progress, CallbacksComeFromTheCallingThreadAndChangeNothing)
+{
+  const Positions points = surface (SurfaceKind::TORUS, 20000);
+  const Result plain = reconstruct (asInput (points), {});
+  for (const int threads : {1, 4}) {
+    Options options;
+    options.threads = threads;
+    bool is_elsewhere = false;
+    const std::thread::id here = std::this_thread::get_id ();
+    options.progress_callback = [&] (double) {
+      is_elsewhere |= std::this_thread::get_id () != here;
+    };
+    options.cancelled_callback = [&] {
+      is_elsewhere |= std::this_thread::get_id () != here;
+      return false;
+    };
+    const Result watched = reconstruct (asInput (points), options);
+    EXPECT_EQ (watched.triangles, plain.triangles);
+    EXPECT_FALSE (is_elsewhere);
+  }
+}
+
+// Cancelled at the n-th question, for all n.
+TEST (Cancellation, EndsTheRunWhereverItIsAskedFor)
+{
+  for (Way& way : allWays ())
+    for (const int threads : {1, 3}) {
+      SCOPED_TRACE (way.name);
+      const Positions points = surface (way.kind, 500);
+      way.options.threads = threads;
+      int questions = 0;
+      way.options.cancelled_callback = [&] { return ++questions < 0; };
+      ASSERT_EQ (reconstruct (asInput (points), way.options).report.status, Status::OK);
+      const int all = questions;
+      EXPECT_GE (all, 7);
+      for (int last = 1; last <= all; ++last) {
+        questions = 0;
+        way.options.cancelled_callback = [&] { return ++questions == last; };
+        const Result result = reconstruct (asInput (points), way.options);
+        if (questions < last)
+          continue; // the number of questions depends on time
+        EXPECT_EQ (result.report.status, Status::CANCELLED);
+        EXPECT_NE (result.report.message, "");
+        EXPECT_TRUE (result.triangles.empty ());
+        EXPECT_TRUE (result.report.loop.empty ());
+        EXPECT_TRUE (result.report.parameters.empty ());
+        EXPECT_EQ (questions, last) << "asked again after the cancellation";
+      }
+    }
+}
+
+// Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. The
+// next poll comes 50 ms later at the earliest, and a small cloud does not take so long. So that
+// first poll waits for as long.
+bool
+isCancelledWithin (Stage stage, const Positions& points, Options options)
+{
+  Stage running = Stage::COUNT;
+  int questions = 0; // within the stage
+  options.stage_callback = [&] (Stage begun) { running = begun; };
+  options.cancelled_callback = [&] {
+    if (running != stage)
+      return questions > 0; // too late
+    if (questions++ == 0)
+      std::this_thread::sleep_for (UNTIL_NEXT_POLL);
+    return questions > 1;
+  };
+  const Result result = reconstruct (asInput (points), options);
+  EXPECT_TRUE (result.report.status == Status::CANCELLED || questions < 2) << result.report.message;
+  EXPECT_EQ (result.report.status == Status::CANCELLED, result.triangles.empty ());
+  EXPECT_GT (questions, 0) << "the run has not reached this stage";
+  return result.report.status == Status::CANCELLED && running == stage;
+}
+
+TEST (Cancellation, IsSeenWithinTheStagesOfASurface)
+{
+  const Positions points = surface (SurfaceKind::CUT_OUT, 5000);
+  Options options;
+  options.topology = Topology::SURFACE;
+  options.holes.policy = HolePolicy::CLOSE_ALL;
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::CONSENSUS,
+                              Stage::HOLES, Stage::FLIPS, Stage::CHECK})
+      EXPECT_TRUE (isCancelledWithin (stage, points, options)) << stageName (stage);
+  }
+}
+
+TEST (Cancellation, IsSeenWithinTheStagesOfADisc)
+{
+  const Positions points = surface (SurfaceKind::HEIGHT_FIELD, 5000);
+  Options options = discOptions ();
+  options.solver.method = Solver::BICGSTAB_ILUT;
+  // All but DELAUNAY, which is a single call of CGAL.
+  for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::BOUNDARY,
+                            Stage::WEIGHTS, Stage::SOLVE, Stage::FLIPS, Stage::CHECK})
+    EXPECT_TRUE (isCancelledWithin (stage, points, options)) << stageName (stage);
+}
+
+TEST (Cancellation, IsSeenByEveryBoundaryMethod)
+{
+  const Positions points = surface (SurfaceKind::HEIGHT_FIELD, 5000);
+  Options options = discOptions ();
+  for (const BoundaryMethod method :
+       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
+    options.boundary.method = method;
+    EXPECT_TRUE (isCancelledWithin (Stage::BOUNDARY, points, options))
+        << "method " << static_cast<int> (method);
+  }
+}
+
+TEST (Callbacks, ExceptionsEndTheRun)
+{
+  Options options;
+  options.cancelled_callback = [] () -> bool { throw std::runtime_error ("no answer"); };
+  const Result result = reconstruct (asInput (surface (SurfaceKind::TORUS, 2000)), options);
+  EXPECT_EQ (result.report.status, Status::INTERNAL_ERROR);
+  EXPECT_NE (result.report.message.find ("no answer"), std::string::npos);
+}
+
+TEST (Callbacks, WhateverTheyThrowStaysInside)
+{
+  Options stage, progress, cancelled;
+  stage.stage_callback = [] (Stage) { throw 7; };
+  progress.progress_callback = [] (double fraction) {
+    if (fraction > 0.3)
+      throw 7;
+  };
+  cancelled.cancelled_callback = [] () -> bool { throw 7; };
+  const Positions points = surface (SurfaceKind::TORUS, 1000);
+  for (const Options& options : {stage, progress, cancelled}) {
+    Result result;
+    EXPECT_NO_THROW (result = reconstruct (asInput (points), options));
+    EXPECT_EQ (result.report.status, Status::INTERNAL_ERROR);
+    EXPECT_NE (result.report.message, "");
+    EXPECT_TRUE (result.triangles.empty ());
+  }
+}
+
+// A callback may run another reconstruction with callbacks of its own. The runs do not disturb each
+// other.
+TEST (Callbacks, MayRunAnotherReconstruction)
+{
+  const Positions points = surface (SurfaceKind::TORUS, 3000);
+  const Positions inner_points = surface (SurfaceKind::HEIGHT_FIELD, 400);
+  const Result expected = reconstruct (asInput (points), {});
+  const Result inner_expected = reconstruct (asInput (inner_points), discOptions ());
+  ASSERT_EQ (expected.report.status, Status::OK);
+  ASSERT_EQ (inner_expected.report.status, Status::OK);
+  for (const bool in_stage_callback : {true, false}) {
+    std::size_t inner_runs = 0;
+    const auto runAnother = [&] {
+      std::vector<double> fractions;
+      Options options = discOptions ();
+      options.progress_callback = [&] (double fraction) { fractions.push_back (fraction); };
+      const Result inner = reconstruct (asInput (inner_points), options);
+      EXPECT_EQ (inner.report.status, Status::OK) << inner.report.message;
+      EXPECT_EQ (inner.triangles, inner_expected.triangles);
+      EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
+      EXPECT_EQ (fractions.front (), 0.0);
+      EXPECT_EQ (fractions.back (), 1.0);
+      ++inner_runs;
+    };
+    std::vector<double> fractions;
+    std::vector<Stage> stages;
+    Options options;
+    options.stage_callback = [&] (Stage stage) {
+      stages.push_back (stage);
+      if (in_stage_callback)
+        runAnother ();
+    };
+    options.progress_callback = [&] (double fraction) {
+      fractions.push_back (fraction);
+      if (!in_stage_callback && fractions.size () % 2 == 0)
+        runAnother ();
+    };
+    const Result result = reconstruct (asInput (points), options);
+    EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+    EXPECT_EQ (result.triangles, expected.triangles);
+    EXPECT_GE (inner_runs, 3U);
+    EXPECT_TRUE (std::is_sorted (stages.begin (), stages.end ()));
+    EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
+    EXPECT_EQ (fractions.front (), 0.0);
+    EXPECT_EQ (fractions.back (), 1.0);
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
