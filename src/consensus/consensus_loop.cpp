@@ -29,7 +29,7 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
 
   // A ragged boundary has points beyond the triangles. They have gaps in their stars.
   std::vector<Index> candidates;
-  for (const Gap& gap : findGaps (geometry.stars, geometry.spacing, limits.gap_ratio))
+  for (const Gap& gap : findGaps (geometry.stars, geometry.spacing, limits.gap_ratio, run))
     candidates.push_back (gap.point);
   Boundary boundary;
   const auto largest = std::max_element (component_points.begin (), component_points.end ());
@@ -43,7 +43,7 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
   candidates.erase (std::unique (candidates.begin (), candidates.end ()), candidates.end ());
   boundary.candidates = candidates.size ();
   if (!boundary.loop.empty ())
-    refineLoop (positions, geometry.stars, geometry.spacing, candidates, boundary.loop);
+    refineLoop (positions, geometry.stars, geometry.spacing, candidates, boundary.loop, run);
   return boundary;
 }
 

@@ -2,13 +2,13 @@
 #include "floater/own_shape.h"
 
 #include "core/geometry.h"
+#include "core/plane_fit.h"
 
 #include <CGAL/Convex_hull_traits_adapter_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
 #include <CGAL/property_map.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -27,20 +27,16 @@ using Outline = std::vector<Eigen::Vector2d>;
 Outline
 project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
 {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  const Eigen::Vector3d& origin = positions[loop.front ()];
+  PlaneFit fit;
   for (const Index p : loop)
-    mean += positions[p];
-  mean /= static_cast<double> (loop.size ());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
-  for (const Index p : loop)
-    covariance += (positions[p] - mean) * (positions[p] - mean).transpose ();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (covariance);
+    fit.add (positions[p] - origin);
+  const PrincipalAxes principal = fit.principalAxes ();
   Outline outline;
   outline.reserve (loop.size ());
   for (const Index p : loop) {
-    const Eigen::Vector3d offset = positions[p] - mean;
-    outline.emplace_back (solver.eigenvectors ().col (2).dot (offset),
-                          solver.eigenvectors ().col (1).dot (offset));
+    const Eigen::Vector3d offset = positions[p] - origin - principal.centre;
+    outline.emplace_back (principal.axes.col (2).dot (offset), principal.axes.col (1).dot (offset));
   }
   double area = 0.0;
   for (std::size_t i = 0; i < outline.size (); ++i)

@@ -28,7 +28,7 @@ struct Gap
 ///                           times the mean local spacing of its corners
 std::vector<Gap>
 findGaps (const Stars& stars, const std::vector<float>& spacing, double circumradius_ratio,
-          const RunContext& run = 1);
+          const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -24,7 +24,7 @@ namespace floater
 void
 refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
             const std::vector<float>& spacing, const std::vector<Index>& candidates,
-            std::vector<Index>& loop, const RunContext& run = 1, const LoopLimits& limits = {});
+            std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

@@ -31,7 +31,7 @@ scaled (Value value, double factor)
   {                                                                                                \
 #member, [] (Limits & limits, double factor)                                                   \
     { limits.member = scaled (limits.member, factor); },                                           \
-        [] (const Limits& limits) { return static_cast<double> (limits.member); }                  \
+        [] (const Limits& limits) { return static_cast<double> (limits.member); }   \
   }
 
 std::vector<NamedLimit>
@@ -57,6 +57,7 @@ allLimits ()
       PCL_FLOATER_LIMIT (surface.consensus.candidates.normal_agreement[0]),
       PCL_FLOATER_LIMIT (surface.consensus.candidates.normal_agreement[1]),
       PCL_FLOATER_LIMIT (surface.consensus.candidates.normal_agreement[2]),
+      PCL_FLOATER_LIMIT (surface.consensus.candidates.sure_ranks),
       PCL_FLOATER_LIMIT (surface.consensus.smallest_island),
       PCL_FLOATER_LIMIT (surface.consensus.shortest_seam),
       PCL_FLOATER_LIMIT (surface.open_loops.empty_sector),

@@ -81,7 +81,7 @@ countInsideOut (const std::vector<Triangle>& triangles, const Truth& truth)
   mesh.triangles = triangles;
   if (!mesh.connect (truth.points.size (), 1))
     return 0;
-  const MeshComponents components = findComponents (mesh);
+  const MeshComponents components = findComponents (mesh, 1);
   std::vector<double> agreement (components.count, 0.0);
   for (Index t = 0; t < triangles.size (); ++t) {
     const Triangle& corners = triangles[t];

@@ -34,7 +34,7 @@ gapsOf (const Stars& stars, double circumradius_ratio)
 {
   std::vector<std::array<Index, 3>> gaps;
   const std::vector<float> spacing (stars.open.size (), 1.0F);
-  for (const Gap& gap : findGaps (stars, spacing, circumradius_ratio))
+  for (const Gap& gap : findGaps (stars, spacing, circumradius_ratio, 1))
     gaps.push_back ({gap.point, gap.first, gap.last});
   return gaps;
 }
@@ -97,7 +97,7 @@ TEST (Gaps, BetweenNeighborsOppositeToEachOther)
 TEST (Gaps, DependOnTheSpacingOfAllThreeCorners)
 {
   const Stars stars = starOf ({{1, 0}, {0, 1}, {-3, 0}, {0, -1}}, false);
-  const std::vector<Gap> gaps = findGaps (stars, {1.0F, 1.0F, 1.0F, 2.0F, 1.0F}, 1.55);
+  const std::vector<Gap> gaps = findGaps (stars, {1.0F, 1.0F, 1.0F, 2.0F, 1.0F}, 1.55, 1);
   EXPECT_TRUE (gaps.empty ());
 }
 
@@ -105,7 +105,7 @@ TEST (Gaps, OfASheetAreAtItsBorder)
 {
   const samples::Sheet sheet = samples::disc (0.05, 1);
   const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
-  const std::vector<Gap> gaps = findGaps (made.geometry.stars, made.geometry.spacing, 2.0);
+  const std::vector<Gap> gaps = findGaps (made.geometry.stars, made.geometry.spacing, 2.0, 1);
   const auto count = static_cast<Index> (sheet.border);
   ASSERT_EQ (gaps.size (), sheet.border);
   for (std::size_t i = 0; i < gaps.size (); ++i) {
