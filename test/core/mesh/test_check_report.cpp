@@ -54,8 +54,8 @@ TEST (CheckReport, WarningsNameThePlace)
 
   Mesh with_long_edge = sheet (4);
   with_long_edge.positions[24] = {1.4, 1.4, 0.0};
-  expectWarning (warningsOf (with_long_edge), "1 edge inside the surface is longer",
-                 "15 from point 55 (103, -17, 3) to point 73");
+  expectWarning (warningsOf (with_long_edge), "1 edge inside the surface is much longer",
+                 "15 spacings from point 55 (103, -17, 3) to point 73");
 
   expectWarning (warningsOf (beside (sheet (40), sheet (1))), "the mesh has 2 components",
                  "of 4 points at point 5044 (150");
