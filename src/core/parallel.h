@@ -18,10 +18,10 @@ namespace pcl
 {
 namespace floater
 {
-/// Calls body (i) for every i below `count`, on the threads of the run and in any order. So body may
-/// write only to places that belong to i; then the result does not depend on the number of threads.
-/// The first exception that a body throws is rethrown here, and no more tasks are begun. Moves the
-/// fraction of the run that is done, and ends early if the run is cancelled.
+/// Calls body (i) for every i below `count`, on the threads of the run and in any order. So body
+/// may write only to places that belong to i; then the result does not depend on the number of
+/// threads. The first exception that a body throws is rethrown here, and no more tasks are begun.
+/// Moves the fraction of the run that is done, and ends early if the run is cancelled.
 template <typename Body>
 void
 parallelTasks (const RunContext& run, std::size_t count, Body&& body)
