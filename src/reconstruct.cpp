@@ -91,7 +91,7 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
     return;
   std::vector<Index> cloud_indices = removePoints (points, outliers);
   reportOutliers (std::move (cloud_indices), points.size (), report);
-  neighbors = renewNeighbors (points, outliers, std::move (neighbors), settings, request.run);
+  neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
 }
 
 // Beyond TW 385: where noise is strong, triangles join the points as they lie in their local

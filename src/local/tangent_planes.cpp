@@ -29,7 +29,7 @@ fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors
     if (std::abs (first.dot (offset)) <= limits.sheet_sine * offset.norm ())
       sheet.add (offset);
   }
-  const bool has_sheet = sheet.weight () > static_cast<double> (limits.core_points / 2);
+  const bool has_sheet = 2.0 * sheet.weight () > static_cast<double> (limits.core_points);
   return has_sheet ? sheet.plane ().normal : first;
 }
 

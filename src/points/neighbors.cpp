@@ -55,7 +55,7 @@ findNeighbors (const Points& points, const NeighborSettings& settings, const Run
 }
 
 CsrLists
-renewNeighbors (const Points& points, const std::vector<Index>& removed, CsrLists neighbors,
+renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
                 const NeighborSettings& settings, const RunContext& run)
 {
   const std::vector<Index> row_after = rowsAfterRemoval (neighbors.rows (), removed);

@@ -32,7 +32,7 @@ findNeighbors (const Points& points, const NeighborSettings& settings, const Run
 /// \param removed   rows before they were removed, ascending
 /// \param neighbors those before
 CsrLists
-renewNeighbors (const Points& points, const std::vector<Index>& removed, CsrLists neighbors,
+renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
                 const NeighborSettings& settings, const RunContext& run);
 
 } // namespace floater
