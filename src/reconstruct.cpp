@@ -55,6 +55,9 @@ starSettings (const Options& options, const Limits& limits)
   StarSettings settings;
   settings.filter_sheets = options.filter_sheets;
   settings.with_offsets = asksForDisc (options);
+  const Neighborhood kind = options.neighbors.kind;
+  settings.reach_beyond = !asksForDisc (options) && kind != Neighborhood::BALL &&
+                          kind != Neighborhood::BALL_DELAUNAY;
   settings.limits = limits.sheets;
   return settings;
 }

@@ -33,12 +33,16 @@ starHas (const Stars& stars, Index p, Index q, Index r)
 
 void
 setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
-                      const std::vector<float>& spacing, Candidate& candidate)
+                      const std::vector<float>& spacing, const std::vector<float>& reach,
+                      Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
   const Eigen::Vector3d ab = positions[b] - positions[a];
   const Eigen::Vector3d ac = positions[c] - positions[a];
-  const double mean_spacing = (spacing[a] + spacing[b] + spacing[c]) / 3.0;
+  double mean_spacing = (spacing[a] + spacing[b] + spacing[c]) / 3.0;
+  if (!reach.empty ())
+    mean_spacing = std::max (mean_spacing,
+                             0.5 * static_cast<double> (std::max ({reach[a], reach[b], reach[c]})));
   const double circumradius = ab.norm () * ac.norm () * (positions[c] - positions[b]).norm () /
                               (2.0 * ab.cross (ac).norm ());
   candidate.circumradius_ratio = static_cast<float> (circumradius / mean_spacing);
@@ -119,7 +123,7 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
         if ((in_q && q < p) || (in_r && r < p))
           continue; // q or r is its first corner
         Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, 0.0F, 0.0F};
-        setCircumradiusRatio (positions, spacing, candidate);
+        setCircumradiusRatio (positions, spacing, stars.reach, candidate);
         setNormalAgreement (positions, normals, candidate);
         const std::size_t rank = candidate.votes - 1U;
         if (candidate.circumradius_ratio <= limits.circumradius_ratio[rank] &&

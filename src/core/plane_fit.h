@@ -16,9 +16,19 @@ struct Plane
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ (); ///< unit vector of arbitrary sign
   double mean_square = 0.0;                           ///< of the distances to the plane
+  double aspect = 0.0; ///< middle eigenvalue of the covariance over the largest: 1 for a disc, 0
+                       ///< for points on one line, which determine no plane
 
   /// Distance of a point to the plane, negative below it.
   double height (const Eigen::Vector3d& point) const { return normal.dot (point - centre); }
+};
+
+struct Line
+{
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX (); ///< unit vector of arbitrary sign
+  double mean_square =
+      0.0;             ///< of the distances to the line, in the direction in which they are larger
+  double aspect = 1.0; ///< see Plane
 };
 
 /// Axes along which points spread least (first) to most (last), and how far: root mean squares.
@@ -56,8 +66,27 @@ public:
     const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
     if (normal.allFinite ())
       plane.normal = normal.normalized ();
+    const Eigen::Vector3d& eigenvalues = solver.eigenvalues ();
+    if (eigenvalues[2] > 0.0)
+      plane.aspect = std::max (0.0, eigenvalues[1]) / eigenvalues[2];
     plane.mean_square = std::max (0.0, plane.normal.dot (scattered * plane.normal)) / weight_;
     return plane;
+  }
+
+  /// The line that fits best. Needs a positive weight.
+  Line line () const
+  {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect (scatter ());
+    Line line;
+    const Eigen::Vector3d direction = solver.eigenvectors ().col (2);
+    if (direction.allFinite ())
+      line.direction = direction.normalized ();
+    const Eigen::Vector3d& eigenvalues = solver.eigenvalues ();
+    line.mean_square = std::max (0.0, eigenvalues[1]) / weight_;
+    if (eigenvalues[2] > 0.0)
+      line.aspect = std::max (0.0, eigenvalues[1]) / eigenvalues[2];
+    return line;
   }
 
   /// Slower than plane (), and more exact where points lie nearly on a line. Needs a positive

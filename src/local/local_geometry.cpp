@@ -3,12 +3,18 @@
 
 #include "local/spacing.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pcl
 {
 namespace floater
 {
+namespace
+{
+constexpr float REACH_AS_SPACING = 0.5F;
+} // namespace
+
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
                    const RunContext& run, const PlaneLimits& planes)
@@ -19,9 +25,26 @@ makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings&
   geometry.spacing = localSpacing (positions, geometry.neighbors, run);
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, geometry.neighbors, run);
-  geometry.stars =
-      makeStars (positions, geometry.neighbors,
-                 fitTangentPlanes (positions, geometry.neighbors, run, planes), settings, run);
+  if (!settings.reach_beyond) {
+    geometry.stars =
+        makeStars (positions, geometry.neighbors,
+                   fitTangentPlanes (positions, geometry.neighbors, run, planes), settings, run);
+    return geometry;
+  }
+  const KdTree tree (positions, run);
+  const ReachLimits limits;
+  const BesideLines beside = findBesideLines (positions, geometry.neighbors, geometry.spacing, tree,
+                                              planes.least_aspect, limits, run);
+  appendRows (beside.neighbors, geometry.neighbors);
+  const BeyondNeighbors beyond{tree, geometry.spacing, beside.reach, limits};
+  geometry.stars = makeStars (positions, geometry.neighbors,
+                              fitTangentPlanes (positions, geometry.neighbors, run, planes),
+                              settings, run, &beyond);
+  appendRows (geometry.stars.far_neighbors, geometry.neighbors);
+  geometry.stars.far_neighbors = {};
+  for (std::size_t p = 0; p < positions.size (); ++p)
+    geometry.spacing[p] =
+        std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;
 }
 

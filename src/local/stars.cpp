@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace pcl
 {
@@ -27,14 +29,52 @@ class StarMaker
 {
 public:
   StarMaker (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings)
+             const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
+             const BeyondNeighbors* beyond)
       : positions_ (positions), neighbors_ (neighbors), normals_ (normals), settings_ (settings)
   {
+    if (beyond != nullptr)
+      reach_.emplace (positions, normals, beyond->spacing, beyond->tree, settings.limits,
+                      beyond->limits);
   }
 
   /// Makes the star of p; `normal` becomes that of the plane in which it lies. Returns true if the
   /// star is open.
   bool make (Index p, Eigen::Vector3f& normal)
+  {
+    bool open = makeOfNeighbors (p, normal);
+    if (reach_)
+      open = reach_->extend (p, TangentFrame (normal.cast<double> ()), neighbors_.row (p), open,
+                             star_.candidates, star_.neighbors);
+    return open;
+  }
+
+  /// The same with far neighbours that are known.
+  bool make (Index p, const std::vector<Index>& far, Eigen::Vector3f& normal)
+  {
+    const bool open = makeOfNeighbors (p, normal);
+    if (far.empty ())
+      return open;
+    const TangentFrame frame (normal.cast<double> ());
+    for (const Index q : far)
+      addCandidate (p, q, frame, star_);
+    star_.neighbors = star_.candidates;
+    return planar_star_.make (star_.neighbors);
+  }
+
+  const std::vector<PlanarNeighbor>& star () const { return star_.neighbors; }
+
+  /// Far neighbours that the last star has looked at.
+  const std::vector<Index>& added () const { return reach_->added (); }
+
+private:
+  struct Star
+  {
+    std::vector<PlanarNeighbor> candidates; // of which it was made
+    std::vector<PlanarNeighbor> neighbors;
+  };
+
+  bool makeOfNeighbors (Index p, Eigen::Vector3f& normal)
   {
     normal = normals_[p];
     const TangentFrame frame (normal.cast<double> ());
@@ -44,47 +84,50 @@ public:
       return false;
     const Eigen::Vector3d mean = meanNormal (positions_, neighbors_, normals_, p);
     if (!select (p, TangentFrame (mean), Tier::EITHER_PLANE, wider_)) {
-      star_.swap (wider_);
+      std::swap (star_, wider_);
       normal = mean.cast<float> ();
       return false;
     }
     for (const Tier tier : {Tier::BOTH_PLANES, Tier::ALL})
       if (!select (p, frame, tier, wider_)) {
-        star_.swap (wider_);
+        std::swap (star_, wider_);
         return false;
       }
     return true; // that of the first tier, which has the fewest strays
   }
 
-  const std::vector<PlanarNeighbor>& star () const { return star_; }
-
-private:
-  bool select (Index p, const TangentFrame& frame, Tier tier, std::vector<PlanarNeighbor>& star)
+  bool leavesPlanes (const Eigen::Vector3d& normal, Index q, const Eigen::Vector3d& offset) const
   {
-    star.clear ();
-    for (Index q : neighbors_.row (p)) {
+    const double limit = settings_.limits.plane_sine * offset.norm ();
+    return std::abs (normal.dot (offset)) > limit &&
+           std::abs (normals_[q].cast<double> ().dot (offset)) > limit;
+  }
+
+  // Unrolled into the plane: the direction of the projection, the length in space.
+  void addCandidate (Index p, Index q, const TangentFrame& frame, Star& star) const
+  {
+    constexpr double UPRIGHT = 1e-6;
+    const Eigen::Vector3d offset = positions_[q] - positions_[p];
+    const Eigen::Vector2d projected = frame.project (offset);
+    const double planar_length = projected.norm (), length = offset.norm ();
+    if (planar_length > UPRIGHT * length)
+      star.candidates.push_back ({projected * (length / planar_length), q});
+  }
+
+  bool select (Index p, const TangentFrame& frame, Tier tier, Star& star)
+  {
+    star.candidates.clear ();
+    for (const Index q : neighbors_.row (p)) {
       const Eigen::Vector3d offset = positions_[q] - positions_[p];
-      const double length = offset.norm ();
-      if (tier != Tier::ALL) {
-        const Eigen::Vector3d other_normal = normals_[q].cast<double> ();
-        const bool leaves_own =
-            std::abs (frame.normal.dot (offset)) > settings_.limits.plane_sine * length;
-        const bool leaves_other =
-            std::abs (other_normal.dot (offset)) > settings_.limits.plane_sine * length;
-        const bool turned =
-            std::abs (frame.normal.dot (other_normal)) < settings_.limits.normal_cosine;
-        if (tier == Tier::EITHER_PLANE ? leaves_own || leaves_other || turned
-                                       : leaves_own && leaves_other)
-          continue;
-      }
-      // Unrolled into the plane: the direction of the projection, the length in space.
-      const Eigen::Vector2d projected = frame.project (offset);
-      const double planar_length = projected.norm ();
-      if (planar_length > 1e-6 * length)
-        star.push_back ({projected * (length / planar_length), q});
+      if (tier == Tier::ALL ||
+          (tier == Tier::EITHER_PLANE
+               ? onSameSheet (frame.normal, normals_[q].cast<double> (), offset, settings_.limits)
+               : !leavesPlanes (frame.normal, q, offset)))
+        addCandidate (p, q, frame, star);
     }
-    return settings_.kind == StarKind::DELAUNAY ? planar_star_.make (star)
-                                                : planar_star_.order (star);
+    star.neighbors = star.candidates;
+    return settings_.kind == StarKind::DELAUNAY ? planar_star_.make (star.neighbors)
+                                                : planar_star_.order (star.neighbors);
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
@@ -92,44 +135,146 @@ private:
   const std::vector<Eigen::Vector3f>& normals_;
   const StarSettings& settings_;
   PlanarStar planar_star_;
-  std::vector<PlanarNeighbor> star_, wider_;
+  std::optional<StarReach> reach_;
+  Star star_, wider_;
 };
+
+// The stars of a range of points.
+struct Range
+{
+  std::vector<Index> ids;
+  std::vector<Eigen::Vector2d> offsets;
+  std::vector<std::pair<Index, std::vector<Index>>> far; // points with far neighbours
+
+  void append (const std::vector<PlanarNeighbor>& star, bool with_offsets)
+  {
+    for (const PlanarNeighbor& neighbor : star) {
+      ids.push_back (neighbor.point);
+      if (with_offsets)
+        offsets.push_back (neighbor.offset);
+    }
+  }
+};
+
+// Leaves out far neighbours across holes. Returns whether there were any.
+bool
+leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& reach,
+                double gap_ratio, Index p, std::vector<Index>& far)
+{
+  const std::size_t count = far.size ();
+  far.erase (std::remove_if (far.begin (), far.end (),
+                             [&] (Index q) {
+                               const double longest =
+                                   gap_ratio * static_cast<double> (std::max (reach[p], reach[q]));
+                               return (positions[q] - positions[p]).norm () > longest;
+                             }),
+             far.end ());
+  return far.size () < count;
+}
+
+// Makes the stars of a range again where far neighbours are left out.
+void
+makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions,
+           const BeyondNeighbors& beyond, std::size_t first, bool with_offsets, Stars& stars,
+           Range& range)
+{
+  Range renewed;
+  renewed.ids.reserve (range.ids.size ());
+  Index begin = 0, p = static_cast<Index> (first);
+  const auto copyUpTo = [&] (Index end) {
+    for (; p < end; ++p) {
+      const Index length = stars.neighbors.offsets[p + 1];
+      renewed.ids.insert (renewed.ids.end (), range.ids.begin () + begin,
+                          range.ids.begin () + begin + length);
+      if (with_offsets)
+        renewed.offsets.insert (renewed.offsets.end (), range.offsets.begin () + begin,
+                                range.offsets.begin () + begin + length);
+      begin += length;
+    }
+  };
+  for (auto& [point, far] : range.far) {
+    copyUpTo (point);
+    if (!leaveOutAcross (positions, stars.reach, beyond.limits.gap_ratio, point, far))
+      continue;
+    begin += stars.neighbors.offsets[point + 1];
+    stars.open[point] = maker.make (point, far, stars.normals[point]) ? 1 : 0;
+    stars.neighbors.offsets[point + 1] = static_cast<Index> (maker.star ().size ());
+    renewed.append (maker.star (), with_offsets);
+    ++p;
+  }
+  copyUpTo (static_cast<Index> (std::min (first + RANGE_LENGTH, positions.size ())));
+  range.ids.swap (renewed.ids);
+  range.offsets.swap (renewed.offsets);
+}
+
+// The largest value among a point and its nearest neighbours. Within a noisy row of points, some
+// stars are narrow.
+std::vector<float>
+largestAround (const std::vector<float>& values, const CsrLists& neighbors)
+{
+  constexpr std::size_t NEAREST = 6;
+  std::vector<float> largest = values;
+  for (std::size_t p = 0; p < values.size (); ++p)
+    for (const Index q : neighbors.first (p, NEAREST))
+      largest[p] = std::max (largest[p], values[q]);
+  return largest;
+}
+
+// Lists of far neighbours, of those points that have any.
+CsrLists
+packFar (std::size_t points, const std::vector<Range>& ranges)
+{
+  return makeCsrLists (points, [&ranges] (const auto& emit) {
+    for (const Range& range : ranges)
+      for (const auto& [point, far] : range.far)
+        for (const Index q : far)
+          emit (point, q);
+  });
+}
 
 } // namespace
 
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run)
+           const RunContext& run, const BeyondNeighbors* beyond)
 {
   const std::size_t n = positions.size ();
   Stars stars;
   stars.open.resize (n);
   stars.normals.resize (n);
   stars.neighbors.offsets.assign (n + 1, 0);
+  stars.reach.resize (beyond != nullptr ? n : 0);
 
   // Each range collects its stars; then they are packed.
-  struct Range
-  {
-    std::vector<Index> ids;
-    std::vector<Eigen::Vector2d> offsets;
-  };
   std::vector<Range> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    StarMaker maker (positions, neighbors, normals, settings);
+    StarMaker maker (positions, neighbors, normals, settings, beyond);
     Range& range = ranges[first / RANGE_LENGTH];
     range.ids.reserve (7 * (last - first));
     for (std::size_t point = first; point < last; ++point) {
       const auto p = static_cast<Index> (point);
       stars.open[p] = maker.make (p, stars.normals[p]) ? 1 : 0;
       stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
-      for (const PlanarNeighbor& neighbor : maker.star ()) {
-        range.ids.push_back (neighbor.point);
-        if (settings.with_offsets)
-          range.offsets.push_back (neighbor.offset);
-      }
+      range.append (maker.star (), settings.with_offsets);
+      if (beyond == nullptr)
+        continue;
+      stars.reach[p] = std::max (beyond->line_reach[p],
+                                 static_cast<float> (reachOf (maker.star (), stars.open[p] != 0)));
+      if (!maker.added ().empty ())
+        range.far.emplace_back (p, maker.added ());
     }
   });
+  if (beyond != nullptr) {
+    stars.reach = largestAround (stars.reach, neighbors);
+    parallelRanges (run, n, [&] (std::size_t first, std::size_t) {
+      StarMaker maker (positions, neighbors, normals, settings, nullptr);
+      Range& range = ranges[first / RANGE_LENGTH];
+      if (!range.far.empty ())
+        makeAgain (maker, positions, *beyond, first, settings.with_offsets, stars, range);
+    });
+    stars.far_neighbors = packFar (n, ranges);
+  }
   sumRowLengths (stars.neighbors.offsets);
   stars.neighbors.ids.reserve (stars.neighbors.offsets[n]);
   stars.offsets_in_plane.reserve (settings.with_offsets ? stars.neighbors.offsets[n] : 0);

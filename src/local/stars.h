@@ -4,6 +4,8 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "local/sheet.h"
+#include "local/star_reach.h"
 
 #include <vector>
 
@@ -18,20 +20,22 @@ enum class StarKind
   ALL       ///< all, in anti-clockwise order; several may lie in one direction
 };
 
-/// Which neighbours are taken for points of another sheet. Chosen on the clouds of the first
-/// benchmark: wide enough for sharp edges of 90 degrees, and not certain for thin sheets.
-struct SheetLimits
-{
-  double plane_sine = 0.75;   ///< of the angle, 49 degrees, between a tangent plane and a neighbour
-  double normal_cosine = 0.3; ///< of the angle, 72 degrees, between normals
-};
-
 struct StarSettings
 {
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
   StarKind kind = StarKind::DELAUNAY;
-  bool with_offsets = true; ///< keep the neighbours' places in the plane: 16 bytes per entry
+  bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
+  bool with_offsets = true;  ///< keep the neighbours' places in the plane: 16 bytes per entry
   SheetLimits limits{};
+};
+
+/// What stars need to reach beyond the neighbours that are given.
+struct BeyondNeighbors
+{
+  const KdTree& tree;                   ///< of the positions
+  const std::vector<float>& spacing;    ///< see localSpacing
+  const std::vector<float>& line_reach; ///< see BesideLines
+  ReachLimits limits{};
 };
 
 /// Stars of the points in their tangent planes: neighbours joined to the centre. They are in
@@ -45,6 +49,9 @@ struct Stars
                                                  ///< relative to the centre, length as in space
   std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
   std::vector<Eigen::Vector3f> normals;
+  CsrLists far_neighbors;   ///< of each point: those that only its star added; see makeStars
+  std::vector<float> reach; ///< the largest of a star and those around, see reachOf; empty if
+                            ///< none was to reach farther
 };
 
 /// Stars of all points. With the sheet filter, a neighbour on another sheet of the surface is left
@@ -55,12 +62,16 @@ struct Stars
 ///     if that star is closed: on a sharp edge both faces are seen in it;
 ///  3. else drop only neighbours that leave both planes;
 ///  4. where that star is open too, take that of all neighbours if it is closed.
-/// A star that is open in all tiers is that of tier 1. O(n k log k).
+/// A star that is open in all tiers is that of tier 1.
+///
+/// Stars may reach beyond the neighbours (see StarReach). Far neighbours to which the step is too
+/// long for the reach of both ends lie across a hole, and are left out again. O(n k log k).
 /// \param normals of each point; the stars' normals are these but for stars of tier 2
+/// \param beyond  nullptr: stars are made of the neighbours alone
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run);
+           const RunContext& run, const BeyondNeighbors* beyond = nullptr);
 
 } // namespace floater
 } // namespace pcl

@@ -13,15 +13,24 @@ namespace floater
 {
 namespace
 {
+constexpr std::size_t ADDED = 2; // neighbours at a time, while all lie on a line
+
 Eigen::Vector3d
 fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors,
            const PlaneLimits& limits)
 {
   PlaneFit core;
   core.add (Eigen::Vector3d::Zero ()); // the point itself
-  for (std::size_t i = 0; i < std::min (limits.core_points, neighbors.size ()); ++i)
-    core.add (positions[neighbors[i]] - positions[p]);
-  const Eigen::Vector3d first = core.plane ().normal;
+  std::size_t used = 0;
+  const auto addUpTo = [&] (std::size_t count) {
+    for (; used < std::min (count, neighbors.size ()); ++used)
+      core.add (positions[neighbors[used]] - positions[p]);
+    return core.plane ();
+  };
+  Plane plane = addUpTo (limits.core_points);
+  while (plane.aspect < limits.least_aspect && used < neighbors.size ())
+    plane = addUpTo (used + ADDED);
+  const Eigen::Vector3d first = plane.normal;
   PlaneFit sheet;
   sheet.add (Eigen::Vector3d::Zero ());
   for (Index q : neighbors) {

@@ -3,8 +3,6 @@
 
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 
@@ -21,8 +19,10 @@ constexpr Index PARALLEL = 8192; // points from which on halves are built at the
 KdTree::KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
 {
   items_.reserve (positions.size ());
-  for (std::size_t p = 0; p < positions.size (); ++p)
+  for (std::size_t p = 0; p < positions.size (); ++p) {
     items_.push_back ({positions[p], static_cast<Index> (p)});
+    box_.extend (positions[p]);
+  }
   if (!items_.empty ()) {
     nodes_.reserve (4 * items_.size () / BUCKET + 1);
     build (0, static_cast<Index> (items_.size ()), run, nodes_);
@@ -85,7 +85,7 @@ KdTree::search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_o
   const Node& here = nodes_[node];
   if (here.right == NONE) {
     for (Index i = here.first; i < here.last; ++i)
-      visit.point ({(items_[i].position - query).squaredNorm (), items_[i].point});
+      visit.add ({(items_[i].position - query).squaredNorm (), items_[i].point});
     return;
   }
   const int axis = here.axis;
@@ -106,30 +106,6 @@ KdTree::search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_o
 void
 KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const
 {
-  struct Nearest
-  {
-    std::vector<Neighbor>& found;
-    std::size_t k;
-
-    double reach () const
-    {
-      return found.size () < k ? std::numeric_limits<double>::infinity ()
-                               : found.back ().sqr_distance;
-    }
-    void point (const Neighbor& candidate)
-    {
-      if (found.size () == k) {
-        if (!(candidate < found.back ()))
-          return;
-        found.pop_back ();
-      }
-      std::size_t at = found.size ();
-      found.push_back (candidate);
-      for (; at > 0 && candidate < found[at - 1]; --at)
-        found[at] = found[at - 1];
-      found[at] = candidate;
-    }
-  };
   result.clear ();
   if (nodes_.empty () || k == 0)
     return;
@@ -147,7 +123,7 @@ KdTree::within (const Eigen::Vector3d& query, double radius, std::vector<Neighbo
     double sqr_radius;
 
     double reach () const { return sqr_radius; }
-    void point (const Neighbor& candidate)
+    void add (const Neighbor& candidate)
     {
       if (candidate.sqr_distance <= sqr_radius)
         found.push_back (candidate);

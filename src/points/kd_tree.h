@@ -5,6 +5,9 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
+#include <Eigen/Geometry>
+
+#include <limits>
 #include <vector>
 
 namespace pcl
@@ -39,6 +42,13 @@ public:
   /// All points within `radius` of `query` (that distance included), nearest first.
   void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
+  /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
+  /// nearest first. What lies behind the plane through `query` with the normal `ahead` is not
+  /// looked at; zero: everything is. The result is overwritten.
+  template <typename Accept>
+  void nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
+                  std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const;
+
 private:
   struct Node
   {
@@ -53,14 +63,87 @@ private:
     Eigen::Vector3d position;
     Index point;
   };
+  // The nearest points found so far, at most k within the reach.
+  struct Nearest
+  {
+    std::vector<Neighbor>& found;
+    std::size_t k;
+    double sqr_radius = std::numeric_limits<double>::infinity ();
+
+    double reach () const { return found.size () < k ? sqr_radius : found.back ().sqr_distance; }
+    void add (const Neighbor& candidate)
+    {
+      if (found.size () == k) {
+        if (!(candidate < found.back ()))
+          return;
+        found.pop_back ();
+      }
+      std::size_t at = found.size ();
+      found.push_back (candidate);
+      for (; at > 0 && candidate < found[at - 1]; --at)
+        found[at] = found[at - 1];
+      found[at] = candidate;
+    }
+  };
+
   template <typename Visit>
   void search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_offsets,
                double sqr_box_distance, Visit& visit) const;
+  template <typename Accept>
+  void searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
+                 Eigen::AlignedBox3d& box, Accept& accept, Nearest& nearest) const;
   void build (Index first, Index last, const RunContext& run, std::vector<Node>& nodes);
 
   std::vector<Item> items_; // in the order of the leaves
   std::vector<Node> nodes_;
+  Eigen::AlignedBox3d box_; // of all points
 };
+
+template <typename Accept>
+void
+KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
+                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const
+{
+  result.clear ();
+  if (nodes_.empty () || k == 0)
+    return;
+  Nearest nearest{result, k, radius * radius};
+  Eigen::AlignedBox3d box = box_;
+  searchIf (0, query, ahead, box, accept, nearest);
+}
+
+// `box` holds the node; it is the same again on return.
+template <typename Accept>
+void
+KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
+                  Eigen::AlignedBox3d& box, Accept& accept, Nearest& nearest) const
+{
+  if (box.squaredExteriorDistance (query) > nearest.reach ())
+    return;
+  double farthest_ahead = 0.0;
+  for (int i = 0; i < 3; ++i)
+    farthest_ahead += ahead[i] * ((ahead[i] < 0.0 ? box.min ()[i] : box.max ()[i]) - query[i]);
+  if (farthest_ahead < 0.0)
+    return;
+  const Node& here = nodes_[node];
+  if (here.right == NONE) {
+    for (Index i = here.first; i < here.last; ++i) {
+      const Neighbor neighbor{(items_[i].position - query).squaredNorm (), items_[i].point};
+      if (neighbor.sqr_distance <= nearest.reach () && accept (neighbor, items_[i].position))
+        nearest.add (neighbor);
+    }
+    return;
+  }
+  const int axis = here.axis;
+  const bool left_first = query[axis] < here.split;
+  for (const bool left : {left_first, !left_first}) {
+    double& bound = left ? box.max ()[axis] : box.min ()[axis];
+    const double previous = bound;
+    bound = here.split;
+    searchIf (left ? node + 1 : here.right, query, ahead, box, accept, nearest);
+    bound = previous;
+  }
+}
 
 } // namespace floater
 } // namespace pcl

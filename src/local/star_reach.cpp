@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "local/star_reach.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
+#include "core/plane_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Below one by more than the rounding of a circumcircle: points on it, as on grids, are not inside.
+constexpr double INSIDE = 1.0 - 1e-9;
+
+// Unrolled into the plane: the direction of the projection, the length in space. As in the stars.
+Eigen::Vector2d
+unrolled (const TangentFrame& frame, const Eigen::Vector3d& offset)
+{
+  const Eigen::Vector2d projected = frame.project (offset);
+  const double planar_length = projected.norm ();
+  return planar_length > 0.0 ? Eigen::Vector2d (projected * (offset.norm () / planar_length))
+                             : projected;
+}
+
+Eigen::Vector3d
+inSpace (const TangentFrame& frame, const Eigen::Vector2d& planar)
+{
+  return frame.x * planar.x () + frame.y * planar.y ();
+}
+
+// Middle direction of the gap from the last neighbour of an open star to the first.
+Eigen::Vector2d
+middleOfGap (const std::vector<PlanarNeighbor>& star)
+{
+  const Eigen::Vector2d first = star.front ().offset.normalized ();
+  const Eigen::Vector2d last = star.back ().offset.normalized ();
+  const Eigen::Vector2d sum = first + last;
+  constexpr double STRAIGHT = 1e-6;
+  if (star.size () == 1)
+    return -first;
+  if (sum.norm () < STRAIGHT)
+    return {-last.y (), last.x ()};
+  const bool is_reflex = cross (last, first) < 0.0;
+  return is_reflex ? Eigen::Vector2d (-sum.normalized ()) : Eigen::Vector2d (sum.normalized ());
+}
+
+} // namespace
+
+BesideLines
+findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
+                 const ReachLimits& limits, const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  BesideLines beside;
+  beside.reach.assign (n, 0.0F);
+  CsrLists& lists = beside.neighbors;
+  lists.offsets.assign (n + 1, 0);
+  std::vector<std::vector<Index>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    for (std::size_t p = first; p < last; ++p) {
+      const Eigen::Vector3d& here = positions[p];
+      const Row row = neighbors.row (p);
+      PlaneFit fit;
+      fit.add (Eigen::Vector3d::Zero ());
+      for (const Index q : row)
+        fit.add (positions[q] - here);
+      const Line line = fit.line ();
+      if (line.aspect >= least_aspect)
+        continue;
+      const double sqr_thickness = limits.thicknesses * limits.thicknesses * line.mean_square;
+      const auto lateral = [&] (const Eigen::Vector3d& position) -> Eigen::Vector3d {
+        const Eigen::Vector3d offset = position - here;
+        return offset - line.direction * line.direction.dot (offset);
+      };
+      const auto is_beside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
+        const double sqr_lateral = lateral (position).squaredNorm ();
+        return sqr_lateral > sqr_thickness &&
+               sqr_lateral >= limits.line_sine * limits.line_sine * neighbor.sqr_distance;
+      };
+      // On the side of the nearest one, then on the opposite side.
+      Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
+      double smaller = 0.0;
+      for (const bool is_first : {true, false}) {
+        tree.nearestIf (here, ahead, limits.farthest * static_cast<double> (spacing[p]),
+                        limits.added, is_beside, found);
+        if (found.empty ())
+          break;
+        const double distance = std::sqrt (found.front ().sqr_distance);
+        smaller = is_first ? distance : std::min (smaller, distance);
+        if (!is_first)
+          beside.reach[p] = static_cast<float> (smaller);
+        ahead = -lateral (positions[found.front ().point]);
+        std::vector<Index>& range = ranges[first / RANGE_LENGTH];
+        const auto begin = range.end () - static_cast<std::ptrdiff_t> (lists.offsets[p + 1]);
+        std::vector<Index> listed (begin, range.end ());
+        for (const Neighbor& neighbor : found)
+          if (std::find (row.begin (), row.end (), neighbor.point) == row.end () &&
+              std::find (listed.begin (), listed.end (), neighbor.point) == listed.end ()) {
+            range.push_back (neighbor.point);
+            ++lists.offsets[p + 1];
+          }
+      }
+    }
+  });
+  sumRowLengths (lists.offsets);
+  lists.ids.reserve (lists.offsets[n]);
+  for (const std::vector<Index>& range : ranges)
+    lists.ids.insert (lists.ids.end (), range.begin (), range.end ());
+  return beside;
+}
+
+void
+appendRows (const CsrLists& added, CsrLists& lists)
+{
+  if (added.ids.empty ())
+    return;
+  if (lists.ids.size () + added.ids.size () >= NONE)
+    throw std::length_error ("neighbours exceed 32-bit indices: use fewer points or a smaller k");
+  lists.ids.resize (lists.ids.size () + added.ids.size ());
+  // From the last row to the first: every entry moves backwards.
+  for (std::size_t r = lists.rows (); r-- > 0;) {
+    const Row row = lists.row (r), more = added.row (r);
+    const Index end = lists.offsets[r + 1] + added.offsets[r + 1];
+    std::copy (more.begin (), more.end (), lists.ids.begin () + (end - more.size ()));
+    std::copy_backward (row.begin (), row.end (), lists.ids.data () + (end - more.size ()));
+    lists.offsets[r + 1] = end;
+  }
+}
+
+double
+reachOf (const std::vector<PlanarNeighbor>& star, bool open)
+{
+  double reach = 0.0;
+  const std::size_t count = star.size ();
+  const std::size_t sectors = open ? std::max<std::size_t> (1, count) - 1 : count;
+  for (const PlanarNeighbor& neighbor : star) {
+    const double length = neighbor.offset.norm ();
+    const Eigen::Vector2d back = -neighbor.offset / length;
+    for (std::size_t i = 0; i < sectors && length > reach; ++i) {
+      const Eigen::Vector2d& a = star[i].offset;
+      const Eigen::Vector2d& b = star[i + 1 == count ? 0 : i + 1].offset;
+      if (cross (a, back) < 0.0 || cross (back, b) < 0.0 || cross (a, b) <= 0.0)
+        continue;
+      reach = std::max (reach, std::min (length, cross (a, b) / cross (back, b - a)));
+      break;
+    }
+  }
+  return reach;
+}
+
+StarReach::StarReach (const std::vector<Eigen::Vector3d>& positions,
+                      const std::vector<Eigen::Vector3f>& normals,
+                      const std::vector<float>& spacing, const KdTree& tree,
+                      const SheetLimits& sheets, const ReachLimits& limits)
+    : positions_ (positions), normals_ (normals), spacing_ (spacing), tree_ (tree),
+      sheets_ (sheets), limits_ (limits)
+{
+}
+
+bool
+StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance) const
+{
+  if (sqr_distance < centre.sqr_searched ||
+      std::find (added_.begin (), added_.end (), neighbor.point) != added_.end ())
+    return false;
+  // The row may end with far neighbours.
+  return std::find (centre.row.begin (), centre.row.end (), neighbor.point) == centre.row.end () &&
+         onSameSheet (centre.frame.normal, normals_[neighbor.point].cast<double> (),
+                      positions_[neighbor.point] - positions_[centre.point], sheets_);
+}
+
+void
+StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star)
+{
+  const Eigen::Vector3d& here = positions_[centre.point];
+  const Eigen::Vector3d ahead = inSpace (centre.frame, middleOfGap (star));
+  const auto is_ahead = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
+    const double along = ahead.dot (position - here);
+    return along > 0.0 &&
+           along * along >= limits_.most_cosine * limits_.most_cosine * neighbor.sqr_distance &&
+           isNew (centre, neighbor, neighbor.sqr_distance);
+  };
+  tree_.nearestIf (here, ahead, centre.farthest, limits_.added, is_ahead, found_);
+  for (const Neighbor& neighbor : found_)
+    added_.push_back (neighbor.point);
+}
+
+void
+StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b)
+{
+  const double double_area = cross (a.offset, b.offset);
+  if (double_area <= 0.0)
+    return;
+  const Eigen::Vector2d difference =
+      a.offset.squaredNorm () * b.offset - b.offset.squaredNorm () * a.offset;
+  const Eigen::Vector2d middle =
+      Eigen::Vector2d (difference.y (), -difference.x ()) / (2.0 * double_area);
+  const double sqr_radius = middle.squaredNorm ();
+  if (4.0 * sqr_radius <= centre.sqr_searched ||
+      sqr_radius > centre.farthest * centre.farthest / 4.0)
+    return;
+  const auto circle = std::make_pair (a.point, b.point);
+  if (std::find (empty_circles_.begin (), empty_circles_.end (), circle) != empty_circles_.end ())
+    return;
+  const Eigen::Vector3d& here = positions_[centre.point];
+  const auto is_inside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
+    const Eigen::Vector3d offset = position - here;
+    return (unrolled (centre.frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
+           isNew (centre, neighbor, offset.squaredNorm ());
+  };
+  tree_.nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (),
+                   std::sqrt (sqr_radius), limits_.added, is_inside, found_);
+  if (found_.empty ())
+    empty_circles_.push_back (circle);
+  for (const Neighbor& neighbor : found_)
+    added_.push_back (neighbor.point);
+}
+
+bool
+StarReach::extend (Index p, const TangentFrame& frame, Row row, bool open,
+                   std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
+{
+  added_.clear ();
+  empty_circles_.clear ();
+  const double farthest = limits_.farthest * static_cast<double> (spacing_[p]);
+  double sqr_searched = 0.0;
+  for (const Index q : row) {
+    const double sqr_distance = (positions_[q] - positions_[p]).squaredNorm ();
+    if (sqr_distance < sqr_searched)
+      break; // far neighbours begin here
+    sqr_searched = sqr_distance;
+  }
+  const Centre centre{p, frame, row, sqr_searched, farthest};
+  bool gap_is_empty = false;
+  for (int round = 0; round < limits_.rounds && !star.empty (); ++round) {
+    const std::size_t known = added_.size ();
+    if (open && !gap_is_empty) {
+      lookAhead (centre, star);
+      gap_is_empty = added_.size () == known;
+    }
+    for (std::size_t i = open ? 1 : 0; i < star.size (); ++i)
+      lookIntoCircle (centre, star[i == 0 ? star.size () - 1 : i - 1], star[i]);
+    if (added_.size () == known)
+      break;
+    for (std::size_t i = known; i < added_.size (); ++i)
+      candidates.push_back ({unrolled (frame, positions_[added_[i]] - positions_[p]), added_[i]});
+    star = candidates;
+    open = planar_star_.make (star);
+  }
+  return open;
+}
+
+} // namespace floater
+} // namespace pcl
