@@ -7,6 +7,7 @@
 #include "consensus/consensus_loop.h"
 #include "consensus/consensus_method.h"
 #include "floater/floater_method.h"
+#include "local/star_agreement.h"
 #include "mesh/check.h"
 #include "mesh/flips.h"
 #include "points/neighbors.h"
@@ -56,8 +57,8 @@ starSettings (const Options& options, const Limits& limits)
   settings.filter_sheets = options.filter_sheets;
   settings.with_offsets = asksForDisc (options);
   const Neighborhood kind = options.neighbors.kind;
-  settings.reach_beyond = !asksForDisc (options) && kind != Neighborhood::BALL &&
-                          kind != Neighborhood::BALL_DELAUNAY;
+  settings.reach_beyond =
+      !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
   settings.limits = limits.sheets;
   return settings;
 }
@@ -97,21 +98,34 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
   neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
 }
 
-// Beyond TW 385: where noise is strong, triangles join the points as they lie in their local
-// planes. The mesh is triangles only, so the user's points stay where they are.
-void
-projectNoise (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
+// Beyond TW 385: where noise is strong, triangles join the points as they would lie without it. The
+// mesh is triangles only, so the user's points stay where they are.
+LocalGeometry
+makeGeometry (Points& points, CsrLists neighbors, const NeighborSettings& settings,
               const Request& request, Report& report)
 {
-  const double noise = measureNoise (points.positions, neighbors, request.run);
-  const bool is_strong =
-      request.options.denoise && isStrongNoise (noise, points.size (), request.limits.noise);
-  reportNoise (noise, is_strong, report);
-  if (!is_strong)
-    return;
-  points.projected = projectOntoPlanes (points.positions, neighbors, request.run);
-  neighbors = {};
-  neighbors = findNeighbors (points, settings, request.run);
+  const Limits& limits = request.limits;
+  const RunContext& run = request.run;
+  const StarSettings star_settings = starSettings (request.options, limits);
+  Noise noise;
+  if (request.options.denoise)
+    noise = measureNoise (points.positions, neighbors, limits.noise, run);
+  run.beginStage (Stage::STARS);
+  LocalGeometry geometry =
+      makeLocalGeometry (points, std::move (neighbors), star_settings, run, limits.planes);
+  const bool is_projected =
+      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
+  if (is_projected) {
+    points.projected =
+        projectNoisyPoints (points.positions, geometry.neighbors, noise, limits.noise, run);
+    geometry = {};
+    run.beginStage (Stage::NEIGHBORS);
+    neighbors = findNeighbors (points, settings, run);
+    run.beginStage (Stage::STARS);
+    geometry = makeLocalGeometry (points, std::move (neighbors), star_settings, run, limits.planes);
+  }
+  reportNoise (noise, is_projected, report);
+  return geometry;
 }
 
 // TW 385, section 3: boundary points as one ordered loop.
@@ -304,12 +318,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
     removeOutliers (points, neighbors, settings, request, report);
   if (Problem problem = checkPoints (points))
     return problem;
-  projectNoise (points, neighbors, settings, request, report);
-
-  run.beginStage (Stage::STARS);
-  LocalGeometry geometry =
-      makeLocalGeometry (points, std::move (neighbors), starSettings (options, request.limits), run,
-                         request.limits.planes);
+  LocalGeometry geometry = makeGeometry (points, std::move (neighbors), settings, request, report);
 
   return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
                  : reconstructSurface (points, std::move (geometry), request, result);

@@ -166,15 +166,20 @@ reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report&
 }
 
 void
-reportNoise (double noise, bool denoised, Report& report)
+reportNoise (const Noise& noise, bool denoised, Report& report)
 {
-  report.statistics.noise = noise;
+  report.statistics.noise = noise.median;
+  report.statistics.noise_quantile_90 = noise.quantile_90;
+  report.statistics.largest_noise = noise.largest;
+  report.statistics.projected_points = denoised ? noise.noisy_points : 0;
   report.denoised = denoised;
   if (denoised)
     report.warnings.push_back (
-        "the points are noisy, by " + std::to_string (noise) +
-        " local spacings: they were connected by their places on the planes of their neighbours; "
-        "the vertices of the mesh are the points themselves");
+        counted (noise.noisy_points, "point is", "points are") + " noisy, by up to " +
+        std::to_string (noise.largest) + " local spacings (median of all points " +
+        std::to_string (noise.median) + ", 90 % below " + std::to_string (noise.quantile_90) +
+        "): they were connected by their places on the planes of the points around; the vertices "
+        "of the mesh are the points themselves");
 }
 
 namespace

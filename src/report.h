@@ -7,6 +7,7 @@
 #include "floater/floater_method.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
+#include "points/noise.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -25,7 +26,7 @@ reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report&
 
 /// The noise, and a warning if points are connected as they lie in their local planes.
 void
-reportNoise (double noise, bool denoised, Report& report);
+reportNoise (const Noise& noise, bool denoised, Report& report);
 
 /// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
 /// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.

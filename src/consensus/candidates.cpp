@@ -3,6 +3,7 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
+#include "local/star_agreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,23 +15,6 @@ namespace floater
 {
 namespace
 {
-// True if the star of p has a triangle with q and r, in either order.
-bool
-starHas (const Stars& stars, Index p, Index q, Index r)
-{
-  const Row row = stars.neighbors.row (p);
-  const std::size_t count = row.size ();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (row[i] != q)
-      continue;
-    const bool last = i + 1 == count;
-    if (!(last && stars.open[p] != 0) && row[last ? 0 : i + 1] == r)
-      return true;
-    return !(i == 0 && stars.open[p] != 0) && row[i == 0 ? count - 1 : i - 1] == r;
-  }
-  return false;
-}
-
 void
 setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
                       const std::vector<float>& spacing, const std::vector<float>& reach,
@@ -119,7 +103,7 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
       const std::size_t sectors = stars.open[p] != 0 ? row.size () - 1 : row.size ();
       for (std::size_t s = 0; s < sectors; ++s) {
         const Index q = row[s], r = row[s + 1 == row.size () ? 0 : s + 1];
-        const bool in_q = starHas (stars, q, r, p), in_r = starHas (stars, r, p, q);
+        const bool in_q = hasTriangle (stars, q, r, p), in_r = hasTriangle (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
           continue; // q or r is its first corner
         Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, 0.0F, 0.0F};

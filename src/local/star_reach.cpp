@@ -165,7 +165,8 @@ StarReach::StarReach (const std::vector<Eigen::Vector3d>& positions,
 }
 
 bool
-StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance) const
+StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
+                  const SheetLimits& sheets) const
 {
   if (sqr_distance < centre.sqr_searched ||
       std::find (added_.begin (), added_.end (), neighbor.point) != added_.end ())
@@ -173,7 +174,7 @@ StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_dis
   // The row may end with far neighbours.
   return std::find (centre.row.begin (), centre.row.end (), neighbor.point) == centre.row.end () &&
          onSameSheet (centre.frame.normal, normals_[neighbor.point].cast<double> (),
-                      positions_[neighbor.point] - positions_[centre.point], sheets_);
+                      positions_[neighbor.point] - positions_[centre.point], sheets);
 }
 
 void
@@ -185,7 +186,7 @@ StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& s
     const double along = ahead.dot (position - here);
     return along > 0.0 &&
            along * along >= limits_.most_cosine * limits_.most_cosine * neighbor.sqr_distance &&
-           isNew (centre, neighbor, neighbor.sqr_distance);
+           isNew (centre, neighbor, neighbor.sqr_distance, sheets_);
   };
   tree_.nearestIf (here, ahead, centre.farthest, limits_.added, is_ahead, found_);
   for (const Neighbor& neighbor : found_)
@@ -213,7 +214,7 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
   const auto is_inside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
     const Eigen::Vector3d offset = position - here;
     return (unrolled (centre.frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
-           isNew (centre, neighbor, offset.squaredNorm ());
+           isNew (centre, neighbor, offset.squaredNorm (), limits_.circle_sheet);
   };
   tree_.nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (),
                    std::sqrt (sqr_radius), limits_.added, is_inside, found_);

@@ -30,8 +30,12 @@ struct ReachLimits
                              ///< 1000 edges are below 1.7 on jittered grids, Poisson disks, scan
                              ///< lines and steps of density of 5 to 30; below 2.3 on uniformly
                              ///< random points
-  std::size_t added = 8;     ///< points at a time: about the first ring of an even sampling
-  int rounds = 8;            ///< in which points are added to one star. A limit of time
+  SheetLimits circle_sheet{0.25, 0.8}; ///< of points in circumcircles: their normals turn by up to
+                                       ///< 37 degrees, and on an arc their offset leaves the plane
+                                       ///< by half of that, less noise. Another sheet is as near as
+                                       ///< the neighbours, so that wider limits would take it in
+  std::size_t added = 8; ///< points at a time: about the first ring of an even sampling
+  int rounds = 8;        ///< in which points are added to one star. A limit of time
 };
 
 /// What lies beside the points whose nearest neighbours lie all on a line, as in scan lines.
@@ -95,7 +99,8 @@ private:
     double farthest;
   };
 
-  bool isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance) const;
+  bool isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
+              const SheetLimits& sheets) const;
   void lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star);
   void lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b);
 

@@ -4,10 +4,12 @@
 #include "core/parallel.h"
 #include "core/plane_fit.h"
 #include "core/tangent_frame.h"
+#include "points/kd_tree.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl
@@ -16,173 +18,323 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t SAMPLES = 2048;    // points to measure at: the median is then good to 2 %
-constexpr std::size_t LOOKED_AT = 20;    // nearest neighbours, however many there are
-constexpr std::size_t CORE = 8;          // nearest points of the small plane
-constexpr std::size_t SPACING_OF = 6;    // nearest points whose mean distance is the local spacing
-constexpr double PLANE_UNKNOWNS = 3.0;   // of a plane over a plane
-constexpr double QUADRIC_UNKNOWNS = 6.0; // of a quadric over a plane
+constexpr std::size_t LOOKED_AT = 20; // points at each scale
+constexpr std::size_t SPACING_OF = 6; // nearest points whose mean distance is the local spacing
+constexpr std::size_t CENTRES = 8;    // noise is measured at every such point
+constexpr std::size_t AROUND = 10;    // centres around a point
+constexpr std::size_t SCALES = 3;
+constexpr std::array<std::size_t, SCALES> STRIDES{1, 4, 16}; // of the points of each scale
+
+// Every so manieth point. Points are in the order of a space-filling curve, so that these are
+// evenly spread.
+class Sample
+{
+public:
+  Sample (const std::vector<Eigen::Vector3d>& positions, std::size_t stride, const RunContext& run)
+      : stride_ (stride), tree_ (every (positions, stride), run)
+  {
+  }
+
+  // Index among all points.
+  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
+  {
+    tree_.nearest (query, k, found);
+    for (Neighbor& neighbor : found)
+      neighbor.point *= static_cast<Index> (stride_);
+  }
+
+private:
+  static std::vector<Eigen::Vector3d> every (const std::vector<Eigen::Vector3d>& positions,
+                                             std::size_t stride)
+  {
+    std::vector<Eigen::Vector3d> kept;
+    kept.reserve (positions.size () / stride + 1);
+    for (std::size_t p = 0; p < positions.size (); p += stride)
+      kept.push_back (positions[p]);
+    return kept;
+  }
+
+  std::size_t stride_;
+  KdTree tree_;
+};
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// The point itself (the origin) and its neighbours, in local spacings.
-void
-localOffsets (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors,
-              std::vector<Eigen::Vector3d>& offsets)
-{
-  offsets.assign (1, Eigen::Vector3d::Zero ());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < neighbors.size (); ++i) {
-    offsets.emplace_back (positions[neighbors[i]] - positions[p]);
-    sum += i < SPACING_OF ? offsets.back ().norm () : 0.0;
-  }
-  const double spacing = sum / static_cast<double> (std::min (SPACING_OF, neighbors.size ()));
-  for (Eigen::Vector3d& offset : offsets)
-    offset /= spacing;
-}
-
-// Root mean square distance to the plane of the first `count` points, for the unknowns it takes.
+// Root mean square distance to the quadric over the plane of the points, for the unknowns it takes.
 double
-planeResidual (const std::vector<Eigen::Vector3d>& offsets, std::size_t count)
+quadricResidual (const std::vector<Eigen::Vector3d>& offsets, const PrincipalAxes& axes)
 {
-  PlaneFit fit;
-  for (std::size_t i = 0; i < count; ++i)
-    fit.add (offsets[i]);
-  const double points = static_cast<double> (count);
-  return std::sqrt (fit.plane ().mean_square * points / (points - PLANE_UNKNOWNS));
-}
-
-// The same to the quadric z = a + b x + c y + d x^2 + e x y + f y^2 over the plane of all points.
-double
-quadricResidual (const std::vector<Eigen::Vector3d>& offsets)
-{
-  PlaneFit fit;
-  for (const Eigen::Vector3d& offset : offsets)
-    fit.add (offset);
-  const TangentFrame frame (fit.plane ().normal);
   Matrix6d normal_matrix = Matrix6d::Zero ();
   Vector6d right_side = Vector6d::Zero ();
   double sqr_heights = 0.0;
   for (const Eigen::Vector3d& offset : offsets) {
-    const Eigen::Vector2d q = frame.project (offset);
-    const double height = frame.normal.dot (offset);
+    const Eigen::Vector3d q = axes.axes.transpose () * (offset - axes.centre) / axes.spread[2];
     Vector6d terms;
-    terms << 1.0, q.x (), q.y (), q.x () * q.x (), q.x () * q.y (), q.y () * q.y ();
+    terms << 1.0, q[1], q[2], q[1] * q[1], q[1] * q[2], q[2] * q[2];
     normal_matrix.noalias () += terms * terms.transpose ();
-    right_side += height * terms;
-    sqr_heights += height * height;
+    right_side += q[0] * terms;
+    sqr_heights += q[0] * q[0];
   }
   const double explained = right_side.dot (normal_matrix.ldlt ().solve (right_side));
   const double points = static_cast<double> (offsets.size ());
-  return std::sqrt (std::max (0.0, sqr_heights - explained) / (points - QUADRIC_UNKNOWNS));
+  return axes.spread[2] * std::sqrt (std::max (0.0, sqr_heights - explained) / (points - 6.0));
 }
 
 double
-medianOf (std::vector<double>& values)
+spacingOf (const std::vector<Eigen::Vector3d>& positions, Index p, Row row)
 {
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), middle, values.end ());
-  return *middle;
+  const std::size_t count = std::min (SPACING_OF, row.size ());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += (positions[row[i]] - positions[p]).norm ();
+  return count > 0 ? sum / static_cast<double> (count) : 0.0;
 }
 
-// Projects one point; scratch is reused from point to point.
-class Projector
+// Measures the noise at one point; scratch is reused from point to point.
+class NoiseMeter
 {
 public:
-  Projector (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors)
-      : positions_ (positions), neighbors_ (neighbors)
+  NoiseMeter (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const std::array<const Sample*, SCALES>& samples, const NoiseLimits& limits)
+      : positions_ (positions), neighbors_ (neighbors), samples_ (samples), limits_ (limits)
   {
   }
 
-  // Tukey's weights, which vanish at WIDTH median distances: 3 standard deviations if normal.
-  Eigen::Vector3d project (Index p)
+  float measure (Index p)
   {
-    constexpr int PASSES = 3;
-    constexpr double WIDTH = 4.5;
-    constexpr double NARROWNESS = 4.0;
-    const Row row = neighbors_.first (p, LOOKED_AT);
-    if (row.size () < 3)
-      return positions_[p];
-    offsets_.assign (1, Eigen::Vector3d::Zero ());
-    for (Index q : row)
-      offsets_.emplace_back (positions_[q] - positions_[p]);
-    // Begin with what is near: another sheet is not.
-    const double sqr_reach = offsets_.back ().squaredNorm ();
-    weights_.clear ();
-    for (const Eigen::Vector3d& offset : offsets_)
-      weights_.push_back (std::exp (-NARROWNESS * offset.squaredNorm () / sqr_reach));
-    distances_.resize (offsets_.size ());
-    Plane plane;
-    for (int pass = 0; pass < PASSES; ++pass) {
+    std::array<double, SCALES> residual{}, relative{};
+    for (std::size_t scale = 0; scale < SCALES; ++scale) {
+      gather (p, scale);
+      relative[scale] = -1.0;
+      if (offsets_.size () < LOOKED_AT / 2)
+        continue;
       PlaneFit fit;
-      for (std::size_t i = 0; i < offsets_.size (); ++i)
-        fit.add (offsets_[i], weights_[i]);
-      plane = fit.plane ();
-      for (std::size_t i = 0; i < offsets_.size (); ++i)
-        distances_[i] = std::abs (plane.height (offsets_[i]));
-      sorted_ = distances_;
-      const double width = WIDTH * medianOf (sorted_);
-      if (width <= 0.0)
-        break; // most lie exactly in the plane
-      for (std::size_t i = 0; i < offsets_.size (); ++i) {
-        const double share = std::min (1.0, distances_[i] / width);
-        weights_[i] = (1.0 - share * share) * (1.0 - share * share);
-      }
+      for (const Eigen::Vector3d& offset : offsets_)
+        fit.add (offset);
+      const PrincipalAxes axes = fit.principalAxes ();
+      if (axes.spread[1] * axes.spread[1] < limits_.least_aspect * axes.spread[2] * axes.spread[2])
+        continue;
+      double spacing = 0.0;
+      for (std::size_t i = 1; i <= SPACING_OF; ++i)
+        spacing += offsets_[i].norm () / static_cast<double> (SPACING_OF);
+      residual[scale] = quadricResidual (offsets_, axes);
+      relative[scale] = residual[scale] / spacing;
+      if (relative[scale] >= limits_.strong && areTwoSheets (axes, spacing))
+        return 0.0F;
     }
-    return positions_[p] - plane.normal * plane.height (Eigen::Vector3d::Zero ());
+    double noise = 0.0;
+    for (std::size_t scale = 0; scale + 1 < SCALES; ++scale)
+      for (std::size_t larger = scale + 1; larger < SCALES; ++larger)
+        if (relative[scale] >= limits_.strong && relative[larger] >= 0.0 &&
+            relative[larger] < limits_.falls_to * relative[scale])
+          noise = std::max (noise, residual[scale]);
+    return static_cast<float> (noise);
   }
 
 private:
+  void gather (Index p, std::size_t scale)
+  {
+    offsets_.assign (1, Eigen::Vector3d::Zero ());
+    if (scale == 0) {
+      for (const Index q : neighbors_.first (p, LOOKED_AT))
+        offsets_.emplace_back (positions_[q] - positions_[p]);
+      return;
+    }
+    samples_[scale]->nearest (positions_[p], LOOKED_AT + 1, found_);
+    for (const Neighbor& neighbor : found_)
+      if (neighbor.point != p)
+        offsets_.emplace_back (positions_[neighbor.point] - positions_[p]);
+  }
+
+  // True if the heights fall in two groups, far apart and each thin, that lie one over the other.
+  bool areTwoSheets (const PrincipalAxes& axes, double spacing)
+  {
+    heights_.clear ();
+    for (const Eigen::Vector3d& offset : offsets_) {
+      const Eigen::Vector3d local = axes.axes.transpose () * (offset - axes.centre);
+      heights_.push_back ({local[0], {local[1], local[2]}});
+    }
+    std::sort (heights_.begin (), heights_.end (),
+               [] (const auto& a, const auto& b) { return a.first < b.first; });
+    const std::size_t count = heights_.size (), least = count / 5;
+    std::size_t below = 0;
+    double gap = 0.0;
+    for (std::size_t i = least; i + least <= count && i > 0 && i < count; ++i)
+      if (heights_[i].first - heights_[i - 1].first > gap) {
+        gap = heights_[i].first - heights_[i - 1].first;
+        below = i;
+      }
+    const double thicker = std::max (heights_[below == 0 ? 0 : below - 1].first - heights_[0].first,
+                                     heights_[count - 1].first - heights_[below].first);
+    if (gap < limits_.sheet_gap * spacing || gap < thicker)
+      return false;
+    // The nearest one in the plane is of the other group as often as not.
+    std::size_t mixed = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t nearest = i == 0 ? 1 : 0;
+      for (std::size_t j = 0; j < count; ++j)
+        if (j != i && (heights_[j].second - heights_[i].second).squaredNorm () <
+                          (heights_[nearest].second - heights_[i].second).squaredNorm ())
+          nearest = j;
+      mixed += (i < below) != (nearest < below) ? 1 : 0;
+    }
+    return 4 * mixed > count;
+  }
+
   const std::vector<Eigen::Vector3d>& positions_;
   const CsrLists& neighbors_;
+  std::array<const Sample*, SCALES> samples_;
+  NoiseLimits limits_;
+  std::vector<Neighbor> found_;
   std::vector<Eigen::Vector3d> offsets_;
-  std::vector<double> weights_, distances_, sorted_;
+  std::vector<std::pair<double, Eigen::Vector2d>> heights_;
 };
 
 } // namespace
 
-bool
-isStrongNoise (double noise, std::size_t points, const NoiseLimits& limits)
+namespace
 {
-  return noise >= limits.strong && points >= limits.fewest_points;
-}
-
-double
-measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run)
+// The noise around each centre: a quantile of those measured near it.
+std::vector<float>
+smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
+          const Sample& centres, double quantile, const RunContext& run)
 {
-  const std::size_t n = positions.size ();
-  const std::size_t step = std::max<std::size_t> (1, n / SAMPLES);
-  std::vector<double> residuals (n / step, -1.0);
-  parallelRanges (run, residuals.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Eigen::Vector3d> offsets;
-    for (std::size_t sample = first; sample < last; ++sample) {
-      const Index p = static_cast<Index> (sample * step);
-      if (neighbors.first (p, LOOKED_AT).size () <= static_cast<std::size_t> (PLANE_UNKNOWNS))
-        continue;
-      localOffsets (positions, p, neighbors.first (p, LOOKED_AT), offsets);
-      residuals[sample] = planeResidual (offsets, std::min (CORE + 1, offsets.size ()));
-      if (offsets.size () > CORE + 1) {
-        const double quadric = quadricResidual (offsets);
-        if (quadric < residuals[sample]) // not if the points do not determine one
-          residuals[sample] = quadric;
-      }
+  std::vector<float> result (at_centre.size ());
+  parallelRanges (run, at_centre.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    std::vector<float> values;
+    for (std::size_t c = first; c < last; ++c) {
+      centres.nearest (positions[c * CENTRES], AROUND, found);
+      values.clear ();
+      for (const Neighbor& neighbor : found)
+        values.push_back (at_centre[neighbor.point / CENTRES]);
+      const auto rank =
+          static_cast<std::ptrdiff_t> (quantile * static_cast<double> (values.size () - 1));
+      std::nth_element (values.begin (), values.begin () + rank, values.end ());
+      result[c] = values[static_cast<std::size_t> (rank)];
     }
   });
-  residuals.erase (std::remove (residuals.begin (), residuals.end (), -1.0), residuals.end ());
-  return residuals.empty () ? 0.0 : medianOf (residuals);
+  return result;
+}
+
+void
+summarize (std::vector<float> relative, Noise& noise)
+{
+  const auto quantile = [&relative] (double share) {
+    const auto rank =
+        static_cast<std::ptrdiff_t> (share * static_cast<double> (relative.size () - 1));
+    std::nth_element (relative.begin (), relative.begin () + rank, relative.end ());
+    return static_cast<double> (relative[static_cast<std::size_t> (rank)]);
+  };
+  noise.noisy_points = static_cast<std::size_t> (
+      std::count_if (relative.begin (), relative.end (), [] (float x) { return x > 0.0F; }));
+  noise.median = quantile (0.5);
+  noise.quantile_90 = quantile (0.9);
+  noise.largest = quantile (1.0);
+}
+
+} // namespace
+
+Noise
+measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const NoiseLimits& limits, const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  Noise noise;
+  noise.at_point.assign (n, 0.0F);
+  if (n < STRIDES.back () * LOOKED_AT)
+    return noise;
+  const Sample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
+  std::vector<float> at_centre ((n + CENTRES - 1) / CENTRES);
+  parallelRanges (run, at_centre.size (), [&] (std::size_t first, std::size_t last) {
+    NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
+    for (std::size_t c = first; c < last; ++c)
+      at_centre[c] = meter.measure (static_cast<Index> (c * CENTRES));
+  });
+  if (std::all_of (at_centre.begin (), at_centre.end (), [] (float x) { return x == 0.0F; }))
+    return noise;
+  const Sample centres (positions, CENTRES, run);
+  const std::vector<float> around = smoothed (positions, at_centre, centres, limits.quantile, run);
+  std::vector<float> relative (n, 0.0F);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    for (std::size_t p = first; p < last; ++p) {
+      centres.nearest (positions[p], 1, found);
+      const float here = around[found.front ().point / CENTRES];
+      const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
+      if (here < limits.strong * spacing)
+        continue;
+      noise.at_point[p] = here;
+      relative[p] = static_cast<float> (here / spacing);
+    }
+  });
+  summarize (std::move (relative), noise);
+  return noise;
+}
+
+bool
+isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits)
+{
+  const auto points = static_cast<double> (agreement.size ());
+  if (noise.noisy_points == 0)
+    return false;
+  double disturbed = 0.0;
+  for (std::size_t p = 0; p < agreement.size (); ++p)
+    if (noise.at_point[p] > 0.0F)
+      disturbed += 1.0 - static_cast<double> (agreement[p]);
+  return static_cast<double> (noise.noisy_points) >= limits.noisy_share * points ||
+         disturbed >= limits.disturbed_share * points;
 }
 
 std::vector<Eigen::Vector3d>
-projectOntoPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   const RunContext& run)
+projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                    const Noise& noise, const NoiseLimits& limits, const RunContext& run)
 {
-  std::vector<Eigen::Vector3d> projected (positions.size ());
+  constexpr std::size_t MOST = 60; // points of a plane
+  constexpr double NARROWNESS = 4.0;
+  constexpr double OUTSIDE = 4.5; // standard deviations at which the weight vanishes
+  constexpr int PASSES = 2;
+  const Sample all (positions, 1, run), quarter (positions, STRIDES[1], run),
+      sixteenth (positions, STRIDES[2], run);
+  const std::array<const Sample*, SCALES> samples{&all, &quarter, &sixteenth};
+  std::vector<Eigen::Vector3d> projected = positions;
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    Projector projector (positions, neighbors);
-    for (std::size_t p = first; p < last; ++p)
-      projected[p] = projector.project (static_cast<Index> (p));
+    std::vector<Neighbor> found;
+    for (std::size_t p = first; p < last; ++p) {
+      const auto deviation = static_cast<double> (noise.at_point[p]);
+      if (deviation <= 0.0)
+        continue;
+      const Row row = neighbors.first (p, LOOKED_AT);
+      const double known = (positions[row[row.size () - 1]] - positions[p]).squaredNorm ();
+      const double radius = limits.radius * deviation;
+      const double wanted = std::max (static_cast<double> (LOOKED_AT),
+                                      static_cast<double> (row.size ()) * radius * radius / known);
+      std::size_t scale = 0;
+      while (scale + 1 < SCALES && wanted > static_cast<double> (MOST * STRIDES[scale]))
+        ++scale;
+      const auto count = static_cast<std::size_t> (
+          std::min (static_cast<double> (MOST), wanted / static_cast<double> (STRIDES[scale])));
+      samples[scale]->nearest (positions[p], count, found);
+      const double sqr_reach = found.back ().sqr_distance;
+      Plane plane;
+      for (int pass = 0; pass < PASSES; ++pass) {
+        PlaneFit fit;
+        for (const Neighbor& neighbor : found) {
+          const Eigen::Vector3d offset = positions[neighbor.point] - positions[p];
+          double weight = std::exp (-NARROWNESS * neighbor.sqr_distance / sqr_reach);
+          if (pass > 0) {
+            const double share = plane.height (offset) / (OUTSIDE * deviation);
+            weight *= std::abs (share) < 1.0 ? (1.0 - share * share) * (1.0 - share * share) : 0.0;
+          }
+          fit.add (offset, weight);
+        }
+        if (fit.weight () < 1.0)
+          break;
+        plane = fit.plane ();
+      }
+      projected[p] = positions[p] - plane.normal * plane.height (Eigen::Vector3d::Zero ());
+    }
   });
   return projected;
 }

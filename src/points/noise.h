@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How noisy the points are, and where they would lie without most of the noise.
+// How noisy the points are, each at its own scale, and where they would lie without the noise.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -11,42 +11,67 @@ namespace pcl
 {
 namespace floater
 {
-/// When noise is strong.
+/// What is taken for noise.
+///
+/// A neighbourhood has a residual: the root mean square distance of its points to the quadric that
+/// fits them best. From one scale to the next, with every fourth point, spacings double. Noise
+/// keeps its residual, so that in spacings of the scale it falls to one half. At a crease it stays
+/// the same in spacings, and where a surface bends more than a quadric it rises (after Mitra and
+/// Nguyen 2003; Pauly, Keiser and Gross 2003).
 struct NoiseLimits
 {
-  /// Local spacings, by measureNoise (): from here on points are better connected as they lie in
-  /// their local planes. Clouds that are clean, however thin, sharp or coarse, measured up to 0.08.
-  /// Generated surfaces with normal noise of a standard deviation of 0.2 spacings in each
-  /// coordinate measured 0.15 to 0.19, with 0.3 spacings 0.21 to 0.27, with 0.5 spacings 0.31 to
-  /// 0.36.
-  double strong = 0.15;
-  std::size_t fewest_points = 400; ///< with fewer, a thin tube is as rough as noise
+  double strong = 0.15; ///< residual in spacings of a scale from which on points are better
+                        ///< connected without it. Clouds that are clean, however thin, sharp or
+                        ///< coarse, measured up to 0.08; noise of 0.2 spacings in each coordinate
+                        ///< measures 0.15 to 0.19
+  double falls_to = 0.7; ///< of the residual in spacings, at a larger scale. Between 0.5 (noise)
+                         ///< and 1 (crease), a standard error of 20 points nearer to noise
+  double least_aspect = 0.02; ///< middle over largest eigenvalue of the points; below, they lie on
+                              ///< a line, and a residual says nothing
+  double quantile = 0.9; ///< of the noise of the points around. Within a terrace of quantized depth
+                         ///< everything looks flat
+  double sheet_gap = 0.7;   ///< spacings of a scale between two sheets that are not noise
+  double radius = 8.0;      ///< of the ball on whose plane a point is projected, in its noise. The
+                            ///< mean of as many points has a fifth of the noise or less
+  double noisy_share = 0.6; ///< of all points; if more are noisy, the sensor is. Clean clouds had
+                            ///< up to 0.4, at creases, thin sheets and rough ground
+  double disturbed_share = 0.08; ///< share of the noisy points times the share of their stars'
+                                 ///< triangles that other stars do not have; see isStrongNoise.
+                                 ///< Clean clouds had up to 0.065, sensors 0.1 to 0.6
 };
 
-/// The noise of a cloud, in local spacings (see localSpacing): the median over points of the root
-/// mean square distance of its (up to 20) nearest neighbours to the surface that fits them best.
-/// That surface is the plane of the 8 nearest or the quadric of them all, whichever is nearer: the
-/// plane is hardly disturbed by edges and other sheets, the quadric takes curvature out. Measured
-/// at 2048 to 4095 points of a larger cloud, evenly spread over it, in 5 milliseconds at most.
+/// The noise of a cloud.
+struct Noise
+{
+  std::vector<float> at_point; ///< standard deviation across the surface, in the unit of the
+                               ///< positions; 0 at points that are not noisy
+  std::size_t noisy_points = 0;
+  double median = 0.0, quantile_90 = 0.0, largest = 0.0; ///< over all points, in local spacings
+};
+
+/// Measures noise at every eighth point, at three scales: its 20 nearest of all points, of every
+/// fourth, and of every sixteenth. Each point has the 90 % quantile of the 10 places around it.
+/// Clouds of fewer than 320 points have no such scales, and no noise. O(n log n).
+/// \param positions along a space-filling curve
 /// \param neighbors of each point, nearest first
-/// \return 0 for fewer than 5 points
-double
+Noise
 measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run);
+              const NoiseLimits& limits, const RunContext& run);
 
-/// Whether a cloud of so many points is so noisy that it has to be projected.
+/// Whether points have to be projected before they are connected: nearly all are noisy, or enough
+/// of them are that their stars do not agree. At creases and thin sheets of clean clouds some
+/// points look noisy, but their stars agree. O(n).
+/// \param agreement of the star of each point, see starAgreement
 bool
-isStrongNoise (double noise, std::size_t points, const NoiseLimits& limits = {});
+isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits);
 
-/// Every point projected once on the plane of its (up to 20) nearest neighbours and itself. The
-/// plane is fitted robustly, by reweighting with Tukey's weights: points that are far off it for
-/// their median, as on another sheet or beyond an edge, lose their weight. Points with fewer than 3
-/// neighbours stay where they are. 2 microseconds per point. The nearest neighbours of the result
-/// differ a little from those of the points.
+/// Every noisy point projected on the plane of the points around it: up to 60 of those within
+/// NoiseLimits::radius, weighted by distance; a second pass leaves out what lies far off the first
+/// plane, as background behind an object. 3 microseconds for a noisy point.
 /// \param neighbors of each point, nearest first
 std::vector<Eigen::Vector3d>
-projectOntoPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   const RunContext& run);
+projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                    const Noise& noise, const NoiseLimits& limits, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

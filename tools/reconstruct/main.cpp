@@ -267,9 +267,11 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
   std::printf ("triangles  %zu\n", statistics.triangles);
   printShape (report);
   if (report.denoised)
-    std::printf (
-        "noise      %.2g spacings: points were projected on local planes to connect them\n",
-        statistics.noise);
+    std::printf ("noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
+                 "points were "
+                 "projected on local planes\n",
+                 statistics.noise, statistics.noise_quantile_90, statistics.largest_noise,
+                 statistics.projected_points);
   std::printf ("seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
                run.read_seconds, run.reconstruct_seconds, run.write_seconds,
                static_cast<double> (peakMemory ()) / MEGABYTE);

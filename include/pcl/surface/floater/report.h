@@ -81,8 +81,12 @@ struct Statistics
   std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
   std::size_t working_points = 0;    ///< distinct finite points that are no outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
-  double noise = 0.0; ///< median over points of the rms distance of the neighbours from a plane or
-                      ///< quadric fitted to them, in local spacings
+  double noise = 0.0; ///< median over points of the standard deviation of the noise across the
+                      ///< surface, in local spacings; points below 0.15 count as 0
+  double noise_quantile_90 = 0.0;   ///< 90 % of the points have at most that noise
+  double largest_noise = 0.0;       ///< of all points
+  std::size_t projected_points = 0; ///< noisy points that were projected on the planes of the
+                                    ///< points around, to connect them
   std::size_t holes_filled = 0;        ///< boundary loops of a surface that were filled
   std::size_t used_points = 0;         ///< points that are vertices of the mesh
   std::size_t relinked_points = 0;     ///< points of a disc that had to be linked to the others

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How well the stars of neighbours agree.
+#pragma once
+
+#include "core/run_context.h"
+#include "local/stars.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).
+bool
+hasTriangle (const Stars& stars, Index p, Index q, Index r);
+
+/// Of each point: the share of the triangles of its star that the stars of both other corners have,
+/// too; 0 if it has no triangle. On the Delaunay triangulation of a smooth, densely sampled surface
+/// it is 1. O(entries of the stars).
+std::vector<float>
+starAgreement (const Stars& stars, const RunContext& run);
+
+} // namespace floater
+} // namespace pcl
