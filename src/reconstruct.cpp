@@ -7,6 +7,7 @@
 #include "consensus/consensus_loop.h"
 #include "consensus/consensus_method.h"
 #include "floater/floater_method.h"
+#include "input_cleaning.h"
 #include "mesh/check.h"
 #include "mesh/flips.h"
 #include "points/neighbors.h"
@@ -89,8 +90,8 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
   outliers.erase (std::remove_if (outliers.begin (), outliers.end (), is_given), outliers.end ());
   if (outliers.empty ())
     return;
-  std::vector<Index> cloud_indices = removePoints (points, outliers);
-  reportOutliers (std::move (cloud_indices), points.size (), report);
+  const std::vector<Index> cloud_indices = removePoints (points, outliers);
+  reportOutliers (cloud_indices, points.size (), report);
   neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
 }
 
@@ -287,6 +288,8 @@ reconstructAny (Input& input, const Request& request, Result& result)
     run.setMethod (Topology::DISC);
 
   run.beginStage (Stage::WORKING_SET);
+  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
+    return problem;
   Points points = makePoints (input.positions, input.cloud_index, run);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
   std::vector<Index> ().swap (input.cloud_index);

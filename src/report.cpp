@@ -151,18 +151,53 @@ reportPoints (const Points& points, Report& report)
   report.statistics.working_points = points.positions.size ();
 }
 
-void
-reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report)
+namespace
 {
-  report.outliers = std::move (outliers);
+// Adds points to the outliers, and a warning.
+void
+addOutliers (const std::vector<Index>& outliers, const std::string& what, Report& report)
+{
+  if (outliers.empty ())
+    return;
+  const bool is_one = outliers.size () == 1;
+  report.warnings.push_back (what + ", " + (is_one ? "point " : "among them point ") +
+                             std::to_string (outliers.front ()) + ": " +
+                             (is_one ? "it was" : "they were") + " left out");
+  std::vector<Index> all;
+  std::merge (report.outliers.begin (), report.outliers.end (), outliers.begin (), outliers.end (),
+              std::back_inserter (all));
+  report.outliers = std::move (all);
   report.statistics.outlier_points = report.outliers.size ();
+}
+
+} // namespace
+
+Problem
+tooFarAway (Index cloud_index, const Eigen::Vector3d& position)
+{
+  std::ostringstream text;
+  text << "point " << cloud_index << " (" << position.x () << ", " << position.y () << ", "
+       << position.z ()
+       << ") is so far away that double precision cannot hold it together with the others: take "
+          "such points out of the cloud, or have outliers left out";
+  return {Status::DEGENERATE, text.str ()};
+}
+
+void
+reportGrossOutliers (const std::vector<Index>& outliers, Report& report)
+{
+  addOutliers (outliers,
+               counted (outliers.size (), "point is", "points are") +
+                   " over a thousand times as far away as all others",
+               report);
+}
+
+void
+reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report)
+{
   report.statistics.working_points = working_points;
-  const std::size_t count = report.outliers.size ();
-  if (count > 0)
-    report.warnings.push_back (counted (count, "point lies", "points lie") + " off any surface, " +
-                               (count == 1 ? "point " : "among them point ") +
-                               std::to_string (report.outliers.front ()) + ": " +
-                               (count == 1 ? "it was" : "they were") + " left out");
+  addOutliers (outliers,
+               counted (outliers.size (), "point lies", "points lie") + " off any surface", report);
 }
 
 void

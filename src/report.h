@@ -18,10 +18,21 @@ namespace floater
 void
 reportPoints (const Points& points, Report& report);
 
-/// Points left out of the working set, of which `working_points` are left; a warning on them.
+/// Why a cloud with a point so far from the others cannot be worked on.
+Problem
+tooFarAway (Index cloud_index, const Eigen::Vector3d& position);
+
+/// Points left out before the working set was made, since they are many times as far away as all
+/// others; a warning on them.
 /// \param outliers cloud indices, ascending
 void
-reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report);
+reportGrossOutliers (const std::vector<Index>& outliers, Report& report);
+
+/// Points left out of the working set, of which `working_points` are left; a warning on them. They
+/// are added to the gross outliers.
+/// \param outliers cloud indices, ascending
+void
+reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report);
 
 /// The noise, and a warning if points are connected as they lie in their local planes.
 void
