@@ -16,7 +16,9 @@
 #include "report.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
+#include <numeric>
 #include <utility>
 
 namespace pcl
@@ -325,6 +327,7 @@ reconstruct (Input input, const Options& options)
 
 Result
 reconstruct (Input input, const Options& options, const Limits& limits)
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 {
   Result result;
   Problem problem;
@@ -338,6 +341,33 @@ reconstruct (Input input, const Options& options, const Limits& limits)
       monitor.finish ();
   }
   catch (const Cancelled&) {
+Result
+reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
+{
+  const auto failed = [] (Status status, const char* message) {
+    Result result;
+    result.report.status = status;
+    result.report.message = message;
+    return result;
+  };
+  if (positions.empty ())
+    return failed (Status::NO_INPUT, "the input cloud is empty");
+  if (positions.size () > std::numeric_limits<Index>::max ())
+    return failed (Status::OUT_OF_MEMORY,
+                   "the cloud has more than 4294967295 points; reconstruct parts of it");
+  Input input;
+  try {
+    input.cloud_index.resize (positions.size ());
+  }
+  catch (const std::bad_alloc&) {
+    return failed (Status::OUT_OF_MEMORY, "not enough memory for the indices of the points");
+  }
+  std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
+  input.cloud_size = positions.size ();
+  input.positions = std::move (positions);
+  return reconstruct (std::move (input), options);
+}
+
     problem = {Status::CANCELLED, "the run was cancelled by its caller"};
   }
   catch (const std::bad_alloc&) {

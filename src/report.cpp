@@ -212,6 +212,30 @@ reportNoise (double noise, bool denoised, Report& report)
         "the vertices of the mesh are the points themselves");
 }
 
+void
+reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report)
+{
+  report.statistics.coordinate_step = grid.spacings;
+  if (grid.spacings == 0.0)
+    return;
+  const std::size_t coincident = points.duplicates.size ();
+  std::ostringstream text;
+  text.precision (3);
+  text << "the coordinates are coarse: along "
+       << "xyz"[grid.axis] << " they are " << grid.step << " apart, " << grid.spacings
+       << " of the local spacing"
+       << (coincident > 0 ? ", and " + counted (coincident, "point coincides", "points coincide") +
+                                " with another"
+                          : "")
+       << ". "
+       << (grid.is_single_precision
+               ? "32-bit numbers have this step so far from the origin: subtract an origin before "
+                 "coordinates are stored in 32 bits; the tool's --shift does that for files in "
+                 "text or in double precision"
+               : "They were rounded when they were stored: store them with more digits");
+  report.warnings.push_back (text.str ());
+}
+
 namespace
 {
 void

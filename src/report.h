@@ -7,6 +7,7 @@
 #include "floater/floater_method.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
+#include "points/coordinate_grid.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -39,6 +40,10 @@ void
 reportNoise (double noise, bool denoised, Report& report);
 
 /// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
+/// The step to which coordinates seem to be rounded, and a warning if it is too coarse.
+void
+reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report);
+
 /// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.
 /// Warnings on linked points, and where the loop takes a long step.
 void

@@ -54,6 +54,11 @@ TEST (Status, TooFewPoints)
   EXPECT_EQ (none.report.non_finite.size (), 20U);
 }
 
+TEST (Status, NoInput)
+{
+  expectFailure (reconstruct (Positions ()), Status::NO_INPUT, "empty");
+}
+
 TEST (Status, Degenerate)
 {
   Positions line;

@@ -62,6 +62,7 @@ statisticsJson (const Statistics& statistics)
           {"holes_filled", statistics.holes_filled},
           {"used_points", statistics.used_points},
           {"relinked_points", statistics.relinked_points},
+          {"coordinate_step", statistics.coordinate_step},
           {"boundary_candidates", statistics.boundary_candidates},
           {"loop_points", statistics.loop_points},
           {"triangles", statistics.triangles},
@@ -176,6 +177,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                                             {"parameterization", fileName (line.parameterization)}}
                                      : Json ()},
                     {"options", optionsJson (line.options)},
+                    {"shift", {run.shift.x (), run.shift.y (), run.shift.z ()}},
                     {"strict", line.strict},
                     {"status", outcomeName (report, run)},
                     {"message", report.message},

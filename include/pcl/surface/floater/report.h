@@ -83,6 +83,8 @@ struct Statistics
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
   double noise = 0.0; ///< median over points of the rms distance of the neighbours from a plane or
                       ///< quadric fitted to them, in local spacings
+  double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, along the axis
+                                ///< where it is widest, in local spacings; 0: none is seen
   std::size_t holes_filled = 0;        ///< boundary loops of a surface that were filled
   std::size_t used_points = 0;         ///< points that are vertices of the mesh
   std::size_t relinked_points = 0;     ///< points of a disc that had to be linked to the others
