@@ -189,15 +189,29 @@ countFlaws (const MeshExamination& found)
   return found.check.folds + found.unused.size ();
 }
 
-// Makes the result of a mesh. \return INTERNAL_ERROR if it is no oriented manifold
+// Makes the result of a mesh. \return INTERNAL_ERROR if it is no oriented manifold, INVALID_OPTION
+// if nothing is left of it
 Problem
-useMesh (TriangleMesh mesh, const MeshFinish& finish, const MeshExamination& found,
-         const Points& points, const Options& options, Result& result)
+useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
+         const LocalGeometry& geometry, const Request& request, Result& result)
 {
+  Report& report = result.report;
+  Trimming trimming;
+  if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
+    trimming =
+        trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
+    std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
+    found = examine (mesh, points, geometry, request);
+    found.unused = std::move (unused);
+    if (trimming.triangles > 0)
+      report.loop.clear ();
+  }
   std::vector<Triangle> triangles = std::move (mesh.triangles);
   mesh = {};
-  Problem problem = reportCheck (points, found, options, result.report);
-  result.triangles = reportMesh (points, std::move (triangles), finish, result.report);
+  Problem problem = reportCheck (points, found, request.options, report);
+  if (!problem)
+    problem = reportTrimming (points, trimming, triangles.size (), report);
+  result.triangles = reportMesh (points, std::move (triangles), finish, report);
   return problem;
 }
 
@@ -218,7 +232,7 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   const MeshExamination found = examine (disc.mesh, points, geometry, request);
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
-  return useMesh (std::move (disc.mesh), disc.finish, found, points, options, result);
+  return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
 // Topology::AUTO: where the surface is one disc but came out with folds or without points, and is
@@ -268,11 +282,12 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
     report.topology = Topology::DISC;
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
     reportDisc (points, disc, report);
-    return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, options, result);
+    return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, geometry, request, result);
   }
   report.topology = Topology::SURFACE;
   report.statistics.holes_filled = surface.holes_filled;
-  return useMesh (std::move (surface.mesh), surface.finish, found, points, options, result);
+  return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
+                  result);
 }
 
 Problem
@@ -312,6 +327,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
   LocalGeometry geometry =
       makeLocalGeometry (points, std::move (neighbors), starSettings (options, request.limits), run,
                          request.limits.planes);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 
   return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
                  : reconstructSurface (points, std::move (geometry), request, result);
@@ -325,22 +341,6 @@ reconstruct (Input input, const Options& options)
   return reconstruct (std::move (input), options, {});
 }
 
-Result
-reconstruct (Input input, const Options& options, const Limits& limits)
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
-{
-  Result result;
-  Problem problem;
-  try {
-    RunMonitor monitor (
-        {options.stage_callback, options.progress_callback, options.cancelled_callback},
-        result.report.statistics);
-    const RunContext run (options.threads, &monitor);
-    problem = reconstructAny (input, {options, limits, run}, result);
-    if (!problem)
-      monitor.finish ();
-  }
-  catch (const Cancelled&) {
 Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
 {
@@ -368,6 +368,21 @@ reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
   return reconstruct (std::move (input), options);
 }
 
+Result
+reconstruct (Input input, const Options& options, const Limits& limits)
+{
+  Result result;
+  Problem problem;
+  try {
+    RunMonitor monitor (
+        {options.stage_callback, options.progress_callback, options.cancelled_callback},
+        result.report.statistics);
+    const RunContext run (options.threads, &monitor);
+    problem = reconstructAny (input, {options, limits, run}, result);
+    if (!problem)
+      monitor.finish ();
+  }
+  catch (const Cancelled&) {
     problem = {Status::CANCELLED, "the run was cancelled by its caller"};
   }
   catch (const std::bad_alloc&) {

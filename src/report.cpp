@@ -348,5 +348,24 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
   return {};
 }
 
+Problem
+reportTrimming (const Points& points, const Trimming& trimming, std::size_t triangles_left,
+                Report& report)
+{
+  Statistics& statistics = report.statistics;
+  statistics.trimmed_triangles = trimming.triangles;
+  statistics.trimmed_components = trimming.components;
+  statistics.trimmed_points = trimming.points.size ();
+  statistics.used_points -= trimming.points.size ();
+  for (const Index p : trimming.points)
+    report.unused.push_back (points.cloud_index[p]);
+  std::sort (report.unused.begin (), report.unused.end ());
+  if (triangles_left > 0 || trimming.triangles == 0)
+    return {};
+  return {Status::INVALID_OPTION,
+          "no triangle is left: every edge is longer than the maximum, or every component smaller "
+          "than the minimum"};
+}
+
 } // namespace floater
 } // namespace pcl

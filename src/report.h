@@ -7,6 +7,7 @@
 #include "floater/floater_method.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
+#include "mesh/trimming.h"
 #include "points/coordinate_grid.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -39,11 +40,11 @@ reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, 
 void
 reportNoise (double noise, bool denoised, Report& report);
 
-/// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
 /// The step to which coordinates seem to be rounded, and a warning if it is too coarse.
 void
 reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report);
 
+/// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
 /// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.
 /// Warnings on linked points, and where the loop takes a long step.
 void
@@ -67,6 +68,13 @@ reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFin
 Problem
 reportCheck (const Points& points, const MeshExamination& found, const Options& options,
              Report& report);
+
+/// Counts of what was cut off, and points that lost all their triangles. There is no warning: it
+/// was asked for. After reportCheck ().
+/// \return INVALID_OPTION if no triangle is left
+Problem
+reportTrimming (const Points& points, const Trimming& trimming, std::size_t triangles_left,
+                Report& report);
 
 } // namespace floater
 } // namespace pcl

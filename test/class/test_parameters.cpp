@@ -35,6 +35,9 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getKeptLoops (), defaults.holes.kept_loops);
   EXPECT_EQ (floater.getLargestHole (), defaults.holes.largest_hole);
   EXPECT_EQ (floater.getLargestHoleLength (), defaults.holes.largest_hole_length);
+  EXPECT_EQ (floater.getMaximumEdgeLength (), defaults.trimming.maximum_edge_length);
+  EXPECT_EQ (floater.getMaximumEdgeRatio (), defaults.trimming.maximum_edge_ratio);
+  EXPECT_EQ (floater.getMinimumComponentSize (), defaults.trimming.minimum_component_size);
   EXPECT_EQ (floater.getRemoveOutliers (), defaults.remove_outliers);
   EXPECT_EQ (floater.getDenoise (), defaults.denoise);
   EXPECT_EQ (floater.getKNearest (), defaults.neighbors.k);
@@ -79,6 +82,9 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (KeptLoops, 3),
       CHOICE (LargestHole, 5.0),
       CHOICE (LargestHoleLength, 0.5),
+      CHOICE (MaximumEdgeLength, 100.0),
+      CHOICE (MaximumEdgeRatio, 100.0),
+      CHOICE (MinimumComponentSize, 10),
       CHOICE (RemoveOutliers, false),
       CHOICE (Denoise, false),
       CHOICE (BoundaryMethod, BoundaryMethod::CONSENSUS),

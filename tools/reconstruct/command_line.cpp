@@ -194,6 +194,12 @@ addTopology (CLI::App& app, Options& options)
              "by-size: width of the widest hole to fill, in local\nspacings; 0: no limit", surface);
   addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
              "by-size: the same in units of the cloud", surface);
+  addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
+             "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
+  addNumber (app, "--max-edge-ratio", options.trimming.maximum_edge_ratio,
+             "the same in local spacings", surface);
+  addNumber (app, "--min-component", options.trimming.minimum_component_size,
+             "cut off components of fewer points", surface);
   addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
              "leave points that lie off any surface out of\nthe mesh", surface);
   addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
@@ -214,13 +220,13 @@ addGeneral (CLI::App& app, CommandLine& line)
              "points; the result is\nthe same",
              GENERAL);
   addMemoryLimit (app, line);
+  addShift (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);
   app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
       ->group (GENERAL);
 }
-  addShift (app, line);
 
 void
 addFiles (CLI::App& app, CommandLine& line)

@@ -281,6 +281,11 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
       report.unused.size ());
   std::printf ("triangles  %zu\n", statistics.triangles);
   printShape (report);
+  if (statistics.trimmed_triangles > 0)
+    std::printf ("cut off    %s, %s, %s\n",
+                 counted (statistics.trimmed_triangles, "triangle").c_str (),
+                 counted (statistics.trimmed_components, "component").c_str (),
+                 counted (statistics.trimmed_points, "point").c_str ());
   if (!run.shift.isZero (0.0))
     std::printf ("shift      %.17g %.17g %.17g, subtracted from all coordinates\n", run.shift.x (),
                  run.shift.y (), run.shift.z ());
@@ -315,14 +320,14 @@ run (CommandLine line)
   Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, all_digits); });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
+  shiftOrigin (line, cloud, input);
   RunFigures figures;
+  figures.shift = cloud.shift;
   figures.read_seconds = secondsSince (start);
   figures.input_points = cloud.size ();
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
-  shiftOrigin (line, cloud, input);
     figures.input_fields.push_back (field.name);
-  figures.shift = cloud.shift;
 
   start = std::chrono::steady_clock::now ();
   Result result = reconstructInput (std::move (input), line.options, progress);
