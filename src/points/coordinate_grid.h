@@ -26,7 +26,7 @@ struct CoordinateGrid
 ///    coordinates that could be finer have the same step;
 ///  - the coordinates of all three axes have the same step, and it is smaller than the spacing (up
 ///    to 0.4 of it), or a tenth of the points coincide.
-/// Looks at 131,072 points at most. O(n), 5 nanoseconds per point.
+/// Looks at 131,072 points at most, in 30 milliseconds at most.
 /// \param spacing local spacing of each point
 CoordinateGrid
 findCoordinateGrid (const Points& points, const std::vector<float>& spacing);

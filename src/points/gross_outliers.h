@@ -34,7 +34,7 @@ struct GrossOutliers
 /// Finds gross outliers: coordinates such as 1e10 or FLT_MAX, and (0, 0, 0) far from a surface in
 /// map coordinates. Each copy of equal points is listed. Objects far apart, and parts with points
 /// all the way to the bulk, are none. Non-finite points are ignored. The result does not depend on
-/// the order of the points. O(n), 20 nanoseconds and 8 bytes per point; a search for neighbours
+/// the order of the points. O(n), 60 nanoseconds and 8 bytes per point; a search for neighbours
 /// among the points beyond a gap, if there is one.
 GrossOutliers
 findGrossOutliers (const std::vector<Eigen::Vector3d>& positions, const RunContext& run,

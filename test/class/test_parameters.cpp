@@ -220,6 +220,55 @@ TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
   expectFailure (floater, Status::INVALID_OPTION);
 }
 
+TEST_F (FloaterClass, LongEdgesAreCutOff)
+{
+  const Cloud::Ptr cloud = heightField ();
+  for (const Topology topology : {Topology::DISC, Topology::SURFACE}) {
+    pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+    floater.setInputCloud (cloud);
+    floater.setTopology (topology);
+    pcl::PolygonMesh whole, mesh;
+    floater.reconstruct (whole);
+    floater.setMaximumEdgeLength (1.5);
+    floater.reconstruct (mesh);
+    ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+    EXPECT_GT (floater.getStatistics ().trimmed_triangles, 0U);
+    EXPECT_EQ (mesh.polygons.size () + floater.getStatistics ().trimmed_triangles,
+               whole.polygons.size ());
+    EXPECT_EQ (floater.getUnusedIndices ().size (), floater.getStatistics ().trimmed_points);
+    for (const pcl::Vertices& polygon : mesh.polygons)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const pcl::PointXYZ& a = (*cloud)[polygon.vertices[i]];
+        const pcl::PointXYZ& b = (*cloud)[polygon.vertices[(i + 1) % 3]];
+        EXPECT_LE ((a.getVector3fMap () - b.getVector3fMap ()).norm (), 1.5F + 1e-6F);
+      }
+    floater.setMaximumEdgeRatio (-1.0);
+    floater.reconstruct (mesh);
+    EXPECT_EQ (floater.getStatus (), Status::INVALID_OPTION);
+    EXPECT_TRUE (mesh.polygons.empty ());
+  }
+}
+
+// The octree for balls is that of the points that are left.
+TEST_F (FloaterClass, AGrossOutlierDoesNotHarmBalls)
+{
+  const Cloud::Ptr cloud = heightField ();
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setNeighborhood (Neighborhood::BALL_DELAUNAY);
+  floater.setInputCloud (cloud);
+  pcl::PolygonMesh expected, mesh;
+  floater.reconstruct (expected);
+  const Cloud::Ptr with_outlier (new Cloud (*cloud));
+  with_outlier->push_back (pcl::PointXYZ (std::numeric_limits<float>::max (), 0.0F, 0.0F));
+  floater.setInputCloud (with_outlier);
+  floater.reconstruct (mesh);
+  ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  EXPECT_EQ (floater.getOutlierIndices (), pcl::Indices (1, 500));
+  ASSERT_EQ (mesh.polygons.size (), expected.polygons.size ());
+  for (std::size_t t = 0; t < mesh.polygons.size (); ++t)
+    EXPECT_EQ (mesh.polygons[t].vertices, expected.polygons[t].vertices);
+}
+
 // A given loop is the boundary of a disc, whatever topology is to be found.
 TEST_F (FloaterClass, AGivenLoopMakesADisc)
 {
