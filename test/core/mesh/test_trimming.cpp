@@ -232,6 +232,8 @@ TEST (Trimming, ABridgedHoleIsOpenedAgain)
       EXPECT_EQ (report.loop.size (), report.check.loops.front ().points);
       EXPECT_EQ (report.statistics.loop_points, report.loop.size ());
       EXPECT_EQ (found.vertices, report.statistics.used_points);
+      for (const std::string& warning : report.warnings)
+        EXPECT_EQ (warning.find ("open"), std::string::npos) << warning;
     }
   }
 }
