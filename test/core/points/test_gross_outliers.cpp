@@ -80,8 +80,8 @@ TEST (GrossOutliers, ObjectsAndWidePartsAreNone)
 {
   const Positions torus = surface (SurfaceKind::TORUS, 2000);
   const Positions terrain = surface (SurfaceKind::HEIGHT_FIELD, 2000);
-  // A terrain around it that is a thousand times as wide and has a tenth of the points, and one that
-  // is ten thousand times as wide.
+  // A terrain around it that is a thousand times as wide and has a tenth of the points, and one
+  // that is ten thousand times as wide.
   for (const Positions& cloud :
        {torus + surface (SurfaceKind::HEIGHT_FIELD, 200, {0, 0, 0}, 3e3),
         torus + surface (SurfaceKind::HEIGHT_FIELD, 2000, {0, 0, 0}, 1e4), terrain + torus}) {
