@@ -35,12 +35,27 @@ checkTopology (const Options& options)
   return {};
 }
 
+Problem
+checkTrimming (const TrimmingOptions& options)
+{
+  const auto refused = [] (const char* why) { return Problem{Status::INVALID_OPTION, why}; };
+  if (!(options.maximum_edge_length >= 0.0 && std::isfinite (options.maximum_edge_length)))
+    return refused ("the maximum edge length must be 0 (no limit) or more");
+  if (!(options.maximum_edge_ratio >= 0.0 && std::isfinite (options.maximum_edge_ratio)))
+    return refused ("the maximum edge ratio must be 0 (no limit) or more local spacings");
+  if (options.minimum_component_size < 0)
+    return refused ("the minimum component size must be 0 or more points");
+  return {};
+}
+
 } // namespace
 
 Problem
 checkOptions (const Options& options)
 {
   if (Problem problem = checkTopology (options))
+    return problem;
+  if (Problem problem = checkTrimming (options.trimming))
     return problem;
   const auto out_of_range = [] (const char* name, const char* range) {
     return Problem{Status::INVALID_OPTION, std::string (name) + " must be " + range};

@@ -7,6 +7,7 @@
 #include "consensus/consensus_loop.h"
 #include "consensus/consensus_method.h"
 #include "floater/floater_method.h"
+#include "input_cleaning.h"
 #include "local/star_agreement.h"
 #include "mesh/check.h"
 #include "mesh/flips.h"
@@ -16,7 +17,9 @@
 #include "report.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
+#include <numeric>
 #include <utility>
 
 namespace pcl
@@ -93,8 +96,8 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
   outliers.erase (std::remove_if (outliers.begin (), outliers.end (), is_given), outliers.end ());
   if (outliers.empty ())
     return;
-  std::vector<Index> cloud_indices = removePoints (points, outliers);
-  reportOutliers (std::move (cloud_indices), points.size (), report);
+  const std::vector<Index> cloud_indices = removePoints (points, outliers);
+  reportOutliers (cloud_indices, points.size (), report);
   neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
 }
 
@@ -203,15 +206,29 @@ countFlaws (const MeshExamination& found)
   return found.check.folds + found.unused.size ();
 }
 
-// Makes the result of a mesh. \return INTERNAL_ERROR if it is no oriented manifold
+// Makes the result of a mesh. \return INTERNAL_ERROR if it is no oriented manifold, INVALID_OPTION
+// if nothing is left of it
 Problem
-useMesh (TriangleMesh mesh, const MeshFinish& finish, const MeshExamination& found,
-         const Points& points, const Options& options, Result& result)
+useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
+         const LocalGeometry& geometry, const Request& request, Result& result)
 {
+  Report& report = result.report;
+  Trimming trimming;
+  if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
+    trimming =
+        trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
+    std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
+    found = examine (mesh, points, geometry, request);
+    found.unused = std::move (unused);
+    if (trimming.triangles > 0)
+      report.loop.clear ();
+  }
   std::vector<Triangle> triangles = std::move (mesh.triangles);
   mesh = {};
-  Problem problem = reportCheck (points, found, options, result.report);
-  result.triangles = reportMesh (points, std::move (triangles), finish, result.report);
+  Problem problem = reportCheck (points, found, request.options, report);
+  if (!problem)
+    problem = reportTrimming (points, trimming, triangles.size (), report);
+  result.triangles = reportMesh (points, std::move (triangles), finish, report);
   return problem;
 }
 
@@ -232,7 +249,7 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   const MeshExamination found = examine (disc.mesh, points, geometry, request);
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
-  return useMesh (std::move (disc.mesh), disc.finish, found, points, options, result);
+  return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
 // Topology::AUTO: where the surface is one disc but came out with folds or without points, and is
@@ -282,11 +299,12 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
     report.topology = Topology::DISC;
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
     reportDisc (points, disc, report);
-    return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, options, result);
+    return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, geometry, request, result);
   }
   report.topology = Topology::SURFACE;
   report.statistics.holes_filled = surface.holes_filled;
-  return useMesh (std::move (surface.mesh), surface.finish, found, points, options, result);
+  return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
+                  result);
 }
 
 Problem
@@ -304,6 +322,8 @@ reconstructAny (Input& input, const Request& request, Result& result)
     run.setMethod (Topology::DISC);
 
   run.beginStage (Stage::WORKING_SET);
+  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
+    return problem;
   Points points = makePoints (input.positions, input.cloud_index, run);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
   std::vector<Index> ().swap (input.cloud_index);
@@ -319,6 +339,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = checkPoints (points))
     return problem;
   LocalGeometry geometry = makeGeometry (points, std::move (neighbors), settings, request, report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 
   return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
                  : reconstructSurface (points, std::move (geometry), request, result);
@@ -330,6 +351,33 @@ Result
 reconstruct (Input input, const Options& options)
 {
   return reconstruct (std::move (input), options, {});
+}
+
+Result
+reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
+{
+  const auto failed = [] (Status status, const char* message) {
+    Result result;
+    result.report.status = status;
+    result.report.message = message;
+    return result;
+  };
+  if (positions.empty ())
+    return failed (Status::NO_INPUT, "the input cloud is empty");
+  if (positions.size () > std::numeric_limits<Index>::max ())
+    return failed (Status::OUT_OF_MEMORY,
+                   "the cloud has more than 4294967295 points; reconstruct parts of it");
+  Input input;
+  try {
+    input.cloud_index.resize (positions.size ());
+  }
+  catch (const std::bad_alloc&) {
+    return failed (Status::OUT_OF_MEMORY, "not enough memory for the indices of the points");
+  }
+  std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
+  input.cloud_size = positions.size ();
+  input.positions = std::move (positions);
+  return reconstruct (std::move (input), options);
 }
 
 Result

@@ -72,14 +72,16 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
                         ": they may belong to a larger one, or be outliers");
 }
 
-// The user who chose how many holes stay, or which, gets what was asked for.
+// The user who chose how many holes stay, or which, gets what was asked for; and so does the one
+// who had long edges cut off, which opens holes.
 void
 warnOfHoles (const Points& points, const MeshExamination& found, const Options& options,
              Report& report)
 {
   const bool close_all = options.holes.policy == HolePolicy::CLOSE_ALL;
   if (options.topology == Topology::DISC ||
-      (!close_all && options.holes.policy != HolePolicy::AUTO))
+      (!close_all && options.holes.policy != HolePolicy::AUTO) ||
+      options.trimming.maximum_edge_length > 0.0 || options.trimming.maximum_edge_ratio > 0.0)
     return;
   std::size_t holes = 0, largest = 0;
   for (std::size_t i = found.loops.size (); i-- > 0;)
@@ -151,18 +153,53 @@ reportPoints (const Points& points, Report& report)
   report.statistics.working_points = points.positions.size ();
 }
 
-void
-reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report)
+namespace
 {
-  report.outliers = std::move (outliers);
+// Adds points to the outliers, and a warning.
+void
+addOutliers (const std::vector<Index>& outliers, const std::string& what, Report& report)
+{
+  if (outliers.empty ())
+    return;
+  const bool is_one = outliers.size () == 1;
+  report.warnings.push_back (what + ", " + (is_one ? "point " : "among them point ") +
+                             std::to_string (outliers.front ()) + ": " +
+                             (is_one ? "it was" : "they were") + " left out");
+  std::vector<Index> all;
+  std::merge (report.outliers.begin (), report.outliers.end (), outliers.begin (), outliers.end (),
+              std::back_inserter (all));
+  report.outliers = std::move (all);
   report.statistics.outlier_points = report.outliers.size ();
+}
+
+} // namespace
+
+Problem
+tooFarAway (Index cloud_index, const Eigen::Vector3d& position)
+{
+  std::ostringstream text;
+  text << "point " << cloud_index << " (" << position.x () << ", " << position.y () << ", "
+       << position.z ()
+       << ") is so far away that double precision cannot hold it together with the others: take "
+          "such points out of the cloud, or have outliers left out";
+  return {Status::DEGENERATE, text.str ()};
+}
+
+void
+reportGrossOutliers (const std::vector<Index>& outliers, Report& report)
+{
+  addOutliers (outliers,
+               counted (outliers.size (), "point is", "points are") +
+                   " over a thousand times as far away as all others",
+               report);
+}
+
+void
+reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report)
+{
   report.statistics.working_points = working_points;
-  const std::size_t count = report.outliers.size ();
-  if (count > 0)
-    report.warnings.push_back (counted (count, "point lies", "points lie") + " off any surface, " +
-                               (count == 1 ? "point " : "among them point ") +
-                               std::to_string (report.outliers.front ()) + ": " +
-                               (count == 1 ? "it was" : "they were") + " left out");
+  addOutliers (outliers,
+               counted (outliers.size (), "point lies", "points lie") + " off any surface", report);
 }
 
 void
@@ -180,6 +217,30 @@ reportNoise (const Noise& noise, bool denoised, Report& report)
         std::to_string (noise.median) + ", 90 % below " + std::to_string (noise.quantile_90) +
         "): they were connected by their places on the planes of the points around; the vertices "
         "of the mesh are the points themselves");
+}
+
+void
+reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report)
+{
+  report.statistics.coordinate_step = grid.spacings;
+  if (grid.spacings == 0.0)
+    return;
+  const std::size_t coincident = points.duplicates.size ();
+  std::ostringstream text;
+  text.precision (3);
+  text << "the coordinates are coarse: along "
+       << "xyz"[grid.axis] << " they are " << grid.step << " apart, " << grid.spacings
+       << " of the local spacing"
+       << (coincident > 0 ? ", and " + counted (coincident, "point coincides", "points coincide") +
+                                " with another"
+                          : "")
+       << ". "
+       << (grid.is_single_precision
+               ? "32-bit numbers have this step so far from the origin: subtract an origin before "
+                 "coordinates are stored in 32 bits; the tool's --shift does that for files in "
+                 "text or in double precision"
+               : "They were rounded when they were stored: store them with more digits");
+  report.warnings.push_back (text.str ());
 }
 
 namespace
@@ -292,6 +353,25 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
   warnOfShape (points, found, report);
   warnOfHoles (points, found, options, report);
   return {};
+}
+
+Problem
+reportTrimming (const Points& points, const Trimming& trimming, std::size_t triangles_left,
+                Report& report)
+{
+  Statistics& statistics = report.statistics;
+  statistics.trimmed_triangles = trimming.triangles;
+  statistics.trimmed_components = trimming.components;
+  statistics.trimmed_points = trimming.points.size ();
+  statistics.used_points -= trimming.points.size ();
+  for (const Index p : trimming.points)
+    report.unused.push_back (points.cloud_index[p]);
+  std::sort (report.unused.begin (), report.unused.end ());
+  if (triangles_left > 0 || trimming.triangles == 0)
+    return {};
+  return {Status::INVALID_OPTION,
+          "no triangle is left: every edge is longer than the maximum, or every component smaller "
+          "than the minimum"};
 }
 
 } // namespace floater

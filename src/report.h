@@ -7,6 +7,8 @@
 #include "floater/floater_method.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
+#include "mesh/trimming.h"
+#include "points/coordinate_grid.h"
 #include "points/noise.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -19,14 +21,29 @@ namespace floater
 void
 reportPoints (const Points& points, Report& report);
 
-/// Points left out of the working set, of which `working_points` are left; a warning on them.
+/// Why a cloud with a point so far from the others cannot be worked on.
+Problem
+tooFarAway (Index cloud_index, const Eigen::Vector3d& position);
+
+/// Points left out before the working set was made, since they are many times as far away as all
+/// others; a warning on them.
 /// \param outliers cloud indices, ascending
 void
-reportOutliers (std::vector<Index> outliers, std::size_t working_points, Report& report);
+reportGrossOutliers (const std::vector<Index>& outliers, Report& report);
+
+/// Points left out of the working set, of which `working_points` are left; a warning on them. They
+/// are added to the gross outliers.
+/// \param outliers cloud indices, ascending
+void
+reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report);
 
 /// The noise, and a warning if points are connected as they lie in their local planes.
 void
 reportNoise (const Noise& noise, bool denoised, Report& report);
+
+/// The step to which coordinates seem to be rounded, and a warning if it is too coarse.
+void
+reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report);
 
 /// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
 /// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.
@@ -52,6 +69,13 @@ reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFin
 Problem
 reportCheck (const Points& points, const MeshExamination& found, const Options& options,
              Report& report);
+
+/// Counts of what was cut off, and points that lost all their triangles. There is no warning: it
+/// was asked for. After reportCheck ().
+/// \return INVALID_OPTION if no triangle is left
+Problem
+reportTrimming (const Points& points, const Trimming& trimming, std::size_t triangles_left,
+                Report& report);
 
 } // namespace floater
 } // namespace pcl

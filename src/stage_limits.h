@@ -9,6 +9,7 @@
 #include "local/stars.h"
 #include "local/tangent_planes.h"
 #include "mesh/check.h"
+#include "points/gross_outliers.h"
 #include "points/noise.h"
 #include "points/outliers.h"
 
@@ -18,6 +19,7 @@ namespace floater
 {
 struct Limits
 {
+  GrossOutlierLimits gross_outliers;
   OutlierLimits outliers;
   NoiseLimits noise;
   PlaneLimits planes;

@@ -49,6 +49,37 @@ hilbertCode (std::array<std::uint32_t, 3> x)
   return code;
 }
 
+// Place of a position on the axes, in cells. One cell size for all: the curve is to follow
+// distance, not the shape of the box.
+Eigen::Array3d
+inCells (const Eigen::Vector3d& position)
+{
+  constexpr double CELLS = static_cast<double> (1U << BITS) - 1.0;
+  return CELLS * (position.array () + 0.5);
+}
+
+std::uint64_t
+codeOf (const Eigen::Array3d& cell)
+{
+  return hilbertCode ({static_cast<std::uint32_t> (cell.x ()),
+                       static_cast<std::uint32_t> (cell.y ()),
+                       static_cast<std::uint32_t> (cell.z ())});
+}
+
+std::uint64_t
+curveCode (const Eigen::Vector3d& position)
+{
+  return codeOf (inCells (position));
+}
+
+// Position on a curve through the 2^BITS cells a side into which a cell of the curve is divided.
+std::uint64_t
+codeInCell (const Eigen::Vector3d& position)
+{
+  const Eigen::Array3d place = inCells (position);
+  return codeOf (static_cast<double> (1U << BITS) * (place - place.floor ()));
+}
+
 struct Entry
 {
   std::uint64_t code;
@@ -87,6 +118,25 @@ leaveDuplicatesOut (Points& points)
   std::sort (points.duplicates.begin (), points.duplicates.end ());
 }
 
+// Whether the directions from a point to nearly all others are those of one line. Small objects far
+// apart are within rounding of a line, but this point sees that its own object is none. It is the
+// one in the middle of the order, so that it is in the largest of two.
+bool
+isLineSeenFromWithin (const std::vector<Eigen::Vector3d>& positions)
+{
+  constexpr double STRAIGHT = 1e-4; // sine of an angle; near points are rounded more
+  const Eigen::Vector3d& from = positions[positions.size () / 2];
+  Eigen::Vector3d farthest = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : positions)
+    if ((p - from).squaredNorm () > farthest.squaredNorm ())
+      farthest = p - from;
+  const Eigen::Vector3d direction = farthest.stableNormalized ();
+  std::size_t beside = 0;
+  for (const Eigen::Vector3d& p : positions)
+    beside += direction.cross (p - from).norm () > STRAIGHT * (p - from).norm () ? 1 : 0;
+  return 4 * beside < positions.size ();
+}
+
 } // namespace
 
 Points
@@ -117,28 +167,26 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
   const double diagonal = 2.0 * half_size.stableNorm ();
   points.scale = diagonal > 0.0 ? diagonal : 1.0;
 
-  // One cell size for all axes: the curve is to follow distance, not the shape of the box.
-  const double cells = static_cast<double> (1U << BITS) - 1.0;
   const auto scaled = [&] (Index row) -> Eigen::Vector3d {
     return (positions[row] - points.centre) / points.scale;
   };
   parallelRanges (run, entries.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t e = first; e < last; ++e) {
-      std::array<std::uint32_t, 3> cell{};
-      const Eigen::Vector3d position = scaled (entries[e].row);
-      for (int axis = 0; axis < 3; ++axis)
-        cell[static_cast<std::size_t> (axis)] =
-            static_cast<std::uint32_t> (cells * (position[axis] + 0.5));
-      entries[e].code = hilbertCode (cell);
-    }
+    for (std::size_t e = first; e < last; ++e)
+      entries[e].code = curveCode (scaled (entries[e].row));
   });
 
-  // Ties by coordinates, so that the order does not depend on that of the cloud.
+  // Ties by a curve within the cell: next to a part that is many times as large, a whole object may
+  // lie in a few cells. Then by coordinates, so that the order does not depend on that of the
+  // cloud.
   const auto before = [&] (const Entry& a, const Entry& b) {
     if (a.code != b.code)
       return a.code < b.code;
     const Eigen::Vector3d p = scaled (a.row);
     const Eigen::Vector3d q = scaled (b.row);
+    const std::uint64_t p_code = codeInCell (p);
+    const std::uint64_t q_code = codeInCell (q);
+    if (p_code != q_code)
+      return p_code < q_code;
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] != q[axis])
         return p[axis] < q[axis];
@@ -172,7 +220,7 @@ checkPoints (const Points& points)
     fit.add (position - points.positions.front ());
   const Eigen::Vector3d spread = fit.principalAxes ().spread;
   // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
-  if (spread[1] < 1e-6 * spread[2])
+  if (spread[1] < 1e-6 * spread[2] && isLineSeenFromWithin (points.positions))
     return {Status::DEGENERATE,
             "all points lie on one line; a surface needs points in two directions"};
   return {};

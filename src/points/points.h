@@ -40,16 +40,18 @@ struct Points
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
-/// (the smallest cloud index stands for all), and sorts along a Hilbert curve. O(n log n). Points
-/// are equal if they are so after scaling. Points nearer to each other than 1e-16 of the diagonal
-/// may be, and no later stage could tell them apart.
-/// \param positions   any
-/// \param cloud_index of each position; distinct
+/// (the smallest cloud index stands for all), and sorts along a Hilbert curve, which is fine enough
+/// for objects many orders of magnitude smaller than the box. O(n log n). Points are equal if they
+/// are so after scaling. Points nearer to each other than 1e-16 of the diagonal may be, and no
+/// later stage could tell them apart. \param positions   any \param cloud_index of each position;
+/// distinct
 Points
 makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
             const RunContext& run);
 
-/// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line.
+/// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line. Small objects far
+/// apart do not: it is enough that a quarter of the points lie beside the line as seen from one of
+/// them.
 Problem
 checkPoints (const Points& points);
 

@@ -35,6 +35,9 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getKeptLoops (), defaults.holes.kept_loops);
   EXPECT_EQ (floater.getLargestHole (), defaults.holes.largest_hole);
   EXPECT_EQ (floater.getLargestHoleLength (), defaults.holes.largest_hole_length);
+  EXPECT_EQ (floater.getMaximumEdgeLength (), defaults.trimming.maximum_edge_length);
+  EXPECT_EQ (floater.getMaximumEdgeRatio (), defaults.trimming.maximum_edge_ratio);
+  EXPECT_EQ (floater.getMinimumComponentSize (), defaults.trimming.minimum_component_size);
   EXPECT_EQ (floater.getRemoveOutliers (), defaults.remove_outliers);
   EXPECT_EQ (floater.getDenoise (), defaults.denoise);
   EXPECT_EQ (floater.getKNearest (), defaults.neighbors.k);
@@ -79,6 +82,9 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (KeptLoops, 3),
       CHOICE (LargestHole, 5.0),
       CHOICE (LargestHoleLength, 0.5),
+      CHOICE (MaximumEdgeLength, 100.0),
+      CHOICE (MaximumEdgeRatio, 100.0),
+      CHOICE (MinimumComponentSize, 10),
       CHOICE (RemoveOutliers, false),
       CHOICE (Denoise, false),
       CHOICE (BoundaryMethod, BoundaryMethod::CONSENSUS),
@@ -212,6 +218,55 @@ TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
   floater.setTopology (Topology::SURFACE);
   floater.setPrescribedLoop ({0, 1, 2});
   expectFailure (floater, Status::INVALID_OPTION);
+}
+
+TEST_F (FloaterClass, LongEdgesAreCutOff)
+{
+  const Cloud::Ptr cloud = heightField ();
+  for (const Topology topology : {Topology::DISC, Topology::SURFACE}) {
+    pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+    floater.setInputCloud (cloud);
+    floater.setTopology (topology);
+    pcl::PolygonMesh whole, mesh;
+    floater.reconstruct (whole);
+    floater.setMaximumEdgeLength (1.5);
+    floater.reconstruct (mesh);
+    ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+    EXPECT_GT (floater.getStatistics ().trimmed_triangles, 0U);
+    EXPECT_EQ (mesh.polygons.size () + floater.getStatistics ().trimmed_triangles,
+               whole.polygons.size ());
+    EXPECT_EQ (floater.getUnusedIndices ().size (), floater.getStatistics ().trimmed_points);
+    for (const pcl::Vertices& polygon : mesh.polygons)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const pcl::PointXYZ& a = (*cloud)[polygon.vertices[i]];
+        const pcl::PointXYZ& b = (*cloud)[polygon.vertices[(i + 1) % 3]];
+        EXPECT_LE ((a.getVector3fMap () - b.getVector3fMap ()).norm (), 1.5F + 1e-6F);
+      }
+    floater.setMaximumEdgeRatio (-1.0);
+    floater.reconstruct (mesh);
+    EXPECT_EQ (floater.getStatus (), Status::INVALID_OPTION);
+    EXPECT_TRUE (mesh.polygons.empty ());
+  }
+}
+
+// The octree for balls is that of the points that are left.
+TEST_F (FloaterClass, AGrossOutlierDoesNotHarmBalls)
+{
+  const Cloud::Ptr cloud = heightField ();
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setNeighborhood (Neighborhood::BALL_DELAUNAY);
+  floater.setInputCloud (cloud);
+  pcl::PolygonMesh expected, mesh;
+  floater.reconstruct (expected);
+  const Cloud::Ptr with_outlier (new Cloud (*cloud));
+  with_outlier->push_back (pcl::PointXYZ (std::numeric_limits<float>::max (), 0.0F, 0.0F));
+  floater.setInputCloud (with_outlier);
+  floater.reconstruct (mesh);
+  ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  EXPECT_EQ (floater.getOutlierIndices (), pcl::Indices (1, 500));
+  ASSERT_EQ (mesh.polygons.size (), expected.polygons.size ());
+  for (std::size_t t = 0; t < mesh.polygons.size (); ++t)
+    EXPECT_EQ (mesh.polygons[t].vertices, expected.polygons[t].vertices);
 }
 
 // A given loop is the boundary of a disc, whatever topology is to be found.

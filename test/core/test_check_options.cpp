@@ -75,6 +75,11 @@ TEST (CheckOptions, NumbersHaveRanges)
                {-1e-9, NOT_A_NUMBER, INF});
   expectRange (&Options::holes, &HoleOptions::largest_hole_length, {0.0, 1e-20, 1e20},
                {-1e-9, NOT_A_NUMBER, INF});
+  expectRange (&Options::trimming, &TrimmingOptions::maximum_edge_length, {0.0, 1e-20, 1e20},
+               {-1e-9, NOT_A_NUMBER, INF});
+  expectRange (&Options::trimming, &TrimmingOptions::maximum_edge_ratio, {0.0, 0.5, 1e6},
+               {-1e-9, NOT_A_NUMBER, INF});
+  expectRange (&Options::trimming, &TrimmingOptions::minimum_component_size, {0, 1, 1000000}, {-1});
 }
 
 TEST (CheckOptions, PoliciesFitTheTopology)

@@ -117,6 +117,23 @@ TEST (Reconstruct, EveryChoiceMakesADisc)
   expectOk (options);
 }
 
+TEST (Reconstruct, PointsInDoublePrecision)
+{
+  // Centimetres apart on a map, where floats are half a metre apart.
+  Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 2000, 5);
+  for (Eigen::Vector3d& p : cloud)
+    p = Eigen::Vector3d (5e5, 5.5e6, 300.0) + 0.02 * p;
+  const Result result = reconstruct (cloud);
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_TRUE (result.report.warnings.empty ()) << result.report.warnings.front ();
+  EXPECT_EQ (result.triangles, reconstruct (asInput (cloud), {}).triangles);
+  EXPECT_EQ (result.report.statistics.cloud_points, 2000U);
+  EXPECT_EQ (result.report.statistics.used_points, 2000U);
+  Options options;
+  options.trimming.maximum_edge_length = 1e-9;
+  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, Status::INVALID_OPTION);
+}
+
 TEST (Reconstruct, TheReportsLoopMakesADisc)
 {
   const Positions cloud = samples::disc (0.07, 4).positions;

@@ -41,7 +41,7 @@ discAt (const Eigen::Vector3d& place, double radius, std::uint64_t seed)
 
 TEST (Status, TooFewPoints)
 {
-  expectFailure (reconstruct ({}, {}), Status::TOO_FEW_POINTS, "0 distinct finite points");
+  expectFailure (reconstruct (Input (), {}), Status::TOO_FEW_POINTS, "0 distinct finite points");
   const Positions three = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   expectFailure (reconstruct (asInput (three), {}), Status::TOO_FEW_POINTS, "3 distinct");
   Positions equal (50, Eigen::Vector3d (1, 2, 3));
@@ -52,6 +52,11 @@ TEST (Status, TooFewPoints)
   const Result none = reconstruct (asInput (nowhere), {});
   expectFailure (none, Status::TOO_FEW_POINTS, "0 distinct");
   EXPECT_EQ (none.report.non_finite.size (), 20U);
+}
+
+TEST (Status, NoInput)
+{
+  expectFailure (reconstruct (Positions ()), Status::NO_INPUT, "empty");
 }
 
 TEST (Status, Degenerate)

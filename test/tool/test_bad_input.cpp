@@ -193,10 +193,10 @@ TEST_F (BadInput, EveryPrefixIsRefusedOrWhole)
   };
   for (const PcdKind kind : {PcdKind::ASCII, PcdKind::BINARY, PcdKind::COMPRESSED}) {
     writePcd (path ("in.pcd"), sample, kind);
-    check (readFile ("in.pcd"), parsePcd);
+    check (readFile ("in.pcd"), [] (const FileBytes& file) { return parsePcd (file, true); });
   }
   for (const PlyKind kind : {PlyKind::ASCII, PlyKind::LITTLE, PlyKind::BIG})
-    check (plyText (sample, kind), parsePly);
+    check (plyText (sample, kind), [] (const FileBytes& file) { return parsePly (file, true); });
   check (objText (sample), parseObj);
 }
 

@@ -57,6 +57,19 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"--largest-hole", "nan"}, "largest hole must be 0 or more"},
       {{"--largest-hole-length", "-1"}, "length of the largest hole must be 0 or more"},
       {{"--largest-hole-length", "inf"}, "length of the largest hole must be 0 or more"},
+      {{"--max-edge", "-1"}, "maximum edge length must be 0"},
+      {{"--max-edge", "long"}, "'long' is not a number"},
+      {{"--max-edge-ratio", "nan"}, "maximum edge ratio must be 0"},
+      {{"--min-component", "-1"}, "minimum component size must be 0"},
+      {{"--min-component", "2.5"}, "'2.5' is not a whole number"},
+      {{"--shift", "1,2"}, "'1,2' is neither auto nor three numbers"},
+      {{"--shift", "1,2,3,4"}, "'1,2,3,4' is neither"},
+      {{"--shift", "1,,3"}, "'1,,3' is neither"},
+      {{"--shift", "1,2,3m"}, "'1,2,3m' is neither"},
+      {{"--shift", "1,2,nan"}, "'1,2,nan' is neither"},
+      {{"--shift", "inf,0,0"}, "'inf,0,0' is neither"},
+      {{"--shift", "centre"}, "'centre' is neither"},
+      {{"--shift", ""}, "'' is neither"},
       {{"--remove-outliers", "yes"}, "'yes' is none of: on, off"},
       {{"--denoise", "1"}, "'1' is none of: on, off"},
       {{"--strict=maybe"}, "maybe"},
@@ -293,6 +306,48 @@ TEST_F (CommandLineTest, ExtensionsInUpperCase)
   std::filesystem::rename (path ("in.pcd"), path ("IN.PCD"));
   EXPECT_EQ (run ({"IN.PCD", "OUT.VTK"}).code, 0);
   EXPECT_EQ (readVtk (path ("OUT.VTK")).points, sample_.points);
+}
+
+TEST_F (CommandLineTest, LongEdgesAndSmallComponentsAreCutOff)
+{
+  // The points in a square and 40 of them again, far away: a component of their own.
+  const auto spread = [] (const Eigen::Vector3d& p) { return Eigen::Vector3d (p.x (), p.y (), 0); };
+  std::vector<Eigen::Vector3d> points = sample_.points;
+  Eigen::Vector3d least = spread (points.front ());
+  for (const Eigen::Vector3d& p : points)
+    least = least.cwiseMin (spread (p));
+  std::size_t copied = 0;
+  for (const Eigen::Vector3d& p : sample_.points)
+    if ((spread (p) - least).maxCoeff () < 6.0) {
+      points.emplace_back (p + Eigen::Vector3d (100, 0, 0));
+      ++copied;
+    }
+  ASSERT_GT (copied, 20U);
+  writeFile ("in.pcd", pcdText (points));
+  const Json both = report ({});
+  ASSERT_EQ (both.at ("check").at ("components"), 2);
+  const Json all = report ({"--min-component", std::to_string (copied + 1)});
+  EXPECT_EQ (all.at ("check").at ("components"), 1);
+  EXPECT_EQ (all.at ("statistics").at ("trimmed_components"), 1);
+  EXPECT_EQ (all.at ("statistics").at ("trimmed_points"), copied);
+  EXPECT_EQ (all.at ("unused").size (), copied);
+  EXPECT_EQ (all.at ("options").at ("min_component"), copied + 1);
+
+  const double longest = both.at ("check").at ("longest_edge").get<double> ();
+  const std::string ratio = std::to_string (0.9 * longest);
+  const Json cut = report ({"--max-edge-ratio", ratio});
+  EXPECT_LE (cut.at ("check").at ("longest_edge").get<double> (), std::stod (ratio));
+  EXPECT_GT (cut.at ("statistics").at ("trimmed_triangles"), 0);
+  const Outcome outcome = run ({"in.pcd", "out.ply", "--max-edge", "1.4"});
+  EXPECT_NE (outcome.out.find ("cut off    "), std::string::npos) << outcome.out;
+  const MeshContent mesh = readPly (path ("out.ply"));
+  for (const auto& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LE ((mesh.points[triangle[i]] - mesh.points[triangle[(i + 1) % 3]]).norm (), 1.4);
+  // Nothing is left.
+  std::filesystem::remove (path ("out.ply"));
+  std::filesystem::remove (path ("out.json"));
+  expectFailure ({"in.pcd", "out.ply", "--max-edge", "0.001"}, USAGE, "no triangle is left");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "cloud.h"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <set>
 
@@ -138,9 +139,40 @@ Cloud::positions () const
     visitType (coordinates[axis].type, [&] (auto tag) {
       for (std::size_t i = 0; i < result.size (); ++i)
         result[i][static_cast<Eigen::Index> (axis)] =
-            static_cast<double> (coordinates[axis].value<decltype (tag)> (row (i)));
+            static_cast<double> (coordinates[axis].value<decltype (tag)> (row (i))) -
+            shift[static_cast<Eigen::Index> (axis)];
     });
   return result;
+}
+
+bool
+widenCoordinates (const std::vector<Field*>& fields)
+{
+  int widened = 0;
+  for (Field* field : fields)
+    if ((field->name == "x" || field->name == "y" || field->name == "z") &&
+        field->type == ScalarType::FLOAT32) {
+      field->type = ScalarType::FLOAT64;
+      ++widened;
+    }
+  return widened == 3;
+}
+
+std::string
+shiftText (const Cloud& cloud)
+{
+  std::string text;
+  if (cloud.shift.isZero (0.0))
+    return text;
+  for (const double value : cloud.shift) {
+    constexpr std::size_t LONGEST = 512; // 1e-308 in full
+    std::array<char, LONGEST> digits{};
+    const auto end = std::to_chars (digits.data (), digits.data () + digits.size (), value,
+                                    std::chars_format::fixed)
+                         .ptr;
+    text += (text.empty () ? "" : " ") + std::string (digits.data (), end);
+  }
+  return text;
 }
 
 std::size_t

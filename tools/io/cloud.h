@@ -24,13 +24,14 @@ namespace floater
 /// all rows of the file, also those of points that have been left out since.
 struct Cloud
 {
-  std::array<Field, 3> coordinates;  ///< x, y, z; one value each
-  bool single_precision = true;      ///< the coordinates were given as 32-bit floats
-  std::vector<Field> fields;         ///< all but the coordinates
-  std::size_t rows = 0;              ///< points of the file
-  KeptPoints kept;                   ///< points that are left
-  std::vector<std::string> warnings; ///< oddities of the file, one sentence each
-  FileBytes file;                    ///< the file, if the fields refer to it
+  std::array<Field, 3> coordinates;                 ///< x, y, z; one value each
+  bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
+  std::vector<Field> fields;                        ///< all but the coordinates
+  std::size_t rows = 0;                             ///< points of the file
+  KeptPoints kept;                                  ///< points that are left
+  std::vector<std::string> warnings;                ///< oddities of the file, one sentence each
+  FileBytes file;                                   ///< the file, if the fields refer to it
 
   /// Number of points that are left.
   std::size_t size () const { return kept.areAll () ? rows : kept.size (); }
@@ -38,13 +39,14 @@ struct Cloud
   /// The row of a point.
   std::size_t row (std::size_t point) const { return kept.row (point); }
 
-  /// The coordinates, exactly as in the file.
+  /// The coordinates, exactly as in the file if there is no shift.
   Eigen::Vector3d position (std::size_t point) const { return positionOfRow (row (point)); }
 
   Eigen::Vector3d positionOfRow (std::size_t row) const
   {
-    return {coordinates[0].asDouble (row), coordinates[1].asDouble (row),
-            coordinates[2].asDouble (row)};
+    return Eigen::Vector3d (coordinates[0].asDouble (row), coordinates[1].asDouble (row),
+                            coordinates[2].asDouble (row)) -
+           shift;
   }
 
   /// The positions of all points.
@@ -79,6 +81,15 @@ normalFields (const Cloud& cloud);
 /// \throws ReadError if there are no points or no coordinates, or two fields have the same name
 Cloud
 makeCloud (std::vector<Field> fields, std::size_t size);
+
+/// Makes the fields x, y and z of a text double if they are float: then they get all digits of the
+/// text. \return whether all three were float
+bool
+widenCoordinates (const std::vector<Field*>& fields);
+
+/// The shift as text, "500000 5500000 0"; empty if there is none.
+std::string
+shiftText (const Cloud& cloud);
 
 /// Leaves out the points with a NaN or infinite coordinate, and renumbers the triangles, which must
 /// not use such points. No values are moved or copied.

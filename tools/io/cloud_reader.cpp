@@ -15,16 +15,16 @@ isCloudFile (const std::filesystem::path& path)
 }
 
 Cloud
-readCloud (const std::filesystem::path& path)
+readCloud (const std::filesystem::path& path, bool all_digits)
 {
   const FileBytes file (path);
   if (file.view ().empty ())
     throw ReadError ("the file is empty");
   const std::string extension = lowerExtension (path);
   if (extension == ".pcd")
-    return parsePcd (file);
+    return parsePcd (file, all_digits);
   if (extension == ".ply")
-    return parsePly (file);
+    return parsePly (file, all_digits);
   if (extension == ".obj")
     return parseObj (file);
   throw ReadError ("its extension '" + extension + "' is unknown; use .pcd, .ply or .obj");

@@ -21,19 +21,21 @@ isCloudFile (const std::filesystem::path& path);
 
 /// Reads a cloud in the format given by the extension. The fields of uncompressed binary files stay
 /// in the mapped file.
+/// \param all_digits read the coordinates of text files as doubles, also where the file says float;
+/// Cloud::single_precision is as the file says
 /// \throws ReadError if the file is not a complete and valid cloud
 Cloud
-readCloud (const std::filesystem::path& path);
+readCloud (const std::filesystem::path& path, bool all_digits = false);
 
 /// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
 /// skipped. The viewpoint is ignored; coordinates are not transformed.
 Cloud
-parsePcd (const FileBytes& file);
+parsePcd (const FileBytes& file, bool all_digits = false);
 
 /// PLY, ascii and binary in both byte orders: the element "vertex", without its list properties.
 /// Elements after it are ignored.
 Cloud
-parsePly (const FileBytes& file);
+parsePly (const FileBytes& file, bool all_digits = false);
 
 /// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1). Normals
 /// are read if there are as many "vn" as "v" lines. All other lines are ignored.

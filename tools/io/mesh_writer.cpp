@@ -77,6 +77,8 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
   file.write ("# " + COMMENT + "\n");
+  if (const std::string shift = shiftText (cloud); !shift.empty ())
+    file.write ("# shift " + shift + "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.write ("v");
     for (const double coordinate : cloud.position (i)) {

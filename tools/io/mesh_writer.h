@@ -14,9 +14,10 @@ bool
 isMeshFile (const std::filesystem::path& path);
 
 /// Writes the mesh in the format given by the extension of `path`. All coordinates must be finite.
-/// As far as the format allows, vertex k is point k of the cloud with all its fields, and every
-/// number reads back exactly. \param path only its extension is used; the bytes are written to
-/// `file` \return losses of the format, one sentence each \throws WriteError
+/// All formats but STL tell the shift in a comment. As far as the format allows, vertex k is point
+/// k of the cloud with all its fields, and every number reads back exactly. \param path only its
+/// extension is used; the bytes are written to `file` \return losses of the format, one sentence
+/// each \throws WriteError
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
            const Triangles& triangles);

@@ -253,13 +253,15 @@ readCompressed (std::string_view bytes, PcdHeader& header)
 } // namespace
 
 Cloud
-parsePcd (const FileBytes& file)
+parsePcd (const FileBytes& file, bool all_digits)
 {
   TextScanner scanner (file.view ());
   PcdHeader header = readHeader (scanner);
   bool has_more = false;
   if (header.points == 0)
     throw ReadError ("it has no points");
+  const bool is_widened =
+      all_digits && header.data == "ascii" && widenCoordinates (fieldsToKeep (header));
   if (header.data == "ascii")
     has_more = readAscii (scanner, header);
   else if (header.data == "binary")
@@ -273,6 +275,7 @@ parsePcd (const FileBytes& file)
                                        [] (const Field& field) { return field.name == PADDING; }),
                        header.fields.end ());
   Cloud cloud = makeCloud (std::move (header.fields), header.points);
+  cloud.single_precision |= is_widened;
   if (header.data == "binary")
     cloud.file = file;
   if (has_more)

@@ -245,11 +245,13 @@ checkCount (const Element& element, bool is_ascii, std::size_t bytes)
 } // namespace
 
 Cloud
-parsePly (const FileBytes& file)
+parsePly (const FileBytes& file, bool all_digits)
 {
   TextScanner scanner (file.view ());
   PlyHeader header = readHeader (scanner);
   std::string_view rest = scanner.rest ();
+  const bool is_widened =
+      all_digits && !header.byte_order && widenCoordinates (fieldsOf (header.elements.back ()));
   for (Element& element : header.elements) {
     const bool keep = element.name == "vertex";
     checkCount (element, !header.byte_order,
@@ -269,6 +271,7 @@ parsePly (const FileBytes& file)
       fields.push_back (std::move (property.field));
   }
   Cloud cloud = makeCloud (std::move (fields), vertices.count);
+  cloud.single_precision |= is_widened;
   if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())
     cloud.file = file;
   cloud.warnings = std::move (warnings);

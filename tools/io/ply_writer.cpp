@@ -45,8 +45,10 @@ void
 writeHeader (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 {
   file.write ("ply\nformat binary_little_endian 1.0\ncomment written by "
-              "pcl_floater_reconstruct\nelement vertex " +
-              std::to_string (cloud.size ()) + "\n");
+              "pcl_floater_reconstruct\n");
+  if (const std::string shift = shiftText (cloud); !shift.empty ())
+    file.write ("comment shift " + shift + "\n");
+  file.write ("element vertex " + std::to_string (cloud.size ()) + "\n");
   for (const char* axis : {"x", "y", "z"})
     file.write (std::string ("property ") + (cloud.single_precision ? "float " : "double ") + axis +
                 "\n");
@@ -58,11 +60,27 @@ writeHeader (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
               "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
-/// Writes the values of points `first` to `last` into a column of rows, as doubles or unchanged.
+/// Writes the coordinates of points `first` to `last` into three columns of rows, as Number.
+/// \return width of the columns in bytes
+template <typename Number>
+std::size_t
+fillCoordinates (const Cloud& cloud, std::size_t first, std::size_t last, char* to,
+                 std::size_t row_bytes)
+{
+  for (std::size_t i = first; i < last; ++i, to += row_bytes) {
+    const Eigen::Matrix<Number, 3, 1> position = cloud.position (i).cast<Number> ();
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      copyNumber<Number> (to + static_cast<std::size_t> (axis) * sizeof (Number), &position[axis],
+                          ByteOrder::LITTLE);
+  }
+  return 3 * sizeof (Number);
+}
+
+/// Writes the values of points `first` to `last` into a column of rows.
 /// \return width of the column in bytes
 std::size_t
-fillColumn (const Cloud& cloud, const Field& field, bool as_double, std::size_t first,
-            std::size_t last, char* to, std::size_t row_bytes)
+fillColumn (const Cloud& cloud, const Field& field, std::size_t first, std::size_t last, char* to,
+            std::size_t row_bytes)
 {
   const auto fill = [&] (auto tag, auto out_tag) {
     using T = decltype (tag);
@@ -75,7 +93,7 @@ fillColumn (const Cloud& cloud, const Field& field, bool as_double, std::size_t 
     return field.count * sizeof (Out);
   };
   return visitType (field.type, [&] (auto tag) {
-    return as_double || isLong (field.type) ? fill (tag, double{}) : fill (tag, tag);
+    return isLong (field.type) ? fill (tag, double{}) : fill (tag, tag);
   });
 }
 
@@ -91,10 +109,10 @@ writePoints (AtomicFile& file, const Cloud& cloud)
   for (std::size_t first = 0; first < cloud.size (); first += BLOCK_POINTS) {
     const std::size_t last = std::min (cloud.size (), first + BLOCK_POINTS);
     char* to = block.data ();
-    for (const Field& field : cloud.coordinates)
-      to += fillColumn (cloud, field, !cloud.single_precision, first, last, to, row_bytes);
+    to += cloud.single_precision ? fillCoordinates<float> (cloud, first, last, to, row_bytes)
+                                 : fillCoordinates<double> (cloud, first, last, to, row_bytes);
     for (const Field& field : cloud.fields)
-      to += fillColumn (cloud, field, false, first, last, to, row_bytes);
+      to += fillColumn (cloud, field, first, last, to, row_bytes);
     file.write (block.data (), (last - first) * row_bytes);
   }
 }

@@ -88,8 +88,9 @@ void
 writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 {
   const std::string size = std::to_string (cloud.size ());
-  file.write (
-      "# vtk DataFile Version 3.0\nwritten by pcl_floater_reconstruct\nBINARY\nDATASET POLYDATA\n");
+  const std::string shift = shiftText (cloud);
+  file.write ("# vtk DataFile Version 3.0\nwritten by pcl_floater_reconstruct" +
+              (shift.empty () ? "" : ", shift " + shift) + "\nBINARY\nDATASET POLYDATA\n");
   file.write ("POINTS " + size + (cloud.single_precision ? " float\n" : " double\n"));
   for (std::size_t i = 0; i < cloud.size (); ++i)
     for (const double coordinate : cloud.position (i)) {

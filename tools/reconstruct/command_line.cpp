@@ -36,6 +36,9 @@ const char* const FOOTER =
                           scan.pcd paper.ply
 
 Notes:
+  With --shift, coordinates in the outputs and in messages are those after the origin was
+  subtracted. The report has it, and all formats but .stl have it in a comment. Coordinates in text
+  files are then read with all their digits, also where the file says float.
   Input formats: .pcd, .ply, .obj. Output formats: .vtk (pcl_viewer opens it), .ply, .obj, .stl.
   Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
   them move up. All other points are vertices of the output, also those that are in no triangle:
@@ -124,6 +127,36 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
       GENERAL, "FOLDER (that of OUTPUT)");
 }
 
+void
+addShift (CLI::App& app, CommandLine& line)
+{
+  const auto parse = [&line] (const std::string& word) {
+    line.auto_shift = word == "auto";
+    line.shift.reset ();
+    if (line.auto_shift)
+      return;
+    Eigen::Vector3d shift;
+    std::size_t first = 0;
+    bool is_good = std::count (word.begin (), word.end (), ',') == 2;
+    for (int axis = 0; axis < 3 && is_good; ++axis) {
+      const std::size_t comma = std::min (word.find (',', first), word.size ());
+      is_good = parseNumber (std::string_view (word).substr (first, comma - first), shift[axis]);
+      first = comma + 1;
+    }
+    if (!is_good || !shift.allFinite ())
+      throw CLI::ValidationError ("--shift", "'" + word +
+                                                 "' is neither auto nor three numbers, such as "
+                                                 "500000,5500000,0");
+    line.shift = shift;
+  };
+  app.add_option_function<std::string> (
+         "--shift", parse,
+         "origin to subtract from all coordinates, for those\ntoo far from zero for 32 bits; auto: "
+         "the rounded\ncentre of the points, if they are")
+      ->option_text ("X,Y,Z or auto (none)")
+      ->group (GENERAL);
+}
+
 /// \throws UsageError
 void
 checkMemoryLimit (CommandLine& line)
@@ -161,6 +194,12 @@ addTopology (CLI::App& app, Options& options)
              "by-size: width of the widest hole to fill, in local\nspacings; 0: no limit", surface);
   addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
              "by-size: the same in units of the cloud", surface);
+  addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
+             "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
+  addNumber (app, "--max-edge-ratio", options.trimming.maximum_edge_ratio,
+             "the same in local spacings", surface);
+  addNumber (app, "--min-component", options.trimming.minimum_component_size,
+             "cut off components of fewer points", surface);
   addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
              "leave points that lie off any surface out of\nthe mesh", surface);
   addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
@@ -181,6 +220,7 @@ addGeneral (CLI::App& app, CommandLine& line)
              "points; the result is\nthe same",
              GENERAL);
   addMemoryLimit (app, line);
+  addShift (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);

@@ -4,6 +4,8 @@
 
 #include <pcl/surface/floater/options.h>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -41,9 +43,11 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  std::filesystem::path scratch; ///< folder; used with a limit only
-  std::size_t max_memory = 0;    ///< bytes; 0: no limit
-  Options options;               ///< without the loop, which has not been read yet
+  std::filesystem::path scratch;        ///< folder; used with a limit only
+  std::size_t max_memory = 0;           ///< bytes; 0: no limit
+  std::optional<Eigen::Vector3d> shift; ///< --shift x,y,z
+  bool auto_shift = false;              ///< --shift auto
+  Options options;                      ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
   bool strict = false; ///< write no mesh if there is a warning

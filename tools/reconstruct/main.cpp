@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "remaining_time.h"
 #include "report_json.h"
+#include "shift.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -79,6 +80,20 @@ makeInput (const Cloud& cloud)
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
   cloud.file.giveBack ();
   return input;
+}
+
+/// Subtracts the origin that was asked for.
+void
+shiftOrigin (const CommandLine& line, Cloud& cloud, Input& input)
+{
+  if (line.auto_shift)
+    cloud.shift = chooseShift (input.positions, line.options.threads);
+  else if (line.shift)
+    cloud.shift = *line.shift;
+  if (cloud.shift.isZero (0.0))
+    return;
+  for (Eigen::Vector3d& position : input.positions)
+    position -= cloud.shift;
 }
 
 Result
@@ -266,6 +281,14 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
       report.unused.size ());
   std::printf ("triangles  %zu\n", statistics.triangles);
   printShape (report);
+  if (statistics.trimmed_triangles > 0)
+    std::printf ("cut off    %s, %s, %s\n",
+                 counted (statistics.trimmed_triangles, "triangle").c_str (),
+                 counted (statistics.trimmed_components, "component").c_str (),
+                 counted (statistics.trimmed_points, "point").c_str ());
+  if (!run.shift.isZero (0.0))
+    std::printf ("shift      %.17g %.17g %.17g, subtracted from all coordinates\n", run.shift.x (),
+                 run.shift.y (), run.shift.z ());
   if (report.denoised)
     std::printf ("noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
                  "points were "
@@ -295,10 +318,13 @@ run (CommandLine line)
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
     line.options.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
-  Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input); });
+  const bool all_digits = line.auto_shift || line.shift;
+  Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, all_digits); });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
+  shiftOrigin (line, cloud, input);
   RunFigures figures;
+  figures.shift = cloud.shift;
   figures.read_seconds = secondsSince (start);
   figures.input_points = cloud.size ();
   figures.single_precision = cloud.single_precision;

@@ -17,10 +17,11 @@ namespace floater
 struct RunFigures
 {
   std::size_t input_points = 0;
-  std::vector<std::string> input_fields; ///< fields of the points but the coordinates
-  bool single_precision = true;          ///< whether the coordinates are 32-bit floats
-  std::size_t vertices = 0;              ///< vertices of the output
-  bool is_refused = false;               ///< --strict: no mesh is written because of warnings
+  std::vector<std::string> input_fields;            ///< fields of the points but the coordinates
+  bool single_precision = true;                     ///< whether the coordinates are 32-bit floats
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< subtracted from all coordinates
+  std::size_t vertices = 0;                         ///< vertices of the output
+  bool is_refused = false; ///< --strict: no mesh is written because of warnings
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;
   double write_seconds = 0.0;

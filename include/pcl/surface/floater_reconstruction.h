@@ -124,6 +124,29 @@ public:
   /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in units of the cloud. */
   double getLargestHoleLength () const { return options_.holes.largest_hole_length; }
 
+  /** \brief Length that no edge of the mesh exceeds, in units of the cloud, 0 or more; default 0:
+   * no limit. Triangles with a longer edge are cut off the finished mesh, and where they were there
+   * is a boundary, also of a disc. The mesh stays a manifold: at a point where only a corner holds
+   * parts of it together, the one with most triangles stays. getStatistics() counts what is cut
+   * off, getUnusedIndices() has points that lose all their triangles. If nothing is left, the run
+   * ends with Status::INVALID_OPTION. */
+  void setMaximumEdgeLength (double length) { options_.trimming.maximum_edge_length = length; }
+  /** \brief Length that no edge of the mesh exceeds, in units of the cloud; 0: no limit. */
+  double getMaximumEdgeLength () const { return options_.trimming.maximum_edge_length; }
+
+  /** \brief As setMaximumEdgeLength(), in local spacings: the mean of those of the two ends of the
+   * edge; 0 or more; default 0: no limit. Edges of a good mesh are up to about 3 long, and up to 6
+   * where the sampling is uneven. */
+  void setMaximumEdgeRatio (double spacings) { options_.trimming.maximum_edge_ratio = spacings; }
+  /** \brief Length that no edge of the mesh exceeds, in local spacings; 0: no limit. */
+  double getMaximumEdgeRatio () const { return options_.trimming.maximum_edge_ratio; }
+
+  /** \brief Components of the mesh with fewer points are left out, 0 or more; default 0: none.
+   * Components are counted after long edges were cut off. */
+  void setMinimumComponentSize (int points) { options_.trimming.minimum_component_size = points; }
+  /** \brief Components of the mesh with fewer points are left out. */
+  int getMinimumComponentSize () const { return options_.trimming.minimum_component_size; }
+
   /** \brief Whether points that lie off any surface are left out of the mesh; default true.
    * getOutlierIndices() has them. */
   void setRemoveOutliers (bool remove_outliers) { options_.remove_outliers = remove_outliers; }

@@ -92,6 +92,24 @@ TEST (Points, ConsecutivePointsAreNear)
   EXPECT_LT (sum / static_cast<double> (cube.size () - 1), 1.35);
 }
 
+TEST (Points, ConsecutivePointsAreNearInASmallObjectToo)
+{
+  // The grid again, in one cell of the curve through the whole box.
+  Positions cloud;
+  for (int x = 0; x < 16; ++x)
+    for (int y = 0; y < 16; ++y)
+      for (int z = 0; z < 16; ++z)
+        cloud.emplace_back (1e-9 * x, 1e-9 * y, 1e-9 * z);
+  cloud.emplace_back (0.7, 0.9, 0.8);
+  const Points points = make (cloud);
+  ASSERT_EQ (points.size (), cloud.size ());
+  double sum = 0.0;
+  for (std::size_t p = 1; p < points.size (); ++p)
+    sum += std::min (16.0,
+                     1e9 * points.scale * (points.positions[p] - points.positions[p - 1]).norm ());
+  EXPECT_LT (sum / 4096.0, 1.5);
+}
+
 TEST (Points, OrderDependsOnPositionsOnly)
 {
   Positions cloud = samples::randomPoints (5000, 2);
@@ -274,6 +292,17 @@ TEST (CheckPoints, NotAllOnOneLine)
     line.emplace_back (scale * 0.01, 0.0, 0.0);
     EXPECT_EQ (statusOf (line), Status::OK);
   }
+}
+
+TEST (CheckPoints, SmallObjectsFarApartAreNoLine)
+{
+  Positions cloud = samples::randomPoints (200, 11);
+  for (const Eigen::Vector3d& p : samples::randomPoints (300, 12))
+    cloud.emplace_back (p + Eigen::Vector3d (1e8, 2e8, 0.0));
+  EXPECT_EQ (statusOf (cloud), Status::OK);
+  cloud.assign (cloud.begin (), cloud.begin () + 200);
+  cloud.emplace_back (1e10, 0.0, 0.0);
+  EXPECT_EQ (statusOf (cloud), Status::OK);
 }
 
 // Random points in a cube, and two points far away.

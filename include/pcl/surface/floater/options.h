@@ -147,6 +147,18 @@ struct HoleOptions
                                         ///< of the two limits must be above 0
 };
 
+/// What is cut off the finished mesh. Where triangles are taken out there is a boundary, also of a
+/// disc; the mesh stays a manifold, so that at a point with several fans of triangles only the
+/// largest fan stays. By default, nothing is cut off.
+struct TrimmingOptions
+{
+  double maximum_edge_length = 0.0; ///< no triangle has a longer edge; in units of the cloud, 0 or
+                                    ///< more; 0: no limit
+  double maximum_edge_ratio = 0.0;  ///< the same in local spacings, the mean of those of the two
+                                    ///< ends; 0 or more; 0: no limit
+  int minimum_component_size = 0;   ///< components of fewer points are taken out, 0 or more
+};
+
 /// The boundary loop of a disc.
 struct BoundaryOptions
 {
@@ -189,6 +201,7 @@ struct Options
   Topology topology = Topology::AUTO; ///< what the points are taken for
   NeighborOptions neighbors;
   HoleOptions holes;
+  TrimmingOptions trimming;
   BoundaryOptions boundary;
   DomainOptions domain;
   Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point of a disc

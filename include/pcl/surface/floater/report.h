@@ -22,10 +22,10 @@ enum class Status
   NOT_RUN,         ///< reconstruct () has not been called
   OK,              ///< a mesh was made; Report::warnings tells what is odd about it
   NO_INPUT,        ///< null or empty input cloud
-  INVALID_OPTION,  ///< an option is out of its range
+  INVALID_OPTION,  ///< an option is out of its range, or leaves no triangle
   INVALID_INDICES, ///< an index is outside the cloud
   TOO_FEW_POINTS,  ///< fewer than 4 distinct finite points
-  DEGENERATE,      ///< all points lie on one line
+  DEGENERATE,      ///< all points lie on one line, or some are too far away for double precision
   NO_BOUNDARY,     ///< disc: no boundary loop was found; the surface is closed or not one disc
   INVALID_LOOP,    ///< disc: the given loop is too short, repeats a point or names an unusable one
   UNREACHABLE,     ///< disc: most points are not connected to the boundary loop
@@ -87,6 +87,11 @@ struct Statistics
   double largest_noise = 0.0;       ///< of all points
   std::size_t projected_points = 0; ///< noisy points that were projected on the planes of the
                                     ///< points around, to connect them
+  double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, along the axis
+                                ///< where it is widest, in local spacings; 0: none is seen
+  std::size_t trimmed_triangles = 0;   ///< triangles cut off as TrimmingOptions ask for
+  std::size_t trimmed_components = 0;  ///< components among them that were too small
+  std::size_t trimmed_points = 0;      ///< points that are in no triangle any more for that reason
   std::size_t holes_filled = 0;        ///< boundary loops of a surface that were filled
   std::size_t used_points = 0;         ///< points that are vertices of the mesh
   std::size_t relinked_points = 0;     ///< points of a disc that had to be linked to the others
@@ -124,7 +129,7 @@ struct Report
   /// anti-clockwise there. Else empty.
   std::vector<Eigen::Vector2d> parameters;
   std::vector<std::uint32_t> unused;   ///< finite points, neither duplicates nor outliers, that are
-                                       ///< in no triangle; ascending
+                                       ///< in no triangle, also where it was cut off; ascending
   std::vector<std::uint32_t> outliers; ///< points left out of the mesh as outliers; ascending
   std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate; ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),

@@ -21,7 +21,21 @@ namespace pcl
 {
 namespace floater
 {
-/// Lets the core use a search method of PCL.
+/// PCL's octree, whose leaves hold about ten of these points of a surface each.
+template <typename PointT>
+typename pcl::search::Search<PointT>::Ptr
+makeOctree (const pcl::PointCloud<PointT>& cloud, const std::vector<std::uint32_t>& cloud_indices)
+{
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t index : cloud_indices)
+    box.extend (Eigen::Vector3d (cloud[index].x, cloud[index].y, cloud[index].z));
+  const double diagonal = box.isEmpty () ? 0.0 : box.diagonal ().norm ();
+  const double leaf = 2.0 * diagonal / std::sqrt (static_cast<double> (cloud_indices.size ()));
+  return pcl::make_shared<pcl::search::Octree<PointT>> (leaf > 0.0 ? leaf : 1.0);
+}
+
+/// Lets the core use a search method of PCL; without one, an octree of the points that are to be
+/// searched.
 template <typename PointT>
 class SearchMethod : public NeighborSearch
 {
@@ -34,6 +48,8 @@ public:
 
   void build (const std::vector<std::uint32_t>& cloud_indices) override
   {
+    if (!search_)
+      search_ = makeOctree<PointT> (*cloud_, cloud_indices);
     search_->setInputCloud (
         cloud_, pcl::make_shared<pcl::Indices> (cloud_indices.begin (), cloud_indices.end ()));
   }
@@ -69,20 +85,6 @@ private:
   pcl::Indices found_;
   std::vector<float> sqr_distances_;
 };
-
-/// PCL's octree, whose leaves hold about ten points of a surface each.
-template <typename PointT>
-typename pcl::search::Search<PointT>::Ptr
-makeOctree (const Input& input)
-{
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& position : input.positions)
-    if (position.allFinite ())
-      box.extend (position);
-  const double diagonal = box.isEmpty () ? 0.0 : box.diagonal ().norm ();
-  const double leaf = 2.0 * diagonal / std::sqrt (static_cast<double> (input.positions.size ()));
-  return pcl::make_shared<pcl::search::Octree<PointT>> (leaf > 0.0 ? leaf : 1.0);
-}
 
 } // namespace floater
 
@@ -228,8 +230,7 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
     return;
   const bool takes_balls = options.neighbors.kind == floater::Neighborhood::BALL ||
                            options.neighbors.kind == floater::Neighborhood::BALL_DELAUNAY;
-  floater::SearchMethod<PointT> search (
-      tree_ || !takes_balls ? tree_ : floater::makeOctree<PointT> (input), input_);
+  floater::SearchMethod<PointT> search (tree_, input_);
   if (tree_ || takes_balls)
     input.search = &search;
 

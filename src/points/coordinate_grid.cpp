@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/coordinate_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t LOOKED_AT = 1U << 17; // points
+constexpr std::size_t FEWEST = 21;          // points that tell anything
+constexpr double COARSE = 0.1;              // spacings
+constexpr double FINER_THAN_RASTER = 0.4;   // spacings; the step of a raster is 0.5 and more
+constexpr double MANY_COINCIDE = 0.1;       // of the points
+constexpr double ALIKE = 0.01;              // relative difference of steps that count as equal
+constexpr double REGULAR = 0.99;            // of the differences are multiples of the step
+
+// Coordinates of all points along one axis, in the frame of the points.
+struct AxisGrid
+{
+  bool varies = false;
+  double step = 0.0;                   // 0: there is no grid
+  double finest = 0.0, coarsest = 0.0; // distances of 32-bit floats of this size, in this frame
+};
+
+// Distance from a number to the next larger 32-bit float.
+double
+floatStep (double value)
+{
+  constexpr double LARGEST = std::numeric_limits<float>::max ();
+  const double size = std::abs (value);
+  if (size >= LARGEST)
+    return std::numeric_limits<double>::infinity ();
+  const auto number = static_cast<float> (size);
+  return static_cast<double> (std::nextafter (number, std::numeric_limits<float>::infinity ())) -
+         static_cast<double> (number);
+}
+
+// Points at equal distances along the curve: the same, whatever the order of the cloud.
+std::vector<double>
+sortedCoordinates (const Points& points, int axis)
+{
+  const std::size_t stride = (points.size () + LOOKED_AT - 1) / LOOKED_AT;
+  std::vector<double> values;
+  values.reserve (points.size () / stride + 1);
+  for (std::size_t p = 0; p < points.size (); p += stride)
+    values.push_back (points.positions[p][axis]);
+  std::sort (values.begin (), values.end ());
+  values.erase (std::unique (values.begin (), values.end ()), values.end ());
+  return values;
+}
+
+bool
+isMultiple (double difference, double step)
+{
+  const double ratio = difference / step;
+  return std::abs (ratio - std::round (ratio)) <= ALIKE * std::max (1.0, ratio);
+}
+
+AxisGrid
+lookAlong (const Points& points, int axis)
+{
+  const std::vector<double> values = sortedCoordinates (points, axis);
+  AxisGrid grid;
+  grid.varies = values.size () > 1;
+  if (!grid.varies)
+    return grid;
+  const auto inCloud = [&] (double value) { return points.centre[axis] + points.scale * value; };
+  const double low = std::abs (inCloud (values.front ()));
+  const double high = std::abs (inCloud (values.back ()));
+  const bool has_zero = (inCloud (values.front ()) < 0.0) != (inCloud (values.back ()) < 0.0);
+  grid.finest = floatStep (has_zero ? 0.0 : std::min (low, high)) / points.scale;
+  grid.coarsest = floatStep (std::max (low, high)) / points.scale;
+  double step = std::numeric_limits<double>::infinity ();
+  for (std::size_t i = 1; i < values.size (); ++i)
+    step = std::min (step, values[i] - values[i - 1]);
+  std::size_t multiples = 0;
+  for (std::size_t i = 1; i < values.size (); ++i)
+    multiples += isMultiple (values[i] - values[i - 1], step) ? 1 : 0;
+  if (static_cast<double> (multiples) >= REGULAR * static_cast<double> (values.size () - 1))
+    grid.step = step;
+  return grid;
+}
+
+bool
+areAlike (double a, double b)
+{
+  return std::abs (a - b) <= ALIKE * b;
+}
+
+// Whether the step is that of 32-bit floats, and not that of a raster that happens to have it.
+bool
+isFloatStep (const std::array<AxisGrid, 3>& grids, const AxisGrid& grid, double scale)
+{
+  int exponent = 0;
+  const double step = scale * grid.step;
+  const double nearest = std::ldexp (1.0, static_cast<int> (std::lround (std::log2 (step))));
+  const bool is_power = std::frexp (nearest, &exponent) == 0.5 && areAlike (step, nearest);
+  return is_power && grid.step > (1.0 - ALIKE) * grid.finest &&
+         grid.step < (1.0 + ALIKE) * grid.coarsest &&
+         std::none_of (grids.begin (), grids.end (), [&] (const AxisGrid& other) {
+           return areAlike (other.step, grid.step) && grid.step > 1.5 * other.coarsest;
+         });
+}
+
+double
+medianOf (std::vector<float> values)
+{
+  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
+  std::nth_element (values.begin (), middle, values.end ());
+  return *middle;
+}
+
+} // namespace
+
+CoordinateGrid
+findCoordinateGrid (const Points& points, const std::vector<float>& spacing)
+{
+  CoordinateGrid found;
+  if (points.size () < FEWEST)
+    return found;
+  const double usual = medianOf (spacing);
+  std::array<AxisGrid, 3> grids;
+  for (int axis = 0; axis < 3; ++axis)
+    grids[static_cast<std::size_t> (axis)] = lookAlong (points, axis);
+  const bool is_alike_along_all =
+      std::all_of (grids.begin (), grids.end (), [&grids] (const AxisGrid& grid) {
+        return grid.varies && grid.step > 0.0 && areAlike (grid.step, grids[0].step);
+      });
+  const auto coincident = static_cast<double> (points.duplicates.size ());
+  const bool many_coincide =
+      coincident > MANY_COINCIDE * (coincident + static_cast<double> (points.size ()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const AxisGrid& grid = grids[axis];
+    const double ratio = usual > 0.0 ? grid.step / usual : 0.0;
+    if (!grid.varies || ratio < COARSE || ratio <= found.spacings)
+      continue;
+    const bool is_float = isFloatStep (grids, grid, points.scale);
+    if (is_float || (is_alike_along_all && (ratio < FINER_THAN_RASTER || many_coincide)))
+      found = {static_cast<int> (axis), points.scale * grid.step, ratio, is_float};
+  }
+  return found;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/gross_outliers.h"
+
+#include "core/parallel.h"
+#include "points/kd_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Positions = std::vector<Eigen::Vector3d>;
+
+double
+medianOf (std::vector<double>& values)
+{
+  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
+  std::nth_element (values.begin (), middle, values.end ());
+  return *middle;
+}
+
+// The median in each coordinate, of the finite points.
+Eigen::Vector3d
+medianPoint (const Positions& positions)
+{
+  Eigen::Vector3d median = Eigen::Vector3d::Zero ();
+  std::vector<double> values;
+  values.reserve (positions.size ());
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear ();
+    for (const Eigen::Vector3d& p : positions)
+      if (p.allFinite ())
+        values.push_back (p[axis]);
+    if (!values.empty ())
+      median[axis] = medianOf (values);
+  }
+  return median;
+}
+
+// Squares would overflow. The difference itself may: then it is infinite, and larger than all.
+double
+distanceFrom (const Eigen::Vector3d& centre, const Eigen::Vector3d& p)
+{
+  return (p - centre).cwiseAbs ().maxCoeff ();
+}
+
+// Distances around a median point.
+struct Bulk
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  double radius = std::numeric_limits<double>::infinity (); // infinite: there is no wide gap
+  std::size_t points = 0;                                   // of the cloud, finite ones
+};
+
+// The radius grows over the points beyond it as long as there is no wide gap to the next. It begins
+// with the median: of all points that are not at the centre itself, since more than half may be
+// copies of one, such as (0, 0, 0) for pixels without depth.
+Bulk
+findBulk (const Positions& positions, double gap)
+{
+  Bulk bulk;
+  bulk.centre = medianPoint (positions);
+  std::vector<double> distances;
+  distances.reserve (positions.size ());
+  for (const Eigen::Vector3d& p : positions) {
+    if (!p.allFinite ())
+      continue;
+    ++bulk.points;
+    if (const double distance = distanceFrom (bulk.centre, p); distance > 0.0)
+      distances.push_back (distance);
+  }
+  if (distances.empty ())
+    return bulk;
+  const double median = medianOf (distances);
+  const auto beyond = std::partition (distances.begin (), distances.end (),
+                                      [&] (double distance) { return distance <= gap * median; });
+  if (beyond == distances.end ())
+    return bulk;
+  double radius = *std::max_element (distances.begin (), beyond);
+  std::sort (beyond, distances.end ());
+  for (auto next = beyond; next != distances.end (); radius = *next++)
+    if (*next > gap * radius) {
+      bulk.radius = radius;
+      break;
+    }
+  return bulk;
+}
+
+bool
+isLess (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  return std::lexicographical_compare (a.data (), a.data () + 3, b.data (), b.data () + 3);
+}
+
+// Of rows beyond the gap, those that have too few distinct points near them to be an object.
+std::vector<Index>
+keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> rows,
+              const RunContext& run, const GrossOutlierLimits& limits)
+{
+  const auto isBefore = [&] (Index a, Index b) { return isLess (positions[a], positions[b]); };
+  std::sort (rows.begin (), rows.end (), isBefore);
+  Positions distinct;
+  std::vector<std::size_t> last; // of the rows of each distinct position, one past
+  for (std::size_t i = 0; i < rows.size (); ++i) {
+    if (i == 0 || isBefore (rows[i - 1], rows[i])) {
+      distinct.emplace_back ((positions[rows[i]] - bulk.centre) / bulk.radius);
+      last.push_back (i);
+    }
+    last.back () = i + 1;
+  }
+  std::vector<std::uint8_t> is_isolated (distinct.size (), 0);
+  const KdTree tree (distinct, run);
+  parallelRanges (run, distinct.size (), [&] (std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.nearest (distinct[i], limits.object, found); // itself among them
+      is_isolated[i] = found.size () < limits.object || std::sqrt (found.back ().sqr_distance) >
+                                                            limits.near * distinct[i].norm ()
+                           ? 1
+                           : 0;
+    }
+  });
+  std::vector<Index> isolated;
+  for (std::size_t i = 0, row = 0; i < distinct.size (); ++i)
+    for (; row < last[i]; ++row)
+      if (is_isolated[i] != 0)
+        isolated.push_back (rows[row]);
+  std::sort (isolated.begin (), isolated.end ());
+  return isolated;
+}
+
+} // namespace
+
+GrossOutliers
+findGrossOutliers (const Positions& positions, const RunContext& run,
+                   const GrossOutlierLimits& limits)
+{
+  GrossOutliers found;
+  if (positions.size () < limits.fewest)
+    return found;
+  const Bulk bulk = findBulk (positions, limits.gap);
+  if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
+    return found;
+  // The bulk is a surface of at most so many points: their spacing is about the radius over their
+  // root. A frame of some size has 1 / epsilon steps across it.
+  const double spacing = bulk.radius / std::sqrt (static_cast<double> (bulk.points));
+  const double largest_frame = spacing / (limits.steps * std::numeric_limits<double>::epsilon ());
+  std::vector<Index> beyond;
+  for (std::size_t row = 0; row < positions.size (); ++row) {
+    if (!positions[row].allFinite ())
+      continue;
+    const double distance = distanceFrom (bulk.centre, positions[row]);
+    if (distance > largest_frame)
+      found.unbearable.push_back (static_cast<Index> (row));
+    else if (distance > bulk.radius)
+      beyond.push_back (static_cast<Index> (row));
+  }
+  found.isolated = keepIsolated (positions, bulk, std::move (beyond), run, limits);
+  return found;
+}
+
+} // namespace floater
+} // namespace pcl

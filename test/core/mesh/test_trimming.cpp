@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/trimming.h"
+
+#include "mesh/known_meshes.h"
+#include "samples.h"
+#include "surfaces.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::asInput;
+using samples::Mesh;
+using samples::Positions;
+using samples::sheet;
+using samples::unordered;
+
+TrimmingOptions
+longestEdge (double length)
+{
+  TrimmingOptions options;
+  options.maximum_edge_length = length;
+  return options;
+}
+
+TrimmingOptions
+longestRatio (double spacings)
+{
+  TrimmingOptions options;
+  options.maximum_edge_ratio = spacings;
+  return options;
+}
+
+TrimmingOptions
+smallestComponent (int points)
+{
+  TrimmingOptions options;
+  options.minimum_component_size = points;
+  return options;
+}
+
+// Trims a mesh whose spacing is 0.1, and whose unit of length is 10 units of the cloud.
+Trimming
+trim (Mesh& mesh, const TrimmingOptions& options)
+{
+  TriangleMesh connected;
+  connected.triangles = mesh.triangles;
+  EXPECT_TRUE (connected.connect (mesh.positions.size (), 1));
+  const Trimming trimming =
+      trimMesh (connected, samples::pointsAt (mesh.positions),
+                std::vector<float> (mesh.positions.size (), 0.1F), options, 1);
+  EXPECT_EQ (trimming.triangles, mesh.triangles.size () - connected.triangles.size ());
+  // Points that were vertices and are none now.
+  std::set<Index> lost;
+  for (const Triangle& t : mesh.triangles)
+    lost.insert (t.begin (), t.end ());
+  for (const Triangle& t : connected.triangles)
+    for (const Index p : t)
+      lost.erase (p);
+  EXPECT_EQ (trimming.points, (std::vector<Index> (lost.begin (), lost.end ())));
+  const std::set<Triangle> before = unordered (mesh.triangles);
+  for (const Triangle& t : unordered (connected.triangles))
+    EXPECT_EQ (before.count (t), 1U);
+  mesh.triangles = connected.triangles;
+  // The neighbours are right as well.
+  TriangleMesh again;
+  again.triangles = connected.triangles;
+  EXPECT_TRUE (again.connect (mesh.positions.size (), 1));
+  EXPECT_EQ (again.neighbors, connected.neighbors);
+  return trimming;
+}
+
+double
+longestEdgeOf (const Positions& positions, const std::vector<Triangle>& triangles)
+{
+  double longest = 0.0;
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = std::max (longest, (positions[t[i]] - positions[t[(i + 1) % 3]]).norm ());
+  return longest;
+}
+
+TEST (Trimming, NothingByDefault)
+{
+  EXPECT_FALSE (asksForTrimming ({}));
+  EXPECT_TRUE (asksForTrimming (longestEdge (1e-9)));
+  EXPECT_TRUE (asksForTrimming (longestRatio (3.0)));
+  EXPECT_TRUE (asksForTrimming (smallestComponent (1)));
+  Mesh mesh = sheet (5);
+  const std::vector<Triangle> before = mesh.triangles;
+  for (const TrimmingOptions& options :
+       {TrimmingOptions (), longestEdge (1.42), longestRatio (1.42), smallestComponent (36)}) {
+    EXPECT_EQ (trim (mesh, options).triangles, 0U);
+    EXPECT_EQ (mesh.triangles, before);
+  }
+}
+
+TEST (Trimming, AnEdgeOfThisLengthStays)
+{
+  Mesh mesh = sheet (5);
+  for (Eigen::Vector3d& p : mesh.positions)
+    p.x () += 0.1 * p.y () / 0.2; // sides of 0.1 and about 0.112, diagonals of 0.18
+  const double longest = longestEdgeOf (mesh.positions, mesh.triangles);
+  EXPECT_EQ (trim (mesh, longestEdge (10.0 * longest)).triangles, 0U);
+  EXPECT_EQ (trim (mesh, longestEdge (9.99 * longest)).triangles, 50U);
+  EXPECT_TRUE (mesh.triangles.empty ());
+}
+
+TEST (Trimming, AGapBecomesABoundary)
+{
+  for (const TrimmingOptions& options : {longestEdge (3.0), longestRatio (3.0)}) {
+    Mesh mesh = sheet (10);
+    for (Eigen::Vector3d& p : mesh.positions)
+      p.x () += p.x () > 0.55 ? 0.5 : 0.0;
+    const Trimming trimming = trim (mesh, options);
+    EXPECT_EQ (trimming.triangles, 20U);
+    EXPECT_TRUE (trimming.points.empty ());
+    EXPECT_EQ (trimming.components, 0U);
+    const samples::Topology topology = samples::topologyOf (mesh.triangles);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.components, 2U);
+    EXPECT_EQ (topology.loops.size (), 2U);
+    EXPECT_EQ (topology.vertices, 121U);
+  }
+}
+
+TEST (Trimming, OfTwoFansOneStays)
+{
+  // Of the eight triangles, those at the two points that were moved go. Two are left, which share
+  // the point in the middle only.
+  Mesh mesh = sheet (2);
+  mesh.positions[1].z () = 5.0;
+  mesh.positions[7].z () = 5.0;
+  const Trimming trimming = trim (mesh, longestRatio (3.0));
+  EXPECT_EQ (mesh.triangles.size (), 1U);
+  EXPECT_EQ (trimming.triangles, 7U);
+  EXPECT_EQ (trimming.points.size (), 6U);
+
+  // A corner of one triangle at a larger part: the larger fan stays.
+  mesh = sheet (2);
+  mesh.positions[1].z () = 5.0;
+  mesh.positions[6].z () = 5.0; // a corner of {3, 7, 6} only
+  mesh.positions[3].z () = 0.01;
+  trim (mesh, longestRatio (3.0));
+  EXPECT_EQ (unordered (mesh.triangles).count ({0, 3, 4}), 1U);
+  EXPECT_EQ (mesh.triangles.size (), 4U);
+}
+
+TEST (Trimming, WhateverIsCutTheMeshStaysAManifold)
+{
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U})
+    for (const std::size_t one_in : {2U, 3U, 5U, 10U, 30U})
+      for (const Mesh& whole : {sheet (20), samples::torus (30, 20), samples::annulus (40)}) {
+        Mesh mesh = whole;
+        RandomStream random (100 * seed + one_in);
+        for (std::size_t p = 0; p < mesh.positions.size (); ++p)
+          if (random.below (one_in) == 0)
+            mesh.positions[p].z () += 20.0 + static_cast<double> (5 * p);
+        trim (mesh, longestEdge (10.0));
+        EXPECT_LE (longestEdgeOf (mesh.positions, mesh.triangles), 1.0);
+        EXPECT_TRUE (samples::topologyOf (mesh.triangles).manifold) << seed << " " << one_in;
+        EXPECT_GT (mesh.triangles.size (), one_in < 30 ? 0 : whole.triangles.size () / 2);
+      }
+}
+
+TEST (Trimming, SmallComponents)
+{
+  Mesh mesh = samples::beside (sheet (4), samples::tetrahedron ());
+  EXPECT_EQ (trim (mesh, smallestComponent (4)).triangles, 0U);
+  Trimming trimming = trim (mesh, smallestComponent (5));
+  EXPECT_EQ (trimming.triangles, 4U);
+  EXPECT_EQ (trimming.components, 1U);
+  EXPECT_EQ (trimming.points, (std::vector<Index>{25, 26, 27, 28}));
+  trimming = trim (mesh, smallestComponent (26));
+  EXPECT_EQ (trimming.components, 1U);
+  EXPECT_TRUE (mesh.triangles.empty ());
+}
+
+// ---- the whole way
+
+// Rolling terrain, without the points within a circle.
+Positions
+terrainWithHole (double radius)
+{
+  SurfaceSpec spec;
+  spec.points = 3000;
+  Positions cloud = generateSurface (spec);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : cloud)
+    box.extend (p);
+  const auto isInside = [&] (const Eigen::Vector3d& p) {
+    return (p - box.center ()).head<2> ().norm () < radius;
+  };
+  cloud.erase (std::remove_if (cloud.begin (), cloud.end (), isInside), cloud.end ());
+  return cloud;
+}
+
+TEST (Trimming, ABridgedHoleIsOpenedAgain)
+{
+  const Positions cloud = terrainWithHole (7.0);
+  for (const Topology topology : {Topology::SURFACE, Topology::DISC, Topology::AUTO}) {
+    Options options;
+    options.topology = topology;
+    if (topology != Topology::DISC) {
+      options.holes.policy = HolePolicy::BY_SIZE;
+      options.holes.largest_hole = 30.0;
+    }
+    const Result bridged = reconstruct (asInput (cloud), options);
+    ASSERT_EQ (bridged.report.status, Status::OK) << bridged.report.message;
+    EXPECT_GT (bridged.report.check.longest_edge, 4.0);
+    EXPECT_EQ (bridged.report.check.loops.size (), 1U);
+    EXPECT_EQ (bridged.report.statistics.trimmed_triangles, 0U);
+    for (const bool by_ratio : {false, true}) {
+      (by_ratio ? options.trimming.maximum_edge_ratio : options.trimming.maximum_edge_length) = 4.0;
+      const Result result = reconstruct (asInput (cloud), options);
+      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      const Report& report = result.report;
+      EXPECT_LE (by_ratio ? report.check.longest_edge : longestEdgeOf (cloud, result.triangles),
+                 4.0);
+      EXPECT_EQ (result.triangles.size () + report.statistics.trimmed_triangles,
+                 bridged.triangles.size ());
+      EXPECT_GT (report.statistics.trimmed_triangles, 20U);
+      const samples::Topology found = samples::topologyOf (result.triangles);
+      EXPECT_TRUE (found.manifold);
+      EXPECT_EQ (found.components, 1U);
+      EXPECT_EQ (found.loops.size (), 2U);
+      EXPECT_EQ (report.check.loops.size (), 2U);
+      EXPECT_EQ (report.loop.size (), report.check.loops.front ().points);
+      EXPECT_EQ (report.statistics.loop_points, report.loop.size ());
+      EXPECT_EQ (found.vertices, report.statistics.used_points);
+      for (const std::string& warning : report.warnings)
+        EXPECT_EQ (warning.find ("open"), std::string::npos) << warning;
+    }
+  }
+}
+
+TEST (Trimming, SmallComponentsOfACloud)
+{
+  SurfaceSpec spec;
+  spec.kind = SurfaceKind::TORUS;
+  spec.points = 2000;
+  Positions cloud = generateSurface (spec);
+  spec.kind = SurfaceKind::SPHERE;
+  spec.points = 100;
+  for (const Eigen::Vector3d& p : generateSurface (spec))
+    cloud.emplace_back (p + Eigen::Vector3d (60, 0, 0));
+  Options options;
+  options.trimming.minimum_component_size = 100;
+  EXPECT_EQ (reconstruct (asInput (cloud), options).report.check.components, 2U);
+  options.trimming.minimum_component_size = 101;
+  const Result result = reconstruct (asInput (cloud), options);
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  const Report& report = result.report;
+  EXPECT_EQ (report.check.components, 1U);
+  EXPECT_EQ (report.statistics.trimmed_components, 1U);
+  EXPECT_EQ (report.statistics.trimmed_points, 100U);
+  EXPECT_EQ (report.statistics.used_points, 2000U);
+  ASSERT_EQ (report.unused.size (), 100U);
+  EXPECT_EQ (report.unused.front (), 2000U);
+  EXPECT_TRUE (report.warnings.empty ()) << report.warnings.front ();
+}
+
+TEST (Trimming, NothingLeftIsAFailure)
+{
+  const Positions cloud = terrainWithHole (7.0);
+  for (const TrimmingOptions& trimming : {longestEdge (1e-3), smallestComponent (1 << 20)}) {
+    Options options;
+    options.trimming = trimming;
+    const Result result = reconstruct (asInput (cloud), options);
+    EXPECT_EQ (result.report.status, Status::INVALID_OPTION);
+    EXPECT_NE (result.report.message.find ("no triangle is left"), std::string::npos);
+    EXPECT_TRUE (result.triangles.empty ());
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

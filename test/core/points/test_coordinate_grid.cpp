@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/coordinate_grid.h"
+
+#include "samples.h"
+#include "surfaces.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::asInput;
+using samples::Positions;
+
+const Eigen::Vector3d ON_A_MAP (5e5, 5.5e6, 300.0);
+
+// With a spacing of about 1, times the scale.
+Positions
+surface (SurfaceKind kind, const Eigen::Vector3d& place = {0, 0, 0}, double scale = 1.0)
+{
+  SurfaceSpec spec;
+  spec.kind = kind;
+  spec.points = 3000;
+  Positions cloud = generateSurface (spec);
+  for (Eigen::Vector3d& p : cloud)
+    p = place + scale * p;
+  return cloud;
+}
+
+Positions
+asFloats (Positions cloud)
+{
+  for (Eigen::Vector3d& p : cloud)
+    for (double& value : p)
+      value = static_cast<double> (static_cast<float> (value)); // GCC 12 leaves out two casts of p
+  return cloud;
+}
+
+Positions
+rounded (Positions cloud, double step)
+{
+  for (Eigen::Vector3d& p : cloud)
+    p = step * (p / step).array ().round ().matrix ();
+  return cloud;
+}
+
+// A raster of heights, of which some nodes are left out.
+Positions
+raster (double step, std::size_t one_in, const Eigen::Vector3d& place = {0, 0, 0})
+{
+  Positions cloud;
+  RandomStream random (7);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x)
+      if (random.below (one_in) == 0)
+        cloud.emplace_back (place + Eigen::Vector3d (step * x, step * y, std::sin (0.1 * x * y)));
+  return cloud;
+}
+
+CoordinateGrid
+gridOf (const Positions& cloud)
+{
+  const samples::Neighborhoods made = samples::makeNeighborhoods (cloud);
+  return findCoordinateGrid (made.points, made.geometry.spacing);
+}
+
+TEST (CoordinateGrid, MapCoordinatesInSinglePrecision)
+{
+  for (const double scale : {0.3, 1.0, 3.0}) {
+    const CoordinateGrid grid =
+        gridOf (asFloats (surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, scale)));
+    EXPECT_EQ (grid.axis, 1);
+    EXPECT_NEAR (grid.step, 0.5, 1e-6);
+    EXPECT_GT (grid.spacings, 0.1);
+    EXPECT_LT (grid.spacings, 2.0);
+    EXPECT_TRUE (grid.is_single_precision);
+  }
+  // Fine enough for points further apart, and as doubles.
+  EXPECT_EQ (gridOf (asFloats (surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, 10.0))).step, 0.0);
+  EXPECT_EQ (gridOf (surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, 0.3)).step, 0.0);
+  // Three axes with the same step, which is that of floats along all of them.
+  const Eigen::Vector3d geocentric (4.2e6, 4.3e6, 5e6);
+  const CoordinateGrid grid = gridOf (asFloats (surface (SurfaceKind::TORUS, geocentric, 1.0)));
+  EXPECT_NEAR (grid.step, 0.5, 1e-6);
+  EXPECT_TRUE (grid.is_single_precision);
+}
+
+TEST (CoordinateGrid, CoordinatesWithFewDigits)
+{
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    const Positions torus = surface (SurfaceKind::TORUS, {0, 0, 0}, scale);
+    const CoordinateGrid grid = gridOf (rounded (torus, 0.2 * scale));
+    EXPECT_NEAR (grid.step / scale, 0.2, 1e-6);
+    EXPECT_GT (grid.spacings, 0.1);
+    EXPECT_LT (grid.spacings, 0.4);
+    EXPECT_FALSE (grid.is_single_precision);
+    // So coarse that many points coincide.
+    EXPECT_NEAR (gridOf (rounded (torus, 1.5 * scale)).step / scale, 1.5, 1e-5);
+    EXPECT_EQ (gridOf (rounded (torus, 0.05 * scale)).step, 0.0);
+    EXPECT_EQ (gridOf (torus).step, 0.0);
+  }
+}
+
+TEST (CoordinateGrid, ARasterIsNoFlaw)
+{
+  for (const std::size_t one_in : {1U, 2U, 10U})
+    for (const double step : {1.0, 0.1, 30.0}) {
+      EXPECT_EQ (gridOf (raster (step, one_in)).step, 0.0);
+      EXPECT_EQ (gridOf (asFloats (raster (step, one_in))).step, 0.0);
+    }
+  EXPECT_EQ (gridOf (asFloats (raster (1.0, 1, ON_A_MAP))).step, 0.0);
+  EXPECT_EQ (gridOf (asFloats (raster (0.5, 1, ON_A_MAP))).step, 0.0); // the step of floats there
+  // Flat ones, and voxels of a solid's surface.
+  EXPECT_EQ (gridOf (samples::disc (0.05, 1).positions).step, 0.0);
+  Positions voxels;
+  for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 12; ++y)
+      for (int z : {0, 11})
+        for (const Eigen::Vector3d& p :
+             {Eigen::Vector3d (x, y, z), Eigen::Vector3d (z, x, y), Eigen::Vector3d (x, z, y)})
+          if (std::find (voxels.begin (), voxels.end (), p) == voxels.end ())
+            voxels.push_back (p);
+  EXPECT_EQ (gridOf (voxels).step, 0.0);
+}
+
+TEST (CoordinateGrid, TheReportWarns)
+{
+  const Positions fine = surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, 0.3);
+  const Result clean = reconstruct (asInput (fine), {});
+  EXPECT_EQ (clean.report.statistics.coordinate_step, 0.0);
+  EXPECT_TRUE (clean.report.warnings.empty ()) << clean.report.warnings.front ();
+  const Result result = reconstruct (asInput (asFloats (fine)), {});
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_GT (result.report.statistics.coordinate_step, 0.1);
+  ASSERT_FALSE (result.report.warnings.empty ());
+  const std::string& warning = result.report.warnings.front ();
+  EXPECT_NE (warning.find ("the coordinates are coarse: along y they are 0.5 apart, "),
+             std::string::npos)
+      << warning;
+  EXPECT_NE (warning.find ("subtract an origin"), std::string::npos) << warning;
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
