@@ -10,11 +10,6 @@ namespace pcl
 {
 namespace floater
 {
-namespace
-{
-constexpr float REACH_AS_SPACING = 0.5F;
-} // namespace
-
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
                    const RunContext& run, const PlaneLimits& planes)

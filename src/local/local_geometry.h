@@ -15,8 +15,9 @@ namespace floater
 /// What both methods know of the surface around each point.
 struct LocalGeometry
 {
-  CsrLists neighbors;             ///< nearest first
-  std::vector<float> spacing;     ///< see localSpacing; of the working positions
+  CsrLists neighbors;         ///< nearest first
+  std::vector<float> spacing; ///< of the working positions: see localSpacing, or REACH_AS_SPACING
+                              ///< of the reach of the star if that is more
   std::vector<float> own_spacing; ///< of the positions themselves if these are others; else empty
   Stars stars;                    ///< with the normals of the points
 

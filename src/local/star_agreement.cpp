@@ -3,6 +3,8 @@
 
 #include "core/parallel.h"
 
+#include <algorithm>
+
 namespace pcl
 {
 namespace floater
@@ -31,15 +33,13 @@ starAgreement (const Stars& stars, const RunContext& run)
     for (std::size_t point = first; point < last; ++point) {
       const auto p = static_cast<Index> (point);
       const Row row = stars.neighbors.row (p);
-      const std::size_t count = row.size ();
-      const std::size_t sectors = stars.open[p] != 0 && count > 0 ? count - 1 : count;
-      std::size_t agreed = 0;
-      for (std::size_t s = 0; s < sectors; ++s) {
-        const Index q = row[s], r = row[s + 1 == count ? 0 : s + 1];
-        agreed += hasTriangle (stars, q, r, p) && hasTriangle (stars, r, p, q) ? 1 : 0;
+      std::size_t mutual = 0;
+      for (const Index q : row) {
+        const Row other = stars.neighbors.row (q);
+        mutual += std::find (other.begin (), other.end (), p) != other.end () ? 1 : 0;
       }
-      if (sectors > 0)
-        agreement[p] = static_cast<float> (agreed) / static_cast<float> (sectors);
+      if (row.size () > 0)
+        agreement[p] = static_cast<float> (mutual) / static_cast<float> (row.size ());
     }
   });
   return agreement;

@@ -15,9 +15,9 @@ namespace floater
 bool
 hasTriangle (const Stars& stars, Index p, Index q, Index r);
 
-/// Of each point: the share of the triangles of its star that the stars of both other corners have,
-/// too; 0 if it has no triangle. On the Delaunay triangulation of a smooth, densely sampled surface
-/// it is 1. O(entries of the stars).
+/// Of each point: the share of the neighbours in its star that have it in theirs; 0 if it has none.
+/// On the Delaunay triangulation of a smooth, densely sampled surface it is 1, also on lattices,
+/// where triangles are ambiguous. O(entries of the stars).
 std::vector<float>
 starAgreement (const Stars& stars, const RunContext& run);
 

@@ -38,6 +38,10 @@ struct ReachLimits
   int rounds = 8;        ///< in which points are added to one star. A limit of time
 };
 
+/// Of the reach of a star; counts as spacing where that is larger. It is about the circumradius of
+/// a triangle between two rows of points; on even samplings it stays below the spacing.
+constexpr float REACH_AS_SPACING = 0.5F;
+
 /// What lies beside the points whose nearest neighbours lie all on a line, as in scan lines.
 struct BesideLines
 {

@@ -19,13 +19,18 @@ namespace floater
 namespace
 {
 constexpr std::size_t LOOKED_AT = 20; // points at each scale
+constexpr std::size_t FEWEST = 10;    // of them, so that a residual says something
 constexpr std::size_t SPACING_OF = 6; // nearest points whose mean distance is the local spacing
 constexpr std::size_t CENTRES = 8;    // noise is measured at every such point
 constexpr std::size_t AROUND = 10;    // centres around a point
+constexpr std::size_t PROBES = 8;     // every such centre is measured first
+// Share of the centres. With fewer, NoiseLimits::disturbed_share cannot be reached unless noise
+// triples where it is smoothed, and all neighbours there disagree.
+constexpr double FEW_NOISY = 0.01;
 constexpr std::size_t SCALES = 3;
 constexpr std::array<std::size_t, SCALES> STRIDES{1, 4, 16}; // of the points of each scale
 
-// Every so manieth point. Points are in the order of a space-filling curve, so that these are
+// Every so many points one. They are in the order of a space-filling curve, so that these are
 // evenly spread.
 class Sample
 {
@@ -104,35 +109,45 @@ public:
   float measure (Index p)
   {
     std::array<double, SCALES> residual{}, relative{};
+    const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
+      relative[scale] = -1.0; // unknown
       gather (p, scale);
-      relative[scale] = -1.0;
-      if (offsets_.size () < LOOKED_AT / 2)
-        continue;
-      PlaneFit fit;
-      for (const Eigen::Vector3d& offset : offsets_)
-        fit.add (offset);
-      const PrincipalAxes axes = fit.principalAxes ();
-      if (axes.spread[1] * axes.spread[1] < limits_.least_aspect * axes.spread[2] * axes.spread[2])
+      if (offsets_.size () < FEWEST)
         continue;
       double spacing = 0.0;
       for (std::size_t i = 1; i <= SPACING_OF; ++i)
         spacing += offsets_[i].norm () / static_cast<double> (SPACING_OF);
+      const PrincipalAxes axes = axesOfOffsets ();
+      if (axes.spread[1] * axes.spread[1] < limits_.least_aspect * axes.spread[2] * axes.spread[2])
+        continue;
       residual[scale] = quadricResidual (offsets_, axes);
+      if (residual[scale] >= limits_.strong * spacing && keepOwnSheet (axes, nearest_spacing)) {
+        if (offsets_.size () < FEWEST)
+          continue;
+        residual[scale] = quadricResidual (offsets_, axesOfOffsets ());
+      }
       relative[scale] = residual[scale] / spacing;
-      if (relative[scale] >= limits_.strong && areTwoSheets (axes, spacing))
-        return 0.0F;
     }
     double noise = 0.0;
-    for (std::size_t scale = 0; scale + 1 < SCALES; ++scale)
-      for (std::size_t larger = scale + 1; larger < SCALES; ++larger)
-        if (relative[scale] >= limits_.strong && relative[larger] >= 0.0 &&
-            relative[larger] < limits_.falls_to * relative[scale])
-          noise = std::max (noise, residual[scale]);
+    for (std::size_t scale = 0; scale + 1 < SCALES; ++scale) {
+      const double larger = relative[scale + 1];
+      if (relative[scale] >= limits_.strong && larger >= 0.0 &&
+          larger < limits_.falls_to * relative[scale])
+        noise = std::max (noise, residual[scale]);
+    }
     return static_cast<float> (noise);
   }
 
 private:
+  PrincipalAxes axesOfOffsets () const
+  {
+    PlaneFit fit;
+    for (const Eigen::Vector3d& offset : offsets_)
+      fit.add (offset);
+    return fit.principalAxes ();
+  }
+
   void gather (Index p, std::size_t scale)
   {
     offsets_.assign (1, Eigen::Vector3d::Zero ());
@@ -147,39 +162,48 @@ private:
         offsets_.emplace_back (positions_[neighbor.point] - positions_[p]);
   }
 
-  // True if the heights fall in two groups, far apart and each thin, that lie one over the other.
-  bool areTwoSheets (const PrincipalAxes& axes, double spacing)
+  // If the heights fall in two groups, far apart and each thin, that lie one over the other, these
+  // are two sheets. Then only the points on that of the centre are kept.
+  // \return whether there are two
+  bool keepOwnSheet (const PrincipalAxes& axes, double spacing)
   {
+    local_.clear ();
+    for (const Eigen::Vector3d& offset : offsets_)
+      local_.emplace_back (axes.axes.transpose () * (offset - axes.centre));
     heights_.clear ();
-    for (const Eigen::Vector3d& offset : offsets_) {
-      const Eigen::Vector3d local = axes.axes.transpose () * (offset - axes.centre);
-      heights_.push_back ({local[0], {local[1], local[2]}});
-    }
-    std::sort (heights_.begin (), heights_.end (),
-               [] (const auto& a, const auto& b) { return a.first < b.first; });
-    const std::size_t count = heights_.size (), least = count / 5;
+    for (const Eigen::Vector3d& point : local_)
+      heights_.push_back (point[0]);
+    std::sort (heights_.begin (), heights_.end ());
+    const std::size_t count = heights_.size ();
     std::size_t below = 0;
     double gap = 0.0;
-    for (std::size_t i = least; i + least <= count && i > 0 && i < count; ++i)
-      if (heights_[i].first - heights_[i - 1].first > gap) {
-        gap = heights_[i].first - heights_[i - 1].first;
+    for (std::size_t i = 1; i < count; ++i)
+      if (heights_[i] - heights_[i - 1] > gap) {
+        gap = heights_[i] - heights_[i - 1];
         below = i;
       }
-    const double thicker = std::max (heights_[below == 0 ? 0 : below - 1].first - heights_[0].first,
-                                     heights_[count - 1].first - heights_[below].first);
-    if (gap < limits_.sheet_gap * spacing || gap < thicker)
+    if (below == 0 || gap < limits_.sheet_gap * spacing ||
+        gap <
+            std::max (heights_[below - 1] - heights_.front (), heights_.back () - heights_[below]))
       return false;
-    // The nearest one in the plane is of the other group as often as not.
-    std::size_t mixed = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::size_t nearest = i == 0 ? 1 : 0;
-      for (std::size_t j = 0; j < count; ++j)
-        if (j != i && (heights_[j].second - heights_[i].second).squaredNorm () <
-                          (heights_[nearest].second - heights_[i].second).squaredNorm ())
-          nearest = j;
-      mixed += (i < below) != (nearest < below) ? 1 : 0;
-    }
-    return 4 * mixed > count;
+    // Terraces lie side by side: their centres are farther apart than the points spread, but for
+    // the error of a centre of few.
+    const double middle = 0.5 * (heights_[below - 1] + heights_[below]);
+    Eigen::Vector2d lower = Eigen::Vector2d::Zero (), upper = Eigen::Vector2d::Zero ();
+    for (const Eigen::Vector3d& point : local_)
+      (point[0] < middle ? lower : upper) += point.tail<2> ();
+    const double apart =
+        (lower / static_cast<double> (below) - upper / static_cast<double> (count - below)).norm ();
+    const auto fewer = static_cast<double> (std::min (below, count - below));
+    if (apart > (0.5 + 1.5 / std::sqrt (fewer)) * axes.spread[1])
+      return false;
+    const bool is_lower = local_.front ()[0] < middle;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if ((local_[i][0] < middle) == is_lower)
+        offsets_[kept++] = offsets_[i];
+    offsets_.resize (kept);
+    return true;
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
@@ -188,7 +212,8 @@ private:
   NoiseLimits limits_;
   std::vector<Neighbor> found_;
   std::vector<Eigen::Vector3d> offsets_;
-  std::vector<std::pair<double, Eigen::Vector2d>> heights_;
+  std::vector<Eigen::Vector3d> local_;
+  std::vector<double> heights_;
 };
 
 } // namespace
@@ -247,21 +272,25 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
     return noise;
   const Sample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
   std::vector<float> at_centre ((n + CENTRES - 1) / CENTRES);
-  parallelRanges (run, at_centre.size (), [&] (std::size_t first, std::size_t last) {
-    NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
-    for (std::size_t c = first; c < last; ++c)
-      at_centre[c] = meter.measure (static_cast<Index> (c * CENTRES));
-  });
-  if (std::all_of (at_centre.begin (), at_centre.end (), [] (float x) { return x == 0.0F; }))
+  const auto measureEvery = [&] (std::size_t stride) {
+    const std::size_t count = (at_centre.size () + stride - 1) / stride;
+    parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
+      NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
+      for (std::size_t i = first; i < last; ++i)
+        at_centre[i * stride] = meter.measure (static_cast<Index> (i * stride * CENTRES));
+    });
+    const auto noisy =
+        std::count_if (at_centre.begin (), at_centre.end (), [] (float x) { return x > 0.0F; });
+    return static_cast<double> (noisy) >= FEW_NOISY * static_cast<double> (count);
+  };
+  if (!measureEvery (PROBES) || !measureEvery (1))
     return noise;
   const Sample centres (positions, CENTRES, run);
   const std::vector<float> around = smoothed (positions, at_centre, centres, limits.quantile, run);
   std::vector<float> relative (n, 0.0F);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
     for (std::size_t p = first; p < last; ++p) {
-      centres.nearest (positions[p], 1, found);
-      const float here = around[found.front ().point / CENTRES];
+      const float here = around[p / CENTRES]; // points are in the order of a space-filling curve
       const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
       if (here < limits.strong * spacing)
         continue;
@@ -283,8 +312,7 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLi
   for (std::size_t p = 0; p < agreement.size (); ++p)
     if (noise.at_point[p] > 0.0F)
       disturbed += 1.0 - static_cast<double> (agreement[p]);
-  return static_cast<double> (noise.noisy_points) >= limits.noisy_share * points ||
-         disturbed >= limits.disturbed_share * points;
+  return disturbed >= limits.disturbed_share * points;
 }
 
 std::vector<Eigen::Vector3d>

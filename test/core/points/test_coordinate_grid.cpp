@@ -136,11 +136,13 @@ TEST (CoordinateGrid, TheReportWarns)
   ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
   EXPECT_GT (result.report.statistics.coordinate_step, 0.1);
   ASSERT_FALSE (result.report.warnings.empty ());
-  const std::string& warning = result.report.warnings.front ();
-  EXPECT_NE (warning.find ("the coordinates are coarse: along y they are 0.5 apart, "),
+  std::string warnings; // rounding to wide steps looks like noise, too
+  for (const std::string& warning : result.report.warnings)
+    warnings += warning + "\n";
+  EXPECT_NE (warnings.find ("the coordinates are coarse: along y they are 0.5 apart, "),
              std::string::npos)
-      << warning;
-  EXPECT_NE (warning.find ("subtract an origin"), std::string::npos) << warning;
+      << warnings;
+  EXPECT_NE (warnings.find ("subtract an origin"), std::string::npos) << warnings;
 }
 
 } // namespace
