@@ -285,8 +285,9 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   Surface surface = makeSurface (
       points, geometry, {options.holes, options.flip_edges, request.limits.surface}, request.run);
   reportOrientationSeam (points, surface.orientation_seam, report);
-  const bool may_be_disc =
-      options.topology == Topology::AUTO && points.size () <= LARGEST_SECOND_TRY;
+  // Folds of projected points come from their noise, whatever the method.
+  const bool may_be_disc = options.topology == Topology::AUTO && points.projected.empty () &&
+                           points.size () <= LARGEST_SECOND_TRY;
   if (!may_be_disc) {
     geometry.neighbors = {};
     geometry.stars = {};

@@ -130,12 +130,11 @@ public:
       relative[scale] = residual[scale] / spacing;
     }
     double noise = 0.0;
-    for (std::size_t scale = 0; scale + 1 < SCALES; ++scale) {
-      const double larger = relative[scale + 1];
-      if (relative[scale] >= limits_.strong && larger >= 0.0 &&
-          larger < limits_.falls_to * relative[scale])
-        noise = std::max (noise, residual[scale]);
-    }
+    for (std::size_t scale = 0; scale + 1 < SCALES; ++scale)
+      for (std::size_t larger = scale + 1; larger < SCALES; ++larger)
+        if (relative[scale] >= limits_.strong && relative[larger] >= 0.0 &&
+            relative[larger] < limits_.falls_to * relative[scale])
+          noise = std::max (noise, residual[scale]);
     return static_cast<float> (noise);
   }
 
@@ -289,8 +288,11 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   const std::vector<float> around = smoothed (positions, at_centre, centres, limits.quantile, run);
   std::vector<float> relative (n, 0.0F);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
     for (std::size_t p = first; p < last; ++p) {
-      const float here = around[p / CENTRES]; // points are in the order of a space-filling curve
+      // The nearest in space: the curve jumps, and so would the noise.
+      centres.nearest (positions[p], 1, found);
+      const float here = around[found.front ().point / CENTRES];
       const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
       if (here < limits.strong * spacing)
         continue;
