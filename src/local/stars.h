@@ -49,7 +49,7 @@ struct Stars
                                                  ///< relative to the centre, length as in space
   std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
   std::vector<Eigen::Vector3f> normals;
-  CsrLists far_neighbors;   ///< of each point: those that only its star added; see makeStars
+  CsrLists far_neighbors; ///< of each point: those that were looked at for its star; see makeStars
   std::vector<float> reach; ///< the largest of a star and those around, see reachOf; empty if
                             ///< none was to reach farther
 };

@@ -215,10 +215,6 @@ private:
   std::vector<double> heights_;
 };
 
-} // namespace
-
-namespace
-{
 // The noise around each centre: a quantile of those measured near it.
 std::vector<float>
 smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
@@ -294,8 +290,8 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
       centres.nearest (positions[p], 1, found);
       const float here = around[found.front ().point / CENTRES];
       const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
-      if (here < limits.strong * spacing)
-        continue;
+      if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
+        continue; // a caller's search may find no neighbours: then there is no spacing
       noise.at_point[p] = here;
       relative[p] = static_cast<float> (here / spacing);
     }

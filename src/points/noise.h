@@ -33,12 +33,12 @@ struct NoiseLimits
   double sheet_gap = 0.7; ///< spacings between two sheets that are not noise
   double radius = 8.0;    ///< of the ball on whose plane a point is projected, in its noise. The
                           ///< mean of as many points has a fifth of the noise or less
-  double disturbed_share = 0.035; ///< mean, over all points, of the share of neighbours in the star
-                                  ///< of a noisy point that do not have it in theirs. Generated
-                                  ///< boxes and sheets 2 spacings apart have up to 0.028, surfaces
-                                  ///< with noise of 0.3 spacings 0.07, of 0.5 spacings 0.18; of
-                                  ///< clean clouds the largest is 0.020, of depth cameras the
-                                  ///< smallest 0.038
+  /// Mean, over all points, of the share of neighbours in the star of a noisy point that do not
+  /// have it in theirs. Generated boxes and sheets 2 spacings apart have up to 0.028, surfaces with
+  /// noise of 0.3 spacings 0.07, of 0.5 spacings 0.18. Of the clean clouds of the benchmark the
+  /// largest is 0.020, of its depth cameras the smallest 0.038. Chosen between these: close to
+  /// both, and not certain.
+  double disturbed_share = 0.035;
 };
 
 /// The noise of a cloud.

@@ -165,6 +165,18 @@ TEST (Noise, DependsOnNothingElse)
   EXPECT_NEAR (Cloud (positions).noise ().median, noise.median, 0.05 * noise.median);
 }
 
+TEST (Noise, PointsWithoutNeighboursAreNotNoisy)
+{
+  Cloud cloud (surface (SurfaceKind::TORUS, 2000, 0.5));
+  std::vector<Index>& offsets = cloud.neighbors.offsets; // as a caller's search may answer
+  std::fill (offsets.begin () + 1, offsets.begin () + 100, 0U);
+  const Noise noise = cloud.noise ();
+  EXPECT_GT (noise.noisy_points, 1000U);
+  EXPECT_EQ (noise.at_point[50], 0.0F);
+  EXPECT_TRUE (std::isfinite (noise.largest));
+  EXPECT_EQ (cloud.projected ()[50], cloud.points.positions[50]);
+}
+
 TEST (Noise, DegenerateClouds)
 {
   EXPECT_EQ (measureNoise ({}, {}, {}, 1).noisy_points, 0U);
