@@ -31,7 +31,7 @@ makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings&
   const BesideLines beside = findBesideLines (positions, geometry.neighbors, geometry.spacing, tree,
                                               planes.least_aspect, limits, run);
   appendRows (beside.neighbors, geometry.neighbors);
-  const BeyondNeighbors beyond{tree, geometry.spacing, beside.reach, limits};
+  const BeyondNeighbors beyond{tree, geometry.spacing, beside, limits};
   geometry.stars = makeStars (positions, geometry.neighbors,
                               fitTangentPlanes (positions, geometry.neighbors, run, planes),
                               settings, run, &beyond);

@@ -192,7 +192,7 @@ StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_dis
   if (sqr_distance < centre.sqr_searched ||
       std::find (added_.begin (), added_.end (), neighbor.point) != added_.end ())
     return false;
-  // The row may end with far neighbours.
+  // The row may have neighbours beside a line, which are farther than the nearest.
   return std::find (centre.row.begin (), centre.row.end (), neighbor.point) == centre.row.end () &&
          onSameSheet (centre.frame.normal, normals_[neighbor.point].cast<double> (),
                       positions_[neighbor.point] - positions_[centre.point], sheets);
@@ -246,19 +246,14 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
 }
 
 bool
-StarReach::extend (Index p, const TangentFrame& frame, Row row, bool open,
+StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   added_.clear ();
   empty_circles_.clear ();
   const double farthest = limits_.farthest * static_cast<double> (spacing_[p]);
-  double sqr_searched = 0.0;
-  for (const Index q : row) {
-    const double sqr_distance = (positions_[q] - positions_[p]).squaredNorm ();
-    if (sqr_distance < sqr_searched)
-      break; // far neighbours begin here
-    sqr_searched = sqr_distance;
-  }
+  const double sqr_searched =
+      nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();
   const Centre centre{p, frame, row, sqr_searched, farthest};
   bool gap_is_empty = false;
   for (int round = 0; round < limits_.rounds && !star.empty (); ++round) {

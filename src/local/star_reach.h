@@ -83,11 +83,12 @@ public:
              const KdTree& tree, const SheetLimits& sheets, const ReachLimits& limits);
 
   /// \param frame      of the plane in which the star lies
-  /// \param row        neighbours of p that were looked at, nearest first
+  /// \param row        neighbours of p that were looked at
+  /// \param nearest    how many of these, from the first on, are the nearest of all points
   /// \param candidates those of them from which the star was made; far neighbours are added
   /// \param star       in: of the candidates; out: with far neighbours
   /// \return whether the star is open
-  bool extend (Index p, const TangentFrame& frame, Row row, bool open,
+  bool extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
                std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star);
 
   /// Neighbours added by the last call to extend ().

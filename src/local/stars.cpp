@@ -31,7 +31,8 @@ public:
   StarMaker (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
              const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
              const BeyondNeighbors* beyond)
-      : positions_ (positions), neighbors_ (neighbors), normals_ (normals), settings_ (settings)
+      : positions_ (positions), neighbors_ (neighbors), normals_ (normals), settings_ (settings),
+        beyond_ (beyond)
   {
     if (beyond != nullptr)
       reach_.emplace (positions, normals, beyond->spacing, beyond->tree, settings.limits,
@@ -43,9 +44,12 @@ public:
   bool make (Index p, Eigen::Vector3f& normal)
   {
     bool open = makeOfNeighbors (p, normal);
-    if (reach_)
-      open = reach_->extend (p, TangentFrame (normal.cast<double> ()), neighbors_.row (p), open,
+    if (reach_) {
+      const Row row = neighbors_.row (p);
+      const std::size_t nearest = row.size () - beyond_->beside.neighbors.row (p).size ();
+      open = reach_->extend (p, TangentFrame (normal.cast<double> ()), row, nearest, open,
                              star_.candidates, star_.neighbors);
+    }
     return open;
   }
 
@@ -134,6 +138,7 @@ private:
   const CsrLists& neighbors_;
   const std::vector<Eigen::Vector3f>& normals_;
   const StarSettings& settings_;
+  const BeyondNeighbors* beyond_;
   PlanarStar planar_star_;
   std::optional<StarReach> reach_;
   Star star_, wider_;
@@ -259,7 +264,7 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
       range.append (maker.star (), settings.with_offsets);
       if (beyond == nullptr)
         continue;
-      stars.reach[p] = std::max (beyond->line_reach[p],
+      stars.reach[p] = std::max (beyond->beside.reach[p],
                                  static_cast<float> (reachOf (maker.star (), stars.open[p] != 0)));
       if (!maker.added ().empty ())
         range.far.emplace_back (p, maker.added ());

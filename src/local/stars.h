@@ -32,9 +32,9 @@ struct StarSettings
 /// What stars need to reach beyond the neighbours that are given.
 struct BeyondNeighbors
 {
-  const KdTree& tree;                   ///< of the positions
-  const std::vector<float>& spacing;    ///< see localSpacing
-  const std::vector<float>& line_reach; ///< see BesideLines
+  const KdTree& tree;                ///< of the positions
+  const std::vector<float>& spacing; ///< see localSpacing
+  const BesideLines& beside;         ///< its neighbours are at the ends of the rows that are given
   ReachLimits limits{};
 };
 
