@@ -48,6 +48,20 @@ checkTrimming (const TrimmingOptions& options)
   return {};
 }
 
+Problem
+checkView (const Options& options)
+{
+  if (options.view.use != ViewUse::GIVEN)
+    return {};
+  for (const double coordinate : options.view.viewpoint)
+    if (!std::isfinite (coordinate))
+      return {Status::INVALID_OPTION, "the viewpoint must have finite coordinates"};
+  if (options.topology == Topology::DISC || !options.boundary.loop.empty ())
+    return {Status::INVALID_OPTION,
+            "a viewpoint is of no use for a disc, which is laid out without it"};
+  return {};
+}
+
 } // namespace
 
 Problem
@@ -56,6 +70,8 @@ checkOptions (const Options& options)
   if (Problem problem = checkTopology (options))
     return problem;
   if (Problem problem = checkTrimming (options.trimming))
+    return problem;
+  if (Problem problem = checkView (options))
     return problem;
   const auto out_of_range = [] (const char* name, const char* range) {
     return Problem{Status::INVALID_OPTION, std::string (name) + " must be " + range};

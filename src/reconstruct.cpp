@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way of a cloud: points, neighbours, outliers, noise, the geometry around each point;
-// then a disc laid out in the plane, or a surface of any topology out of stars; then one check.
+// then a disc laid out in the plane, or a surface of any topology out of stars; then one check. One
+// scan whose viewpoint is known is connected as the sensor saw it, without neighbours.
 #include "reconstruct.h"
 
 #include "check_options.h"
-#include "consensus/consensus_loop.h"
-#include "consensus/consensus_method.h"
-#include "floater/floater_method.h"
+#include "cloud_geometry.h"
 #include "input_cleaning.h"
-#include "local/star_agreement.h"
-#include "mesh/check.h"
 #include "mesh/flips.h"
-#include "points/neighbors.h"
-#include "points/noise.h"
-#include "points/outliers.h"
 #include "report.h"
+#include "request.h"
 
 #include <algorithm>
 #include <limits>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace pcl
@@ -31,40 +27,6 @@ namespace
 // Points up to which the disc method makes a surface that is a disc, too, if that came out with
 // folds; above, it would take more than a second and half a GB.
 constexpr std::size_t LARGEST_SECOND_TRY = 300'000;
-
-// What is asked for, and the run that does it.
-struct Request
-{
-  const Options& options;
-  const Limits& limits;
-  const RunContext& run;
-};
-
-bool
-asksForDisc (const Options& options)
-{
-  return options.topology == Topology::DISC || !options.boundary.loop.empty ();
-}
-
-NeighborSettings
-neighborSettings (const Options& options, NeighborSearch* search)
-{
-  // The solver of a disc takes so much memory that blocks save nothing.
-  return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
-}
-
-StarSettings
-starSettings (const Options& options, const Limits& limits)
-{
-  StarSettings settings;
-  settings.filter_sheets = options.filter_sheets;
-  settings.with_offsets = asksForDisc (options);
-  const Neighborhood kind = options.neighbors.kind;
-  settings.reach_beyond =
-      !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
-  settings.limits = limits.sheets;
-  return settings;
-}
 
 DiscSettings
 discSettings (const Options& options, const Limits& limits)
@@ -78,57 +40,6 @@ discSettings (const Options& options, const Limits& limits)
   settings.limits = limits.disc;
   settings.finish = limits.surface.finish;
   return settings;
-}
-
-// Beyond TW 385: points that lie off any surface would be woven in as spikes. Those that the user's
-// loop names stay.
-void
-removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
-                const Request& request, Report& report)
-{
-  std::vector<Index> given = request.options.boundary.loop;
-  std::sort (given.begin (), given.end ());
-  std::vector<Index> outliers =
-      findOutliers (points.positions, neighbors, request.run, request.limits.outliers);
-  const auto is_given = [&] (Index p) {
-    return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
-  };
-  outliers.erase (std::remove_if (outliers.begin (), outliers.end (), is_given), outliers.end ());
-  if (outliers.empty ())
-    return;
-  const std::vector<Index> cloud_indices = removePoints (points, outliers);
-  reportOutliers (cloud_indices, points.size (), report);
-  neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
-}
-
-// Beyond TW 385: where noise is strong, triangles join the points as they would lie without it. The
-// mesh is triangles only, so the user's points stay where they are.
-LocalGeometry
-makeGeometry (Points& points, CsrLists neighbors, const NeighborSettings& settings,
-              const Request& request, Report& report)
-{
-  const Limits& limits = request.limits;
-  const RunContext& run = request.run;
-  const StarSettings star_settings = starSettings (request.options, limits);
-  Noise noise;
-  if (request.options.denoise)
-    noise = measureNoise (points.positions, neighbors, limits.noise, run);
-  run.beginStage (Stage::STARS);
-  LocalGeometry geometry =
-      makeLocalGeometry (points, std::move (neighbors), star_settings, run, limits.planes);
-  const bool is_projected =
-      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
-  if (is_projected) {
-    points.projected =
-        projectNoisyPoints (points.positions, geometry.neighbors, noise, limits.noise, run);
-    geometry = {};
-    run.beginStage (Stage::NEIGHBORS);
-    neighbors = findNeighbors (points, settings, run);
-    run.beginStage (Stage::STARS);
-    geometry = makeLocalGeometry (points, std::move (neighbors), star_settings, run, limits.planes);
-  }
-  reportNoise (noise, is_projected, report);
-  return geometry;
 }
 
 // TW 385, section 3: boundary points as one ordered loop.
@@ -308,10 +219,57 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
                   result);
 }
 
+// The viewpoint that is given, or the origin of the sensor if the cloud was seen from there.
+std::optional<Viewpoint>
+knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
+                const Request& request)
+{
+  const ViewOptions& options = request.options.view;
+  const bool is_given = options.use == ViewUse::GIVEN;
+  const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
+  const Viewpoint viewpoint{
+      (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
+  if (is_given || isSeenFrom (points, viewpoint, request.limits.view.evidence, request.run))
+    return viewpoint;
+  return {};
+}
+
+// One scan, seen from a viewpoint.
+// \return nothing if too many points are in no triangle of the view, and the viewpoint is not given
+std::optional<Problem>
+reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
+                 Result& result)
+{
+  const Options& options = request.options;
+  const Limits& limits = request.limits;
+  const ViewSettings settings{
+      options.holes,        options.flip_edges,        options.remove_outliers,
+      limits.view,          limits.surface.open_loops, limits.surface.hole_filling,
+      limits.surface.finish};
+  ViewSurface surface = makeViewSurface (points, viewpoint, settings, request.run);
+  LocalGeometry geometry;
+  geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
+  MeshExamination found = examine (surface.mesh, points, geometry, request);
+  if (options.view.use != ViewUse::GIVEN &&
+      static_cast<double> (found.unused.size ()) >
+          limits.view.largest_unused_share * static_cast<double> (points.size ()))
+    return {};
+  Report& report = result.report;
+  report.topology = Topology::SURFACE;
+  report.statistics.holes_filled = surface.holes_filled;
+  reportView (points, viewpoint, surface, report);
+  if (options.remove_outliers)
+    reportOutliersOfView (points, found.unused, report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
+  return useMesh (std::move (surface.mesh), surface.finish, std::move (found), points, geometry,
+                  request, result);
+}
+
 Problem
 reconstructAny (Input& input, const Request& request, Result& result)
 {
   const Options& options = request.options;
+  const Limits& limits = request.limits;
   const RunContext& run = request.run;
   Report& report = result.report;
   report.statistics.cloud_points = input.cloud_size;
@@ -323,7 +281,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
     run.setMethod (Topology::DISC);
 
   run.beginStage (Stage::WORKING_SET);
-  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
+  if (Problem problem = cleanInput (input, options, limits.gross_outliers, run, report))
     return problem;
   Points points = makePoints (input.positions, input.cloud_index, run);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
@@ -332,6 +290,14 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = checkPoints (points))
     return problem;
 
+  const bool may_be_seen = !as_disc && options.view.use != ViewUse::NEVER;
+  if (may_be_seen)
+    if (const std::optional<Viewpoint> viewpoint =
+            knownViewpoint (points, input.sensor_origin, request))
+      if (const std::optional<Problem> problem =
+              reconstructView (points, *viewpoint, request, result))
+        return *problem;
+
   run.beginStage (Stage::NEIGHBORS);
   const NeighborSettings settings = neighborSettings (options, input.search);
   CsrLists neighbors = findNeighbors (points, settings, run);
@@ -339,7 +305,17 @@ reconstructAny (Input& input, const Request& request, Result& result)
     removeOutliers (points, neighbors, settings, request, report);
   if (Problem problem = checkPoints (points))
     return problem;
-  LocalGeometry geometry = makeGeometry (points, std::move (neighbors), settings, request, report);
+  Noise noise;
+  LocalGeometry geometry = makeGeometry (points, std::move (neighbors), request, noise);
+  if (may_be_seen)
+    if (const std::optional<Viewpoint> viewpoint = findViewpoint (
+            points, geometry, noise.is_strong, limits.view.search, limits.view.evidence, run))
+      if (const std::optional<Problem> problem =
+              reconstructView (points, *viewpoint, request, result))
+        return *problem;
+  if (noise.is_strong)
+    geometry = projectNoise (points, std::move (geometry), noise, settings, request);
+  reportNoise (noise, noise.is_strong, report);
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 
   return as_disc ? reconstructDisc (points, std::move (geometry), request, result)

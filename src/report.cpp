@@ -243,6 +243,29 @@ reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& 
   report.warnings.push_back (text.str ());
 }
 
+void
+reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
+            Report& report)
+{
+  report.is_view = true;
+  report.is_far_view = viewpoint.is_far;
+  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) =
+      viewpoint.is_far ? viewpoint.place
+                       : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
+  report.statistics.view_steps = surface.steps;
+  report.statistics.view_gaps = surface.gaps;
+}
+
+void
+reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report)
+{
+  std::vector<Index> outliers;
+  for (const Index p : unused)
+    outliers.push_back (points.cloud_index[p]);
+  std::sort (outliers.begin (), outliers.end ());
+  reportOutliers (outliers, points.size () - unused.size (), report);
+}
+
 namespace
 {
 void
@@ -333,7 +356,8 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
   report.check = found.check;
   if (report.topology == Topology::SURFACE)
     report.topology_reason =
-        options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check);
+        (options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check)) +
+        (report.is_view ? ", seen from one place" : "");
   report.statistics.folds = found.check.folds;
   if (!found.isManifold ())
     return {Status::INTERNAL_ERROR,

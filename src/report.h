@@ -10,6 +10,7 @@
 #include "mesh/trimming.h"
 #include "points/coordinate_grid.h"
 #include "points/noise.h"
+#include "view/view_method.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -44,6 +45,16 @@ reportNoise (const Noise& noise, bool denoised, Report& report);
 /// The step to which coordinates seem to be rounded, and a warning if it is too coarse.
 void
 reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report);
+
+/// The viewpoint and what was left out of the view.
+void
+reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
+            Report& report);
+
+/// Points of a view that are in no triangle, as outliers; a warning on them.
+/// \param unused ascending
+void
+reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report);
 
 /// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
 /// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.

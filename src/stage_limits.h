@@ -12,6 +12,7 @@
 #include "points/gross_outliers.h"
 #include "points/noise.h"
 #include "points/outliers.h"
+#include "view/view_method.h"
 
 namespace pcl
 {
@@ -25,6 +26,7 @@ struct Limits
   PlaneLimits planes;
   SheetLimits sheets;
   SurfaceLimits surface;
+  ViewLimits view;
   LoopLimits loop;
   DiscLimits disc;
   CheckLimits check;

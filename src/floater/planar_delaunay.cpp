@@ -102,6 +102,30 @@ numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t poi
   return count;
 }
 
+// The faces that have a number, as a mesh.
+TriangleMesh
+makeMesh (const Delaunay& delaunay, Index count, std::size_t points)
+{
+  TriangleMesh mesh;
+  mesh.triangle_of.assign (points, NONE);
+  mesh.triangles.resize (count);
+  mesh.neighbors.resize (count);
+  if (count == 0)
+    return mesh;
+  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face) {
+    const Index t = face->info ();
+    if (t == NONE)
+      continue;
+    for (int i = 0; i < 3; ++i) {
+      const auto side = static_cast<std::size_t> (i);
+      mesh.triangles[t][side] = face->vertex (i)->info ();
+      mesh.neighbors[t][side] = face->neighbor (i)->info ();
+      mesh.triangle_of[mesh.triangles[t][side]] = t;
+    }
+  }
+  return mesh;
+}
+
 } // namespace
 
 TriangleMesh
@@ -126,25 +150,27 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
     }
   std::vector<std::pair<Kernel::Point_2, Index>> ().swap (sites);
 
-  TriangleMesh mesh;
-  mesh.triangle_of.assign (uv.size (), NONE);
   if (delaunay.dimension () < 2)
-    return mesh;
-  const Index count = numberFaces (delaunay, loop, uv.size ());
-  mesh.triangles.resize (count);
-  mesh.neighbors.resize (count);
-  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face) {
-    const Index t = face->info ();
-    if (t == NONE)
-      continue;
-    for (int i = 0; i < 3; ++i) {
-      const auto side = static_cast<std::size_t> (i);
-      mesh.triangles[t][side] = face->vertex (i)->info ();
-      mesh.neighbors[t][side] = face->neighbor (i)->info ();
-      mesh.triangle_of[mesh.triangles[t][side]] = t;
-    }
-  }
-  return mesh;
+    return makeMesh (delaunay, 0, uv.size ());
+  return makeMesh (delaunay, numberFaces (delaunay, loop, uv.size ()), uv.size ());
+}
+
+TriangleMesh
+triangulateHull (const std::vector<Eigen::Vector2d>& uv)
+{
+  std::vector<std::pair<Kernel::Point_2, Index>> sites;
+  sites.reserve (uv.size ());
+  for (Index p = 0; p < uv.size (); ++p)
+    if (uv[p].allFinite ())
+      sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
+  Delaunay delaunay;
+  delaunay.insert (sites.begin (), sites.end ());
+  if (delaunay.dimension () < 2)
+    return makeMesh (delaunay, 0, uv.size ());
+  Index count = 0;
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    face->info () = delaunay.is_infinite (face) ? NONE : count++;
+  return makeMesh (delaunay, count, uv.size ());
 }
 
 } // namespace floater

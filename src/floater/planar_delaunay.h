@@ -21,5 +21,12 @@ namespace floater
 TriangleMesh
 triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop);
 
+/// The Delaunay triangulation of points in the plane up to their convex hull. Of points at the very
+/// same place only one is a vertex. O(n log n).
+/// \param uv per point; points whose places are not finite are left out
+/// \return triangles anti-clockwise in the plane; none if all points lie on one line
+TriangleMesh
+triangulateHull (const std::vector<Eigen::Vector2d>& uv);
+
 } // namespace floater
 } // namespace pcl

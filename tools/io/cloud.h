@@ -27,11 +27,12 @@ struct Cloud
   std::array<Field, 3> coordinates;                 ///< x, y, z; one value each
   bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
-  std::vector<Field> fields;                        ///< all but the coordinates
-  std::size_t rows = 0;                             ///< points of the file
-  KeptPoints kept;                                  ///< points that are left
-  std::vector<std::string> warnings;                ///< oddities of the file, one sentence each
-  FileBytes file;                                   ///< the file, if the fields refer to it
+  std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
+  std::vector<Field> fields;             ///< all but the coordinates
+  std::size_t rows = 0;                  ///< points of the file
+  KeptPoints kept;                       ///< points that are left
+  std::vector<std::string> warnings;     ///< oddities of the file, one sentence each
+  FileBytes file;                        ///< the file, if the fields refer to it
 
   /// Number of points that are left.
   std::size_t size () const { return kept.areAll () ? rows : kept.size (); }

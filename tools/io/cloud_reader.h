@@ -28,7 +28,7 @@ Cloud
 readCloud (const std::filesystem::path& path, bool all_digits = false);
 
 /// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
-/// skipped. The viewpoint is ignored; coordinates are not transformed.
+/// skipped. The origin of the viewpoint is read; coordinates are not transformed.
 Cloud
 parsePcd (const FileBytes& file, bool all_digits = false);
 

@@ -20,6 +20,7 @@ struct PcdHeader
   std::vector<Field> fields; ///< without bytes
   std::size_t points = 0;
   std::string_view data; ///< ascii, binary or binary_compressed
+  std::array<double, 3> viewpoint{};
 };
 
 const std::string PADDING = "_";
@@ -58,6 +59,7 @@ struct HeaderLines
   std::vector<std::string> types;
   std::vector<std::size_t> counts;
   std::optional<std::size_t> width, height, points;
+  std::array<double, 3> viewpoint{};
 };
 
 template <typename Add>
@@ -122,9 +124,12 @@ readHeader (TextScanner& scanner)
   HeaderLines lines;
   while (scanner.nextFilledLine ()) {
     const std::string_view key = scanner.word ();
-    if (key.front () == '#' || key == "VERSION" || key == "VIEWPOINT")
+    if (key.front () == '#' || key == "VERSION")
       continue;
-    if (key == "FIELDS" || key == "COLUMNS")
+    if (key == "VIEWPOINT")
+      for (double& coordinate : lines.viewpoint)
+        coordinate = scanner.number<double> ();
+    else if (key == "FIELDS" || key == "COLUMNS")
       eachWord (scanner, [&] (std::string_view word) { lines.names.emplace_back (word); });
     else if (key == "TYPE")
       eachWord (scanner, [&] (std::string_view word) { lines.types.emplace_back (word); });
@@ -139,7 +144,8 @@ readHeader (TextScanner& scanner)
     else if (key == "POINTS")
       lines.points = scanner.number<std::size_t> ();
     else if (key == "DATA")
-      return {makeFields (scanner, lines), countPoints (scanner, lines), scanner.word ()};
+      return {makeFields (scanner, lines), countPoints (scanner, lines), scanner.word (),
+              lines.viewpoint};
     else
       scanner.fail ("this is not a line of a PCD header");
   }
@@ -275,6 +281,7 @@ parsePcd (const FileBytes& file, bool all_digits)
                                        [] (const Field& field) { return field.name == PADDING; }),
                        header.fields.end ());
   Cloud cloud = makeCloud (std::move (header.fields), header.points);
+  cloud.sensor_origin = header.viewpoint;
   cloud.single_precision |= is_widened;
   if (header.data == "binary")
     cloud.file = file;

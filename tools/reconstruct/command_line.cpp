@@ -11,6 +11,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <optional>
+
 namespace pcl
 {
 namespace floater
@@ -127,27 +130,31 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
       GENERAL, "FOLDER (that of OUTPUT)");
 }
 
+/// "1,-2.5,3". \return nothing if these are not three finite numbers
+std::optional<Eigen::Vector3d>
+parsePlace (const std::string& word)
+{
+  Eigen::Vector3d place;
+  std::size_t first = 0;
+  bool is_good = std::count (word.begin (), word.end (), ',') == 2;
+  for (int axis = 0; axis < 3 && is_good; ++axis) {
+    const std::size_t comma = std::min (word.find (',', first), word.size ());
+    is_good = parseNumber (std::string_view (word).substr (first, comma - first), place[axis]);
+    first = comma + 1;
+  }
+  return is_good && place.allFinite () ? std::optional (place) : std::nullopt;
+}
+
 void
 addShift (CLI::App& app, CommandLine& line)
 {
   const auto parse = [&line] (const std::string& word) {
     line.auto_shift = word == "auto";
-    line.shift.reset ();
-    if (line.auto_shift)
-      return;
-    Eigen::Vector3d shift;
-    std::size_t first = 0;
-    bool is_good = std::count (word.begin (), word.end (), ',') == 2;
-    for (int axis = 0; axis < 3 && is_good; ++axis) {
-      const std::size_t comma = std::min (word.find (',', first), word.size ());
-      is_good = parseNumber (std::string_view (word).substr (first, comma - first), shift[axis]);
-      first = comma + 1;
-    }
-    if (!is_good || !shift.allFinite ())
+    line.shift = parsePlace (word);
+    if (!line.auto_shift && !line.shift)
       throw CLI::ValidationError ("--shift", "'" + word +
                                                  "' is neither auto nor three numbers, such as "
                                                  "500000,5500000,0");
-    line.shift = shift;
   };
   app.add_option_function<std::string> (
          "--shift", parse,
@@ -155,6 +162,28 @@ addShift (CLI::App& app, CommandLine& line)
          "the rounded\ncentre of the points, if they are")
       ->option_text ("X,Y,Z or auto (none)")
       ->group (GENERAL);
+}
+
+void
+addViewpoint (CLI::App& app, ViewOptions& options, const std::string& group)
+{
+  const auto parse = [&options] (const std::string& word) {
+    const std::optional<Eigen::Vector3d> place = parsePlace (word);
+    if (!place && word != "auto" && word != "none")
+      throw CLI::ValidationError ("--viewpoint", "'" + word +
+                                                     "' is neither auto, none, nor three numbers, "
+                                                     "such as 0,0,1.5");
+    options.use = place ? ViewUse::GIVEN : word == "auto" ? ViewUse::AUTO : ViewUse::NEVER;
+    Eigen::Map<Eigen::Vector3d> (options.viewpoint.data ()) =
+        place.value_or (Eigen::Vector3d::Zero ());
+  };
+  app.add_option_function<std::string> (
+         "--viewpoint", parse,
+         "one scan: where its sensor was, before any shift; its\npoints are connected as they were "
+         "seen from there.\nauto: that of the file, or one that is found, if the\nspacing of the "
+         "points tells so; none: the cloud is no\nsingle scan")
+      ->option_text ("X,Y,Z, auto or none (auto)")
+      ->group (group);
 }
 
 /// \throws UsageError
@@ -194,6 +223,7 @@ addTopology (CLI::App& app, Options& options)
              "by-size: width of the widest hole to fill, in local\nspacings; 0: no limit", surface);
   addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
              "by-size: the same in units of the cloud", surface);
+  addViewpoint (app, options.view, surface);
   addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
              "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
   addNumber (app, "--max-edge-ratio", options.trimming.maximum_edge_ratio,

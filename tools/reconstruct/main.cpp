@@ -76,15 +76,16 @@ makeInput (const Cloud& cloud)
   Input input;
   input.positions = cloud.positions ();
   input.cloud_size = cloud.size ();
+  input.sensor_origin = cloud.sensor_origin;
   input.cloud_index.resize (cloud.size ());
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
   cloud.file.giveBack ();
   return input;
 }
 
-/// Subtracts the origin that was asked for.
+/// Subtracts the origin that was asked for, from the viewpoints as well.
 void
-shiftOrigin (const CommandLine& line, Cloud& cloud, Input& input)
+shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
 {
   if (line.auto_shift)
     cloud.shift = chooseShift (input.positions, line.options.threads);
@@ -94,6 +95,8 @@ shiftOrigin (const CommandLine& line, Cloud& cloud, Input& input)
     return;
   for (Eigen::Vector3d& position : input.positions)
     position -= cloud.shift;
+  for (std::array<double, 3>* place : {&input.sensor_origin, &line.options.view.viewpoint})
+    Eigen::Map<Eigen::Vector3d> (place->data ()) -= cloud.shift;
 }
 
 Result
@@ -289,6 +292,12 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
   if (!run.shift.isZero (0.0))
     std::printf ("shift      %.17g %.17g %.17g, subtracted from all coordinates\n", run.shift.x (),
                  run.shift.y (), run.shift.z ());
+  if (report.is_view)
+    std::printf ("viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
+                 "out\n",
+                 report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
+                 report.viewpoint[1], report.viewpoint[2],
+                 counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
   if (report.denoised)
     std::printf ("noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
                  "points were "

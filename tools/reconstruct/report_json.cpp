@@ -26,6 +26,9 @@ optionsJson (const Options& options)
           {"max_edge", options.trimming.maximum_edge_length},
           {"max_edge_ratio", options.trimming.maximum_edge_ratio},
           {"min_component", options.trimming.minimum_component_size},
+          {"viewpoint", options.view.use == ViewUse::GIVEN  ? Json (options.view.viewpoint)
+                        : options.view.use == ViewUse::AUTO ? Json ("auto")
+                                                            : Json ("none")},
           {"remove_outliers", options.remove_outliers},
           {"denoise", options.denoise},
           {"neighbors", options.neighbors.k},
@@ -53,6 +56,15 @@ optionsJson (const Options& options)
 }
 
 Json
+viewpointJson (const Report& report)
+{
+  if (!report.is_view)
+    return {};
+  return {{"is_far", report.is_far_view},
+          {report.is_far_view ? "direction" : "place", report.viewpoint}};
+}
+
+Json
 statisticsJson (const Statistics& statistics)
 {
   return {{"cloud_points", statistics.cloud_points},
@@ -69,6 +81,8 @@ statisticsJson (const Statistics& statistics)
           {"trimmed_triangles", statistics.trimmed_triangles},
           {"trimmed_components", statistics.trimmed_components},
           {"trimmed_points", statistics.trimmed_points},
+          {"view_steps", statistics.view_steps},
+          {"view_gaps", statistics.view_gaps},
           {"holes_filled", statistics.holes_filled},
           {"used_points", statistics.used_points},
           {"relinked_points", statistics.relinked_points},
@@ -193,6 +207,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"warnings", report.warnings},
                     {"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
                     {"topology_reason", report.topology_reason},
+                    {"viewpoint", viewpointJson (report)},
                     {"denoised", report.denoised},
                     {"check", checkJson (report.check)},
                     {"statistics", statisticsJson (report.statistics)},
@@ -225,6 +240,7 @@ summaryLine (const CommandLine& line, const Report& report, const RunFigures& ru
                 {"genus", report.check.genus},
                 {"loops", report.check.loops.size ()},
                 {"loop_points", report.statistics.loop_points},
+                {"viewpoint", viewpointJson (report)},
                 {"denoised", report.denoised},
                 {"outliers", report.outliers.size ()},
                 {"warnings", report.warnings.size ()},

@@ -28,7 +28,7 @@ namespace pcl
  *   std::cerr << floater.getMessage () << '\n';
  * \endcode
  *
- * There are two methods:
+ * There are three methods:
  *
  * - \b Consensus, by default: the neighbours of each point, projected on its tangent plane, have a
  *   Delaunay star there. The surface is put together from the triangles on which the stars of
@@ -39,13 +39,18 @@ namespace pcl
  * every other point is a convex combination of its neighbours: one sparse linear system. The
  * Delaunay triangulation of the parameters gives the triangles.
  *
- * The disc method is used for Topology::DISC and where the boundary loop is given. With
- * Topology::AUTO, a surface of up to 300,000 points that comes out as one disc, but with folds or
- * with points left over, is made by both methods, and the better mesh is taken. getReport() tells
- * which method made the mesh, and why.
+ * - \b View: a single scan, of which every point is visible from the place of its sensor, is the
+ *   Delaunay triangulation of its rays, without the triangles in gaps of the view and across depth
+ *   steps. Noise along the rays does not disturb it.
  *
- * After either method, points without a triangle are inserted, edges are flipped in space, folds
- * are repaired, and every component is turned to face outwards.
+ * The view method is used where the spacing of the points tells that they are one scan (see
+ * setViewUse()), or if the viewpoint is given. The disc method is used for Topology::DISC and where
+ * the boundary loop is given. With Topology::AUTO, a surface of up to 300,000 points that comes out
+ * as one disc, but with folds or with points left over, is made by both methods, and the better
+ * mesh is taken. getReport() tells which method made the mesh, and why.
+ *
+ * After the first two methods, points without a triangle are inserted, edges are flipped in space,
+ * folds are repaired, and every component is turned to face outwards.
  *
  * Sources: M. S. Floater, "Parametrization and smooth approximation of surface triangulations",
  * 1997; M. S. Floater and M. Reimers, "Meshless parameterization and surface reconstruction", 2001;
@@ -123,6 +128,25 @@ public:
   void setLargestHoleLength (double length) { options_.holes.largest_hole_length = length; }
   /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in units of the cloud. */
   double getLargestHoleLength () const { return options_.holes.largest_hole_length; }
+
+  /** \brief The place of the sensor, for a cloud that is one scan, in the frame of the cloud. The
+   * points are connected as they were seen from there, and the mesh faces the sensor; every point
+   * must be visible from there. Sets ViewUse::GIVEN. */
+  void setViewPoint (double x, double y, double z)
+  {
+    options_.view.use = floater::ViewUse::GIVEN;
+    options_.view.viewpoint = {x, y, z};
+  }
+  /** \brief The place that was given; (0, 0, 0) if there is none. getReport() has the one that was
+   * used. */
+  const std::array<double, 3>& getViewPoint () const { return options_.view.viewpoint; }
+
+  /** \brief Whether a cloud of one scan is connected as its sensor saw it; default AUTO: if the
+   * spacing of its points tells so. The origin of the sensor in the cloud is tried, and where
+   * points are noisy or uneven, the place is searched. */
+  void setViewUse (floater::ViewUse use) { options_.view.use = use; }
+  /** \brief Whether a cloud of one scan is connected as its sensor saw it. */
+  floater::ViewUse getViewUse () const { return options_.view.use; }
 
   /** \brief Length that no edge of the mesh exceeds, in units of the cloud, 0 or more; default 0:
    * no limit. Triangles with a longer edge are cut off the finished mesh, and where they were there

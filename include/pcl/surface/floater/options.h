@@ -10,6 +10,7 @@
 
 #include <pcl_floater/export.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -104,6 +105,15 @@ enum class Ordering
   NATURAL                ///< as the points are stored: along a space-filling curve
 };
 
+/// Whether a cloud of one scan is connected as its sensor saw it.
+enum class ViewUse
+{
+  AUTO,  ///< if the spacing of its rays tells from where: the sensor's origin is tried, and where
+         ///< noise is strong, the viewpoint is searched
+  GIVEN, ///< yes, from ViewOptions::viewpoint; every point must be visible from there
+  NEVER  ///< no
+};
+
 /// The stages of a run, in order. A method passes through some of them only.
 enum class Stage
 {
@@ -114,8 +124,8 @@ enum class Stage
   BOUNDARY,    ///< disc: boundary loop
   WEIGHTS,     ///< disc: weights of the neighbours
   SOLVE,       ///< disc: linear system
-  DELAUNAY,    ///< disc: triangulation of the parameters
-  HOLES,       ///< surface: boundary loops that are filled
+  DELAUNAY,    ///< disc: triangulation of the parameters; scan: of the view
+  HOLES,       ///< surface: boundary loops that are filled; scan: gaps and depth steps
   FLIPS,       ///< missing points, edge flips, repair of folds, orientation
   CHECK,       ///< examination of the mesh
   COUNT        ///< the number of stages
@@ -157,6 +167,13 @@ struct TrimmingOptions
   double maximum_edge_ratio = 0.0;  ///< the same in local spacings, the mean of those of the two
                                     ///< ends; 0 or more; 0: no limit
   int minimum_component_size = 0;   ///< components of fewer points are taken out, 0 or more
+};
+
+/// Scans, of which every point is visible from one place.
+struct ViewOptions
+{
+  ViewUse use = ViewUse::AUTO;
+  std::array<double, 3> viewpoint{}; ///< ViewUse::GIVEN: x, y, z in the frame of the cloud
 };
 
 /// The boundary loop of a disc.
@@ -202,6 +219,7 @@ struct Options
   NeighborOptions neighbors;
   HoleOptions holes;
   TrimmingOptions trimming;
+  ViewOptions view; ///< not for discs
   BoundaryOptions boundary;
   DomainOptions domain;
   Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point of a disc

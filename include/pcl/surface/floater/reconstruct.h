@@ -51,6 +51,7 @@ struct Input
   std::vector<std::uint32_t> cloud_index; ///< of each position; distinct
   std::size_t cloud_size = 0;       ///< points of the whole cloud; every cloud index is smaller
   NeighborSearch* search = nullptr; ///< nullptr: a kd-tree of the core's, in parallel
+  std::array<double, 3> sensor_origin{}; ///< of the sensor, if the cloud is one scan; see ViewUse
 };
 
 /// A mesh and the report on the run that made it.

@@ -89,11 +89,14 @@ struct Statistics
                                     ///< points around, to connect them
   double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, along the axis
                                 ///< where it is widest, in local spacings; 0: none is seen
-  std::size_t trimmed_triangles = 0;   ///< triangles cut off as TrimmingOptions ask for
-  std::size_t trimmed_components = 0;  ///< components among them that were too small
-  std::size_t trimmed_points = 0;      ///< points that are in no triangle any more for that reason
-  std::size_t holes_filled = 0;        ///< boundary loops of a surface that were filled
-  std::size_t used_points = 0;         ///< points that are vertices of the mesh
+  std::size_t trimmed_triangles = 0;  ///< triangles cut off as TrimmingOptions ask for
+  std::size_t trimmed_components = 0; ///< components among them that were too small
+  std::size_t trimmed_points = 0;     ///< points that are in no triangle any more for that reason
+  std::size_t view_steps = 0;   ///< of a scan: triangles between neighbouring rays that would lead
+                                ///< from one surface to another behind it, left out
+  std::size_t view_gaps = 0;    ///< of a scan: triangles left out where rays are missing
+  std::size_t holes_filled = 0; ///< boundary loops of a surface that were filled
+  std::size_t used_points = 0;  ///< points that are vertices of the mesh
   std::size_t relinked_points = 0;     ///< points of a disc that had to be linked to the others
   std::size_t boundary_candidates = 0; ///< points that look like boundary
   std::size_t loop_points = 0;         ///< points of the boundary loop
@@ -124,7 +127,10 @@ struct Report
   std::string topology_reason;        ///< why this method, in a few words
   MeshCheck check;                    ///< the mesh, as examined at the end
   bool denoised = false; ///< the points were connected as they lie when projected on local planes
-  std::vector<std::uint32_t> loop; ///< longest boundary loop, in order, each point once
+  bool is_view = false;  ///< the points are one scan, and were connected as its sensor saw them
+  bool is_far_view = false;          ///< the sensor was so far away that its rays are parallel
+  std::array<double, 3> viewpoint{}; ///< of the sensor; if it was far away, direction of its rays
+  std::vector<std::uint32_t> loop;   ///< longest boundary loop, in order, each point once
   /// Of a disc: position of each cloud point in the plane, NaN where it was not used. Triangles run
   /// anti-clockwise there. Else empty.
   std::vector<Eigen::Vector2d> parameters;

@@ -201,6 +201,9 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
                                                     outside_the_cloud);
 
   input.cloud_size = size;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    input.sensor_origin[axis] =
+        static_cast<double> (input_->sensor_origin_[static_cast<Eigen::Index> (axis)]);
   input.positions.reserve (indices_->size ());
   input.cloud_index.reserve (indices_->size ());
   std::vector<bool> taken (size, false);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Neighbours, outliers, noise, and the geometry around each point of a cloud.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "points/neighbors.h"
+#include "points/noise.h"
+#include "request.h"
+
+#include <pcl/surface/floater/report.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// \param search of the caller; nullptr: a kd-tree of the core's
+NeighborSettings
+neighborSettings (const Options& options, NeighborSearch* search);
+
+/// Beyond TW 385: takes out points that lie off any surface, which would be woven in as spikes.
+/// Those that the user's loop names stay.
+void
+removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
+                const Request& request, Report& report);
+
+/// The geometry around each point as it lies, and the noise, if it may be projected away.
+LocalGeometry
+makeGeometry (const Points& points, CsrLists neighbors, const Request& request, Noise& noise);
+
+/// Beyond TW 385: projects noisy points on the planes of the points around, by which they are
+/// connected. The mesh is triangles only, so the user's points stay where they are.
+/// \return the geometry around each projected point
+LocalGeometry
+projectNoise (Points& points, LocalGeometry geometry, const Noise& noise,
+              const NeighborSettings& settings, const Request& request);
+
+} // namespace floater
+} // namespace pcl

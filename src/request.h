@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is asked for, and the run that does it.
+#pragma once
+
+#include "core/run_context.h"
+#include "stage_limits.h"
+
+namespace pcl
+{
+namespace floater
+{
+struct Request
+{
+  const Options& options;
+  const Limits& limits;
+  const RunContext& run;
+};
+
+/// Whether the disc method is asked for.
+inline bool
+asksForDisc (const Options& options)
+{
+  return options.topology == Topology::DISC || !options.boundary.loop.empty ();
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/depth_steps.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// How the surface goes on from the first point of an edge to the second.
+struct Continuation
+{
+  float change = 0.0F; // of the level
+  float weight = 0.0F; // sum of the weights of the levels it is made of; 0: not known
+};
+
+// An edge between two triangles, or of one.
+struct StepEdge
+{
+  MeshEdge edge;
+  float depth;     // of the nearer end
+  float deviation; // the smaller one of both ends, divided by the weights; infinity: not known
+};
+
+class StepFinder
+{
+public:
+  StepFinder (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
+              const RunContext& run)
+      : view_ (view), rays_ (rays), limits_ (limits), run_ (run)
+  {
+  }
+
+  std::vector<std::uint8_t> find ()
+  {
+    if (rays_.are_parallel && !rays_.depths.empty ()) {
+      const auto [least, most] = std::minmax_element (rays_.depths.begin (), rays_.depths.end ());
+      span_ = std::max (*most - *least, std::numeric_limits<double>::min ());
+    }
+    continueSurfaces ();
+    findEdges ();
+    std::vector<Index> order (edges_.size ());
+    std::iota (order.begin (), order.end (), Index{0});
+    std::sort (order.begin (), order.end (), [this] (Index a, Index b) {
+      return edges_[a].depth < edges_[b].depth || (edges_[a].depth == edges_[b].depth && a < b);
+    });
+    std::vector<std::uint8_t> is_step (view_.triangles.size (), 0);
+    const std::size_t bins = std::max<std::size_t> (1, order.size () / limits_.edges_per_bin);
+    const auto binBegin = [&] (std::size_t b) {
+      return order.begin () + static_cast<std::ptrdiff_t> (b * order.size () / bins);
+    };
+    std::vector<double> noises (bins);
+    parallelTasks (run_, bins, [&] (std::size_t b) {
+      noises[b] = measureNoise ({binBegin (b), binBegin (b + 1)});
+    });
+    for (std::size_t b = 0; b < bins; ++b) {
+      run_.poll ();
+      const double noise = medianAround (noises, b);
+      for (auto e = binBegin (b); e != binBegin (b + 1); ++e) {
+        const MeshEdge edge = edges_[*e].edge;
+        const double unit = unitAt (static_cast<double> (edges_[*e].depth));
+        if (!isStep (edge, noise * unit))
+          continue;
+        is_step[edge.triangle] = 1;
+        if (const Index other = view_.neighbors[edge.triangle][edge.side]; other != NONE)
+          is_step[other] = 1;
+      }
+    }
+    return is_step;
+  }
+
+private:
+  static std::size_t numberOf (MeshEdge e) { return std::size_t{3} * e.triangle + e.side; }
+
+  void continueSurfaces ()
+  {
+    continuations_.resize (3 * view_.triangles.size ());
+    parallelRanges (run_, view_.triangle_of.size (), [&] (std::size_t first, std::size_t last) {
+      std::vector<Index> fan, around;
+      std::vector<Eigen::Vector2d> places;
+      for (auto p = static_cast<Index> (first); p < last; ++p)
+        if (view_.triangle_of[p] != NONE)
+          continueAround (p, fan, around, places);
+    });
+  }
+
+  // All edges that leave p. Of each, the triangle of p that the edge points away from.
+  void continueAround (Index p, std::vector<Index>& fan, std::vector<Index>& around,
+                       std::vector<Eigen::Vector2d>& places)
+  {
+    view_.fan (p, fan);
+    around.clear ();
+    for (const Index t : fan)
+      around.push_back (view_.triangles[t][TriangleMesh::next (view_.sideOf (t, p))]);
+    const Index last =
+        view_.triangles[fan.back ()][TriangleMesh::previous (view_.sideOf (fan.back (), p))];
+    if (last != around.front ())
+      around.push_back (last);
+    const RayFrame frame (rays_, p);
+    places.clear ();
+    for (const Index q : around)
+      places.push_back (frame (q));
+    const auto cross = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      return a.x () * b.y () - a.y () * b.x ();
+    };
+    for (std::size_t e = 0; e < fan.size (); ++e) {
+      const Eigen::Vector2d back = -places[e];
+      for (std::size_t t = 0; t < fan.size (); ++t) {
+        const std::size_t next = (t + 1) % around.size ();
+        const double area = cross (places[t], places[next]);
+        const double a = cross (back, places[next]) / area, b = cross (places[t], back) / area;
+        if (!(a >= 0.0 && b >= 0.0 && area > 0.0))
+          continue;
+        const auto level = [&] (std::size_t i) {
+          return rays_.levels[around[i]] - rays_.levels[p];
+        };
+        const std::uint8_t side = TriangleMesh::previous (view_.sideOf (fan[e], p));
+        continuations_[numberOf ({fan[e], side})] = {
+            static_cast<float> (-(a * level (t) + b * level (next))),
+            static_cast<float> (1.0 + a + b)};
+        break;
+      }
+    }
+  }
+
+  double changeOf (MeshEdge e) const
+  {
+    return rays_.levels[view_.to (e)] - rays_.levels[view_.from (e)];
+  }
+
+  // The continuation from the first end, and that from the other one, along the edge as well.
+  std::array<Continuation, 2> continuationsOf (MeshEdge e) const
+  {
+    std::array<Continuation, 2> both{continuations_[numberOf (e)], {}};
+    if (const MeshEdge mate = view_.mate (e); mate.triangle != NONE) {
+      both[1] = continuations_[numberOf (mate)];
+      both[1].change = -both[1].change;
+    }
+    return both;
+  }
+
+  void findEdges ()
+  {
+    edges_.reserve (view_.triangles.size () * 3 / 2 + 3);
+    for (Index t = 0; t < view_.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (const Index other = view_.neighbors[t][side]; other == NONE || t < other) {
+          const MeshEdge e{t, side};
+          edges_.push_back ({e,
+                             static_cast<float> (std::min (rays_.depths[view_.from (e)],
+                                                           rays_.depths[view_.to (e)])),
+                             0.0F});
+        }
+    parallelRanges (run_, edges_.size (), [&] (std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        StepEdge& edge = edges_[i];
+        const double change = changeOf (edge.edge);
+        double least = std::numeric_limits<double>::infinity ();
+        for (const Continuation& c : continuationsOf (edge.edge))
+          if (c.weight > 0.0F)
+            least = std::min (least, std::abs (change - static_cast<double> (c.change)) /
+                                         static_cast<double> (c.weight));
+        edge.deviation = static_cast<float> (least);
+      }
+    });
+  }
+
+  // What a depth as a whole is in levels.
+  double unitAt (double depth) const { return rays_.are_parallel ? span_ : 1.0 / depth; }
+
+  // Of a bin and those next to it. The outline of a round body has the same depth all around, and
+  // most edges of such a bin may be steps.
+  double medianAround (const std::vector<double>& noises, std::size_t bin) const
+  {
+    const std::size_t first = bin - std::min (bin, limits_.bins_beside);
+    const std::size_t last = std::min (noises.size (), bin + limits_.bins_beside + 1);
+    std::vector<double> window (noises.begin () + static_cast<std::ptrdiff_t> (first),
+                                noises.begin () + static_cast<std::ptrdiff_t> (last));
+    const auto middle = window.begin () + static_cast<std::ptrdiff_t> (window.size () / 2);
+    std::nth_element (window.begin (), middle, window.end ());
+    return *middle;
+  }
+
+  // Of edges of about the same depth, as a share of the depth.
+  double measureNoise (const std::vector<Index>& bin) const
+  {
+    std::vector<float> deviations;
+    for (const Index e : bin)
+      if (std::isfinite (edges_[e].deviation))
+        deviations.push_back (edges_[e].deviation);
+    if (deviations.empty ())
+      return 0.0;
+    const double noise = quantile (deviations, limits_.noise_quantile);
+    // What a share of the depth is in levels.
+    const double unit = unitAt (static_cast<double> (edges_[bin.front ()].depth));
+    const double median = quantile (deviations, 0.5);
+    if (median > limits_.rounding * unit)
+      return noise / unit;
+    constexpr double ABOVE = 20.0; // times the median: that is no rounding any more
+    constexpr std::size_t FEWEST = 20;
+    deviations.erase (std::remove_if (deviations.begin (), deviations.end (),
+                                      [median] (float deviation) {
+                                        return static_cast<double> (deviation) <= ABOVE * median;
+                                      }),
+                      deviations.end ());
+    if (deviations.size () < FEWEST)
+      return noise / unit;
+    // The weights of a step are 2 or more.
+    return std::max (noise / unit, std::min (quantile (deviations, limits_.step_quantile) / unit,
+                                             0.5 * limits_.largest_quantum));
+  }
+
+  static double quantile (std::vector<float>& values, double share)
+  {
+    const auto at = values.begin () +
+                    static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size ()));
+    std::nth_element (values.begin (), at, values.end ());
+    return static_cast<double> (*at);
+  }
+
+  bool isStep (MeshEdge e, double noise) const
+  {
+    const Index p = view_.from (e), q = view_.to (e);
+    const double width = rays_.distance (p, q) *
+                         (rays_.are_parallel ? 1.0 : std::min (rays_.depths[p], rays_.depths[q]));
+    if (std::abs (rays_.depths[p] - rays_.depths[q]) <= limits_.slope * width)
+      return false;
+    const double change = changeOf (e);
+    const auto goesOn = [&] (const Continuation& c) {
+      const auto told = static_cast<double> (c.change);
+      return c.weight > 0.0F &&
+             (std::abs (change - told) <= limits_.noise * noise * static_cast<double> (c.weight) ||
+              (told * change >= 0.0 && std::abs (change) <= limits_.continued * std::abs (told)));
+    };
+    const std::array<Continuation, 2> both = continuationsOf (e);
+    return !goesOn (both[0]) && !goesOn (both[1]);
+  }
+
+  const TriangleMesh& view_;
+  const Rays& rays_;
+  const StepLimits& limits_;
+  RunContext run_;
+  double span_ = 1.0; // of the depths
+  std::vector<Continuation>
+      continuations_; // of each edge, by 3 triangle + side: from its first end
+  std::vector<StepEdge> edges_;
+};
+
+} // namespace
+
+std::vector<std::uint8_t>
+findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
+                const RunContext& run)
+{
+  return StepFinder (view, rays, limits, run).find ();
+}
+
+} // namespace floater
+} // namespace pcl

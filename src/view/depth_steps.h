@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edges of a view from one surface to another behind it.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+#include "view/rays.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+struct StepLimits
+{
+  double slope = 4.0; ///< depth over width of an edge; below, it is never a step. Surfaces that a
+                      ///< ray meets at less than 14 degrees return hardly any light, so that few
+                      ///< edges of a surface are steeper
+  double noise = 3.0; ///< a step exceeds so many times the noise (see findDepthSteps)
+  double continued = 2.0; ///< an edge is on one surface if that goes on so from one of its ends, up
+                          ///< to this factor. At a crease the edge is shorter than the surface goes
+                          ///< on from the steeper side: factor 1, and as much for curvature
+
+  std::size_t edges_per_bin = 2000; ///< edges of about the same depth, among which the noise is
+                                    ///< measured; their 80 % quantile has an error of 3 %
+  std::size_t bins_beside = 4;      ///< on either side; the noise is the median of them all
+  double noise_quantile = 0.8; ///< of a Gaussian, at 1.3 standard deviations. More than 80 % of
+                               ///< the edges of a scene are on surfaces
+  double rounding = 2e-5; ///< of the depth, or of the span of depths along parallel rays; a smaller
+                          ///< deviation is rounding, as no sensor is so precise
+  double step_quantile = 0.2; ///< of quantized depths: of the deviations above rounding, one step
+  double largest_quantum = 0.02; ///< of the depth; sensors do not round more coarsely
+};
+
+/// Finds the edges of the view that lead from one surface to another behind it, and marks their
+/// triangles.
+///
+/// From each end of an edge, the surface is continued along the edge: levels (see Rays) are affine
+/// in planes, so that the triangle behind the end, seen along the edge, tells the level at the
+/// other end. An edge is a step if it is steep, and if neither end tells the other one: the
+/// deviation exceeds the noise, and the surface does not go on into that direction as steeply.
+///
+/// Noise of depth grows with depth in every sensor, in some with its square. So it is measured by
+/// depth: as a quantile of the deviations at edges of about the same depth, each divided by the sum
+/// of weights in it. Where most deviations are mere rounding, depths are quantized, and the noise
+/// is one quantum. O(n log n). \return of each triangle: 1 if one of its edges is a step
+std::vector<std::uint8_t>
+findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
+                const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

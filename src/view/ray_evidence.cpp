@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/ray_evidence.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+struct PatchEvidence
+{
+  std::size_t judged = 0, near = 0;
+  double ray_spread = 0.0, point_spread = 0.0;
+};
+
+// Logarithm of the 90 % quantile over the 10 % quantile; 0 for few values.
+double
+spreadOf (std::vector<double>& values)
+{
+  constexpr std::size_t FEW = 10;
+  if (values.size () < FEW)
+    return 0.0;
+  const auto quantile = [&values] (std::size_t tenths) {
+    const auto place = values.begin () + static_cast<std::ptrdiff_t> (values.size () * tenths / 10);
+    std::nth_element (values.begin (), place, values.end ());
+    return *place;
+  };
+  const double small = quantile (1), large = quantile (9);
+  return small > 0.0 ? std::log (large / small) : std::numeric_limits<double>::infinity ();
+}
+
+PatchEvidence
+examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
+              const Viewpoint& viewpoint, double near_ratio)
+{
+  std::vector<Eigen::Vector3d> rays;
+  rays.reserve (patch.size ());
+  for (const Index p : patch)
+    rays.push_back (rayTo (positions[p], viewpoint).direction);
+  PatchEvidence evidence;
+  std::vector<double> between_rays, between_points;
+  for (std::size_t i = 0; i < patch.size () / 2; ++i) {
+    double nearest = std::numeric_limits<double>::infinity (), second = nearest;
+    std::size_t at = i;
+    for (std::size_t j = 0; j < patch.size (); ++j) {
+      const double distance = j == i ? second : (rays[j] - rays[i]).squaredNorm ();
+      if (distance < nearest) {
+        second = std::exchange (nearest, distance);
+        at = j;
+      }
+      else
+        second = std::min (second, distance);
+    }
+    ++evidence.judged;
+    evidence.near += nearest < near_ratio * near_ratio * second ? 1 : 0;
+    between_rays.push_back (std::sqrt (nearest));
+    between_points.push_back ((positions[patch[at]] - positions[patch[i]]).norm ());
+  }
+  evidence.ray_spread = spreadOf (between_rays);
+  evidence.point_spread = spreadOf (between_points);
+  return evidence;
+}
+
+} // namespace
+
+std::vector<RayPatch>
+findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+                const EvidenceLimits& limits, const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  std::vector<RayPatch> patches (std::min (limits.patches, n));
+  const std::size_t size = std::min (limits.patch_points, n);
+  std::vector<Eigen::Vector3f> rays (n); // 1e-7 of a right angle is enough to tell what is near
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p)
+      rays[p] = rayTo (positions[p], viewpoint).direction.cast<float> ();
+  });
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    const auto seed = (2 * k + 1) * n / (2 * patches.size ());
+    const Eigen::Vector3f ray = rays[seed];
+    // The smallest distances so far, in twice the room, so that sorting costs O(1) each.
+    std::vector<std::pair<float, Index>> nearest;
+    float limit = std::numeric_limits<float>::infinity ();
+    const auto keepSmallest = [&] {
+      if (nearest.size () <= size)
+        return;
+      std::nth_element (nearest.begin (), nearest.begin () + static_cast<std::ptrdiff_t> (size) - 1,
+                        nearest.end ());
+      nearest.resize (size);
+      limit = nearest.back ().first;
+    };
+    for (Index p = 0; p < n; ++p) {
+      const float distance = (rays[p] - ray).squaredNorm ();
+      if (distance > limit)
+        continue;
+      nearest.emplace_back (distance, p);
+      if (nearest.size () == 2 * size)
+        keepSmallest ();
+    }
+    keepSmallest ();
+    std::sort (nearest.begin (), nearest.end ());
+    for (const auto& entry : nearest)
+      patches[k].push_back (entry.second);
+  });
+  return patches;
+}
+
+RayEvidence
+findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                 const EvidenceLimits& limits, const RunContext& run)
+{
+  std::vector<PatchEvidence> found (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    found[k] = examinePatch (positions, patches[k], viewpoint, limits.near_ratio);
+  });
+  std::size_t judged = 0, near = 0;
+  RayEvidence evidence;
+  for (const PatchEvidence& patch : found) {
+    judged += patch.judged;
+    near += patch.near;
+    evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
+    evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
+  }
+  if (judged > 0)
+    evidence.near_share = static_cast<double> (near) / static_cast<double> (judged);
+  return evidence;
+}
+
+bool
+isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
+{
+  return evidence.near_share <= limits.near_share &&
+         evidence.ray_spread <= limits.regularity * evidence.point_spread;
+}
+
+} // namespace floater
+} // namespace pcl

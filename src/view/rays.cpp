@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/rays.h"
+
+#include "core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Directions that are tried, and rays that each is compared with. A cone of 5 degrees is found; it
+// matters only that the tear of the plane is small, and not in the middle of dense rays.
+constexpr std::size_t DIRECTIONS = 2000, COMPARED = 2000;
+
+// A direction in the widest of the cones without rays.
+Eigen::Vector3d
+emptyDirection (const std::vector<Eigen::Vector3d>& directions)
+{
+  const double golden_angle = M_PI * (3.0 - std::sqrt (5.0));
+  const std::size_t step = std::max<std::size_t> (1, directions.size () / COMPARED);
+  Eigen::Vector3d best = Eigen::Vector3d::UnitZ ();
+  double best_cosine = std::numeric_limits<double>::infinity ();
+  for (std::size_t k = 0; k < DIRECTIONS; ++k) {
+    const double z = 1.0 - static_cast<double> (2 * k + 1) / DIRECTIONS;
+    const double radius = std::sqrt (1.0 - z * z), angle = static_cast<double> (k) * golden_angle;
+    const Eigen::Vector3d tried (radius * std::cos (angle), radius * std::sin (angle), z);
+    double cosine = -1.0;
+    for (std::size_t p = 0; p < directions.size () && cosine < best_cosine; p += step)
+      cosine = std::max (cosine, tried.dot (directions[p]));
+    if (cosine < best_cosine) {
+      best_cosine = cosine;
+      best = tried;
+    }
+  }
+  return best;
+}
+
+} // namespace
+
+Ray
+rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint)
+{
+  if (viewpoint.is_far) {
+    const double depth = position.dot (viewpoint.place);
+    return {position - depth * viewpoint.place, depth};
+  }
+  const Eigen::Vector3d offset = position - viewpoint.place;
+  const double depth = offset.norm ();
+  return {depth > 0.0 ? Eigen::Vector3d (offset / depth)
+                      : Eigen::Vector3d (Eigen::Vector3d::Zero ()),
+          depth};
+}
+
+Rays
+makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+          const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  Rays rays;
+  rays.are_parallel = viewpoint.is_far;
+  if (viewpoint.is_far)
+    rays.parallel = viewpoint.place;
+  rays.directions.resize (n);
+  rays.depths.resize (n);
+  rays.levels.resize (n);
+  rays.places.resize (n);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const Ray ray = rayTo (positions[p], viewpoint);
+      rays.directions[p] = ray.direction;
+      rays.depths[p] = ray.depth;
+      rays.levels[p] = viewpoint.is_far ? ray.depth : 1.0 / ray.depth;
+    }
+  });
+  // Seen from the sensor, x to y turns anti-clockwise: the frame is right-handed about a vector
+  // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
+  const Eigen::Vector3d pole =
+      viewpoint.is_far ? Eigen::Vector3d (-viewpoint.place) : emptyDirection (rays.directions);
+  const Eigen::Vector3d x = pole.unitOrthogonal ();
+  const Eigen::Vector3d y = pole.cross (x);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const Eigen::Vector3d& direction = rays.directions[p];
+      const double factor = viewpoint.is_far       ? 1.0
+                            : rays.depths[p] > 0.0 ? 1.0 / (1.0 - direction.dot (pole))
+                                                   : std::numeric_limits<double>::quiet_NaN ();
+      rays.places[p] = factor * Eigen::Vector2d (direction.dot (x), direction.dot (y));
+    }
+  });
+  return rays;
+}
+
+RayFrame::RayFrame (const Rays& rays, Index centre) : rays_ (rays), centre_ (centre)
+{
+  if (rays.are_parallel)
+    return;
+  x_ = rays.directions[centre].unitOrthogonal ();
+  y_ = x_.cross (rays.directions[centre]); // towards the sensor, x to y turns anti-clockwise
+}
+
+Eigen::Vector2d
+RayFrame::operator() (Index point) const
+{
+  if (rays_.are_parallel)
+    return rays_.places[point] - rays_.places[centre_];
+  const Eigen::Vector3d& direction = rays_.directions[point];
+  return Eigen::Vector2d (x_.dot (direction), y_.dot (direction)) /
+         rays_.directions[centre_].dot (direction);
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/view_flips.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
+
+#include <cmath>
+#include <optional>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// A smaller change of cost may be rounding.
+constexpr double IMPROVES = 1e-9;
+
+class ViewFlipper
+{
+public:
+  ViewFlipper (TriangleMesh& mesh, const Rays& rays, const std::vector<Eigen::Vector3d>& positions,
+               const ViewFlipLimits& limits, const RunContext& run)
+      : mesh_ (mesh), rays_ (rays), positions_ (positions), limits_ (limits), run_ (run),
+        largest_angles_ (PI + limits.angle * DEGREE)
+  {
+    normals_.resize (mesh.triangles.size ());
+    parallelRanges (run, normals_.size (), [&] (std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t)
+        normals_[t] = normalOf (mesh.triangles[t]);
+    });
+  }
+
+  std::size_t run ()
+  {
+    ProgressLoop progress (run_, mesh_.triangles.size ());
+    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+      progress.next ();
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        if (mesh_.neighbors[t][side] == NONE || mesh_.neighbors[t][side] < t)
+          continue;
+        stack_.push_back ({t, side});
+        empty ();
+      }
+    }
+    return flips_;
+  }
+
+private:
+  Eigen::Vector3d towardsSensor (Index p) const
+  {
+    return rays_.are_parallel ? -rays_.parallel : Eigen::Vector3d (-rays_.directions[p]);
+  }
+
+  Eigen::Vector3d normalOf (const Triangle& t) const
+  {
+    return areaVector (positions_[t[0]], positions_[t[1]], positions_[t[2]]).normalized ();
+  }
+
+  void empty ()
+  {
+    while (!stack_.empty ()) {
+      const MeshEdge e = stack_.back ();
+      stack_.pop_back ();
+      const Index other = mesh_.neighbors[e.triangle][e.side];
+      if (other == NONE || !flipIfBetter (e, other))
+        continue;
+      ++flips_;
+      for (const Index t : {e.triangle, other}) {
+        normals_[t] = normalOf (mesh_.triangles[t]);
+        for (std::uint8_t side = 0; side < 3; ++side)
+          stack_.push_back ({t, side});
+      }
+    }
+  }
+
+  // The angle at p from the ray of `from` to that of `to`, anti-clockwise as the sensor sees it;
+  // nothing if it turns clockwise or hardly at all.
+  std::optional<double> angle (Index p, Index from, Index to) const
+  {
+    constexpr double SLIVER = 1e-3;
+    const Eigen::Vector3d u = rays_.directions[from] - rays_.directions[p];
+    const Eigen::Vector3d v = rays_.directions[to] - rays_.directions[p];
+    const double sine = u.cross (v).dot (towardsSensor (p)) / (u.norm () * v.norm ());
+    if (!(sine > SLIVER))
+      return {};
+    return std::atan2 (u.cross (v).norm (), u.dot (v));
+  }
+
+  // The other diagonal must be one of a convex quadrangle in the view, and nearly Delaunay.
+  bool isFlippable (Index a, Index b, Index c, Index d) const
+  {
+    const std::optional<double> at_a = angle (a, d, c), at_b = angle (b, c, d);
+    return at_a && at_b && *at_a + *at_b <= largest_angles_;
+  }
+
+  double costOf (const Eigen::Vector3d& normal, const Eigen::Vector3d& other) const
+  {
+    return 1.0 - normal.dot (other) + (isFold (normal, other) ? limits_.fold_cost : 0.0);
+  }
+
+  double costAcross (const Eigen::Vector3d& normal, Index other) const
+  {
+    return other == NONE ? 0.0 : costOf (normal, normals_[other]);
+  }
+
+  bool flipIfBetter (MeshEdge e, Index other)
+  {
+    const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e);
+    const Index d = mesh_.corner (mesh_.mate (e));
+    if (!isFlippable (a, b, c, d))
+      return false;
+    const auto across = [this] (Index t, Index corner) {
+      return mesh_.neighbors[t][mesh_.sideOf (t, corner)];
+    };
+    const Index ca = across (e.triangle, b), bc = across (e.triangle, a);
+    const Index ad = across (other, b), db = across (other, a);
+    const Eigen::Vector3d& at_c = normals_[e.triangle];
+    const Eigen::Vector3d& at_d = normals_[other];
+    const Eigen::Vector3d at_a = normalOf ({c, a, d}), at_b = normalOf ({d, b, c});
+    const double before = costOf (at_c, at_d) + costAcross (at_c, ca) + costAcross (at_c, bc) +
+                          costAcross (at_d, ad) + costAcross (at_d, db);
+    const double after = costOf (at_a, at_b) + costAcross (at_a, ca) + costAcross (at_a, ad) +
+                         costAcross (at_b, bc) + costAcross (at_b, db);
+    // The other diagonal may be an edge elsewhere, where triangles between were taken out.
+    if (!(after < before - IMPROVES) || mesh_.hasEdge (c, d))
+      return false;
+    mesh_.flip (e);
+    return true;
+  }
+
+  TriangleMesh& mesh_;
+  const Rays& rays_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const ViewFlipLimits& limits_;
+  RunContext run_;
+  double largest_angles_;
+  std::vector<Eigen::Vector3d> normals_; // of the triangles, unit length
+  std::vector<MeshEdge> stack_;
+  std::size_t flips_ = 0;
+};
+
+} // namespace
+
+std::size_t
+flipInView (TriangleMesh& mesh, const Rays& rays, const std::vector<Eigen::Vector3d>& positions,
+            const ViewFlipLimits& limits, const RunContext& run)
+{
+  return ViewFlipper (mesh, rays, positions, limits, run).run ();
+}
+
+} // namespace floater
+} // namespace pcl

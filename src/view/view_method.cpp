@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/view_method.h"
+
+#include "core/parallel.h"
+#include "floater/planar_delaunay.h"
+#include "mesh/triangle_removal.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Fills the loops that the policy does not keep. All loops end at a gap or at a depth step.
+std::size_t
+closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
+            const ViewSettings& settings, const RunContext& run)
+{
+  const std::vector<float> spacing = spacingOfMesh (mesh, points.positions, run);
+  const MeshComponents components = findComponents (mesh, run);
+  std::vector<BoundaryLoop> loops =
+      findBoundaryLoops (mesh, components, points.positions, spacing, run);
+  chooseOpenLoops (loops, std::vector<LoopEvidence> (loops.size (), {1.0, 1.0}),
+                   countPoints (mesh, components), settings.holes, 1.0 / points.scale,
+                   settings.open_loops);
+  std::vector<Eigen::Vector3f> normals;
+  for (const Eigen::Vector3d& position : points.positions) {
+    const Eigen::Vector3d ray =
+        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (position - viewpoint.place);
+    normals.push_back (-ray.normalized ().cast<float> ());
+  }
+  const TriangleCost cost (points.positions, normals, nullptr, settings.finish.cost);
+  return fillHoles (mesh, loops, points.positions, cost, settings.hole_filling, run);
+}
+
+bool
+hasBoundary (const TriangleMesh& mesh)
+{
+  return std::any_of (mesh.neighbors.begin (), mesh.neighbors.end (), [] (const auto& across) {
+    return std::find (across.begin (), across.end (), NONE) != across.end ();
+  });
+}
+
+} // namespace
+
+bool
+isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
+            const RunContext& run)
+{
+  // A few patches tell most clouds that were not seen from there. What they tell is less certain.
+  constexpr std::size_t FEW = 8;
+  constexpr double LENIENT_SHARE = 5.0, LENIENT_REGULARITY = 2.0;
+  EvidenceLimits first = limits;
+  first.patches = std::min (limits.patches, FEW);
+  first.near_share *= LENIENT_SHARE;
+  first.regularity *= LENIENT_REGULARITY;
+  for (const EvidenceLimits& round : {first, limits}) {
+    const std::vector<RayPatch> patches = findRayPatches (points.positions, viewpoint, round, run);
+    if (!isSeenFromThere (findRayEvidence (points.positions, patches, viewpoint, round, run),
+                          round))
+      return false;
+  }
+  return true;
+}
+
+ViewSurface
+makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
+                 const RunContext& run)
+{
+  ViewSurface surface;
+  TriangleMesh& mesh = surface.mesh;
+  run.beginStage (Stage::DELAUNAY);
+  const Rays rays = makeRays (points.positions, viewpoint, run);
+  mesh = triangulateHull (rays.places);
+
+  run.beginStage (Stage::HOLES);
+  std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);
+  const std::vector<std::uint8_t> is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
+  for (std::size_t t = 0; t < is_step.size (); ++t) {
+    surface.gaps += is_left_out[t];
+    surface.steps += is_left_out[t] == 0 ? is_step[t] : 0;
+    is_left_out[t] |= is_step[t];
+  }
+  removeTriangles (mesh, std::move (is_left_out), run);
+  if (settings.remove_outliers)
+    removeSmallComponents (mesh, settings.limits.smallest_part, run);
+
+  run.beginStage (Stage::FLIPS);
+  if (settings.flip_edges)
+    surface.finish.flips = flipInView (mesh, rays, points.positions, settings.limits.flips, run);
+  if (settings.holes.policy != HolePolicy::AUTO)
+    surface.holes_filled = closeHoles (mesh, points, viewpoint, settings, run);
+  if (viewpoint.is_far || !hasBoundary (mesh))
+    surface.finish.turned = faceOutwards (mesh, points.positions, settings.finish.facing, run);
+  return surface;
+}
+
+std::vector<float>
+spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const RunContext& run)
+{
+  std::vector<float> spacing (positions.size (), 0.0F);
+  const auto median = [] (std::vector<float>& values) {
+    const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
+    std::nth_element (values.begin (), middle, values.end ());
+    return *middle;
+  };
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Index> fan;
+    std::vector<float> lengths;
+    for (auto p = static_cast<Index> (first); p < last; ++p) {
+      if (mesh.triangle_of[p] == NONE)
+        continue;
+      mesh.fan (p, fan);
+      lengths.clear ();
+      const auto add = [&] (Index q) {
+        lengths.push_back (static_cast<float> ((positions[q] - positions[p]).norm ()));
+      };
+      for (const Index t : fan)
+        add (mesh.triangles[t][TriangleMesh::next (mesh.sideOf (t, p))]);
+      add (mesh.triangles[fan.back ()][TriangleMesh::previous (mesh.sideOf (fan.back (), p))]);
+      spacing[p] = median (lengths);
+    }
+  });
+  std::vector<float> known;
+  std::copy_if (spacing.begin (), spacing.end (), std::back_inserter (known),
+                [] (float value) { return value > 0.0F; });
+  if (!known.empty ())
+    std::replace (spacing.begin (), spacing.end (), 0.0F, median (known));
+  return spacing;
+}
+
+} // namespace floater
+} // namespace pcl

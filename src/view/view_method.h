@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The view method: clouds of one scan, connected as the sensor saw them.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "mesh/finish.h"
+#include "mesh/hole_filling.h"
+#include "mesh/open_loops.h"
+#include "points/points.h"
+#include "view/depth_steps.h"
+#include "view/ray_evidence.h"
+#include "view/view_flips.h"
+#include "view/view_gaps.h"
+#include "view/viewpoint_search.h"
+
+#include <optional>
+
+namespace pcl
+{
+namespace floater
+{
+/// The limits of all steps of the view method.
+struct ViewLimits
+{
+  EvidenceLimits evidence;
+  SearchLimits search;
+  GapLimits gaps;
+  StepLimits steps;
+  ViewFlipLimits flips;
+  std::size_t smallest_part = 32; ///< triangles; smaller parts are left out with the outliers. As
+                                  ///< ConsensusLimits::smallest_island
+  double largest_unused_share = 0.05; ///< of the points; with more in no triangle, it is no scan of
+                                      ///< surfaces from there after all
+};
+
+struct ViewSettings
+{
+  HoleOptions holes = {};
+  bool flip_edges = true;      ///< choose diagonals by smoothness
+  bool remove_outliers = true; ///< leave out small parts that no edge joins to others
+  ViewLimits limits = {};
+  OpenLoopLimits open_loops = {};      ///< for policies of holes other than AUTO
+  HoleFillingLimits hole_filling = {}; ///< the same
+  FinishLimits finish = {};            ///< the same, and for closed components
+};
+
+/// Whether the cloud was seen from there (see RayEvidence). Ends early where it is clear that it
+/// was not. O(n), 0.1 microseconds per point where it was.
+bool
+isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
+            const RunContext& run);
+
+/// A surface as it was seen.
+struct ViewSurface
+{
+  TriangleMesh mesh;
+  MeshFinish finish;
+  std::size_t holes_filled = 0;
+  std::size_t steps = 0; ///< triangles of the view across depth steps, left out
+  std::size_t gaps = 0;  ///< triangles of the view in gaps, left out
+};
+
+/// Triangulates the rays, leaves out what lies in gaps of the view or across depth steps, and
+/// chooses diagonals. From the sensor, no part of the mesh hides another. Its front faces the
+/// sensor, but closed components face outwards, and so does everything if the sensor is far away on
+/// an unknown side. Stages DELAUNAY, HOLES and FLIPS. O(n log n).
+ViewSurface
+makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
+                 const RunContext& run);
+
+/// Spacing of each point on a mesh: the median length of its edges. For points without edges, the
+/// median of all others. O(n).
+std::vector<float>
+spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/viewpoint_search.h"
+
+#include "core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// A point and the area that it stands for.
+struct AreaSample
+{
+  Eigen::Vector3d position, normal;
+  double area;
+};
+
+struct Candidate
+{
+  double cost;
+  Viewpoint viewpoint;
+};
+
+std::vector<AreaSample>
+takeSamples (const Points& points, const LocalGeometry& geometry, std::size_t count)
+{
+  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const Stars& stars = geometry.stars;
+  std::vector<AreaSample> samples;
+  // Every second place is spare: open stars have no area.
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / (2 * count));
+  for (std::size_t p = step / 2; p < positions.size () && samples.size () < 2 * count; p += step) {
+    if (stars.open[p] != 0)
+      continue;
+    const Row star = stars.neighbors.row (p);
+    double area = 0.0;
+    for (std::size_t i = 0; i < star.size (); ++i)
+      area += (positions[star[i]] - positions[p])
+                  .cross (positions[star[(i + 1) % star.size ()]] - positions[p])
+                  .norm ();
+    if (area > 0.0)
+      samples.push_back ({positions[p], stars.normals[p].cast<double> (), area});
+  }
+  return samples;
+}
+
+// Logarithm of the ratio of the upper to the lower quartile.
+double
+quartileSpread (std::vector<double>& values)
+{
+  const auto quartile = [&values] (std::size_t quarters) {
+    const auto at = values.begin () + static_cast<std::ptrdiff_t> (values.size () * quarters / 4);
+    std::nth_element (values.begin (), at, values.end ());
+    return *at;
+  };
+  const double upper = quartile (3);
+  return std::log (upper / quartile (1));
+}
+
+// Spread of the solid angles of the samples.
+double
+areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
+            std::vector<double>& angles)
+{
+  // Of points at grazing rays, normal and area are too uncertain to tell a smaller cosine.
+  constexpr double LEAST_COSINE = 0.02;
+  angles.clear ();
+  for (const AreaSample& sample : samples) {
+    const Eigen::Vector3d ray =
+        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (sample.position - viewpoint.place);
+    const double sqr_distance = ray.squaredNorm ();
+    const double cosine = std::abs (sample.normal.dot (ray)) / std::sqrt (sqr_distance);
+    angles.push_back (sample.area * std::max (cosine, LEAST_COSINE) / sqr_distance);
+  }
+  return quartileSpread (angles);
+}
+
+// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or turns the direction
+// of one that is far away; goes on in the direction of a move that lowered the cost; else halves
+// the step. Steps are relative to the distance from the middle of the cloud, if that is above 1.
+template <typename Cost>
+class PatternSearch
+{
+public:
+  PatternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost cost)
+      : middle_ (middle), left_ (most_evaluations), cost_ (std::move (cost))
+  {
+  }
+
+  Candidate run (const Viewpoint& start, double step, double smallest_step)
+  {
+    Candidate best{cost_ (start), start};
+    for (; step >= smallest_step && left_ > 0; step *= 0.5)
+      for (bool has_moved = true; has_moved && left_ > 0;) {
+        const Candidate before = best;
+        explore (best, step);
+        has_moved = best.cost < before.cost;
+        while (has_moved && left_ > 0) {
+          Candidate further = moved (best, best.viewpoint.place - before.viewpoint.place);
+          explore (further, step);
+          if (!(further.cost < best.cost))
+            break;
+          best = further;
+        }
+      }
+    return best;
+  }
+
+private:
+  Candidate moved (const Candidate& from, const Eigen::Vector3d& by)
+  {
+    Viewpoint viewpoint = from.viewpoint;
+    viewpoint.place += by;
+    if (viewpoint.is_far)
+      viewpoint.place.normalize ();
+    left_ -= left_ > 0 ? 1 : 0;
+    return {cost_ (viewpoint), viewpoint};
+  }
+
+  void explore (Candidate& at, double step)
+  {
+    const double unit =
+        at.viewpoint.is_far ? 1.0 : std::max (1.0, (at.viewpoint.place - middle_).norm ());
+    // Other axes each time: along a narrow valley of the cost, no axis may lead down.
+    axes_ = (axes_ * turn_).normalized ();
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1.0, 1.0}) {
+        if (left_ == 0)
+          return;
+        const Candidate tried =
+            moved (at, sign * step * unit * (axes_ * Eigen::Vector3d::Unit (axis)));
+        if (tried.cost < at.cost) {
+          at = tried;
+          break;
+        }
+      }
+  }
+
+  Eigen::Vector3d middle_;
+  std::size_t left_; // evaluations of the cost
+  Eigen::Quaterniond axes_ = Eigen::Quaterniond::Identity ();
+  Eigen::Quaterniond turn_{0.8, 0.2, 0.33, 0.46}; // by 74 degrees; nothing hangs on it
+  Cost cost_;
+};
+
+template <typename Cost>
+PatternSearch<Cost>
+patternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost cost)
+{
+  return {middle, most_evaluations, std::move (cost)};
+}
+
+class ViewpointSearch
+{
+public:
+  ViewpointSearch (const Points& points, const LocalGeometry& geometry, const SearchLimits& limits,
+                   const EvidenceLimits& evidence, const RunContext& run)
+      : positions_ (points.positions), limits_ (limits), evidence_ (evidence), run_ (run),
+        samples_ (takeSamples (points, geometry, limits.samples))
+  {
+    for (const Eigen::Vector3d& position : positions_)
+      box_.extend (position);
+  }
+
+  bool hasSamples () const { return samples_.size () >= limits_.samples / 2; }
+
+  // Quartiles of the areas themselves, as seen from nowhere.
+  double spreadOfAreas ()
+  {
+    angles_.clear ();
+    for (const AreaSample& sample : samples_)
+      angles_.push_back (sample.area);
+    return quartileSpread (angles_);
+  }
+
+  std::optional<Viewpoint> find ()
+  {
+    std::vector<Candidate> candidates;
+    for (const Candidate& start : bestStarts ()) {
+      const Candidate found =
+          patternSearch (box_.center (), limits_.area_evaluations, [this] (const Viewpoint& v) {
+            return costByAreas (v);
+          }).run (start.viewpoint, 0.5 * cell (), SMALLEST_AREA_STEP);
+      if (!isNear (found, candidates, 4.0 * SMALLEST_AREA_STEP))
+        candidates.push_back (found);
+    }
+    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    if (candidates.empty () || candidates.front ().cost > limits_.explained * spreadOfAreas ())
+      return {};
+    // The best by areas, one after the other; then the best by rays of the next ones. Areas may be
+    // misled: those of a plane are the same from the mirror image of a place.
+    candidates.resize (std::min (candidates.size (), limits_.by_areas + limits_.compared));
+    const auto others = candidates.begin () + static_cast<std::ptrdiff_t> (
+                                                  std::min (candidates.size (), limits_.by_areas));
+    for (auto candidate = candidates.begin (); candidate != others; ++candidate)
+      if (const std::optional<Viewpoint> found = refineWithFar (candidate->viewpoint))
+        return found;
+    for (auto candidate = others; candidate != candidates.end (); ++candidate)
+      candidate->cost = costByRays (
+          candidate->viewpoint, findRayPatches (positions_, candidate->viewpoint, evidence_, run_));
+    const auto best = std::min_element (others, candidates.end (), isCheaper);
+    return best == candidates.end () ? std::nullopt : refineWithFar (best->viewpoint);
+  }
+
+private:
+  // Areas tell a place to about a hundredth of the bounding box; rays tell the rest.
+  static constexpr double SMALLEST_AREA_STEP = 4e-3;
+
+  static bool isCheaper (const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
+
+  static bool isNear (const Candidate& candidate, const std::vector<Candidate>& others,
+                      double distance)
+  {
+    return std::any_of (others.begin (), others.end (), [&] (const Candidate& other) {
+      return other.viewpoint.is_far == candidate.viewpoint.is_far &&
+             (other.viewpoint.place - candidate.viewpoint.place).norm () < distance;
+    });
+  }
+
+  // Of the grid of places.
+  double cell () const
+  {
+    return 2.0 * box_.sizes ().maxCoeff () / static_cast<double> (limits_.cells);
+  }
+
+  // The best places by areas, but for those around a better one.
+  std::vector<Candidate> bestStarts ()
+  {
+    std::vector<Candidate> candidates = startingPlaces ();
+    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    std::vector<Candidate> starts;
+    for (const Candidate& candidate : candidates) {
+      if (starts.size () == limits_.starts)
+        break;
+      if (!isNear (candidate, starts, cell ()))
+        starts.push_back (candidate);
+    }
+    return starts;
+  }
+
+  double costByAreas (const Viewpoint& viewpoint)
+  {
+    return areaSpread (samples_, viewpoint, angles_);
+  }
+
+  void add (std::vector<Candidate>& candidates, const Viewpoint& viewpoint)
+  {
+    candidates.push_back ({costByAreas (viewpoint), viewpoint});
+  }
+
+  std::vector<Candidate> startingPlaces ()
+  {
+    std::vector<Candidate> candidates;
+    const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
+    const auto cells = static_cast<double> (limits_.cells);
+    for (std::size_t i = 0; i < limits_.cells * limits_.cells * limits_.cells; ++i) {
+      const Eigen::Array3d cell (static_cast<double> (i % limits_.cells),
+                                 static_cast<double> (i / limits_.cells % limits_.cells),
+                                 static_cast<double> (i / limits_.cells / limits_.cells));
+      const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
+      add (candidates, {centre + offset.cwiseProduct (size), false});
+    }
+    // Farther away, on spheres around the box, the last of infinite radius.
+    const double golden_angle = M_PI * (3.0 - std::sqrt (5.0));
+    for (std::size_t i = 0; i < limits_.directions; ++i) {
+      const double z =
+          1.0 - (2.0 * static_cast<double> (i) + 1.0) / static_cast<double> (limits_.directions);
+      const double angle = static_cast<double> (i) * golden_angle, r = std::sqrt (1.0 - z * z);
+      const Eigen::Vector3d direction (r * std::cos (angle), r * std::sin (angle), z);
+      for (const double distance : {1.5, 3.0, 6.0})
+        add (candidates, {centre + distance * size.norm () * direction, false});
+      add (candidates, {direction, true});
+    }
+    return candidates;
+  }
+
+  // Rays that are near others weigh as much as a spread that is so much larger than it can be.
+  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
+  {
+    constexpr double NEAR_WEIGHT = 10.0;
+    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
+    return evidence.ray_spread + NEAR_WEIGHT * evidence.near_share;
+  }
+
+  // Areas hardly tell places that are far away from each other: parallel rays are tried first.
+  std::optional<Viewpoint> refineWithFar (const Viewpoint& viewpoint) const
+  {
+    constexpr double FAR = 1.5; // bounding boxes
+    const Eigen::Vector3d offset = box_.center () - viewpoint.place;
+    if (!viewpoint.is_far && offset.norm () > FAR)
+      if (const std::optional<Viewpoint> found = refine ({offset.normalized (), true}))
+        return found;
+    return refine (viewpoint);
+  }
+
+  std::optional<Viewpoint> refine (Viewpoint viewpoint) const
+  {
+    constexpr double FIRST_STEP = 0.05; // of the bounding box: what areas leave open
+    constexpr double LAST_STEP = 0.01;  // where the evidence is enough, but may be better
+    double step = FIRST_STEP;
+    for (std::size_t round = 0; round < limits_.rounds; ++round) {
+      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
+      const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches); };
+      const bool is_last = round + 1 == limits_.rounds;
+      viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
+                      .run (viewpoint, step, is_last ? limits_.smallest_step : 0.2 * step)
+                      .viewpoint;
+      step *= 0.3;
+    }
+    const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
+    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
+    if (!isSeenFromThere (evidence, evidence_))
+      return {};
+    const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches); };
+    return patternSearch (box_.center (), limits_.ray_evaluations, cost)
+        .run (viewpoint, LAST_STEP, limits_.smallest_step)
+        .viewpoint;
+  }
+
+  const std::vector<Eigen::Vector3d>& positions_;
+  const SearchLimits& limits_;
+  const EvidenceLimits& evidence_;
+  RunContext run_;
+  std::vector<AreaSample> samples_;
+  Eigen::AlignedBox3d box_;
+  std::vector<double> angles_; // room for costByAreas
+};
+
+} // namespace
+
+std::optional<Viewpoint>
+findViewpoint (const Points& points, const LocalGeometry& geometry, bool is_noisy,
+               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
+{
+  if (points.size () < evidence.patches * evidence.patch_points)
+    return {};
+  ViewpointSearch search (points, geometry, limits, evidence, run);
+  if (!search.hasSamples () || (!is_noisy && search.spreadOfAreas () <= limits.even))
+    return {};
+  return search.find ();
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Finds the place from which a cloud was seen, where nobody tells.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "points/points.h"
+#include "view/ray_evidence.h"
+
+#include <optional>
+
+namespace pcl
+{
+namespace floater
+{
+/// What is searched, and how long.
+struct SearchLimits
+{
+  double even = 1.0; ///< spread of the areas that points stand for (logarithm of the ratio of the
+                     ///< quartiles); below, and without noise, the cloud is sampled evenly, and
+                     ///< needs no view. Points at random have 0.5
+  double explained = 0.75; ///< of that spread; with more left at the best place, areas do not come
+                           ///< from a view. In scans with noise of 3 spacings, 0.7 is left
+
+  std::size_t samples = 500;    ///< points whose areas are compared; the spread of so many has an
+                                ///< error of 6 %
+  std::size_t cells = 12;       ///< along each axis of a grid of places over twice the bounding box
+  std::size_t directions = 100; ///< in which places farther away are tried: 20 degrees apart
+  std::size_t starts = 24;      ///< best places by areas, from which descents start
+  std::size_t area_evaluations = 200; ///< in each descent by areas
+  std::size_t by_areas = 2;          ///< best of these, which are refined, until one is a viewpoint
+  std::size_t compared = 6;          ///< next ones, of which the best by rays is refined
+  std::size_t rounds = 3;            ///< of a refinement, each with patches found anew
+  std::size_t ray_evaluations = 200; ///< in each round
+  double smallest_step = 5e-4;       ///< of a refinement, in bounding box diagonals: a tenth of the
+                                     ///< spacing of a scan of a million points
+};
+
+/// Finds the viewpoint of a cloud in two steps.
+///
+/// Areas: a sensor spaces its rays evenly, so that a point stands for an area of the surface that
+/// grows with the square of the distance, and with the slope to the ray. Area of the star, times
+/// the cosine, over the squared distance, is the solid angle of a ray. The place where these are
+/// most alike is searched on a grid, far away too, and refined.
+///
+/// Rays: near the best of these places, those from which the rays are spaced most evenly and hide
+/// no point are found by pattern search (see RayEvidence).
+///
+/// Clouds that fill fewer patches (EvidenceLimits) have no evidence.
+///
+/// \param geometry with the stars of the points and their normals
+/// \param is_noisy whether the cloud needs a view even if it is sampled evenly
+/// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
+std::optional<Viewpoint>
+findViewpoint (const Points& points, const LocalGeometry& geometry, bool is_noisy,
+               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scan_samples.h"
+
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace samples
+{
+namespace
+{
+using Eigen::Vector3d;
+
+// The room is 6 by 6 wide and 3 high.
+constexpr double SIDE = 6.0, HEIGHT = 3.0;
+
+struct Hit
+{
+  double depth = std::numeric_limits<double>::infinity ();
+  int object = -1;
+};
+
+void
+meet (Hit& hit, double depth, int object)
+{
+  if (depth > 0.0 && depth < hit.depth)
+    hit = {depth, object};
+}
+
+void
+meetBall (Hit& hit, const Vector3d& from, const Vector3d& ray, const Vector3d& middle,
+          double radius, int object)
+{
+  const Vector3d offset = from - middle;
+  const double b = offset.dot (ray), root = b * b - offset.squaredNorm () + radius * radius;
+  if (root > 0.0)
+    meet (hit, -b - std::sqrt (root), object);
+}
+
+void
+meetPost (Hit& hit, const Vector3d& from, const Vector3d& ray, const Vector3d& foot, double radius,
+          int object)
+{
+  const Eigen::Vector2d offset = (from - foot).head<2> (), flat = ray.head<2> ();
+  const double a = flat.squaredNorm (), b = offset.dot (flat);
+  const double root = b * b - a * (offset.squaredNorm () - radius * radius);
+  if (root > 0.0)
+    meet (hit, (-b - std::sqrt (root)) / a, object);
+}
+
+Hit
+castRay (const Vector3d& from, const Vector3d& ray)
+{
+  Hit hit;
+  meet (hit, -from.z () / ray.z (), 0);
+  meet (hit, (SIDE - from.x ()) / ray.x (), 1);
+  meet (hit, (SIDE - from.y ()) / ray.y (), 2);
+  meetBall (hit, from, ray, {3.5, 3.0, 0.8}, 0.5, 3);
+  meetPost (hit, from, ray, {3.0, 4.2, 0.0}, 0.15, 4);
+  const Vector3d at = from + hit.depth * ray;
+  const bool is_inside = (at.array () > -1e-9).all () && at.x () < SIDE + 1e-9 &&
+                         at.y () < SIDE + 1e-9 && at.z () < HEIGHT;
+  return is_inside ? hit : Hit{};
+}
+
+// Rays of unit length in the frame of the scene; `look` is the direction of a camera.
+std::vector<Vector3d>
+raysOf (Raster raster, const Vector3d& look)
+{
+  std::vector<Vector3d> rays;
+  const Vector3d right = look.cross (Vector3d::UnitZ ()).normalized (), up = right.cross (look);
+  const auto at = [&rays] (double azimuth, double elevation) {
+    rays.emplace_back (std::cos (azimuth) * std::cos (elevation),
+                       std::sin (azimuth) * std::cos (elevation), std::sin (elevation));
+  };
+  switch (raster) {
+  case Raster::CAMERA:
+    for (int i = 0; i < 170; ++i)
+      for (int j = 0; j < 120; ++j)
+        rays.push_back ((look + 0.006 * ((i - 84.5) * right + (j - 59.5) * up)).normalized ());
+    break;
+  case Raster::RINGS:
+    for (int ring = 0; ring < 40; ++ring)
+      for (int i = 0; i < 1800; ++i)
+        at (i * 0.2 * DEGREE, (-25.0 + 1.2 * ring) * DEGREE);
+    break;
+  case Raster::SPHERE:
+    for (int ring = 0; ring < 130; ++ring)
+      for (int i = 0; i < 360; ++i)
+        at (i * DEGREE, (-50.0 + ring) * DEGREE);
+    break;
+  case Raster::PARALLEL:
+    break;
+  }
+  return rays;
+}
+
+double
+disturbed (double depth, DepthNoise noise, RandomStream& random)
+{
+  depth *= 1.0 + noise.share * random.normal ();
+  return noise.quantum > 0.0 ? 1.0 / (std::round (1.0 / (depth * noise.quantum)) * noise.quantum)
+                             : depth;
+}
+
+} // namespace
+
+Scan
+scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  Scan scan;
+  Vector3d place (0.7 + 0.8 * random.uniform (), 0.7 + 0.8 * random.uniform (),
+                  1.2 + 0.6 * random.uniform ());
+  const Vector3d look =
+      (Vector3d (3.8 + 0.4 * random.uniform (), 3.8 + 0.4 * random.uniform (), 0.6) - place)
+          .normalized ();
+  if (raster == Raster::PARALLEL) {
+    const Vector3d right = look.cross (Vector3d::UnitZ ()).normalized (), up = right.cross (look);
+    for (int i = 0; i < 180; ++i)
+      for (int j = 0; j < 110; ++j) {
+        const Vector3d from = place + 0.02 * ((i - 89.5) * right + (j - 54.5) * up);
+        const Hit hit = castRay (from, look);
+        if (hit.object < 0)
+          continue;
+        scan.points.push_back (from + disturbed (hit.depth, noise, random) * look);
+        scan.object.push_back (hit.object);
+      }
+    scan.is_far = true;
+  }
+  for (const Vector3d& ray : raysOf (raster, look)) {
+    const Hit hit = castRay (place, ray);
+    if (hit.object < 0)
+      continue;
+    scan.points.push_back (place + disturbed (hit.depth, noise, random) * ray);
+    scan.object.push_back (hit.object);
+  }
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), random.normal ())
+          .normalized ();
+  const Vector3d shift (10.0 * random.normal (), 10.0 * random.normal (), 10.0 * random.normal ());
+  for (Vector3d& point : scan.points)
+    point = turn * point + shift;
+  scan.viewpoint = scan.is_far ? turn * look : Vector3d (turn * place + shift);
+  return scan;
+}
+
+} // namespace samples
+} // namespace floater
+} // namespace pcl

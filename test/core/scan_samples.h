@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scans of a small scene: a floor, two walls, a ball, and a thin post before the walls.
+#pragma once
+
+#include "samples.h"
+
+namespace pcl
+{
+namespace floater
+{
+namespace samples
+{
+/// How a sensor spaces its rays.
+enum class Raster
+{
+  CAMERA,  ///< pixels of a plane
+  RINGS,   ///< cones around the upright, 6 times as far apart as the rays in each
+  SPHERE,  ///< all angles alike, all around but the lowest 40 degrees
+  PARALLEL ///< parallel rays
+};
+
+struct Scan
+{
+  Positions points;
+  std::vector<int> object;   ///< of each point: which surface was hit
+  Eigen::Vector3d viewpoint; ///< of parallel rays, their direction
+  bool is_far = false;
+};
+
+/// How depths are disturbed.
+struct DepthNoise
+{
+  double share = 0.0;   ///< standard deviation, in depths
+  double quantum = 0.0; ///< step of the inverse depth, as of a camera with two lenses
+};
+
+/// A scan of the scene, from a place and in a direction that hang on the seed. About 20,000 rays.
+/// The frame is turned and moved at random, too.
+Scan
+scanScene (Raster raster, DepthNoise noise, std::uint64_t seed);
+
+} // namespace samples
+} // namespace floater
+} // namespace pcl
