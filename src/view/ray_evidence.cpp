@@ -17,7 +17,7 @@ namespace
 struct PatchEvidence
 {
   std::size_t judged = 0, near = 0;
-  double ray_spread = 0.0, point_spread = 0.0;
+  double ray_spread = 0.0, row_spread = 0.0, point_spread = 0.0;
 };
 
 // Logarithm of the 90 % quantile over the 10 % quantile; 0 for few values.
@@ -33,19 +33,36 @@ spreadOf (std::vector<double>& values)
     return *place;
   };
   const double small = quantile (1), large = quantile (9);
-  return small > 0.0 ? std::log (large / small) : std::numeric_limits<double>::infinity ();
+  constexpr double LARGEST = 10.0; // of the logarithm; a patch without rows has no more
+  return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
+}
+
+// Distance from a ray to the nearest one that lies across the direction to another: by more than 45
+// degrees.
+double
+distanceAcross (const std::vector<Eigen::Vector3d>& rays, std::size_t from, std::size_t along)
+{
+  const Eigen::Vector3d direction = (rays[along] - rays[from]).normalized ();
+  double nearest = std::numeric_limits<double>::infinity ();
+  for (const Eigen::Vector3d& ray : rays) {
+    const Eigen::Vector3d offset = ray - rays[from];
+    const double sqr_distance = offset.squaredNorm (), part = offset.dot (direction);
+    if (sqr_distance > 0.0 && 2.0 * part * part < sqr_distance)
+      nearest = std::min (nearest, sqr_distance);
+  }
+  return std::sqrt (nearest);
 }
 
 PatchEvidence
 examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
-              const Viewpoint& viewpoint, double near_ratio)
+              const Viewpoint& viewpoint, double near_ratio, bool with_rows)
 {
   std::vector<Eigen::Vector3d> rays;
   rays.reserve (patch.size ());
   for (const Index p : patch)
     rays.push_back (rayTo (positions[p], viewpoint).direction);
   PatchEvidence evidence;
-  std::vector<double> between_rays, between_points;
+  std::vector<double> between_rays, between_rows, between_points;
   for (std::size_t i = 0; i < patch.size () / 2; ++i) {
     double nearest = std::numeric_limits<double>::infinity (), second = nearest;
     std::size_t at = i;
@@ -61,9 +78,12 @@ examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& pat
     ++evidence.judged;
     evidence.near += nearest < near_ratio * near_ratio * second ? 1 : 0;
     between_rays.push_back (std::sqrt (nearest));
+    if (with_rows)
+      between_rows.push_back (distanceAcross (rays, i, at));
     between_points.push_back ((positions[patch[at]] - positions[patch[i]]).norm ());
   }
   evidence.ray_spread = spreadOf (between_rays);
+  evidence.row_spread = spreadOf (between_rows);
   evidence.point_spread = spreadOf (between_points);
   return evidence;
 }
@@ -115,11 +135,11 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
 RayEvidence
 findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run)
+                 const EvidenceLimits& limits, const RunContext& run, bool with_rows)
 {
   std::vector<PatchEvidence> found (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    found[k] = examinePatch (positions, patches[k], viewpoint, limits.near_ratio);
+    found[k] = examinePatch (positions, patches[k], viewpoint, limits.near_ratio, with_rows);
   });
   std::size_t judged = 0, near = 0;
   RayEvidence evidence;
@@ -127,6 +147,7 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
     judged += patch.judged;
     near += patch.near;
     evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
+    evidence.row_spread += patch.row_spread / static_cast<double> (found.size ());
     evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
   }
   if (judged > 0)

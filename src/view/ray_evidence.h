@@ -28,9 +28,11 @@ struct EvidenceLimits
 /// How evenly the rays to a cloud are spaced.
 struct RayEvidence
 {
-  double near_share = 1.0;   ///< of rays that are near another one
-  double ray_spread = 0.0;   ///< logarithm of the ratio of large to small distances between
-                             ///< neighbouring rays (their 90 and 10 % quantiles); mean of patches
+  double near_share = 1.0; ///< of rays that are near another one
+  double ray_spread = 0.0; ///< logarithm of the ratio of large to small distances between
+                           ///< neighbouring rays (their 90 and 10 % quantiles); mean of patches
+  double row_spread = 0.0; ///< the same of the distances to the nearest ray across the direction of
+                           ///< the nearest: to the next row of a scanner
   double point_spread = 0.0; ///< the same of the distances in space between their points
 };
 
@@ -44,10 +46,11 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
 
 /// Looks at the rays of the patches. These may have been found from another viewpoint nearby.
 /// O(patches * points of a patch squared).
+/// \param with_rows also RayEvidence::row_spread, at twice the time
 RayEvidence
 findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run);
+                 const EvidenceLimits& limits, const RunContext& run, bool with_rows = false);
 
 /// Whether the evidence tells that the cloud was seen from there.
 bool

@@ -27,8 +27,8 @@ struct ViewLimits
   GapLimits gaps;
   StepLimits steps;
   ViewFlipLimits flips;
-  std::size_t smallest_part = 32; ///< triangles; smaller parts are left out with the outliers. As
-                                  ///< ConsensusLimits::smallest_island
+  std::size_t smallest_part = 12;     ///< points; smaller parts are left out with the outliers. A
+                                      ///< point and the rays around it are 7 or 9
   double largest_unused_share = 0.05; ///< of the points; with more in no triangle, it is no scan of
                                       ///< surfaces from there after all
 };

@@ -281,12 +281,11 @@ private:
     return candidates;
   }
 
-  // Rays that are near others weigh as much as a spread that is so much larger than it can be.
+  // The spread alone. Near the viewpoint, it falls all the way, while the share of rays that are
+  // near others first rises where outlines begin to meet.
   double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
   {
-    constexpr double NEAR_WEIGHT = 10.0;
-    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
-    return evidence.ray_spread + NEAR_WEIGHT * evidence.near_share;
+    return findRayEvidence (positions_, patches, viewpoint, evidence_, run_).ray_spread;
   }
 
   // Areas hardly tell places that are far away from each other: parallel rays are tried first.
@@ -303,14 +302,14 @@ private:
   std::optional<Viewpoint> refine (Viewpoint viewpoint) const
   {
     constexpr double FIRST_STEP = 0.05; // of the bounding box: what areas leave open
-    constexpr double LAST_STEP = 0.01;  // where the evidence is enough, but may be better
+    constexpr double LAST_STEP = 2e-3;  // where the evidence is enough, and may be better
     double step = FIRST_STEP;
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
       const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches); };
       const bool is_last = round + 1 == limits_.rounds;
       viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
-                      .run (viewpoint, step, is_last ? limits_.smallest_step : 0.2 * step)
+                      .run (viewpoint, step, is_last ? LAST_STEP : 0.2 * step)
                       .viewpoint;
       step *= 0.3;
     }
@@ -318,7 +317,11 @@ private:
     const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     if (!isSeenFromThere (evidence, evidence_))
       return {};
-    const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches); };
+    // Close by, rows tell more: those of a spinning lidar hardly change as it moves along its axis.
+    const auto cost = [&] (const Viewpoint& v) {
+      const RayEvidence found = findRayEvidence (positions_, patches, v, evidence_, run_, true);
+      return found.ray_spread + found.row_spread;
+    };
     return patternSearch (box_.center (), limits_.ray_evaluations, cost)
         .run (viewpoint, LAST_STEP, limits_.smallest_step)
         .viewpoint;

@@ -31,7 +31,7 @@ struct SearchLimits
   std::size_t compared = 6;          ///< next ones, of which the best by rays is refined
   std::size_t rounds = 3;            ///< of a refinement, each with patches found anew
   std::size_t ray_evaluations = 200; ///< in each round
-  double smallest_step = 5e-4;       ///< of a refinement, in bounding box diagonals: a tenth of the
+  double smallest_step = 2e-5;       ///< of a refinement, in bounding box diagonals: a tenth of the
                                      ///< spacing of a scan of a million points
 };
 
