@@ -249,9 +249,12 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 {
   report.is_view = true;
   report.is_far_view = viewpoint.is_far;
-  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) =
-      viewpoint.is_far ? viewpoint.place
-                       : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
+  constexpr double ROUNDING = 1e-14; // of the scale, as a place is moved to the box and back
+  Eigen::Vector3d place = viewpoint.is_far
+                              ? viewpoint.place
+                              : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
+  place = (place.array ().abs () < ROUNDING * points.scale).select (0.0, place);
+  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = place;
   report.statistics.view_steps = surface.steps;
   report.statistics.view_gaps = surface.gaps;
 }

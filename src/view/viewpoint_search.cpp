@@ -303,6 +303,7 @@ private:
   {
     constexpr double FIRST_STEP = 0.05; // of the bounding box: what areas leave open
     constexpr double LAST_STEP = 2e-3;  // where the evidence is enough, and may be better
+    constexpr double HOPELESS = 2.0;
     double step = FIRST_STEP;
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
@@ -312,6 +313,10 @@ private:
                       .run (viewpoint, step, is_last ? LAST_STEP : 0.2 * step)
                       .viewpoint;
       step *= 0.3;
+      // Where the first, coarse steps lead to no more evidence than this, finer ones hardly do.
+      const RayEvidence so_far = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
+      if (so_far.ray_spread > HOPELESS * evidence_.regularity * so_far.point_spread)
+        return {};
     }
     const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
     const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);

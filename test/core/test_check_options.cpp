@@ -104,6 +104,21 @@ TEST (CheckOptions, PoliciesFitTheTopology)
     }
 }
 
+TEST (CheckOptions, AViewpointIsFiniteAndNotOfADisc)
+{
+  Options options;
+  options.view.viewpoint = {0.0, NOT_A_NUMBER, 0.0};
+  EXPECT_FALSE (checkOptions (options)); // not used
+  options.view.use = ViewUse::GIVEN;
+  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+  options.view.viewpoint = {0.0, INF, 0.0};
+  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+  options.view.viewpoint = {};
+  EXPECT_FALSE (checkOptions (options));
+  options.topology = Topology::DISC;
+  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+}
+
 TEST (CheckOptions, AGivenLoopIsOfADisc)
 {
   Options options;

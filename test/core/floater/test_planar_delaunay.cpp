@@ -223,6 +223,31 @@ TEST (PlanarDelaunay, OfPointsOnALineIsEmpty)
   EXPECT_TRUE (triangulatePlane ({}, {}).triangles.empty ());
 }
 
+TEST (TriangulateHull, FillsTheHullOfPointsAnyhowPlaced)
+{
+  RandomStream random (3);
+  std::vector<Eigen::Vector2d> places{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  for (int i = 0; i < 500; ++i)
+    places.emplace_back (random.uniform (), random.uniform ());
+  places.push_back (places[10]); // stays without a triangle
+  places.emplace_back (std::nan (""), 0.5);
+  const TriangleMesh mesh = triangulateHull (places);
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * cross (places[b] - places[a], places[c] - places[a]);
+  EXPECT_NEAR (area, 1.0, 1e-12);
+  EXPECT_EQ (mesh.triangles.size (), 2 * 504U - 2U - 4U);
+  EXPECT_EQ (mesh.triangle_of.back (), NONE);
+  TriangleMesh copy = mesh;
+  EXPECT_TRUE (copy.connect (places.size (), 1));
+}
+
+TEST (TriangulateHull, PointsOnALineHaveNone)
+{
+  EXPECT_TRUE (triangulateHull ({}).triangles.empty ());
+  EXPECT_TRUE (triangulateHull ({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).triangles.empty ());
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

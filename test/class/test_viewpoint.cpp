@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Single scans: the viewpoint that the caller or the cloud tells.
+#include "random_stream.h"
+
+#include <pcl/point_types.h>
+#include <pcl/surface/floater_reconstruction.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// A wave behind a square, seen by a camera at `at`, with noise along the rays.
+pcl::PointCloud<pcl::PointXYZ>::Ptr
+frameFrom (const Eigen::Vector3d& at)
+{
+  RandomStream random (1);
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>> ();
+  for (int i = 0; i < 140; ++i)
+    for (int j = 0; j < 110; ++j) {
+      const bool is_square = i > 40 && i < 80 && j > 30 && j < 70;
+      const double depth =
+          (is_square ? 1.0 : 2.0 + 0.1 * std::sin (0.1 * i)) * (1.0 + 0.01 * random.normal ());
+      const Eigen::Vector3d ray (0.006 * (i - 70), 0.006 * (j - 55), 1.0);
+      const Eigen::Vector3f point = (at + depth * ray).cast<float> ();
+      cloud->emplace_back (point.x (), point.y (), point.z ());
+    }
+  return cloud;
+}
+
+class ViewpointOfTheClass : public testing::Test
+{
+protected:
+  ViewpointOfTheClass () { floater_.setInputCloud (frameFrom ({0.0, 0.0, 0.0})); }
+
+  const Report& reconstruct ()
+  {
+    pcl::PolygonMesh mesh;
+    floater_.reconstruct (mesh);
+    EXPECT_EQ (floater_.getStatus (), Status::OK) << floater_.getMessage ();
+    return floater_.getReport ();
+  }
+
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater_;
+};
+
+TEST_F (ViewpointOfTheClass, TheOriginIsTheDefault)
+{
+  const Report& report = reconstruct ();
+  EXPECT_TRUE (report.is_view);
+  EXPECT_FALSE (report.is_far_view);
+  EXPECT_EQ (report.viewpoint, (std::array<double, 3>{}));
+  EXPECT_EQ (report.check.components, 2U); // the square, and the wave around it
+}
+
+TEST_F (ViewpointOfTheClass, TheSensorOriginOfTheCloudIsTried)
+{
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud = frameFrom ({3.0, -2.0, 5.0});
+  cloud->sensor_origin_ = {3.0F, -2.0F, 5.0F, 0.0F};
+  floater_.setInputCloud (cloud);
+  const Report& report = reconstruct ();
+  EXPECT_TRUE (report.is_view);
+  EXPECT_NEAR (report.viewpoint[0], 3.0, 1e-9);
+  EXPECT_NEAR (report.viewpoint[1], -2.0, 1e-9);
+  EXPECT_NEAR (report.viewpoint[2], 5.0, 1e-9);
+}
+
+TEST_F (ViewpointOfTheClass, AViewPointIsTakenAsItIs)
+{
+  EXPECT_EQ (floater_.getViewUse (), ViewUse::AUTO);
+  floater_.setInputCloud (frameFrom ({3.0, -2.0, 5.0}));
+  floater_.setViewPoint (3.0, -2.0, 5.0);
+  EXPECT_EQ (floater_.getViewUse (), ViewUse::GIVEN);
+  EXPECT_EQ (floater_.getViewPoint (), (std::array<double, 3>{3.0, -2.0, 5.0}));
+  EXPECT_TRUE (reconstruct ().is_view);
+}
+
+TEST_F (ViewpointOfTheClass, ViewsCanBeTurnedOff)
+{
+  floater_.setViewUse (ViewUse::NEVER);
+  EXPECT_EQ (floater_.getViewUse (), ViewUse::NEVER);
+  EXPECT_FALSE (reconstruct ().is_view);
+}
+
+TEST_F (ViewpointOfTheClass, ADiscHasNone)
+{
+  floater_.setViewPoint (0.0, 0.0, 0.0);
+  floater_.setTopology (Topology::DISC);
+  pcl::PolygonMesh mesh;
+  floater_.reconstruct (mesh);
+  EXPECT_EQ (floater_.getStatus (), Status::INVALID_OPTION);
+  EXPECT_TRUE (mesh.polygons.empty ());
+}
+
+TEST_F (ViewpointOfTheClass, ItMustBeFinite)
+{
+  floater_.setViewPoint (0.0, std::nan (""), 0.0);
+  pcl::PolygonMesh mesh;
+  floater_.reconstruct (mesh);
+  EXPECT_EQ (floater_.getStatus (), Status::INVALID_OPTION);
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
