@@ -26,10 +26,11 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
                    countPoints (mesh, components), settings.holes, 1.0 / points.scale,
                    settings.open_loops);
   std::vector<Eigen::Vector3f> normals;
+  normals.reserve (points.size ());
   for (const Eigen::Vector3d& position : points.positions) {
     const Eigen::Vector3d ray =
         viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (position - viewpoint.place);
-    normals.push_back (-ray.normalized ().cast<float> ());
+    normals.emplace_back (-ray.normalized ().cast<float> ());
   }
   const TriangleCost cost (points.positions, normals, nullptr, settings.finish.cost);
   return fillHoles (mesh, loops, points.positions, cost, settings.hole_filling, run);

@@ -260,10 +260,11 @@ private:
     std::vector<Candidate> candidates;
     const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
     const auto cells = static_cast<double> (limits_.cells);
-    for (std::size_t i = 0; i < limits_.cells * limits_.cells * limits_.cells; ++i) {
-      const Eigen::Array3d cell (static_cast<double> (i % limits_.cells),
-                                 static_cast<double> (i / limits_.cells % limits_.cells),
-                                 static_cast<double> (i / limits_.cells / limits_.cells));
+    const std::size_t n = limits_.cells;
+    for (std::size_t i = 0; i < n * n * n; ++i) {
+      const std::size_t column = i / n % n, layer = i / (n * n);
+      const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
+                                 static_cast<double> (layer));
       const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
       add (candidates, {centre + offset.cwiseProduct (size), false});
     }
