@@ -9,7 +9,8 @@ usage () {
 Usage: contact_sheet.sh [--build FOLDER] [CLOUD...]
 Writes floater_result/contact_sheet.png in the working directory: each mesh with its figures, and
 with folds of more than 120 degrees in magenta; for a cloud that fails, the cause. The meshes and
-reports are in floater_result/contact_sheet.
+reports are in floater_result/contact_sheet. A scan is seen from its sensor. Where a true mesh
+NAME.gt.ply lies beside a cloud NAME.pcd, it is shown, too.
 --build: use the programs in this build folder, instead of building them for release
 CLOUD:   point clouds (.pcd, .ply or .obj); default: all .pcd files in the folder PCL_FLOATER_DATA
          (default: ../shared/data beside the project)
@@ -57,12 +58,13 @@ mkdir -p "$result/contact_sheet"
 names=()
 for cloud in "${clouds[@]}"; do
   name=$(basename "${cloud%.*}")
-  rm -f "$result/contact_sheet/$name."{vtk,json}
+  rm -f "$result/contact_sheet/$name."{vtk,json,gt.ply}
   code=0
   "$build/tools/reconstruct/pcl_floater_reconstruct" --quiet \
     --report "$result/contact_sheet/$name.json" "$cloud" "$result/contact_sheet/$name.vtk" || code=$?
   # A cloud that cannot be reconstructed (exit codes 3 and 5) has a report with the cause.
   [[ -e $result/contact_sheet/$name.json ]] || fail "no report on '$cloud': exit code $code"
+  [[ ! -e ${cloud%.*}.gt.ply ]] || cp "${cloud%.*}.gt.ply" "$result/contact_sheet/$name.gt.ply"
   names+=("$name")
 done
 "$root/tools/picture/on_virtual_display.sh" "$build/test/contact_sheet/pcl_floater_contact_sheet" \

@@ -2,7 +2,8 @@
 // One picture of many results: pcl_floater_contact_sheet OUT.png FOLDER NAME...
 //
 // FOLDER has NAME.json, the report of a run of pcl_floater_reconstruct, and NAME.vtk, its mesh,
-// unless the cloud was refused. Figures of the mesh are counted here, not taken from the report.
+// unless the cloud was refused. If there is a NAME.gt.ply, the true mesh, it is shown beside. A
+// scan is seen from its sensor. Figures of the mesh are counted here, not taken from the report.
 #include "atomic_file.h"
 #include "canvas.h"
 #include "mesh_oracle.h"
@@ -10,14 +11,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include <Eigen/Geometry>
 #include <vtkCellArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
+#include <sstream>
 
 namespace pcl
 {
@@ -113,8 +120,40 @@ linesOf (const std::vector<std::array<Index, 2>>& edges, vtkPoints* points)
   return made;
 }
 
+// Share of the area in triangles with an edge above 20 times the median edge at either end.
+double
+areaInLongTriangles (const std::vector<Triangle>& triangles, const samples::Positions& points)
+{
+  constexpr double LONG = 20.0;
+  std::vector<std::vector<double>> lengths (points.size ());
+  const auto lengthOf = [&] (const Triangle& t, std::size_t side) {
+    return (points[t[(side + 1) % 3]] - points[t[side]]).norm ();
+  };
+  for (const Triangle& t : triangles)
+    for (std::size_t side = 0; side < 3; ++side)
+      lengths[t[side]].push_back (lengthOf (t, side));
+  const auto isLong = [&] (double length, Index at) {
+    std::vector<double>& of_point = lengths[at];
+    const auto middle = of_point.begin () + static_cast<std::ptrdiff_t> (of_point.size () / 2);
+    std::nth_element (of_point.begin (), middle, of_point.end ());
+    return length > LONG * *middle;
+  };
+  double all = 0.0, in_long = 0.0;
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d& at = points[t[0]];
+    const double area = (points[t[1]] - at).cross (points[t[2]] - at).norm ();
+    bool is_long = false;
+    for (std::size_t side = 0; side < 3; ++side)
+      is_long = is_long || (isLong (lengthOf (t, side), t[side]) &&
+                            isLong (lengthOf (t, side), t[(side + 1) % 3]));
+    all += area;
+    in_long += is_long ? area : 0.0;
+  }
+  return all > 0.0 ? in_long / all : 0.0;
+}
+
 void
-addMesh (vtkPolyData* file, Cell& cell)
+addMesh (vtkPolyData* file, const double* viewpoint, Cell& cell)
 {
   samples::Positions points (static_cast<std::size_t> (file->GetNumberOfPoints ()));
   for (std::size_t p = 0; p < points.size (); ++p)
@@ -127,6 +166,7 @@ addMesh (vtkPolyData* file, Cell& cell)
   PictureOptions options;
   options.marked_edges = marks;
   options.flat_shading = true;
+  options.viewpoint = viewpoint;
   cell.picture = drawMesh (withoutUnusedPoints (points, triangles), PICTURE, options);
 
   const long handles = 2 * static_cast<long> (topology.components) - topology.euler -
@@ -135,8 +175,37 @@ addMesh (vtkPolyData* file, Cell& cell)
                              counted (topology.loops.size (), "loop") + ", genus " +
                              std::to_string (handles / 2) + ", " + counted (folded.size (), "fold"),
                          INK});
+  const double in_long = 100.0 * areaInLongTriangles (triangles, points);
+  if (in_long > 0.0) {
+    std::ostringstream text;
+    text.precision (2);
+    text << in_long << " % of the area in triangles over 20 spacings long";
+    cell.lines.push_back ({text.str (), INK});
+  }
   if (!topology.manifold)
     cell.lines.push_back ({"not an oriented manifold", REFUSAL});
+}
+
+std::optional<std::array<double, 3>>
+viewpointOf (const nlohmann::json& report)
+{
+  const auto& viewpoint = report.at ("viewpoint");
+  if (viewpoint.is_null () || viewpoint.at ("is_far"))
+    return {};
+  return viewpoint.at ("place").get<std::array<double, 3>> ();
+}
+
+// The true mesh of a cloud.
+Cell
+makeTruthCell (const std::filesystem::path& folder, const std::string& name)
+{
+  std::ifstream file (folder / (name + ".json"));
+  const std::optional<std::array<double, 3>> viewpoint = viewpointOf (nlohmann::json::parse (file));
+  Cell cell;
+  cell.name = name + ": truth";
+  addMesh (readMesh ((folder / (name + ".gt.ply")).string ()),
+           viewpoint ? viewpoint->data () : nullptr, cell);
+  return cell;
 }
 
 Cell
@@ -164,7 +233,9 @@ makeCell (const std::filesystem::path& folder, const std::string& name)
                              counted (statistics.at ("triangles"), "triangle") + ", " +
                              shown.substr (0, shown.find ('.') + 3) + " s",
                          INK});
-  addMesh (readMesh ((folder / (name + ".vtk")).string ()), cell);
+  const std::optional<std::array<double, 3>> viewpoint = viewpointOf (report);
+  addMesh (readMesh ((folder / (name + ".vtk")).string ()),
+           viewpoint ? viewpoint->data () : nullptr, cell);
   for (const std::string warning : report.at ("warnings"))
     for (const std::string& text : wrap (warning, LINE_LENGTH, 2))
       cell.lines.push_back ({text, WARNING});
@@ -193,14 +264,20 @@ place (const Cell& cell, int x, int y, Canvas& canvas)
 std::vector<unsigned char>
 makeSheet (const std::filesystem::path& folder, const std::vector<std::string>& names)
 {
+  std::vector<Cell> cells;
+  for (const std::string& name : names) {
+    cells.push_back (makeCell (folder, name));
+    if (std::filesystem::exists (folder / (name + ".gt.ply")))
+      cells.push_back (makeTruthCell (folder, name));
+  }
   // About as wide as high.
-  const int count = static_cast<int> (names.size ());
+  const int count = static_cast<int> (cells.size ());
   const int rows = std::max (1, static_cast<int> (std::lround (std::sqrt (
                                     static_cast<double> (count) * CELL_WIDTH / CELL_HEIGHT))));
   const int columns = (count + rows - 1) / rows;
   Canvas canvas (columns * CELL_WIDTH, rows * CELL_HEIGHT);
   for (int i = 0; i < count; ++i) {
-    const Cell cell = makeCell (folder, names[static_cast<std::size_t> (i)]);
+    const Cell& cell = cells[static_cast<std::size_t> (i)];
     place (cell, i % columns * CELL_WIDTH, i / columns * CELL_HEIGHT, canvas);
     std::cout << cell.name;
     for (const Line& line : cell.lines)

@@ -255,6 +255,37 @@ aimCamera (vtkRenderer* renderer, const View& view, const std::vector<Eigen::Vec
   renderer->ResetCameraClippingRange ();
 }
 
+// Perspective from a viewpoint, along the mean direction to the points. The vertical is z, or -y as
+// in depth cameras if they look along z.
+// \return whether all points can be seen so
+bool
+aimFromViewpoint (vtkRenderer* renderer, const Eigen::Vector3d& viewpoint,
+                  const std::vector<Eigen::Vector3d>& points)
+{
+  constexpr double WIDEST = 60.0, ALONG_Z = 0.8; // degrees on either side; a cosine
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : points)
+    mean += (p - viewpoint).normalized ();
+  mean.normalize ();
+  double least = 1.0;
+  for (const Eigen::Vector3d& p : points)
+    least = std::min (least, mean.dot ((p - viewpoint).normalized ()));
+  const double angle = std::acos (least) / DEGREE;
+  if (!(angle < WIDEST))
+    return false;
+  const Eigen::Vector3d focus = viewpoint + mean;
+  vtkCamera* camera = renderer->GetActiveCamera ();
+  camera->SetPosition (viewpoint.data ());
+  camera->SetFocalPoint (focus.data ());
+  if (mean.z () > ALONG_Z)
+    camera->SetViewUp (0.0, -1.0, 0.0);
+  else
+    camera->SetViewUp (0.0, 0.0, 1.0);
+  camera->SetViewAngle (2.0 * angle);
+  renderer->ResetCameraClippingRange ();
+  return true;
+}
+
 // Rounds the colours, which is invisible and makes the file a third smaller.
 void
 coarsenColours (vtkImageData* image)
@@ -327,7 +358,10 @@ drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
         addLines (renderer, options.marked_edges, MARK);
       addLights (renderer);
       const std::vector<Eigen::Vector3d> points = pointsOf (mesh);
-      aimCamera (renderer, chooseView (mesh, points), points);
+      if (options.viewpoint == nullptr ||
+          !aimFromViewpoint (renderer, Eigen::Map<const Eigen::Vector3d> (options.viewpoint),
+                             points))
+        aimCamera (renderer, chooseView (mesh, points), points);
     }
     else {
       addWireframe (renderer, options.parameterization);

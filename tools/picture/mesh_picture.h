@@ -25,6 +25,8 @@ struct PictureOptions
       nullptr;                         ///< mesh in the plane whose edges are drawn beside the mesh
   vtkPolyData* marked_edges = nullptr; ///< lines on the mesh, drawn in magenta
   bool flat_shading = false;           ///< one shade for each triangle, which shows bumps
+  const double* viewpoint = nullptr;   ///< x, y, z: from where the mesh is seen, if it lies within
+                                       ///< 60 degrees of one direction from there
 };
 
 /// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
