@@ -36,6 +36,49 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   return fillHoles (mesh, loops, points.positions, cost, settings.hole_filling, run);
 }
 
+// Whether all triangles around some point of a patch are steps: it may lie off the surface.
+bool
+hasInnerPoint (const TriangleMesh& mesh, const std::vector<Index>& patch,
+               const std::vector<std::uint8_t>& is_step)
+{
+  std::vector<Index> fan;
+  for (const Index t : patch)
+    for (const Index p : mesh.triangles[t]) {
+      mesh.fan (p, fan);
+      if (std::all_of (fan.begin (), fan.end (), [&] (Index u) { return is_step[u] != 0; }))
+        return true;
+    }
+  return false;
+}
+
+// A depth step is a closed line, or ends at a gap or another step: a few triangles alone are noise.
+// They are no steps any more. \param is_gap of each triangle
+void
+dropShortSteps (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_gap,
+                std::size_t shortest, std::vector<std::uint8_t>& is_step)
+{
+  std::vector<std::uint8_t> is_seen (is_step.size (), 0);
+  std::vector<Index> patch;
+  for (Index first = 0; first < is_step.size (); ++first) {
+    if (is_step[first] == 0 || is_seen[first] != 0)
+      continue;
+    patch.assign (1, first);
+    is_seen[first] = 1;
+    bool ends_at_gap = false;
+    for (std::size_t i = 0; i < patch.size (); ++i)
+      for (const Index other : mesh.neighbors[patch[i]]) {
+        ends_at_gap = ends_at_gap || other == NONE || is_gap[other] != 0;
+        if (other == NONE || is_step[other] == 0 || is_seen[other] != 0)
+          continue;
+        is_seen[other] = 1;
+        patch.push_back (other);
+      }
+    if (patch.size () < shortest && !ends_at_gap && !hasInnerPoint (mesh, patch, is_step))
+      for (const Index t : patch)
+        is_step[t] = 0;
+  }
+}
+
 bool
 hasBoundary (const TriangleMesh& mesh)
 {
@@ -78,7 +121,8 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
 
   run.beginStage (Stage::HOLES);
   std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);
-  const std::vector<std::uint8_t> is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
+  std::vector<std::uint8_t> is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
+  dropShortSteps (mesh, is_left_out, settings.limits.shortest_step, is_step);
   for (std::size_t t = 0; t < is_step.size (); ++t) {
     surface.gaps += is_left_out[t];
     surface.steps += is_left_out[t] == 0 ? is_step[t] : 0;

@@ -27,6 +27,9 @@ struct ViewLimits
   GapLimits gaps;
   StepLimits steps;
   ViewFlipLimits flips;
+  std::size_t shortest_step = 9; ///< triangles of a depth step that stands alone; with fewer, it is
+                                 ///< noise. One edge beyond the noise marks 2, and all edges of a
+                                 ///< point 6 or 8
   std::size_t smallest_part = 12;     ///< points; smaller parts are left out with the outliers. A
                                       ///< point and the rays around it are 7 or 9
   double largest_unused_share = 0.05; ///< of the points; with more in no triangle, it is no scan of

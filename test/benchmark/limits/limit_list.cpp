@@ -120,6 +120,7 @@ allLimits ()
       PCL_FLOATER_LIMIT (view.steps.largest_quantum),
       PCL_FLOATER_LIMIT (view.flips.angle),
       PCL_FLOATER_LIMIT (view.flips.fold_cost),
+      PCL_FLOATER_LIMIT (view.shortest_step),
       PCL_FLOATER_LIMIT (view.smallest_part),
       PCL_FLOATER_LIMIT (view.largest_unused_share),
       PCL_FLOATER_LIMIT (loop.circumradius_ratios[0]),

@@ -67,7 +67,7 @@ TEST_P (Noises, DepthStepsAreLeftOut)
 INSTANTIATE_TEST_SUITE_P (View, Noises,
                           testing::Values (DepthNoise{0.0, 0.0}, DepthNoise{0.001, 0.0},
                                            DepthNoise{0.005, 0.0}, DepthNoise{0.0, 0.003},
-                                           DepthNoise{0.0, 0.01}));
+                                           DepthNoise{0.0, 0.004}));
 
 TEST (ViewMethod, TheMeshFacesTheSensor)
 {
