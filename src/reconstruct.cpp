@@ -250,14 +250,21 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   LocalGeometry geometry;
   geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
-  if (options.view.use != ViewUse::GIVEN &&
-      static_cast<double> (found.unused.size ()) >
-          limits.view.largest_unused_share * static_cast<double> (points.size ()))
+  const bool is_doubtful = static_cast<double> (found.unused.size ()) >
+                           limits.view.largest_unused_share * static_cast<double> (points.size ());
+  if (is_doubtful && options.view.use != ViewUse::GIVEN)
     return {};
+  if (surface.mesh.triangles.empty ())
+    return Problem{Status::INVALID_OPTION,
+                   "no triangle is left of the view from the given viewpoint: the points hide each "
+                   "other, or lie on one line as seen from there; give the place of the sensor, or "
+                   "none"};
   Report& report = result.report;
   report.topology = Topology::SURFACE;
   report.statistics.holes_filled = surface.holes_filled;
   reportView (points, viewpoint, surface, report);
+  if (is_doubtful)
+    reportDoubtfulView (points, found.unused.size (), report);
   if (options.remove_outliers)
     reportOutliersOfView (points, found.unused, report);
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
@@ -307,6 +314,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
     return problem;
   Noise noise;
   LocalGeometry geometry = makeGeometry (points, std::move (neighbors), request, noise);
+  reportNoise (noise, false, report);
   if (may_be_seen)
     if (const std::optional<Viewpoint> viewpoint = findViewpoint (
             points, geometry, noise.is_strong, limits.view.search, limits.view.evidence, run))

@@ -260,6 +260,14 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 }
 
 void
+reportDoubtfulView (const Points& points, std::size_t unused, Report& report)
+{
+  report.warnings.push_back (std::to_string (unused) + " of " + std::to_string (points.size ()) +
+                             " points are in no triangle of the view: the sensor may not have been "
+                             "at the given viewpoint");
+}
+
+void
 reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report)
 {
   std::vector<Index> outliers;

@@ -51,6 +51,10 @@ void
 reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
             Report& report);
 
+/// A warning that so many points are in no triangle of a view that the viewpoint may be wrong.
+void
+reportDoubtfulView (const Points& points, std::size_t unused, Report& report);
+
 /// Points of a view that are in no triangle, as outliers; a warning on them.
 /// \param unused ascending
 void

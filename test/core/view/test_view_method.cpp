@@ -187,11 +187,20 @@ TEST (ViewMethod, DiagonalsAreChosenForSmoothness)
   EXPECT_LT (with.report.check.folds, 0.8 * without.report.check.folds);
 }
 
-TEST (ViewMethod, AViewpointAmongThePointsIsNoProblem)
+TEST (ViewMethod, AViewThatLeavesManyPointsOutIsTold)
 {
-  const Scan scan = samples::scanScene (Raster::CAMERA, {0.003, 0.0}, 6);
-  const Result result = reconstruct (scan.points, seenFrom (scan.points[1000]));
-  EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+  Positions points = rasterWithHole (0);
+  for (int part = 0; part < 100; ++part) // beside the raster; each too small for a part
+    for (int i = 0; i < 9; ++i)
+      points.emplace_back (1.0 + 0.1 * (part / 10) + 0.01 * (i / 3),
+                           0.1 * (part % 10) + 0.01 * (i % 3), 1.0);
+  const Result result = reconstruct (points, seenFrom (Eigen::Vector3d::Zero ()));
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_EQ (result.report.check.nonmanifold_vertices, 0U);
+  const std::vector<std::string>& warnings = result.report.warnings;
+  EXPECT_TRUE (std::any_of (warnings.begin (), warnings.end (), [] (const std::string& warning) {
+    return warning.find ("at the given viewpoint") != std::string::npos;
+  }));
 }
 
 TEST (ViewMethod, AllPointsOnOneRayGiveNoMesh)
@@ -201,7 +210,9 @@ TEST (ViewMethod, AllPointsOnOneRayGiveNoMesh)
     points.emplace_back (0.0, 0.0, i);
   points.emplace_back (0.0, 1e-3, 5.0);
   const Result result = reconstruct (points, seenFrom (Eigen::Vector3d::Zero ()));
-  EXPECT_NE (result.report.status, Status::INTERNAL_ERROR) << result.report.message;
+  EXPECT_EQ (result.report.status, Status::INVALID_OPTION);
+  EXPECT_NE (result.report.message.find ("viewpoint"), std::string::npos);
+  EXPECT_TRUE (result.triangles.empty ());
 }
 
 } // namespace
