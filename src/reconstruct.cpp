@@ -8,6 +8,7 @@
 #include "cloud_geometry.h"
 #include "input_cleaning.h"
 #include "mesh/flips.h"
+#include "mesh/mesh_spacing.h"
 #include "report.h"
 #include "request.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/depth_steps.h"
 
+#include "core/geometry.h"
 #include "core/parallel.h"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ class StepFinder
 public:
   StepFinder (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
               const RunContext& run)
-      : view_ (view), rays_ (rays), limits_ (limits), run_ (run)
+      : view_ (view), rays_ (rays), limits_ (limits), run_ (run),
+        largest_cosine_ (std::cos (limits.turn * DEGREE))
   {
   }
 
@@ -225,22 +227,65 @@ private:
     return static_cast<double> (*at);
   }
 
+  // Of a ray at a level, from the sensor. A level that is not positive is far away.
+  Eigen::Vector3d placeAt (Index ray, double level) const
+  {
+    if (rays_.are_parallel)
+      return rays_.directions[ray] + level * rays_.parallel;
+    constexpr double FAR_AWAY = 1e-3; // of the levels around
+    return rays_.directions[ray] / std::max (level, FAR_AWAY * rays_.levels[ray]);
+  }
+
+  // An edge from one end, and how far the surface goes straight on from there to the ray of the
+  // other end.
+  struct EdgeVectors
+  {
+    Eigen::Vector3d edge, straight;
+  };
+
+  EdgeVectors vectorsFrom (Index p, Index q, double told) const
+  {
+    const Eigen::Vector3d from = placeAt (p, rays_.levels[p]);
+    return {placeAt (q, rays_.levels[q]) - from, placeAt (q, told) - from};
+  }
+
+  // Whether the surface would have to turn sharply to the edge.
+  bool turnsSharply (const EdgeVectors& v) const
+  {
+    return v.straight.dot (v.edge) < largest_cosine_ * v.straight.norm () * v.edge.norm ();
+  }
+
   bool isStep (MeshEdge e, double noise) const
   {
     const Index p = view_.from (e), q = view_.to (e);
+    const double change = changeOf (e);
+    const std::array<Continuation, 2> both = continuationsOf (e);
     const double width = rays_.distance (p, q) *
                          (rays_.are_parallel ? 1.0 : std::min (rays_.depths[p], rays_.depths[q]));
-    if (std::abs (rays_.depths[p] - rays_.depths[q]) <= limits_.slope * width)
-      return false;
-    const double change = changeOf (e);
-    const auto goesOn = [&] (const Continuation& c) {
-      const auto told = static_cast<double> (c.change);
-      return c.weight > 0.0F &&
-             (std::abs (change - told) <= limits_.noise * noise * static_cast<double> (c.weight) ||
-              (told * change >= 0.0 && std::abs (change) <= limits_.continued * std::abs (told)));
+    const bool is_steep = std::abs (rays_.depths[p] - rays_.depths[q]) > limits_.slope * width;
+    const double least = noise * (is_steep ? limits_.noise : limits_.sharp_noise);
+    const auto isNoise = [&] (const Continuation& c) {
+      return c.weight > 0.0F && std::abs (change - static_cast<double> (c.change)) <=
+                                    least * static_cast<double> (c.weight);
     };
-    const std::array<Continuation, 2> both = continuationsOf (e);
-    return !goesOn (both[0]) && !goesOn (both[1]);
+    if (isNoise (both[0]) || isNoise (both[1]))
+      return false;
+    const auto told = [&] (std::size_t end) { return static_cast<double> (both[end].change); };
+    const auto goesOn = [&] (std::size_t end) {
+      return both[end].weight > 0.0F && told (end) * change >= 0.0 &&
+             std::abs (change) <= limits_.continued * std::abs (told (end));
+    };
+    if (is_steep && !goesOn (0) && !goesOn (1))
+      return true;
+    if (!(both[0].weight > 0.0F && both[1].weight > 0.0F))
+      return false;
+    const EdgeVectors from_p = vectorsFrom (p, q, rays_.levels[p] + told (0));
+    const EdgeVectors from_q = vectorsFrom (q, p, rays_.levels[q] - told (1));
+    if (is_steep)
+      return from_p.edge.norm () >
+             limits_.joint * std::min (from_p.straight.norm (), from_q.straight.norm ());
+    const bool meet_between = (change > told (0)) != (change > told (1));
+    return !meet_between && turnsSharply (from_p) && turnsSharply (from_q);
   }
 
   const TriangleMesh& view_;
@@ -248,6 +293,7 @@ private:
   const StepLimits& limits_;
   RunContext run_;
   double span_ = 1.0; // of the depths
+  double largest_cosine_;
   std::vector<Continuation>
       continuations_; // of each edge, by 3 triangle + side: from its first end
   std::vector<StepEdge> edges_;

@@ -16,11 +16,20 @@ struct StepLimits
   double slope = 4.0; ///< depth over width of an edge; below, it is never a step. Surfaces that a
                       ///< ray meets at less than 14 degrees return hardly any light, so that few
                       ///< edges of a surface are steeper
+  double turn = 45.0; ///< degrees; below the slope, an edge is a step if the surface would turn so
+                      ///< sharply at both ends, and in opposite senses: two sheets that face the
+                      ///< sensor, one behind the other by more than the width of the edge
   double noise = 2.0; ///< a step exceeds so many times the noise (see findDepthSteps). Of Gaussian
                       ///< noise, 1 % does; but these edges stand alone, and a step does not
+  double sharp_noise = 4.0; ///< the same below the slope, where nearly all edges are: of Gaussian
+                            ///< noise, it is five standard deviations, one edge of a million
   double continued = 2.0; ///< an edge is on one surface if that goes on so from one of its ends, up
                           ///< to this factor. At a crease the edge is shorter than the surface goes
                           ///< on from the steeper side: factor 1, and as much for curvature
+  double joint = 10.0;    ///< where two surfaces meet, length of an edge over that to which the
+                          ///< surface of either end goes on; above, it is a step. One seen at less
+  ///< than 6 degrees returns hardly any light, and is sampled ten times more
+  ///< coarsely than one seen face on
 
   std::size_t edges_per_bin = 2000; ///< edges of about the same depth, among which the noise is
                                     ///< measured; their 80 % quantile has an error of 3 %

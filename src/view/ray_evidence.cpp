@@ -37,22 +37,6 @@ spreadOf (std::vector<double>& values)
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }
 
-// Distance from a ray to the nearest one that lies across the direction to another: by more than 45
-// degrees.
-double
-distanceAcross (const std::vector<Eigen::Vector3d>& rays, std::size_t from, std::size_t along)
-{
-  const Eigen::Vector3d direction = (rays[along] - rays[from]).normalized ();
-  double nearest = std::numeric_limits<double>::infinity ();
-  for (const Eigen::Vector3d& ray : rays) {
-    const Eigen::Vector3d offset = ray - rays[from];
-    const double sqr_distance = offset.squaredNorm (), part = offset.dot (direction);
-    if (sqr_distance > 0.0 && 2.0 * part * part < sqr_distance)
-      nearest = std::min (nearest, sqr_distance);
-  }
-  return std::sqrt (nearest);
-}
-
 PatchEvidence
 examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
               const Viewpoint& viewpoint, double near_ratio, bool with_rows)
@@ -79,7 +63,7 @@ examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& pat
     evidence.near += nearest < near_ratio * near_ratio * second ? 1 : 0;
     between_rays.push_back (std::sqrt (nearest));
     if (with_rows)
-      between_rows.push_back (distanceAcross (rays, i, at));
+      between_rows.push_back ((rays[nearestRayAcross (rays, i, at)] - rays[i]).norm ());
     between_points.push_back ((positions[patch[at]] - positions[patch[i]]).norm ());
   }
   evidence.ray_spread = spreadOf (between_rays);
@@ -89,6 +73,38 @@ examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& pat
 }
 
 } // namespace
+
+std::size_t
+nearestRay (const std::vector<Eigen::Vector3d>& rays, std::size_t from)
+{
+  double least = std::numeric_limits<double>::infinity ();
+  std::size_t nearest = from;
+  for (std::size_t i = 0; i < rays.size (); ++i) {
+    const double sqr_distance = (rays[i] - rays[from]).squaredNorm ();
+    if (i != from && sqr_distance < least) {
+      least = sqr_distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+std::size_t
+nearestRayAcross (const std::vector<Eigen::Vector3d>& rays, std::size_t from, std::size_t along)
+{
+  const Eigen::Vector3d direction = (rays[along] - rays[from]).normalized ();
+  double least = std::numeric_limits<double>::infinity ();
+  std::size_t nearest = from;
+  for (std::size_t i = 0; i < rays.size (); ++i) {
+    const Eigen::Vector3d offset = rays[i] - rays[from];
+    const double sqr_distance = offset.squaredNorm (), part = offset.dot (direction);
+    if (sqr_distance > 0.0 && 2.0 * part * part < sqr_distance && sqr_distance < least) {
+      least = sqr_distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
 
 std::vector<RayPatch>
 findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,

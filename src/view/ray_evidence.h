@@ -36,6 +36,15 @@ struct RayEvidence
   double point_spread = 0.0; ///< the same of the distances in space between their points
 };
 
+/// The nearest ray to another one, by their directions; that one itself if there is no other.
+std::size_t
+nearestRay (const std::vector<Eigen::Vector3d>& rays, std::size_t from);
+
+/// The nearest ray that lies across the direction to another: by more than 45 degrees. The ray
+/// itself if there is none.
+std::size_t
+nearestRayAcross (const std::vector<Eigen::Vector3d>& rays, std::size_t from, std::size_t along);
+
 /// Points at nearby rays: the nearest rays to that of a point, nearest first.
 using RayPatch = std::vector<Index>;
 

@@ -34,9 +34,9 @@ circumradii (const TriangleMesh& view, const Rays& rays, const RunContext& run)
 }
 
 float
-quantile (std::vector<float>& values, std::size_t quarters)
+atRank (std::vector<float>& values, std::size_t rank)
 {
-  const auto place = values.begin () + static_cast<std::ptrdiff_t> (values.size () * quarters / 4);
+  const auto place = values.begin () + static_cast<std::ptrdiff_t> (rank);
   std::nth_element (values.begin (), place, values.end ());
   return *place;
 }
@@ -49,8 +49,9 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
 {
   const std::size_t points = view.triangle_of.size ();
   const std::vector<float> radii = circumradii (view, rays, run);
-  // Of the triangles around each point; then the lower quartile of that among its neighbours, so
-  // that a point at the rim of a gap has the radius of its surface.
+  // The second smallest radius around each point: on a boundary, more triangles may lie in the gap
+  // than on the surface, but hardly fewer than two on the surface. Then the median of that among
+  // its neighbours.
   std::vector<float> around (points, 0.0F), typical (points, 0.0F);
   const auto forPoints = [&] (const auto& body) {
     parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
@@ -68,13 +69,13 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
   forPoints ([&] (Index p, const std::vector<Index>& fan, std::vector<float>& values) {
     for (const Index t : fan)
       values.push_back (radii[t]);
-    around[p] = quantile (values, 2);
+    around[p] = atRank (values, std::min<std::size_t> (1, values.size () - 1));
   });
   forPoints ([&] (Index p, const std::vector<Index>& fan, std::vector<float>& values) {
     for (const Index t : fan)
       for (const Index q : view.triangles[t])
         values.push_back (around[q]);
-    typical[p] = std::min (around[p], quantile (values, 1));
+    typical[p] = atRank (values, values.size () / 2);
   });
   std::vector<std::uint8_t> is_gap (radii.size (), 0);
   for (std::size_t t = 0; t < radii.size (); ++t) {

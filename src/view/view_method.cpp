@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_method.h"
 
-#include "core/parallel.h"
 #include "floater/planar_delaunay.h"
+#include "mesh/mesh_spacing.h"
 #include "mesh/triangle_removal.h"
 
 #include <algorithm>
@@ -140,41 +140,6 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   if (viewpoint.is_far || !hasBoundary (mesh))
     surface.finish.turned = faceOutwards (mesh, points.positions, settings.finish.facing, run);
   return surface;
-}
-
-std::vector<float>
-spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const RunContext& run)
-{
-  std::vector<float> spacing (positions.size (), 0.0F);
-  const auto median = [] (std::vector<float>& values) {
-    const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-    std::nth_element (values.begin (), middle, values.end ());
-    return *middle;
-  };
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Index> fan;
-    std::vector<float> lengths;
-    for (auto p = static_cast<Index> (first); p < last; ++p) {
-      if (mesh.triangle_of[p] == NONE)
-        continue;
-      mesh.fan (p, fan);
-      lengths.clear ();
-      const auto add = [&] (Index q) {
-        lengths.push_back (static_cast<float> ((positions[q] - positions[p]).norm ()));
-      };
-      for (const Index t : fan)
-        add (mesh.triangles[t][TriangleMesh::next (mesh.sideOf (t, p))]);
-      add (mesh.triangles[fan.back ()][TriangleMesh::previous (mesh.sideOf (fan.back (), p))]);
-      spacing[p] = median (lengths);
-    }
-  });
-  std::vector<float> known;
-  std::copy_if (spacing.begin (), spacing.end (), std::back_inserter (known),
-                [] (float value) { return value > 0.0F; });
-  if (!known.empty ())
-    std::replace (spacing.begin (), spacing.end (), 0.0F, median (known));
-  return spacing;
 }
 
 } // namespace floater

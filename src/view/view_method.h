@@ -71,11 +71,5 @@ ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
                  const RunContext& run);
 
-/// Spacing of each point on a mesh: the median length of its edges. For points without edges, the
-/// median of all others. O(n).
-std::vector<float>
-spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const RunContext& run);
-
 } // namespace floater
 } // namespace pcl

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/viewpoint_search.h"
 
+#include "core/geometry.h"
 #include "core/parallel.h"
+#include "view/viewpoint_fit.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -62,6 +65,40 @@ quartileSpread (std::vector<double>& values)
   };
   const double upper = quartile (3);
   return std::log (upper / quartile (1));
+}
+
+struct RowEvidence
+{
+  double share = 0.0; // of points between their two nearest neighbors, which lie to opposite sides
+  Eigen::Vector3d across = Eigen::Vector3d::Zero (); // unit vector across the planes of the rows
+};
+
+RowEvidence
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
+{
+  constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
+  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
+  std::size_t looked_at = 0, in_rows = 0;
+  Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
+  for (std::size_t p = step / 2; p < positions.size (); p += step) {
+    const Row row = neighbors.row (p);
+    if (row.size () < 2)
+      continue;
+    const Eigen::Vector3d u = (positions[row[0]] - positions[p]).normalized ();
+    const Eigen::Vector3d v = (positions[row[1]] - positions[p]).normalized ();
+    ++looked_at;
+    if (u.dot (v) >= OPPOSITE)
+      continue;
+    ++in_rows;
+    along += (u - v) * (u - v).transpose ();
+  }
+  RowEvidence rows;
+  if (in_rows == 0)
+    return rows;
+  rows.share = static_cast<double> (in_rows) / static_cast<double> (looked_at);
+  rows.across = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (along).eigenvectors ().col (0);
+  return rows;
 }
 
 // Spread of the solid angles of the samples.
@@ -167,6 +204,9 @@ public:
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
+    constexpr std::size_t EVERY = 4;
+    for (std::size_t i = 0; i < samples_.size (); i += EVERY)
+      few_samples_.push_back (samples_[i]);
   }
 
   bool hasSamples () const { return samples_.size () >= limits_.samples / 2; }
@@ -180,6 +220,47 @@ public:
     return quartileSpread (angles_);
   }
 
+  // Parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
+  std::optional<Viewpoint> findAlongRows (const Eigen::Vector3d& across) const
+  {
+    EvidenceLimits few = evidence_;
+    few.patches = std::min (few.patches, FEW_PATCHES);
+    const Eigen::Vector3d x = across.unitOrthogonal (), y = across.cross (x);
+    const std::size_t count = limits_.row_directions * BETWEEN;
+    const double step = PI / static_cast<double> (count);
+    std::vector<Candidate> candidates;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double angle = step * static_cast<double> (k);
+      candidates.push_back ({0.0, {std::cos (angle) * x + std::sin (angle) * y, true}});
+    }
+    // Patches hardly change within a few degrees.
+    for (std::size_t first = 0; first < count; first += BETWEEN) {
+      const std::vector<RayPatch> patches =
+          findRayPatches (positions_, candidates[first + BETWEEN / 2].viewpoint, few, run_);
+      for (std::size_t k = first; k < first + BETWEEN; ++k)
+        candidates[k].cost = costByRays (candidates[k].viewpoint, patches);
+    }
+    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    std::vector<Candidate> starts;
+    for (const Candidate& candidate : candidates)
+      if (starts.size () < limits_.by_rows && !isNear (candidate, starts, BETWEEN * step))
+        starts.push_back (candidate);
+    // Rays are spaced evenly from the right direction only; from others, less unevenly than around.
+    Candidate best{std::numeric_limits<double>::infinity (), {}};
+    for (const Candidate& start : starts)
+      if (const std::optional<Viewpoint> found = refine (start.viewpoint, step)) {
+        const double cost =
+            costByRays (*found, findRayPatches (positions_, *found, evidence_, run_));
+        if (cost < best.cost)
+          best = {cost, *found};
+        if (cost < EVEN)
+          break;
+      }
+    if (best.cost == std::numeric_limits<double>::infinity ())
+      return {};
+    return best.viewpoint;
+  }
+
   std::optional<Viewpoint> find ()
   {
     std::vector<Candidate> candidates;
@@ -187,7 +268,7 @@ public:
       const Candidate found =
           patternSearch (box_.center (), limits_.area_evaluations, [this] (const Viewpoint& v) {
             return costByAreas (v);
-          }).run (start.viewpoint, 0.5 * cell (), SMALLEST_AREA_STEP);
+          }).run (start.viewpoint, cell (), SMALLEST_AREA_STEP);
       if (!isNear (found, candidates, 4.0 * SMALLEST_AREA_STEP))
         candidates.push_back (found);
     }
@@ -210,6 +291,11 @@ public:
   }
 
 private:
+  static constexpr std::size_t FEW_PATCHES = 16; // with 480 rays that are judged
+  static constexpr std::size_t BETWEEN = 5;      // directions that are tried with the same patches
+  static constexpr double EVEN = 0.02;           // spread of rays that needs no other try
+  static constexpr double AREA_ERROR = 0.05;     // of a place, in bounding boxes
+
   // Areas tell a place to about a hundredth of the bounding box; rays tell the rest.
   static constexpr double SMALLEST_AREA_STEP = 4e-3;
 
@@ -239,7 +325,7 @@ private:
     for (const Candidate& candidate : candidates) {
       if (starts.size () == limits_.starts)
         break;
-      if (!isNear (candidate, starts, cell ()))
+      if (!isNear (candidate, starts, 2.0 * cell ()))
         starts.push_back (candidate);
     }
     return starts;
@@ -252,7 +338,7 @@ private:
 
   void add (std::vector<Candidate>& candidates, const Viewpoint& viewpoint)
   {
-    candidates.push_back ({costByAreas (viewpoint), viewpoint});
+    candidates.push_back ({areaSpread (few_samples_, viewpoint, angles_), viewpoint});
   }
 
   std::vector<Candidate> startingPlaces ()
@@ -282,11 +368,14 @@ private:
     return candidates;
   }
 
-  // The spread alone. Near the viewpoint, it falls all the way, while the share of rays that are
+  // The spreads alone. Near the viewpoint, they fall all the way, while the share of rays that are
   // near others first rises where outlines begin to meet.
-  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
+  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches,
+                     bool with_rows = true) const
   {
-    return findRayEvidence (positions_, patches, viewpoint, evidence_, run_).ray_spread;
+    const RayEvidence found =
+        findRayEvidence (positions_, patches, viewpoint, evidence_, run_, with_rows);
+    return found.ray_spread + (with_rows ? found.row_spread : 0.0);
   }
 
   // Areas hardly tell places that are far away from each other: parallel rays are tried first.
@@ -300,44 +389,50 @@ private:
     return refine (viewpoint);
   }
 
-  std::optional<Viewpoint> refine (Viewpoint viewpoint) const
+  // Rows tell the place of a spinning lidar along its axis, but may mislead among other rasters.
+  std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
-    constexpr double FIRST_STEP = 0.05; // of the bounding box: what areas leave open
-    constexpr double LAST_STEP = 2e-3;  // where the evidence is enough, and may be better
-    constexpr double HOPELESS = 2.0;
-    double step = FIRST_STEP;
+    const std::optional<Viewpoint> found = refineBy (start, step, true);
+    return found ? found : refineBy (start, step, false);
+  }
+
+  std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
+  {
+    constexpr double HOPELESS = 2.0, HOPELESS_NEAR = 5.0;
+    constexpr double PRECISION = 1e-6; // a tenth of the spacing of a scan of 1e10 points
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
-      const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches); };
-      const bool is_last = round + 1 == limits_.rounds;
+      const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches, with_rows); };
       viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
-                      .run (viewpoint, step, is_last ? LAST_STEP : 0.2 * step)
+                      .run (viewpoint, step, 0.2 * step)
                       .viewpoint;
       step *= 0.3;
       // Where the first, coarse steps lead to no more evidence than this, finer ones hardly do.
       const RayEvidence so_far = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
-      if (so_far.ray_spread > HOPELESS * evidence_.regularity * so_far.point_spread)
+      if (so_far.ray_spread > HOPELESS * evidence_.regularity * so_far.point_spread ||
+          (viewpoint.is_far && so_far.near_share > HOPELESS_NEAR * evidence_.near_share))
         return {};
+    }
+    // The patches of a better place lead to a better one yet.
+    for (std::size_t round = 0; round < limits_.fits; ++round) {
+      const Eigen::Vector3d before = viewpoint.place;
+      viewpoint = fitViewpoint (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
+                                viewpoint, run_);
+      if ((viewpoint.place - before).norm () < PRECISION)
+        break;
     }
     const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
     const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     if (!isSeenFromThere (evidence, evidence_))
       return {};
-    // Close by, rows tell more: those of a spinning lidar hardly change as it moves along its axis.
-    const auto cost = [&] (const Viewpoint& v) {
-      const RayEvidence found = findRayEvidence (positions_, patches, v, evidence_, run_, true);
-      return found.ray_spread + found.row_spread;
-    };
-    return patternSearch (box_.center (), limits_.ray_evaluations, cost)
-        .run (viewpoint, LAST_STEP, limits_.smallest_step)
-        .viewpoint;
+    return viewpoint;
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
   const SearchLimits& limits_;
-  const EvidenceLimits& evidence_;
+  EvidenceLimits evidence_;
   RunContext run_;
-  std::vector<AreaSample> samples_;
+  std::vector<AreaSample> samples_, few_samples_; // the latter to compare many places
   Eigen::AlignedBox3d box_;
   std::vector<double> angles_; // room for costByAreas
 };
@@ -348,9 +443,16 @@ std::optional<Viewpoint>
 findViewpoint (const Points& points, const LocalGeometry& geometry, bool is_noisy,
                const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
 {
-  if (points.size () < evidence.patches * evidence.patch_points)
+  constexpr std::size_t FEWEST_PATCHES = 16;
+  if (points.size () < FEWEST_PATCHES * evidence.patch_points)
     return {};
-  ViewpointSearch search (points, geometry, limits, evidence, run);
+  EvidenceLimits filled = evidence;
+  filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
+  ViewpointSearch search (points, geometry, limits, filled, run);
+  const RowEvidence rows = findRows (points, geometry.neighbors, limits.samples);
+  if (rows.share > limits.rows)
+    if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
+      return found;
   if (!search.hasSamples () || (!is_noisy && search.spreadOfAreas () <= limits.even))
     return {};
   return search.find ();

@@ -18,21 +18,25 @@ struct SearchLimits
   double even = 1.0; ///< spread of the areas that points stand for (logarithm of the ratio of the
                      ///< quartiles); below, and without noise, the cloud is sampled evenly, and
                      ///< needs no view. Points at random have 0.5
+  double rows =
+      0.6; ///< share of points between their two nearest neighbours; above, the cloud was
+           ///< scanned along lines. Of points at random it is 0.25, on a square raster 0.33
+  std::size_t row_directions = 36; ///< in which patches of such a cloud are found: 5 degrees apart
+  std::size_t by_rows = 4;         ///< best of the directions between, which are refined
   double explained = 0.75; ///< of that spread; with more left at the best place, areas do not come
                            ///< from a view. In scans with noise of 3 spacings, 0.7 is left
 
   std::size_t samples = 500;    ///< points whose areas are compared; the spread of so many has an
                                 ///< error of 6 %
-  std::size_t cells = 12;       ///< along each axis of a grid of places over twice the bounding box
+  std::size_t cells = 24;       ///< along each axis of a grid of places over twice the bounding box
   std::size_t directions = 100; ///< in which places farther away are tried: 20 degrees apart
   std::size_t starts = 24;      ///< best places by areas, from which descents start
   std::size_t area_evaluations = 200; ///< in each descent by areas
   std::size_t by_areas = 2;          ///< best of these, which are refined, until one is a viewpoint
   std::size_t compared = 6;          ///< next ones, of which the best by rays is refined
-  std::size_t rounds = 3;            ///< of a refinement, each with patches found anew
+  std::size_t rounds = 2;            ///< of a refinement, each with patches found anew
+  std::size_t fits = 6;              ///< after it, each with patches found anew
   std::size_t ray_evaluations = 200; ///< in each round
-  double smallest_step = 2e-5;       ///< of a refinement, in bounding box diagonals: a tenth of the
-                                     ///< spacing of a scan of a million points
 };
 
 /// Finds the viewpoint of a cloud in two steps.

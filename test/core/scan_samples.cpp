@@ -92,6 +92,7 @@ raysOf (Raster raster, const Vector3d& look)
         at (i * DEGREE, (-50.0 + ring) * DEGREE);
     break;
   case Raster::PARALLEL:
+  case Raster::LINES:
     break;
   }
   return rays;
@@ -117,10 +118,11 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
   const Vector3d look =
       (Vector3d (3.8 + 0.4 * random.uniform (), 3.8 + 0.4 * random.uniform (), 0.6) - place)
           .normalized ();
-  if (raster == Raster::PARALLEL) {
+  if (raster == Raster::PARALLEL || raster == Raster::LINES) {
     const Vector3d right = look.cross (Vector3d::UnitZ ()).normalized (), up = right.cross (look);
+    const int between = raster == Raster::LINES ? 5 : 1;
     for (int i = 0; i < 180; ++i)
-      for (int j = 0; j < 110; ++j) {
+      for (int j = 0; j < 110; j += between) {
         const Vector3d from = place + 0.02 * ((i - 89.5) * right + (j - 54.5) * up);
         const Hit hit = castRay (from, look);
         if (hit.object < 0)

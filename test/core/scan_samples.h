@@ -13,10 +13,11 @@ namespace samples
 /// How a sensor spaces its rays.
 enum class Raster
 {
-  CAMERA,  ///< pixels of a plane
-  RINGS,   ///< cones around the upright, 6 times as far apart as the rays in each
-  SPHERE,  ///< all angles alike, all around but the lowest 40 degrees
-  PARALLEL ///< parallel rays
+  CAMERA,   ///< pixels of a plane
+  RINGS,    ///< cones around the upright, 6 times as far apart as the rays in each
+  SPHERE,   ///< all angles alike, all around but the lowest 40 degrees
+  PARALLEL, ///< parallel rays
+  LINES     ///< parallel rays along lines, 5 times as far apart as the rays in each
 };
 
 struct Scan

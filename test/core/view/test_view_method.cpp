@@ -114,6 +114,21 @@ TEST (ViewMethod, TheViewpointIsSearchedWhereNoiseIsStrong)
   }
 }
 
+// Along lines, points tell that they were scanned even if there is hardly any noise.
+TEST (ViewMethod, TheDirectionOfALineScannerIsFound)
+{
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Scan scan = samples::scanScene (Raster::LINES, {0.0002, 0.0}, seed);
+    const Result result = reconstruct (scan.points, {});
+    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_TRUE (result.report.is_view) << seed;
+    ASSERT_TRUE (result.report.is_far_view) << seed;
+    const Eigen::Vector3d found (result.report.viewpoint.data ());
+    EXPECT_GT (std::abs (found.dot (scan.viewpoint)), 1.0 - 1e-7) << seed;
+    EXPECT_LE (result.report.check.components, 8U) << seed;
+  }
+}
+
 TEST (ViewMethod, TheResultDoesNotDependOnThreads)
 {
   const Scan scan = samples::scanScene (Raster::CAMERA, {0.01, 0.0}, 7);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far apart points are on a mesh.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Spacing of each point on a mesh: the median length of its edges. For points without edges, the
+/// median of all others. O(n).
+std::vector<float>
+spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const RunContext& run);
+
+} // namespace floater
+} // namespace pcl
