@@ -118,17 +118,5 @@ choiceName (const Choices<Enum, N>& choices, Enum value)
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line);
 
-/// Checks all paths against each other and against the disk, before the work begins.
-/// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
-/// ReadError if the extension of the input is unknown
-void
-checkPaths (const CommandLine& command_line);
-
-/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
-/// that begins with # begins a comment, up to the end of the line.
-/// \throws ReadError
-std::vector<std::uint32_t>
-readLoop (const std::filesystem::path& path);
-
 } // namespace floater
 } // namespace pcl

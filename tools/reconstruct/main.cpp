@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
+#include "check_paths.h"
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "large_arrays.h"
+#include "loop_file.h"
 #include "memory_limit.h"
 #include "mesh_writer.h"
 #include "plural.h"
