@@ -16,6 +16,7 @@
 #include <new>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -385,6 +386,12 @@ reconstruct (Input input, const Options& options, const Limits& limits)
   catch (const std::bad_alloc&) {
     problem = {Status::OUT_OF_MEMORY,
                "not enough memory: use fewer points, or a machine with more"};
+  }
+  catch (const IndexLimitReached& limit) {
+    problem = {Status::OUT_OF_MEMORY, limit.what ()};
+  }
+  catch (const std::length_error&) {
+    problem = {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
   }
   catch (const std::exception& error) {
     problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace pcl
 {
@@ -85,9 +84,8 @@ searchBalls (const Rows& rows, double radius, Search& search, const RunContext& 
   std::size_t entries = 0;
   for (const std::vector<Index>& range : ranges)
     entries += range.size ();
-  if (entries >= NONE)
-    throw std::length_error (
-        "the balls hold more than 32-bit indices can count: use fewer points or a smaller radius");
+  requireCountable (entries, NONE - 1, "the table of neighbours in balls",
+                    "use fewer points or a smaller radius");
   sumRowLengths (lists.offsets);
   lists.ids.reserve (entries);
   for (std::vector<Index>& range : ranges) {

@@ -34,7 +34,7 @@ enum class Status
   NOT_CONVERGED,   ///< disc: an iterative solver did not reach its tolerance
   SOLVER_UNAVAILABLE, ///< the library was built without this solver
   CANCELLED,          ///< Options::cancelled_callback returned true
-  OUT_OF_MEMORY,      ///< an allocation failed
+  OUT_OF_MEMORY,      ///< an allocation failed, or a table outgrew its 32-bit indices
   INTERNAL_ERROR      ///< the mesh did not pass the final check; please report it
 };
 
