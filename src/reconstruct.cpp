@@ -4,6 +4,7 @@
 // scan whose viewpoint is known is connected as the sensor saw it, without neighbours.
 #include "reconstruct.h"
 
+#include "check_input.h"
 #include "check_options.h"
 #include "cloud_geometry.h"
 #include "input_cleaning.h"
@@ -283,6 +284,8 @@ reconstructAny (Input& input, const Request& request, Result& result)
   report.statistics.cloud_points = input.cloud_size;
   report.statistics.selected_points = input.positions.size ();
   if (Problem problem = checkOptions (options))
+    return problem;
+  if (Problem problem = checkInput (input))
     return problem;
   const bool as_disc = asksForDisc (options);
   if (as_disc)
