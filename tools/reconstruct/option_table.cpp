@@ -44,7 +44,7 @@ Exit codes:
   1  usage: an option is unknown, malformed or out of its range
   2  the input cannot be read: missing, truncated, damaged, without x y z
   3  the cloud cannot be reconstructed; the message and the report name the status
-  4  an output cannot be written
+  4  an output cannot be written, or nothing can be printed; no file is changed
   5  out of memory, or an internal error
   6  with --strict: there are warnings; the report is written, but no mesh
 )";
