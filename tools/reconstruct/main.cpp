@@ -25,6 +25,8 @@
 #include <new>
 #include <numeric>
 
+#include <sys/resource.h>
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -329,6 +331,14 @@ runTool (int argc, char** argv)
 } // namespace floater
 } // namespace pcl
 
+/// Whether the system limits the addresses of this process (RLIMIT_AS, ulimit -v).
+static bool
+isAddressSpaceLimited ()
+{
+  rlimit limit{};
+  return ::getrlimit (RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 int
 main (int argc, char** argv)
 {
@@ -337,11 +347,12 @@ main (int argc, char** argv)
   // default glibc raises it with the first of them, which costs a tenth more peak memory.
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
+  const bool may_lack_memory = isAddressSpaceLimited ();
   const int code = pcl::floater::runTool (argc, argv);
-  if (code != pcl::floater::EXIT_INTERNAL)
+  if (code != pcl::floater::EXIT_INTERNAL && !may_lack_memory)
     return code;
-  // After memory has run out, a worker thread of OpenBLAS may wait for memory for ever. A normal
-  // exit would wait for that thread.
+  // A worker thread of OpenBLAS that finds no memory, already when it is started with the program,
+  // waits for it for ever. A normal exit would wait for that thread.
   std::fflush (nullptr);
   std::_Exit (code);
 }
