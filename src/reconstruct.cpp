@@ -11,6 +11,7 @@
 #include "mesh/flips.h"
 #include "report.h"
 #include "request.h"
+#include "unused_options.h"
 
 #include <algorithm>
 #include <limits>
@@ -380,8 +381,11 @@ reconstruct (Input input, const Options& options, const Limits& limits)
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
     problem = reconstructAny (input, {options, limits, run}, result);
-    if (!problem)
+    if (!problem) {
+      for (std::string& unused : describeUnusedOptions (options, result.report))
+        result.report.warnings.push_back (std::move (unused));
       monitor.finish ();
+    }
   }
   catch (const Cancelled&) {
     problem = {Status::CANCELLED, "the run was cancelled by its caller"};
