@@ -293,6 +293,26 @@ TEST (Reconstruct, FewestPoints)
   expectDisc (reconstruct (asInput (with_middle), options), 5);
 }
 
+// Of two equal points that look like an outlier the given loop names the second, which the first
+// stands for.
+TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
+{
+  const samples::Sheet sheet = samples::disc (0.1, 21);
+  Positions positions = sheet.positions;
+  const Eigen::Vector3d far = {0.0, 3.0, 0.0};
+  positions.push_back (far);
+  positions.push_back (far);
+  const auto second = static_cast<Index> (positions.size () - 1);
+  Options options = discOptions ();
+  ASSERT_EQ (reconstruct (asInput (positions), options).report.outliers.size (), 1U);
+  options.boundary.loop = samples::indices (sheet.border);
+  options.boundary.loop.push_back (second);
+  const Result result = reconstruct (asInput (positions), options);
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_TRUE (result.report.outliers.empty ());
+  EXPECT_EQ (result.report.loop.size (), options.boundary.loop.size ());
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl
