@@ -43,10 +43,15 @@ public:
     drop (p, found);
     found.resize (std::min (k, found.size ()));
   }
+  // No more than are taken: next to a jump in density the ball may hold the whole cloud.
   void within (Index p, double radius, std::vector<Neighbor>& found) const
   {
-    tree_.within (positions_[p], radius, found);
-    drop (p, found);
+    tree_.nearestIf (
+        positions_[p], Eigen::Vector3d::Zero (), radius, MOST_IN_BALL,
+        [p] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
+          return neighbor.point != p;
+        },
+        found);
   }
 
 private:
