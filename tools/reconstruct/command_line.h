@@ -2,6 +2,8 @@
 // The command line of pcl_floater_reconstruct.
 #pragma once
 
+#include "precision.h"
+
 #include <pcl/surface/floater/options.h>
 
 #include <Eigen/Core>
@@ -43,11 +45,12 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  std::filesystem::path scratch;        ///< folder; used with a limit only
-  std::size_t max_memory = 0;           ///< bytes; 0: no limit
-  std::optional<Eigen::Vector3d> shift; ///< --shift x,y,z
-  bool auto_shift = false;              ///< --shift auto
-  Options options;                      ///< without the loop, which has not been read yet
+  std::filesystem::path scratch;         ///< folder; used with a limit only
+  std::size_t max_memory = 0;            ///< bytes; 0: no limit
+  std::optional<Eigen::Vector3d> shift;  ///< --shift x,y,z
+  bool auto_shift = false;               ///< --shift auto
+  Precision precision = Precision::AUTO; ///< of coordinates in outputs
+  Options options;                       ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
   bool strict = false; ///< write no mesh if there is a warning
@@ -98,6 +101,9 @@ constexpr Choices<Ordering, 6> ORDERING_CHOICES{
      {"colamd", Ordering::COLAMD},
      {"reverse-cuthill-mckee", Ordering::REVERSE_CUTHILL_MCKEE},
      {"natural", Ordering::NATURAL}}};
+
+constexpr Choices<Precision, 3> PRECISION_CHOICES{
+    {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
 
 constexpr Choices<bool, 2> SWITCH_CHOICES{{{"on", true}, {"off", false}}};
 

@@ -9,6 +9,7 @@
 #include "memory_limit.h"
 #include "mesh_writer.h"
 #include "plural.h"
+#include "precision.h"
 #include "progress.h"
 #include "remaining_time.h"
 #include "report_json.h"
@@ -122,12 +123,12 @@ reconstructInput (Input input, Options options, Progress& progress)
 /// The mesh in the plane z = 0. Its cloud refers to the parameters of the result, and has no
 /// normals, because these are those of the surface in space.
 std::pair<Cloud, Triangles>
-flatMesh (const Cloud& cloud, const Result& result)
+flatMesh (const Cloud& cloud, const Result& result, Precision precision)
 {
   static const double zero = 0.0;
   const std::vector<Eigen::Vector2d>& parameters = result.report.parameters;
   Cloud flat;
-  flat.single_precision = false;
+  flat.single_precision = precision == Precision::SINGLE;
   flat.rows = parameters.size ();
   const auto view = [&flat] (std::size_t axis, const double* first, std::size_t stride) {
     Field& field = flat.coordinates[axis];
@@ -205,7 +206,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     file.close ();
   };
   if (!line.parameterization.empty ()) {
-    const auto [flat, triangles] = flatMesh (cloud, result);
+    const auto [flat, triangles] = flatMesh (cloud, result, line.precision);
     stage (line.parameterization, flat, triangles);
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
@@ -271,6 +272,9 @@ run (CommandLine line)
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
+  cloud.single_precision =
+      choosePrecision (line.precision, line.input, line.output, input.positions, cloud);
+  figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();
   Result result = reconstructInput (std::move (input), line.options, progress);

@@ -159,6 +159,10 @@ addGeneral (CLI::App& app, CommandLine& line)
              GENERAL);
   addMemoryLimit (app, line);
   addShift (app, line);
+  addChoice (app, "--precision", line.precision, PRECISION_CHOICES,
+             "of coordinates in outputs; auto: single if the input\nis, or if that is exact. PCL "
+             "reads doubles of a .ply\nas 0",
+             GENERAL);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);
