@@ -293,6 +293,24 @@ TEST (Reconstruct, FewestPoints)
   expectDisc (reconstruct (asInput (with_middle), options), 5);
 }
 
+TEST (Reconstruct, ManyCoincidingPointsAreToldOf)
+{
+  const Positions distinct = surface (SurfaceKind::HEIGHT_FIELD, 500, 3);
+  for (const std::size_t repeated : {1U, 20U}) {
+    Positions positions = distinct;
+    positions.insert (positions.end (), distinct.begin (),
+                      distinct.begin () + static_cast<std::ptrdiff_t> (repeated));
+    const Result result = reconstruct (asInput (positions), {});
+    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    const bool is_told = std::any_of (
+        result.report.warnings.begin (), result.report.warnings.end (), [] (const std::string& w) {
+          return w.find ("20 points coincide with another one") != std::string::npos;
+        });
+    EXPECT_EQ (is_told, repeated == 20);
+    EXPECT_EQ (result.report.statistics.duplicate_points, repeated);
+  }
+}
+
 // Of two equal points that look like an outlier the given loop names the second, which the first
 // stands for.
 TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)

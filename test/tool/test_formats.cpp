@@ -98,8 +98,11 @@ TEST_P (InputFormats, PointsAndFieldsComeBack)
   const bool has_list = input.file == "in.ply";
   EXPECT_EQ (outcome.err.find ("the list 'marks'") != std::string::npos, has_list);
   EXPECT_EQ (outcome.err.find ("written as doubles") != std::string::npos, input.is_double);
+  const bool has_face = input.file != "in.pcd";
+  EXPECT_EQ (outcome.err.find ("1 face of the input file was left out") != std::string::npos,
+             has_face);
   EXPECT_EQ (std::count (outcome.err.begin (), outcome.err.end (), '\n'),
-             (has_list ? 1 : 0) + (input.is_double ? 1 : 0));
+             (has_list ? 1 : 0) + (input.is_double ? 1 : 0) + (has_face ? 1 : 0));
 }
 
 INSTANTIATE_TEST_SUITE_P (All, InputFormats, testing::ValuesIn (inputCases ()),
