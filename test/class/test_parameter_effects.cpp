@@ -39,7 +39,7 @@ TEST_F (FloaterClass, LongEdgesAreCutOff)
   }
 }
 
-// The octree for balls is that of the points that are left.
+// A point far from all others changes nothing about the balls around these.
 TEST_F (FloaterClass, AGrossOutlierDoesNotHarmBalls)
 {
   const Cloud::Ptr cloud = heightField ();

@@ -4,7 +4,7 @@
 
 #include "command_line.h"
 
-namespace CLI
+namespace CLI // NOLINT(readability-identifier-naming)
 {
 class App;
 }
