@@ -6,6 +6,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace pcl
@@ -27,6 +28,21 @@ starSettings (const Options& options, const Limits& limits)
   return settings;
 }
 
+// Cloud indices of the points that stand for those of a given loop: of equal points, one stands for
+// all. Ascending.
+std::vector<Index>
+pointsOfLoop (const Points& points, std::vector<Index> loop)
+{
+  for (Index& index : loop) {
+    const auto duplicate = std::lower_bound (points.duplicates.begin (), points.duplicates.end (),
+                                             std::array<Index, 2>{index, 0});
+    if (duplicate != points.duplicates.end () && (*duplicate)[0] == index)
+      index = (*duplicate)[1];
+  }
+  std::sort (loop.begin (), loop.end ());
+  return loop;
+}
+
 } // namespace
 
 NeighborSettings
@@ -40,8 +56,7 @@ void
 removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
                 const Request& request, Report& report)
 {
-  std::vector<Index> given = request.options.boundary.loop;
-  std::sort (given.begin (), given.end ());
+  const std::vector<Index> given = pointsOfLoop (points, request.options.boundary.loop);
   std::vector<Index> outliers =
       findOutliers (points.positions, neighbors, request.run, request.limits.outliers);
   const auto is_given = [&] (Index p) {

@@ -4,6 +4,7 @@
 // scan whose viewpoint is known is connected as the sensor saw it, without neighbours.
 #include "reconstruct.h"
 
+#include "check_input.h"
 #include "check_options.h"
 #include "cloud_geometry.h"
 #include "input_cleaning.h"
@@ -11,12 +12,14 @@
 #include "mesh/mesh_spacing.h"
 #include "report.h"
 #include "request.h"
+#include "unused_options.h"
 
 #include <algorithm>
 #include <limits>
 #include <new>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -284,6 +287,8 @@ reconstructAny (Input& input, const Request& request, Result& result)
   report.statistics.selected_points = input.positions.size ();
   if (Problem problem = checkOptions (options))
     return problem;
+  if (Problem problem = checkInput (input))
+    return problem;
   const bool as_disc = asksForDisc (options);
   if (as_disc)
     run.setMethod (Topology::DISC);
@@ -377,8 +382,11 @@ reconstruct (Input input, const Options& options, const Limits& limits)
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
     problem = reconstructAny (input, {options, limits, run}, result);
-    if (!problem)
+    if (!problem) {
+      for (std::string& unused : describeUnusedOptions (options, result.report))
+        result.report.warnings.push_back (std::move (unused));
       monitor.finish ();
+    }
   }
   catch (const Cancelled&) {
     problem = {Status::CANCELLED, "the run was cancelled by its caller"};
@@ -386,6 +394,12 @@ reconstruct (Input input, const Options& options, const Limits& limits)
   catch (const std::bad_alloc&) {
     problem = {Status::OUT_OF_MEMORY,
                "not enough memory: use fewer points, or a machine with more"};
+  }
+  catch (const IndexLimitReached& limit) {
+    problem = {Status::OUT_OF_MEMORY, limit.what ()};
+  }
+  catch (const std::length_error&) {
+    problem = {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
   }
   catch (const std::exception& error) {
     problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};

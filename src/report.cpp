@@ -11,10 +11,11 @@ namespace floater
 namespace
 {
 // When to warn; nothing else hangs on these.
-constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary loop
-constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
-constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
-constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
+constexpr double LONG_STEP = 8.0;          // spacings: of an edge of the boundary loop
+constexpr double SMALL_HOLE = 6.0;         // spacings: a wider hole may well be one of the surface
+constexpr std::size_t FEW_POINTS = 50;     // of a component, while ...
+constexpr std::size_t MANY_COINCIDE = 100; // of so many points one coincides with another
+constexpr std::size_t TINY_SHARE = 20;     // ... another one has this many times as many
 
 std::string
 place (const Points& points, Index p)
@@ -151,6 +152,15 @@ reportPoints (const Points& points, Report& report)
   report.statistics.non_finite_points = points.non_finite.size ();
   report.statistics.duplicate_points = points.duplicates.size ();
   report.statistics.working_points = points.positions.size ();
+  const std::size_t coincident = points.duplicates.size ();
+  if (coincident > 0 && MANY_COINCIDE * coincident >= coincident + points.positions.size ())
+    report.warnings.push_back (counted (coincident, "point coincides", "points coincide") +
+                               " with another one, point " +
+                               std::to_string (points.duplicates.front ()[0]) + " with point " +
+                               std::to_string (points.duplicates.front ()[1]) +
+                               " among them: one point of each place is in the mesh; coordinates "
+                               "may have been rounded, or "
+                               "a cloud may be in the file twice");
 }
 
 namespace

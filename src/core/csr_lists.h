@@ -2,9 +2,9 @@
 // Lists of indices in compressed sparse rows.
 #pragma once
 
+#include "core/index_limit.h"
 #include "core/types.h"
 
-#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -43,7 +43,7 @@ struct CsrLists
 
 /// Lists by counting sort, O(rows + entries). `visit` is called twice. It has to call its argument
 /// `emit (row, id)` for each entry, both times in the same order; a row's entries keep that order.
-/// \throw std::length_error if there are 2^32 - 1 entries or more
+/// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 template <typename Visit>
 CsrLists
 makeCsrLists (std::size_t rows, Visit&& visit)
@@ -55,8 +55,7 @@ makeCsrLists (std::size_t rows, Visit&& visit)
     ++lists.offsets[row + 2];
     ++entries;
   });
-  if (entries >= NONE)
-    throw std::length_error ("lists have more entries than 32-bit indices can count");
+  requireCountable (entries, NONE - 1, "a table of points and triangles", "use fewer points");
   for (std::size_t r = 2; r < lists.offsets.size (); ++r)
     lists.offsets[r] += lists.offsets[r - 1];
   lists.ids.resize (entries);

@@ -142,8 +142,8 @@ appendRows (const CsrLists& added, CsrLists& lists)
 {
   if (added.ids.empty ())
     return;
-  if (lists.ids.size () + added.ids.size () >= NONE)
-    throw std::length_error ("neighbours exceed 32-bit indices: use fewer points or a smaller k");
+  requireCountable (lists.ids.size () + added.ids.size (), NONE - 1, "the table of neighbours",
+                    "use fewer points or a smaller k");
   lists.ids.resize (lists.ids.size () + added.ids.size ());
   // From the last row to the first: every entry moves backwards.
   for (std::size_t r = lists.rows (); r-- > 0;) {

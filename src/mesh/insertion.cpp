@@ -16,6 +16,8 @@ namespace floater
 {
 namespace
 {
+constexpr std::size_t LARGEST_STAR = 200; // triangles: the largest k of the options
+
 // Inserts points one by one, each time the one whose place costs least.
 class PointInserter
 {
@@ -106,20 +108,48 @@ private:
   {
     Place best{0.0, p, NONE};
     ++search_;
-    for (Index q : neighbors_.row (p)) {
-      mesh_.fan (q, fan_);
-      for (Index t : fan_) {
-        if (seen_[t] == search_)
-          continue;
-        seen_[t] = search_;
-        const double limit =
-            best.triangle == NONE ? std::numeric_limits<double>::infinity () : best.added;
-        const double added = splitCost (mesh_, cost_, t, p, limit);
-        if (best.triangle == NONE || added < best.added)
-          best = {added, p, t};
-      }
-    }
+    hubs_.clear ();
+    for (Index q : neighbors_.row (p))
+      if (isHub (q))
+        hubs_.push_back (q);
+      else
+        tryFan (q, best);
+    // The triangles of a hub that lie beside p are in the fans of other neighbours, too.
+    for (std::size_t i = 0; i < hubs_.size () && best.triangle == NONE; ++i)
+      tryFan (hubs_[i], best);
     return best;
+  }
+
+  void tryFan (Index q, Place& best)
+  {
+    mesh_.fan (q, fan_);
+    for (Index t : fan_) {
+      if (seen_[t] == search_)
+        continue;
+      seen_[t] = search_;
+      const double limit =
+          best.triangle == NONE ? std::numeric_limits<double>::infinity () : best.added;
+      const double added = splitCost (mesh_, cost_, t, best.point, limit);
+      if (best.triangle == NONE || added < best.added)
+        best = {added, best.point, t};
+    }
+  }
+
+  // Whether there are more triangles around q than a star could have given it.
+  bool isHub (Index q) const
+  {
+    std::size_t count = 0;
+    const Index start = mesh_.triangle_of[q];
+    for (Index t = start; t != NONE; ++count) {
+      if (count > LARGEST_STAR)
+        return true;
+      t = mesh_.neighbors[t][TriangleMesh::next (mesh_.sideOf (t, q))];
+      if (t == start)
+        return false;
+    }
+    for (Index t = start; t != NONE && count <= LARGEST_STAR; ++count)
+      t = mesh_.neighbors[t][TriangleMesh::previous (mesh_.sideOf (t, q))];
+    return count > LARGEST_STAR;
   }
 
   void insert (const Place& place)
@@ -150,7 +180,7 @@ private:
   std::vector<std::uint8_t> queued_; // per point
   std::vector<Index> seen_;          // per triangle: the last search that looked at it
   Index search_ = 0;
-  std::vector<Index> fan_;
+  std::vector<Index> fan_, hubs_;
 };
 
 } // namespace

@@ -10,6 +10,50 @@ namespace pcl
 {
 namespace floater
 {
+namespace
+{
+// The triangles around a point, one by one: anti-clockwise, then from where it began clockwise.
+class FanWalk
+{
+public:
+  FanWalk (const TriangleMesh& mesh, Index p)
+      : mesh_ (mesh), p_ (p), start_ (mesh.triangle_of[p]), at_ (start_)
+  {
+  }
+
+  Index triangle () const { return at_; } // NONE: there are no more
+
+  void advance ()
+  {
+    if (!is_clockwise_) {
+      at_ = mesh_.neighbors[at_][TriangleMesh::next (mesh_.sideOf (at_, p_))];
+      if (at_ == start_)
+        at_ = NONE;
+      else if (at_ == NONE) {
+        is_clockwise_ = true;
+        at_ = start_;
+      }
+      else
+        return;
+    }
+    if (is_clockwise_)
+      at_ = mesh_.neighbors[at_][TriangleMesh::previous (mesh_.sideOf (at_, p_))];
+  }
+
+private:
+  const TriangleMesh& mesh_;
+  Index p_, start_, at_;
+  bool is_clockwise_ = false;
+};
+
+bool
+isCorner (const Triangle& triangle, Index p)
+{
+  return triangle[0] == p || triangle[1] == p || triangle[2] == p;
+}
+
+} // namespace
+
 void
 TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 {
@@ -35,20 +79,19 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
   }
 }
 
+// Both fans are walked in step, so that the smaller one decides when the walk ends: one of the ends
+// may be the hub of a fan as large as the mesh.
 bool
 TriangleMesh::hasEdge (Index p, Index q) const
 {
-  const Index start = triangle_of[p];
-  for (Index t = start; t != NONE;) {
-    if (triangles[t][0] == q || triangles[t][1] == q || triangles[t][2] == q)
+  FanWalk around_p (*this, p), around_q (*this, q);
+  while (around_p.triangle () != NONE && around_q.triangle () != NONE) {
+    if (isCorner (triangles[around_p.triangle ()], q) ||
+        isCorner (triangles[around_q.triangle ()], p))
       return true;
-    t = neighbors[t][next (sideOf (t, p))];
-    if (t == start)
-      return false;
+    around_p.advance ();
+    around_q.advance ();
   }
-  for (Index t = start; t != NONE; t = neighbors[t][previous (sideOf (t, p))])
-    if (triangles[t][0] == q || triangles[t][1] == q || triangles[t][2] == q)
-      return true;
   return false;
 }
 

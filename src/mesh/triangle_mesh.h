@@ -118,7 +118,7 @@ struct TriangleMesh
   /// Sets neighbours and triangle_of from the triangles. O(n).
   /// \param points number of points; corners must be below
   /// \return false if the triangles are no oriented manifold; the mesh is then unusable
-  /// \throw std::length_error if there are 2^32 / 3 triangles or more
+  /// \throws IndexLimitReached if there are 2^32 / 3 triangles or more
   bool connect (std::size_t points, const RunContext& run);
 
 private:

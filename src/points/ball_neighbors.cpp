@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace pcl
 {
@@ -44,10 +43,15 @@ public:
     drop (p, found);
     found.resize (std::min (k, found.size ()));
   }
+  // No more than are taken: next to a jump in density the ball may hold the whole cloud.
   void within (Index p, double radius, std::vector<Neighbor>& found) const
   {
-    tree_.within (positions_[p], radius, found);
-    drop (p, found);
+    tree_.nearestIf (
+        positions_[p], Eigen::Vector3d::Zero (), radius, MOST_IN_BALL,
+        [p] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
+          return neighbor.point != p;
+        },
+        found);
   }
 
 private:
@@ -85,9 +89,8 @@ searchBalls (const Rows& rows, double radius, Search& search, const RunContext& 
   std::size_t entries = 0;
   for (const std::vector<Index>& range : ranges)
     entries += range.size ();
-  if (entries >= NONE)
-    throw std::length_error (
-        "the balls hold more than 32-bit indices can count: use fewer points or a smaller radius");
+  requireCountable (entries, NONE - 1, "the table of neighbours in balls",
+                    "use fewer points or a smaller radius");
   sumRowLengths (lists.offsets);
   lists.ids.reserve (entries);
   for (std::vector<Index>& range : ranges) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace pcl
 {
@@ -17,6 +16,10 @@ namespace
 {
 // Above one by more than the rounding of a sum of distances.
 constexpr double SAFELY = 1.0 + 1e-9;
+
+// For the message that there are too many.
+constexpr const char* TABLE = "the table of neighbours";
+constexpr const char* REMEDY = "use fewer points or a smaller k";
 
 // Writes the k nearest points of one of them but for itself, and NONE for those that are missing.
 // Points whose squared distance to it underflows may push it out of the results.
@@ -86,9 +89,7 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
   const std::size_t n = positions.size ();
   const std::size_t count =
       std::min (static_cast<std::size_t> (k), std::max<std::size_t> (1, n) - 1);
-  if (rows.size () * count >= NONE)
-    throw std::length_error (
-        "points times neighbours exceed 32-bit indices: use fewer points or a smaller k");
+  requireCountable (rows.size () * count, NONE - 1, TABLE, REMEDY);
   CsrLists lists;
   lists.offsets.resize (rows.size () + 1);
   for (std::size_t i = 0; i <= rows.size (); ++i)
@@ -126,9 +127,7 @@ searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const Run
     search.nearest (rows[i], static_cast<std::size_t> (k), found);
     for (const Neighbor& neighbor : found)
       lists.ids.push_back (neighbor.point);
-    if (lists.ids.size () >= NONE)
-      throw std::length_error (
-          "points times neighbours exceed 32-bit indices: use fewer points or a smaller k");
+    requireCountable (lists.ids.size (), NONE - 1, TABLE, REMEDY);
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }
   return lists;

@@ -13,8 +13,8 @@ namespace floater
 /// The k nearest other points of some points, nearest first, ties by index; fewer if there are no
 /// more. Row i of the result is that of rows[i]. Large clouds are cut into blocks with halos, each
 /// with a kd-tree of its own; whether a halo is wide enough is checked, and the block cut anew if
-/// it is not. So the result does not depend on the number of blocks. O(n log n). \throw
-/// std::length_error if there are 2^32 - 1 entries or more
+/// it is not. So the result does not depend on the number of blocks. O(n log n).
+/// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 CsrLists
 findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
                       std::size_t blocks, const RunContext& run);

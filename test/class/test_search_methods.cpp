@@ -66,8 +66,8 @@ TEST_F (FloaterClass, AsksTheUsersSearchMethod)
   EXPECT_EQ (counting->queries, indices->size () - 1);
 }
 
-// Balls are searched by PCL's octree if the user gives no search; the mesh is that of any search.
-TEST_F (FloaterClass, TakesBallsByAnOctree)
+// The mesh of balls is that of any search.
+TEST_F (FloaterClass, TakesBallsBySearchMethods)
 {
   const Cloud::Ptr cloud = heightField ();
   (*cloud)[123].x = std::numeric_limits<float>::quiet_NaN ();

@@ -293,6 +293,44 @@ TEST (Reconstruct, FewestPoints)
   expectDisc (reconstruct (asInput (with_middle), options), 5);
 }
 
+TEST (Reconstruct, ManyCoincidingPointsAreToldOf)
+{
+  const Positions distinct = surface (SurfaceKind::HEIGHT_FIELD, 500, 3);
+  for (const std::size_t repeated : {1U, 20U}) {
+    Positions positions = distinct;
+    positions.insert (positions.end (), distinct.begin (),
+                      distinct.begin () + static_cast<std::ptrdiff_t> (repeated));
+    const Result result = reconstruct (asInput (positions), {});
+    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    const bool is_told = std::any_of (
+        result.report.warnings.begin (), result.report.warnings.end (), [] (const std::string& w) {
+          return w.find ("20 points coincide with another one") != std::string::npos;
+        });
+    EXPECT_EQ (is_told, repeated == 20);
+    EXPECT_EQ (result.report.statistics.duplicate_points, repeated);
+  }
+}
+
+// Of two equal points that look like an outlier the given loop names the second, which the first
+// stands for.
+TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
+{
+  const samples::Sheet sheet = samples::disc (0.1, 21);
+  Positions positions = sheet.positions;
+  const Eigen::Vector3d far = {0.0, 3.0, 0.0};
+  positions.push_back (far);
+  positions.push_back (far);
+  const auto second = static_cast<Index> (positions.size () - 1);
+  Options options = discOptions ();
+  ASSERT_EQ (reconstruct (asInput (positions), options).report.outliers.size (), 1U);
+  options.boundary.loop = samples::indices (sheet.border);
+  options.boundary.loop.push_back (second);
+  const Result result = reconstruct (asInput (positions), options);
+  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  EXPECT_TRUE (result.report.outliers.empty ());
+  EXPECT_EQ (result.report.loop.size (), options.boundary.loop.size ());
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

@@ -2,11 +2,13 @@
 // Status and message of runs that fail, and the stages of a run.
 #include <pcl/surface/floater/reconstruct.h>
 
+#include "core/index_limit.h"
 #include "samples.h"
 #include "surfaces.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -154,6 +156,39 @@ TEST (Status, ExceptionsBecomeStatuses)
   BrokenSearch<std::runtime_error> broken{std::runtime_error ("the tree fell over")};
   expectFailure (reconstruct (asInput (cloud, &broken), {}), Status::INTERNAL_ERROR,
                  "the tree fell over");
+}
+
+// Arrays that would make the run write outside of its own.
+TEST (Status, InvalidInput)
+{
+  const Input good = asInput (samples::disc (0.1, 7).positions);
+  const auto expectRefusal = [&good] (const auto& change, const std::string& why) {
+    Input wrong = good;
+    change (wrong);
+    for (const Options& options : {Options (), discOptions ()})
+      expectFailure (reconstruct (wrong, options), Status::INVALID_INDICES, why);
+  };
+  const std::string size = std::to_string (good.positions.size ());
+  expectRefusal ([] (Input& input) { input.cloud_index.pop_back (); }, size + " positions");
+  expectRefusal ([] (Input& input) { input.cloud_index.push_back (0); }, size + " positions");
+  expectRefusal ([] (Input& input) { input.cloud_index.clear (); }, "0 cloud indices");
+  expectRefusal ([] (Input& input) { input.cloud_size = 10; }, "outside the cloud of size 10");
+  expectRefusal ([] (Input& input) { input.cloud_index[3] = 4'000'000'000; }, "4000000000");
+  expectRefusal ([] (Input& input) { input.cloud_index[20] = 5; }, "5 is given twice");
+  Input turned = good; // indices may come in any order
+  std::reverse (turned.cloud_index.begin (), turned.cloud_index.end ());
+  EXPECT_EQ (reconstruct (turned, {}).report.status, Status::OK);
+}
+
+// A run that outgrows 32 bits tells what to do; it is no error of the library.
+TEST (Status, TablesThatAreTooLarge)
+{
+  const Positions cloud = samples::disc (0.1, 5).positions;
+  BrokenSearch<IndexLimitReached> limit{IndexLimitReached ("the table of neighbours is full")};
+  expectFailure (reconstruct (asInput (cloud, &limit), {}), Status::OUT_OF_MEMORY, "is full");
+  BrokenSearch<std::length_error> length{std::length_error ("vector::_M_default_append")};
+  expectFailure (reconstruct (asInput (cloud, &length), {}), Status::OUT_OF_MEMORY,
+                 "use fewer points");
 }
 
 TEST (Stages, ComeInOrder)

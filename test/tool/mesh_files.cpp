@@ -6,9 +6,11 @@
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/PolygonMesh.h>
+#include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/io/vtk_lib_io.h>
+#include <pcl/point_types.h>
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
@@ -196,6 +198,20 @@ readPly (const std::string& path)
   if (pcl::PLYReader ().read (path, mesh) != 0)
     throw std::runtime_error ("PCL cannot read " + path);
   return fromPcl (mesh);
+}
+
+std::vector<Eigen::Vector3f>
+loadPlyIntoPoints (const std::string& path)
+{
+  pcl::PCLPointCloud2 fields;
+  if (pcl::io::loadPLYFile (path, fields) != 0)
+    throw std::runtime_error ("PCL cannot read " + path);
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  pcl::fromPCLPointCloud2 (fields, cloud);
+  std::vector<Eigen::Vector3f> points;
+  for (const pcl::PointXYZ& point : cloud)
+    points.emplace_back (point.x, point.y, point.z);
+  return points;
 }
 
 MeshContent

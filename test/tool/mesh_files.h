@@ -37,6 +37,11 @@ readVtkWithPcl (const std::string& path);
 MeshContent
 readPly (const std::string& path);
 
+/// The points of a PLY file as most programs with PCL read them: pcl::io::loadPLYFile, then
+/// pcl::fromPCLPointCloud2 into PointXYZ.
+std::vector<Eigen::Vector3f>
+loadPlyIntoPoints (const std::string& path);
+
 /// VTK's STL reader, without merging points.
 MeshContent
 readStl (const std::string& path);

@@ -131,7 +131,7 @@ TEST_F (ShiftTest, CoarseCoordinatesAreTold)
     EXPECT_NE (strict.err.find ("--shift"), std::string::npos) << strict.err;
     EXPECT_FALSE (std::filesystem::exists (path ("out.ply")));
   }
-  EXPECT_EQ (run ({"double.pcd", "out.ply", "--strict"}).code, 0);
+  EXPECT_EQ (run ({"double.pcd", "out.ply", "--precision", "double", "--strict"}).code, 0);
   EXPECT_EQ (run ({"text.pcd", "out.ply", "--strict", "--shift", "auto"}).code, 0);
 }
 

@@ -38,7 +38,7 @@ makeFolder ()
 /// In the child: never returns.
 [[noreturn]] void
 become (const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-        const std::filesystem::path& logs, std::optional<std::size_t> file_limit)
+        const std::filesystem::path& logs, const Surroundings& surroundings)
 {
   std::vector<char*> argv;
   std::string tool = RECONSTRUCT_TOOL;
@@ -47,18 +47,25 @@ become (const std::vector<std::string>& arguments, const std::filesystem::path& 
   for (std::string& copy : copies)
     argv.push_back (copy.data ());
   argv.push_back (nullptr);
-  const auto redirect = [&logs] (const char* name, int to) {
-    const int file = ::open ((logs / name).c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const auto redirect = [] (const std::filesystem::path& name, int to) {
+    const int file = ::open (name.c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     return file >= 0 && ::dup2 (file, to) >= 0;
   };
+  const auto limitTo = [] (auto resource, const std::optional<std::size_t>& most) {
+    const rlimit limit{most.value_or (0), most.value_or (0)};
+    return !most || ::setrlimit (resource, &limit) == 0;
+  };
   constexpr int NOT_STARTED = 127;
-  if (!redirect ("out", STDOUT_FILENO) || !redirect ("err", STDERR_FILENO) ||
-      ::chdir (folder.c_str ()) != 0)
+  const std::filesystem::path out = surroundings.standard_output.empty ()
+                                        ? logs / "out"
+                                        : std::filesystem::path (surroundings.standard_output);
+  if (!redirect (out, STDOUT_FILENO) || !redirect (logs / "err", STDERR_FILENO) ||
+      ::chdir (folder.c_str ()) != 0 || !limitTo (RLIMIT_FSIZE, surroundings.file_limit) ||
+      !limitTo (RLIMIT_AS, surroundings.address_limit))
     ::_exit (NOT_STARTED);
-  if (file_limit) {
-    const rlimit limit{*file_limit, *file_limit};
-    ::setrlimit (RLIMIT_FSIZE, &limit);
-  }
+  constexpr unsigned LONG_ENOUGH = 60; // seconds
+  if (surroundings.address_limit)
+    ::alarm (LONG_ENOUGH);
   ::execv (tool.c_str (), argv.data ());
   ::_exit (NOT_STARTED);
 }
@@ -101,9 +108,17 @@ Outcome
 ToolTest::run (const std::vector<std::string>& arguments,
                std::optional<std::size_t> file_limit) const
 {
+  Surroundings surroundings;
+  surroundings.file_limit = file_limit;
+  return runIn (surroundings, arguments);
+}
+
+Outcome
+ToolTest::runIn (const Surroundings& surroundings, const std::vector<std::string>& arguments) const
+{
   const pid_t child = ::fork ();
   if (child == 0)
-    become (arguments, folder_, logs_, file_limit);
+    become (arguments, folder_, logs_, surroundings);
   int status = 0;
   return child > 0 && ::waitpid (child, &status, 0) == child ? outcomeOf (status) : Outcome ();
 }
@@ -114,7 +129,7 @@ ToolTest::interrupt (const std::vector<std::string>& arguments, int signal,
 {
   const pid_t child = ::fork ();
   if (child == 0)
-    become (arguments, folder_, logs_, std::nullopt);
+    become (arguments, folder_, logs_, {});
   if (child < 0)
     return {};
   int status = 0;

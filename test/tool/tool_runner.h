@@ -23,6 +23,14 @@ struct Outcome
   std::string err;
 };
 
+/// What a run finds around it, if that is unusual.
+struct Surroundings
+{
+  std::optional<std::size_t> file_limit;    ///< largest size of a file in bytes (RLIMIT_FSIZE)
+  std::optional<std::size_t> address_limit; ///< bytes of addresses (RLIMIT_AS)
+  std::string standard_output;              ///< file that takes it; empty: what is printed is kept
+};
+
 /// A test with a folder that is empty at the start and removed at the end.
 class ToolTest : public testing::Test
 {
@@ -44,6 +52,9 @@ protected:
   /// \param file_limit largest size of a file in bytes (RLIMIT_FSIZE)
   Outcome run (const std::vector<std::string>& arguments,
                std::optional<std::size_t> file_limit = std::nullopt) const;
+
+  /// Runs the tool in the folder. A run that does not end is killed after a minute (SIGALRM).
+  Outcome runIn (const Surroundings& surroundings, const std::vector<std::string>& arguments) const;
 
   /// Starts the tool and sends it a signal as soon as is_time (id of its process) returns true. It
   /// is called repeatedly until then, or until the tool ends by itself.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud.h"
 
+#include "plural.h"
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -156,6 +158,13 @@ widenCoordinates (const std::vector<Field*>& fields)
       ++widened;
     }
   return widened == 3;
+}
+
+std::string
+facesLeftOut (std::size_t faces)
+{
+  return counted (faces, "face") + " of the input file " + (faces == 1 ? "was" : "were") +
+         " left out: only its points are used";
 }
 
 std::string

@@ -88,6 +88,10 @@ makeCloud (std::vector<Field> fields, std::size_t size);
 bool
 widenCoordinates (const std::vector<Field*>& fields);
 
+/// The warning that the file has faces, which are not read.
+std::string
+facesLeftOut (std::size_t faces);
+
 /// The shift as text, "500000 5500000 0"; empty if there is none.
 std::string
 shiftText (const Cloud& cloud);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl
@@ -35,6 +36,21 @@ writeObjTriple (AtomicFile& file, const FieldTriple& fields, std::size_t row)
   });
 }
 
+/// Readers of STL merge equal corners: triangles that have two of them vanish there.
+std::size_t
+trianglesLostInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
+{
+  const auto corner = [&cloud] (std::uint32_t point) -> Eigen::Vector3f {
+    return cloud.position (point).cast<float> ();
+  };
+  return static_cast<std::size_t> (
+      std::count_if (triangles.begin (), triangles.end (), [&] (const auto& triangle) {
+        const Eigen::Vector3f a = corner (triangle[0]), b = corner (triangle[1]),
+                              c = corner (triangle[2]);
+        return a == b || b == c || c == a;
+      }));
+}
+
 } // namespace
 
 bool
@@ -60,6 +76,12 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
   else if (extension == ".obj")
     writeObj (file, cloud, triangles);
   else if (extension == ".stl") {
+    if (const std::size_t lost = trianglesLostInSinglePrecision (cloud, triangles))
+      throw WriteError ("cannot write '" + path.string () +
+                        "': STL holds 32-bit floats, in which " + std::to_string (lost) + " of " +
+                        std::to_string (triangles.size ()) +
+                        " triangles have two equal corners; subtract an origin with --shift, or "
+                        "write .vtk, .ply or .obj");
     writeStl (file, cloud, triangles);
     if (!cloud.single_precision)
       losses.emplace_back ("STL holds single precision only: the coordinates were rounded; "

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_reader.h"
+#include "plural.h"
 #include "text_scanner.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace pcl
 {
@@ -47,6 +51,81 @@ readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
   return count;
 }
 
+/// Faces, of which only the normals of their corners are used.
+struct ObjFaces
+{
+  std::size_t count = 0;
+  std::vector<std::array<std::size_t, 2>> normals; ///< (point, its normal) of corners, from 0
+};
+
+/// The part of a corner "7/8/9" up to the next slash, as an index from 0; the rest stays in `text`.
+/// Negative numbers count back from the last of `size`. \return nothing if that part is empty
+std::optional<std::size_t>
+takeIndex (const TextScanner& scanner, std::string_view& text, std::size_t size)
+{
+  const std::string_view part = text.substr (0, text.find ('/'));
+  text.remove_prefix (std::min (text.size (), part.size () + 1));
+  if (part.empty ())
+    return std::nullopt;
+  std::int64_t number = 0;
+  if (!parseNumber (part, number) || number == 0 || number < -static_cast<std::int64_t> (size))
+    scanner.fail ("'" + std::string (part) + "' is not an index");
+  return number > 0 ? static_cast<std::size_t> (number - 1)
+                    : size - static_cast<std::size_t> (-number);
+}
+
+void
+readFace (TextScanner& scanner, std::size_t points, std::size_t normals, ObjFaces& faces)
+{
+  ++faces.count;
+  for (std::string_view corner = scanner.word (); !corner.empty () && corner.front () != '#';
+       corner = scanner.word ()) {
+    const std::optional<std::size_t> point = takeIndex (scanner, corner, points);
+    takeIndex (scanner, corner, 0); // of a texture
+    const std::optional<std::size_t> normal = takeIndex (scanner, corner, normals);
+    if (point && normal)
+      faces.normals.push_back ({*point, *normal});
+  }
+}
+
+/// The normal of each point: the first that a face gives it, NaN if there is none. With as many
+/// normals as points, and no face that tells otherwise, they come in the same order.
+/// \return empty if normals and points do not fit together; then there is a warning
+std::vector<double>
+matchNormals (const std::vector<double>& normals, const ObjFaces& faces, std::size_t points,
+              std::vector<std::string>& warnings)
+{
+  const bool is_one_each = normals.size () == 3 * points;
+  if (is_one_each && std::all_of (faces.normals.begin (), faces.normals.end (),
+                                  [] (const auto& corner) { return corner[0] == corner[1]; }))
+    return normals;
+  if (faces.normals.empty ()) {
+    if (!normals.empty ())
+      warnings.push_back ("normals were left out: there are " +
+                          counted (normals.size () / 3, "normal") + " for " +
+                          counted (points, "point") + ", and no faces that tell which is whose");
+    return {};
+  }
+  std::vector<double> matched (3 * points, std::numeric_limits<double>::quiet_NaN ());
+  std::vector<std::uint8_t> has_one (points, 0), has_several (points, 0);
+  for (const auto& [point, normal] : faces.normals) {
+    if (point >= points || normal >= normals.size () / 3)
+      throw ReadError ("a face names point " + std::to_string (point + 1) + " and normal " +
+                       std::to_string (normal + 1) + ", one of which the file does not have");
+    const auto from = normals.begin () + static_cast<std::ptrdiff_t> (3 * normal);
+    const auto to = matched.begin () + static_cast<std::ptrdiff_t> (3 * point);
+    if (has_one[point] == 0)
+      std::copy_n (from, 3, to);
+    else if (!std::equal (from, from + 3, to))
+      has_several[point] = 1;
+    has_one[point] = 1;
+  }
+  if (const auto several = std::count (has_several.begin (), has_several.end (), 1); several > 0)
+    warnings.push_back (counted (static_cast<std::size_t> (several), "point") +
+                        " had several normals, of which the first was kept");
+  return matched;
+}
+
 } // namespace
 
 Cloud
@@ -55,6 +134,7 @@ parseObj (const FileBytes& file)
   constexpr std::size_t WITH_COLOR = 6;
   std::vector<double> coordinates;
   std::vector<double> normals;
+  ObjFaces faces;
   std::vector<std::uint8_t> colors;
   std::array<double, WITH_COLOR> numbers{};
   TextScanner scanner (file.view ());
@@ -74,6 +154,8 @@ parseObj (const FileBytes& file)
         scanner.fail ("a normal has 3 numbers");
       normals.insert (normals.end (), numbers.begin (), numbers.begin () + 3);
     }
+    else if (key == "f")
+      readFace (scanner, coordinates.size () / 3, normals.size () / 3, faces);
   }
   if (coordinates.empty ())
     throw ReadError ("it has no points");
@@ -85,8 +167,11 @@ parseObj (const FileBytes& file)
     addFields (std::move (colors), ScalarType::UINT8, {"red", "green", "blue"}, fields);
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
-  if (normals.size () == 3 * size)
-    addFields (std::move (normals), ScalarType::FLOAT64, {"nx", "ny", "nz"}, fields);
+  if (std::vector<double> matched = matchNormals (normals, faces, size, warnings);
+      !matched.empty ())
+    addFields (std::move (matched), ScalarType::FLOAT64, {"nx", "ny", "nz"}, fields);
+  if (faces.count > 0)
+    warnings.push_back (facesLeftOut (faces.count));
   Cloud cloud = makeCloud (std::move (fields), size);
   cloud.warnings = std::move (warnings);
   return cloud;

@@ -21,6 +21,7 @@ struct PcdHeader
   std::size_t points = 0;
   std::string_view data; ///< ascii, binary or binary_compressed
   std::array<double, 3> viewpoint{};
+  std::size_t height = 1; ///< rows of an organized cloud
 };
 
 const std::string PADDING = "_";
@@ -145,7 +146,7 @@ readHeader (TextScanner& scanner)
       lines.points = scanner.number<std::size_t> ();
     else if (key == "DATA")
       return {makeFields (scanner, lines), countPoints (scanner, lines), scanner.word (),
-              lines.viewpoint};
+              lines.viewpoint, lines.height.value_or (1)};
     else
       scanner.fail ("this is not a line of a PCD header");
   }
@@ -285,6 +286,10 @@ parsePcd (const FileBytes& file, bool all_digits)
   cloud.single_precision |= is_widened;
   if (header.data == "binary")
     cloud.file = file;
+  if (header.height > 1)
+    cloud.warnings.push_back ("the input cloud is organized in " + counted (header.height, "row") +
+                              " of " + counted (header.points / header.height, "point") +
+                              ": the mesh has them as one list, and makes no use of the rows");
   if (has_more)
     cloud.warnings.push_back ("the input file has more data than the " +
                               counted (header.points, "point") +

@@ -30,6 +30,7 @@ struct PlyHeader
 {
   std::optional<ByteOrder> byte_order; ///< none if ascii
   std::vector<Element> elements;       ///< up to the vertices, which are the last
+  std::size_t faces = 0;
 };
 
 ScalarType
@@ -104,6 +105,8 @@ readHeader (TextScanner& scanner)
       Element element;
       element.name = std::string (scanner.word ());
       element.count = scanner.number<std::size_t> ();
+      if (element.name == "face")
+        header.faces = element.count;
       if (!is_after_vertices)
         header.elements.push_back (std::move (element));
     }
@@ -270,6 +273,8 @@ parsePly (const FileBytes& file, bool all_digits)
     else
       fields.push_back (std::move (property.field));
   }
+  if (header.faces > 0)
+    warnings.push_back (facesLeftOut (header.faces));
   Cloud cloud = makeCloud (std::move (fields), vertices.count);
   cloud.single_precision |= is_widened;
   if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())

@@ -2,6 +2,8 @@
 // The command line of pcl_floater_reconstruct.
 #pragma once
 
+#include "precision.h"
+
 #include <pcl/surface/floater/options.h>
 
 #include <Eigen/Core>
@@ -43,11 +45,12 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  std::filesystem::path scratch;        ///< folder; used with a limit only
-  std::size_t max_memory = 0;           ///< bytes; 0: no limit
-  std::optional<Eigen::Vector3d> shift; ///< --shift x,y,z
-  bool auto_shift = false;              ///< --shift auto
-  Options options;                      ///< without the loop, which has not been read yet
+  std::filesystem::path scratch;         ///< folder; used with a limit only
+  std::size_t max_memory = 0;            ///< bytes; 0: no limit
+  std::optional<Eigen::Vector3d> shift;  ///< --shift x,y,z
+  bool auto_shift = false;               ///< --shift auto
+  Precision precision = Precision::AUTO; ///< of coordinates in outputs
+  Options options;                       ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
   bool strict = false; ///< write no mesh if there is a warning
@@ -99,6 +102,9 @@ constexpr Choices<Ordering, 6> ORDERING_CHOICES{
      {"reverse-cuthill-mckee", Ordering::REVERSE_CUTHILL_MCKEE},
      {"natural", Ordering::NATURAL}}};
 
+constexpr Choices<Precision, 3> PRECISION_CHOICES{
+    {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
+
 constexpr Choices<bool, 2> SWITCH_CHOICES{{{"on", true}, {"off", false}}};
 
 /// The word for a value.
@@ -117,18 +123,6 @@ choiceName (const Choices<Enum, N>& choices, Enum value)
 /// \throws UsageError
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line);
-
-/// Checks all paths against each other and against the disk, before the work begins.
-/// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
-/// ReadError if the extension of the input is unknown
-void
-checkPaths (const CommandLine& command_line);
-
-/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
-/// that begins with # begins a comment, up to the end of the line.
-/// \throws ReadError
-std::vector<std::uint32_t>
-readLoop (const std::filesystem::path& path);
 
 } // namespace floater
 } // namespace pcl

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
+#include "check_paths.h"
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "large_arrays.h"
+#include "loop_file.h"
 #include "memory_limit.h"
 #include "mesh_writer.h"
 #include "plural.h"
+#include "precision.h"
 #include "progress.h"
 #include "remaining_time.h"
 #include "report_json.h"
 #include "shift.h"
+#include "summary.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -21,6 +25,8 @@
 #include <memory>
 #include <new>
 #include <numeric>
+
+#include <sys/resource.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -117,12 +123,12 @@ reconstructInput (Input input, Options options, Progress& progress)
 /// The mesh in the plane z = 0. Its cloud refers to the parameters of the result, and has no
 /// normals, because these are those of the surface in space.
 std::pair<Cloud, Triangles>
-flatMesh (const Cloud& cloud, const Result& result)
+flatMesh (const Cloud& cloud, const Result& result, Precision precision)
 {
   static const double zero = 0.0;
   const std::vector<Eigen::Vector2d>& parameters = result.report.parameters;
   Cloud flat;
-  flat.single_precision = false;
+  flat.single_precision = precision == Precision::SINGLE;
   flat.rows = parameters.size ();
   const auto view = [&flat] (std::size_t axis, const double* first, std::size_t stride) {
     Field& field = flat.coordinates[axis];
@@ -200,7 +206,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     file.close ();
   };
   if (!line.parameterization.empty ()) {
-    const auto [flat, triangles] = flatMesh (cloud, result);
+    const auto [flat, triangles] = flatMesh (cloud, result, line.precision);
     stage (line.parameterization, flat, triangles);
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
@@ -242,79 +248,6 @@ publish (const Files& files)
     file->publish ();
 }
 
-void
-printWarnings (const Report& report)
-{
-  for (const std::string& warning : report.warnings)
-    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
-}
-
-/// Prints method, components, genus and boundary loops.
-void
-printShape (const Report& report)
-{
-  const MeshCheck& check = report.check;
-  std::printf ("topology   %s%s%s\n", choiceName (TOPOLOGY_CHOICES, report.topology),
-               report.topology_reason.empty () ? "" : ": ", report.topology_reason.c_str ());
-  std::printf ("shape      %s, genus %lld, %s\n", counted (check.components, "component").c_str (),
-               static_cast<long long> (check.genus),
-               check.loops.empty () ? "closed" : "with boundary");
-  if (check.loops.empty ())
-    return;
-  const LoopSummary &longest = check.loops.front (), &shortest = check.loops.back ();
-  if (check.loops.size () == 1)
-    std::printf ("loops      1 of %zu points, %.3g spacings wide\n", longest.points,
-                 longest.width_spacings);
-  else
-    std::printf (
-        "loops      %zu, of %zu points, %.3g spacings wide, to %zu points, %.3g spacings\n",
-        check.loops.size (), longest.points, longest.width_spacings, shortest.points,
-        shortest.width_spacings);
-}
-
-void
-printSummary (const CommandLine& line, const Report& report, const RunFigures& run)
-{
-  const Statistics& statistics = report.statistics;
-  constexpr double MEGABYTE = 1e6;
-  std::printf (
-      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
-      run.input_points, statistics.used_points, statistics.duplicate_points,
-      statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
-      report.unused.size ());
-  std::printf ("triangles  %zu\n", statistics.triangles);
-  printShape (report);
-  if (statistics.trimmed_triangles > 0)
-    std::printf ("cut off    %s, %s, %s\n",
-                 counted (statistics.trimmed_triangles, "triangle").c_str (),
-                 counted (statistics.trimmed_components, "component").c_str (),
-                 counted (statistics.trimmed_points, "point").c_str ());
-  if (!run.shift.isZero (0.0))
-    std::printf ("shift      %.17g %.17g %.17g, subtracted from all coordinates\n", run.shift.x (),
-                 run.shift.y (), run.shift.z ());
-  if (report.is_view)
-    std::printf ("viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
-                 "out\n",
-                 report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
-                 report.viewpoint[1], report.viewpoint[2],
-                 counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
-  if (report.denoised)
-    std::printf ("noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
-                 "points were "
-                 "projected on local planes\n",
-                 statistics.noise, statistics.noise_quantile_90, statistics.largest_noise,
-                 statistics.projected_points);
-  std::printf ("seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
-               run.read_seconds, run.reconstruct_seconds, run.write_seconds,
-               static_cast<double> (peakMemory ()) / MEGABYTE);
-  std::printf ("warnings   %zu\n", report.warnings.size ());
-  std::printf ("mesh       %s\n", line.output.c_str ());
-  if (!line.parameterization.empty ())
-    std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
-  if (!line.report.empty ())
-    std::printf ("report     %s\n", line.report.c_str ());
-}
-
 int
 run (CommandLine line)
 {
@@ -339,6 +272,9 @@ run (CommandLine line)
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
+  cloud.single_precision =
+      choosePrecision (line.precision, line.input, line.output, input.positions, cloud);
+  figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();
   Result result = reconstructInput (std::move (input), line.options, progress);
@@ -351,23 +287,10 @@ run (CommandLine line)
   start = std::chrono::steady_clock::now ();
   Files files;
   stageAll (line, cloud, result, figures, files);
-  publish (files);
   figures.write_seconds = secondsSince (start);
   progress.clear ();
-
-  const bool is_ok = report.status == Status::OK && !figures.is_refused;
-  if (!is_ok)
-    std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct '%s': %s (%s)\n",
-                  line.input.c_str (), report.message.c_str (),
-                  outcomeName (report, figures).c_str ());
-  if (figures.is_refused || (is_ok && !line.quiet))
-    printWarnings (report);
-  if (is_ok && !line.quiet)
-    printSummary (line, report, figures);
-  if (line.json)
-    std::printf ("%s\n", summaryLine (line, report, figures).c_str ());
-  if (std::fflush (stdout) != 0)
-    throw WriteError ("cannot write to the standard output");
+  printOutcome (line, report, figures);
+  publish (files);
   return exitCode (report, figures);
 }
 
@@ -412,6 +335,14 @@ runTool (int argc, char** argv)
 } // namespace floater
 } // namespace pcl
 
+/// Whether the system limits the addresses of this process (RLIMIT_AS, ulimit -v).
+static bool
+isAddressSpaceLimited ()
+{
+  rlimit limit{};
+  return ::getrlimit (RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 int
 main (int argc, char** argv)
 {
@@ -420,11 +351,12 @@ main (int argc, char** argv)
   // default glibc raises it with the first of them, which costs a tenth more peak memory.
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
+  const bool may_lack_memory = isAddressSpaceLimited ();
   const int code = pcl::floater::runTool (argc, argv);
-  if (code != pcl::floater::EXIT_INTERNAL)
+  if (code != pcl::floater::EXIT_INTERNAL && !may_lack_memory)
     return code;
-  // After memory has run out, a worker thread of OpenBLAS may wait for memory for ever. A normal
-  // exit would wait for that thread.
+  // A worker thread of OpenBLAS that finds no memory, already when it is started with the program,
+  // waits for it for ever. A normal exit would wait for that thread.
   std::fflush (nullptr);
   std::_Exit (code);
 }

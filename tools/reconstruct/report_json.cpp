@@ -196,6 +196,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                       {"fields", run.input_fields}}},
                     {"shift", {run.shift.x (), run.shift.y (), run.shift.z ()}},
                     {"output", is_ok ? Json{{"file", fileName (line.output)},
+                                            {"coordinates", run.writes_single ? "float" : "double"},
                                             {"vertices", run.vertices},
                                             {"triangles", report.statistics.triangles},
                                             {"parameterization", fileName (line.parameterization)}}

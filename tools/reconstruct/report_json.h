@@ -18,6 +18,7 @@ struct RunFigures
 {
   std::size_t input_points = 0;
   std::vector<std::string> input_fields;            ///< fields of the points but the coordinates
+  bool writes_single = true;                        ///< whether those of the mesh are
   bool single_precision = true;                     ///< whether the coordinates are 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< subtracted from all coordinates
   std::size_t vertices = 0;                         ///< vertices of the output

@@ -67,7 +67,7 @@ namespace pcl
  * - \b Failure: the output is empty, the cause is in getStatus() and getMessage(), and one line is
  *   printed by PCL_ERROR. Warnings about a mesh are in getReport().warnings and are printed by
  *   PCL_WARN. reconstruct() does not throw.
- * - \b Search: a kd-tree of its own, in parallel; for balls, PCL's octree. A method given to
+ * - \b Search: a kd-tree of its own, in parallel. A method given to
  *   setSearchMethod() is used instead, in one thread; each run sets its input cloud.
  * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after
  *   another cloud or option has been set. A run changes no option.

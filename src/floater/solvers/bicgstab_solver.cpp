@@ -135,7 +135,13 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
   IncompleteFactors factors;
   // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
   const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
-  factors.setFillfactor (static_cast<int> (std::ceil (2.0 * options.ilut_fill / mean_row)));
+  const double fill = std::ceil (2.0 * options.ilut_fill / mean_row);
+  // Eigen reserves so many entries, and counts them in an int without looking.
+  const std::size_t reserved_in_row =
+      std::min (system.unknowns (), static_cast<std::size_t> (fill * mean_row) + 1) + 1;
+  requireCountable (system.unknowns () * reserved_in_row, MOST_MATRIX_ENTRIES,
+                    "the incomplete factorization", "use a smaller fill, or fewer points");
+  factors.setFillfactor (static_cast<int> (fill));
   factors.setDroptol (options.ilut_drop);
   factors.compute (matrix);
   solution.nnz_factors = factors.nonZeros ();

@@ -35,7 +35,8 @@ numberUnknowns (const std::vector<Index>& place_in_loop, const std::vector<std::
 
 // Counts the entries of each row.
 void
-placeRows (const CsrLists& neighbors, const RunContext& run, LinearSystem& system)
+placeRows (const CsrLists& neighbors, std::size_t most_entries, const RunContext& run,
+           LinearSystem& system)
 {
   const std::size_t unknowns = system.unknowns ();
   system.row_offsets.assign (unknowns + 1, 0);
@@ -47,6 +48,11 @@ placeRows (const CsrLists& neighbors, const RunContext& run, LinearSystem& syste
       system.row_offsets[i + 1] = length;
     }
   });
+  std::size_t entries = 0;
+  for (std::size_t i = 0; i < unknowns; ++i)
+    entries += static_cast<std::size_t> (system.row_offsets[i + 1]);
+  requireCountable (entries, most_entries, "the linear system",
+                    "use fewer points or a smaller k, or make a surface instead of a disc");
   for (std::size_t i = 0; i < unknowns; ++i)
     system.row_offsets[i + 1] += system.row_offsets[i];
 }
@@ -69,12 +75,13 @@ insertEntry (LinearSystem& system, std::size_t first, std::size_t last, int colu
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
                 const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
-                const std::vector<std::uint8_t>& reachable, const RunContext& run)
+                const std::vector<std::uint8_t>& reachable, const RunContext& run,
+                std::size_t most_entries)
 {
   LinearSystem system;
   const std::vector<Index> place_in_loop = placesInLoop (loop, neighbors.rows ());
   numberUnknowns (place_in_loop, reachable, system);
-  placeRows (neighbors, run, system);
+  placeRows (neighbors, most_entries, run, system);
   const std::size_t unknowns = system.unknowns ();
   system.columns.resize (static_cast<std::size_t> (system.row_offsets.back ()));
   system.values.resize (system.columns.size ());

@@ -18,10 +18,10 @@ struct LinearSystem
 {
   std::vector<Index> point_of_unknown; ///< interior points that take part, ascending
   std::vector<Index> unknown_of_point; ///< per point; NONE for points of the loop and left out ones
-  std::vector<int> row_offsets;        ///< one more than there are unknowns
-  std::vector<int> columns;            ///< ascending in each row
-  std::vector<double> values;          ///< parallel to columns
-  std::vector<double> rhs_u, rhs_v;    ///< per unknown
+  std::vector<int> row_offsets;     ///< one more than there are unknowns; see MOST_MATRIX_ENTRIES
+  std::vector<int> columns;         ///< ascending in each row
+  std::vector<double> values;       ///< parallel to columns
+  std::vector<double> rhs_u, rhs_v; ///< per unknown
 
   std::size_t unknowns () const { return point_of_unknown.size (); }
   std::size_t nonzeros () const { return values.size (); }
@@ -37,10 +37,12 @@ struct LinearSystem
 /// \param loop      points of the loop in order
 /// \param loop_uv   their parameters
 /// \param reachable per point; 1 if the point takes part (see reachability.h)
+/// \throws IndexLimitReached if the matrix has more than `most_entries`
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
                 const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
-                const std::vector<std::uint8_t>& reachable, const RunContext& run);
+                const std::vector<std::uint8_t>& reachable, const RunContext& run,
+                std::size_t most_entries = MOST_MATRIX_ENTRIES);
 
 } // namespace floater
 } // namespace pcl

@@ -79,6 +79,11 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering)
                           const_cast<double*> (system.values.data ()),
                           const_cast<int*> (system.columns.data ()),
                           const_cast<int*> (system.row_offsets.data ()), SLU_NC, SLU_D, SLU_GE);
+  // SuperLU counts the entries that it reserves in an int without looking.
+  constexpr int FILL = 6; // question to sp_ienv
+  requireCountable (static_cast<std::size_t> (sp_ienv (FILL)) * system.nonzeros (),
+                    MOST_MATRIX_ENTRIES, "the factors of SuperLU",
+                    "use fewer points or another solver");
   std::vector<int> column_order (system.unknowns ()), row_order (system.unknowns ()),
       tree (system.unknowns ());
   get_perm_c (control.ColPerm, &transpose.matrix, column_order.data ());

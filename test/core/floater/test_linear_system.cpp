@@ -38,6 +38,21 @@ TEST (LinearSystem, WithTwoUnknowns)
   EXPECT_EQ (system.rhs_v, (std::vector<double>{2.0, 4.0}));
 }
 
+// A system of as many entries as there may be is made, and none of more.
+TEST (LinearSystem, OfTooManyEntriesIsRefused)
+{
+  CsrLists neighbors;
+  neighbors.offsets = {0, 0, 2, 4, 4};
+  neighbors.ids = {0, 2, 1, 3};
+  const std::vector<double> weights (4, 0.5);
+  const auto assemble = [&] (std::size_t most) {
+    return assembleSystem (neighbors, weights, {0, 3}, {{0.0, 0.0}, {1.0, 0.0}}, {1, 1, 1, 1}, 1,
+                           most);
+  };
+  EXPECT_EQ (assemble (4).nonzeros (), 4U);
+  EXPECT_THROW (assemble (3), IndexLimitReached);
+}
+
 // Compared with a dense matrix, entry by entry.
 TEST (LinearSystem, OfASheetWithPointsLeftOut)
 {

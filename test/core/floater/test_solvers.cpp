@@ -146,6 +146,22 @@ TEST (Solvers, WithDiagonalPivotsRefuseColamd)
   }
 }
 
+// 250,000 rows of up to 20,000 entries each are more than Eigen counts.
+TEST (Solvers, RefuseFactorsThatTheyCannotCount)
+{
+  constexpr int UNKNOWNS = 250'000;
+  LinearSystem system;
+  system.point_of_unknown.resize (UNKNOWNS);
+  system.rhs_u = system.rhs_v = system.values = std::vector<double> (UNKNOWNS, 1.0);
+  for (int i = 0; i <= UNKNOWNS; ++i)
+    system.row_offsets.push_back (i);
+  system.columns.assign (system.row_offsets.begin (), system.row_offsets.end () - 1);
+  SolverOptions options = choice (Solver::BICGSTAB_ILUT);
+  EXPECT_EQ (solveOnAllCores (system, options).outcome, Outcome::OK);
+  options.ilut_fill = 10'000;
+  EXPECT_THROW (solveOnAllCores (system, options), IndexLimitReached);
+}
+
 TEST (Solvers, TellIfTheyAreNotBuilt)
 {
   for (const Solver solver : ALL_SOLVERS) {

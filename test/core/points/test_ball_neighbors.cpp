@@ -154,6 +154,36 @@ TEST (BallNeighbors, AreNeitherFewNorTooMany)
     EXPECT_EQ (few.row (p).size (), 3U);
 }
 
+// Next to a jump in density a ball holds the whole crowd: its nearest points are taken, ties by
+// index, and half of the crowd lies on a grid for such ties.
+TEST (BallNeighbors, AtAJumpInDensityAreTheNearest)
+{
+  constexpr std::size_t MOST = 200, CROWD = 2000;
+  RandomStream random (6);
+  std::vector<Eigen::Vector3d> positions;
+  for (std::size_t i = 0; i < CROWD; ++i)
+    positions.emplace_back (
+        i % 2 == 0 ? Eigen::Vector3d (random.uniform (), random.uniform (), 0.0)
+                   : Eigen::Vector3d (0.1 * random.below (11), 0.1 * random.below (11), 1e-3));
+  for (int i = 0; i < 30; ++i)
+    positions.emplace_back (20.0 * random.uniform () - 10.0, 20.0 * random.uniform () - 10.0, 0.0);
+  const Points points = workingPoints (positions);
+  const CsrLists balls = findBalls (points, 10.0);
+  std::size_t full = 0;
+  for (Index p = 0; p < points.size (); ++p) {
+    std::vector<std::pair<double, Index>> all;
+    for (Index q = 0; q < points.size (); ++q)
+      if (q != p)
+        all.emplace_back ((points.positions[q] - points.positions[p]).squaredNorm (), q);
+    std::sort (all.begin (), all.end ());
+    const Row row = balls.row (p);
+    for (std::size_t i = 0; i < row.size (); ++i)
+      ASSERT_EQ (row[i], all[i].second);
+    full += row.size () == MOST ? 1 : 0;
+  }
+  EXPECT_GT (full, points.size () / 2);
+}
+
 TEST (PlanarStarOfAll, GoesRoundAndBeginsAfterTheGap)
 {
   RandomStream random (5);

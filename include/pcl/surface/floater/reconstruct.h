@@ -44,11 +44,11 @@ public:
   }
 };
 
-/// Points to reconstruct.
+/// Points to reconstruct. Arrays that break what is said of them end with Status::INVALID_INDICES.
 struct Input
 {
   std::vector<Eigen::Vector3d> positions; ///< may hold non-finite coordinates and equal points
-  std::vector<std::uint32_t> cloud_index; ///< of each position; distinct
+  std::vector<std::uint32_t> cloud_index; ///< one for each position; distinct
   std::size_t cloud_size = 0;       ///< points of the whole cloud; every cloud index is smaller
   NeighborSearch* search = nullptr; ///< nullptr: a kd-tree of the core's, in parallel
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the cloud is one scan; see ViewUse

@@ -23,7 +23,7 @@ enum class Status
   OK,              ///< a mesh was made; Report::warnings tells what is odd about it
   NO_INPUT,        ///< null or empty input cloud
   INVALID_OPTION,  ///< an option is out of its range, or leaves no triangle
-  INVALID_INDICES, ///< an index is outside the cloud
+  INVALID_INDICES, ///< an index is outside the cloud, or the arrays of Input do not fit together
   TOO_FEW_POINTS,  ///< fewer than 4 distinct finite points
   DEGENERATE,      ///< all points lie on one line, or some are too far away for double precision
   NO_BOUNDARY,     ///< disc: no boundary loop was found; the surface is closed or not one disc
@@ -34,7 +34,7 @@ enum class Status
   NOT_CONVERGED,   ///< disc: an iterative solver did not reach its tolerance
   SOLVER_UNAVAILABLE, ///< the library was built without this solver
   CANCELLED,          ///< Options::cancelled_callback returned true
-  OUT_OF_MEMORY,      ///< an allocation failed
+  OUT_OF_MEMORY,      ///< an allocation failed, or a table outgrew its 32-bit indices
   INTERNAL_ERROR      ///< the mesh did not pass the final check; please report it
 };
 

@@ -3,14 +3,10 @@
 #pragma once
 
 #include <pcl/console/print.h>
-#include <pcl/search/octree.h>
 #include <pcl/search/search.h>
 #include <pcl/surface/floater_reconstruction.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -21,21 +17,7 @@ namespace pcl
 {
 namespace floater
 {
-/// PCL's octree, whose leaves hold about ten of these points of a surface each.
-template <typename PointT>
-typename pcl::search::Search<PointT>::Ptr
-makeOctree (const pcl::PointCloud<PointT>& cloud, const std::vector<std::uint32_t>& cloud_indices)
-{
-  Eigen::AlignedBox3d box;
-  for (const std::uint32_t index : cloud_indices)
-    box.extend (Eigen::Vector3d (cloud[index].x, cloud[index].y, cloud[index].z));
-  const double diagonal = box.isEmpty () ? 0.0 : box.diagonal ().norm ();
-  const double leaf = 2.0 * diagonal / std::sqrt (static_cast<double> (cloud_indices.size ()));
-  return pcl::make_shared<pcl::search::Octree<PointT>> (leaf > 0.0 ? leaf : 1.0);
-}
-
-/// Lets the core use a search method of PCL; without one, an octree of the points that are to be
-/// searched.
+/// Lets the core use a search method of PCL.
 template <typename PointT>
 class SearchMethod : public NeighborSearch
 {
@@ -48,8 +30,6 @@ public:
 
   void build (const std::vector<std::uint32_t>& cloud_indices) override
   {
-    if (!search_)
-      search_ = makeOctree<PointT> (*cloud_, cloud_indices);
     search_->setInputCloud (
         cloud_, pcl::make_shared<pcl::Indices> (cloud_indices.begin (), cloud_indices.end ()));
   }
@@ -231,10 +211,8 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
   floater::Options options;
   if (!makeInput (input, options))
     return;
-  const bool takes_balls = options.neighbors.kind == floater::Neighborhood::BALL ||
-                           options.neighbors.kind == floater::Neighborhood::BALL_DELAUNAY;
   floater::SearchMethod<PointT> search (tree_, input_);
-  if (tree_ || takes_balls)
+  if (tree_)
     input.search = &search;
 
   floater::Result result = floater::reconstruct (std::move (input), options);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether the caller's arrays fit together.
+#pragma once
+
+#include "core/problem.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// INVALID_INDICES if there is not one cloud index for each position, or if one of them is not
+/// below the size of the cloud, or is given twice. O(n), and a bit per point where they do not
+/// ascend.
+Problem
+checkInput (const Input& input);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables whose entries are counted in 32 bits, and what becomes of larger ones.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// A table would have more entries than its indices can count. The message says which one, and what
+/// to do. A run that meets it ends with Status::OUT_OF_MEMORY.
+class IndexLimitReached : public std::length_error
+{
+public:
+  using std::length_error::length_error;
+};
+
+/// Largest number of entries of a matrix in the libraries whose indices are of type int.
+constexpr std::size_t MOST_MATRIX_ENTRIES = std::numeric_limits<int>::max ();
+
+/// \param what to do, for the message
+/// \throws IndexLimitReached if there are more than `most` entries
+inline void
+requireCountable (std::size_t entries, std::size_t most, const char* table, const char* what)
+{
+  if (entries > most)
+    throw IndexLimitReached (std::string (table) + " would have " + std::to_string (entries) +
+                             " entries, more than the " + std::to_string (most) +
+                             " that 32-bit indices can count: " + what);
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options that were changed, and that had no say in the mesh.
+#pragma once
+
+#include <pcl/surface/floater/report.h>
+
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// One sentence for each reason why options without effect have none, with the names of these
+/// options. An option counts if its value is not the default.
+/// \param report of the run: which method made the mesh
+std::vector<std::string>
+describeUnusedOptions (const Options& options, const Report& report);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Warnings on options that have no effect.
+#include "unused_options.h"
+
+#include "samples.h"
+#include "surfaces.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::asInput;
+using samples::discOptions;
+using samples::Positions;
+
+Report
+madeAs (Topology topology)
+{
+  Report report;
+  report.status = Status::OK;
+  report.topology = topology;
+  return report;
+}
+
+// What changes an option, and the name of that option in warnings.
+struct Change
+{
+  const char* name;
+  void (*apply) (Options&);
+};
+
+const Change OF_THE_DISC[] = {
+    {"the boundary method", [] (Options& o) { o.boundary.method = BoundaryMethod::CONSENSUS; }},
+    {"the opening angle", [] (Options& o) { o.boundary.opening_angle = 150.0; }},
+    {"the cluster tolerance", [] (Options& o) { o.boundary.cluster_tolerance = 0.1; }},
+    {"cluster k", [] (Options& o) { o.boundary.cluster_k = 11; }},
+    {"the domain", [] (Options& o) { o.domain.curve = Domain::SQUARE; }},
+    {"the number of polygon sides", [] (Options& o) { o.domain.polygon_sides = 5; }},
+    {"the spacing on the domain",
+     [] (Options& o) { o.domain.loop_spacing = LoopSpacing::UNIFORM; }},
+    {"the weights", [] (Options& o) { o.weighting = Weighting::UNIFORM; }},
+    {"the solver", [] (Options& o) { o.solver.method = Solver::EIGEN_SPARSE_LU; }},
+    {"the ordering", [] (Options& o) { o.solver.ordering = Ordering::AMD; }},
+    {"the tolerance", [] (Options& o) { o.solver.tolerance = 1e-9; }},
+    {"the number of iterations", [] (Options& o) { o.solver.max_iterations = 7; }},
+    {"the fill of ILUT", [] (Options& o) { o.solver.ilut_fill = 7; }},
+    {"the drop tolerance of ILUT", [] (Options& o) { o.solver.ilut_drop = 0.1; }},
+    {"the neighbourhood", [] (Options& o) { o.neighbors.kind = Neighborhood::NEAREST; }}};
+
+TEST (UnusedOptions, DefaultsAreNone)
+{
+  for (const Topology topology : {Topology::DISC, Topology::SURFACE})
+    EXPECT_TRUE (describeUnusedOptions ({}, madeAs (topology)).empty ());
+}
+
+TEST (UnusedOptions, OfADiscWhereASurfaceIsMade)
+{
+  for (const Change& change : OF_THE_DISC) {
+    SCOPED_TRACE (change.name);
+    Options options;
+    change.apply (options);
+    const std::vector<std::string> found =
+        describeUnusedOptions (options, madeAs (Topology::SURFACE));
+    ASSERT_EQ (found.size (), 1U);
+    EXPECT_EQ (found[0].find ("an option has no effect: " + std::string (change.name) + ";"), 0U)
+        << found[0];
+  }
+  Options two;
+  two.weighting = Weighting::UNIFORM;
+  two.solver.method = Solver::GAUSS_SEIDEL;
+  EXPECT_EQ (describeUnusedOptions (two, madeAs (Topology::SURFACE)),
+             std::vector<std::string>{"options have no effect: the weights, the solver; the mesh "
+                                      "was not made as a disc"});
+}
+
+// Of two that only work together, the second one alone is of no use, and both together are.
+TEST (UnusedOptions, WithoutTheOptionThatTakesThem)
+{
+  struct Pair
+  {
+    void (*takes) (Options&);
+    void (*is_taken) (Options&);
+    Topology topology;
+  };
+  const Pair pairs[] = {{[] (Options& o) { o.boundary.method = BoundaryMethod::TWO_SEGMENTS; },
+                         [] (Options& o) { o.boundary.cluster_k = 11; }, Topology::DISC},
+                        {[] (Options& o) { o.domain.curve = Domain::POLYGON; },
+                         [] (Options& o) { o.domain.polygon_sides = 5; }, Topology::DISC},
+                        {[] (Options& o) { o.solver.method = Solver::GAUSS_SEIDEL; },
+                         [] (Options& o) { o.solver.tolerance = 1e-9; }, Topology::DISC},
+                        {[] (Options& o) { o.solver.method = Solver::BICGSTAB_ILUT; },
+                         [] (Options& o) { o.solver.ilut_fill = 7; }, Topology::DISC},
+                        {[] (Options& o) { o.neighbors.kind = Neighborhood::BALL_DELAUNAY; },
+                         [] (Options& o) { o.neighbors.ball_radius = 3.0; }, Topology::SURFACE},
+                        {[] (Options& o) { o.holes.policy = HolePolicy::KEEP_COUNT; },
+                         [] (Options& o) { o.holes.kept_loops = 2; }, Topology::SURFACE},
+                        {[] (Options& o) { o.holes.policy = HolePolicy::BY_SIZE; },
+                         [] (Options& o) { o.holes.largest_hole = 2.0; }, Topology::SURFACE}};
+  for (const Pair& pair : pairs) {
+    Options options;
+    pair.is_taken (options);
+    EXPECT_EQ (describeUnusedOptions (options, madeAs (pair.topology)).size (), 1U);
+    pair.takes (options);
+    EXPECT_TRUE (describeUnusedOptions (options, madeAs (pair.topology)).empty ());
+  }
+}
+
+TEST (UnusedOptions, OfTheSearchForALoopThatIsGiven)
+{
+  Options options;
+  options.boundary.loop = {0, 1, 2};
+  options.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+  EXPECT_EQ (describeUnusedOptions (options, madeAs (Topology::DISC)).size (), 1U);
+}
+
+TEST (UnusedOptions, OfNeighborsWhereAScanIsConnectedAsSeen)
+{
+  Options options;
+  options.neighbors.k = 12;
+  Report report = madeAs (Topology::SURFACE);
+  EXPECT_TRUE (describeUnusedOptions (options, report).empty ());
+  report.is_view = true;
+  EXPECT_EQ (describeUnusedOptions (options, report).size (), 1U);
+}
+
+TEST (UnusedOptions, AreWarningsOfARun)
+{
+  SurfaceSpec spec;
+  spec.kind = SurfaceKind::HEIGHT_FIELD;
+  spec.points = 500;
+  const Positions points = generateSurface (spec);
+  const auto warnsOf = [&points] (const Options& options, const char* name) {
+    const Result result = reconstruct (asInput (points), options);
+    EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+    for (const std::string& warning : result.report.warnings)
+      if (warning.find (std::string ("no effect: ") + name) != std::string::npos)
+        return true;
+    return false;
+  };
+  Options surface, disc = discOptions ();
+  surface.topology = Topology::SURFACE;
+  surface.weighting = disc.weighting = Weighting::UNIFORM;
+  EXPECT_TRUE (warnsOf (surface, "the weights"));
+  EXPECT_FALSE (warnsOf (disc, "the weights"));
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The paths of a command line, looked at before the work begins.
+#pragma once
+
+#include "command_line.h"
+
+namespace pcl
+{
+namespace floater
+{
+/// Checks all paths against each other and against the disk, before the work begins.
+/// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
+/// ReadError if the extension of the input is unknown
+void
+checkPaths (const CommandLine& command_line);
+
+} // namespace floater
+} // namespace pcl

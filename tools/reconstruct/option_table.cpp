@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "option_table.h"
+
+#include "memory_limit.h"
+#include "option_kinds.h"
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+const char* const GENERAL = "General";
+
+const char* const DESCRIPTION =
+    "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of\n"
+    "the cloud, in the same order and with all their fields. The surface may be open or closed,\n"
+    "with holes, handles or several components. It is put together from the triangles on which "
+    "the\n"
+    "Delaunay stars of neighbouring points agree. A disc can also be laid out in the plane, by\n"
+    "Floater's meshless parameterization. The defaults need no tuning.\n";
+
+const char* const FOOTER =
+    R"(Examples:
+  pcl_floater_reconstruct scan.pcd scan.vtk
+  pcl_floater_reconstruct --report scan.json --parameterization flat.ply scan.ply mesh.ply
+  pcl_floater_reconstruct --holes close-all --strict statue.pcd statue.stl
+  pcl_floater_reconstruct --topology disc --boundary two-segments --flips off --sheet-filter off \
+                          scan.pcd paper.ply
+
+Notes:
+  With --shift, coordinates in the outputs and in messages are those after the origin was
+  subtracted. The report has it, and all formats but .stl have it in a comment. Coordinates in text
+  files are then read with all their digits, also where the file says float.
+  Input formats: .pcd, .ply, .obj. Output formats: .vtk (pcl_viewer opens it), .ply, .obj, .stl.
+  Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
+  them move up. All other points are vertices of the output, also those that are in no triangle:
+  outliers, repeated points, and points that could not be connected. The report lists them all.
+  An output file appears when it is complete, and replaces an existing one. After a failure there is
+  no new mesh, and existing files are unchanged.
+
+Exit codes:
+  0  success
+  1  usage: an option is unknown, malformed or out of its range
+  2  the input cannot be read: missing, truncated, damaged, without x y z
+  3  the cloud cannot be reconstructed; the message and the report name the status
+  4  an output cannot be written, or nothing can be printed; no file is changed
+  5  out of memory, or an internal error
+  6  with --strict: there are warnings; the report is written, but no mesh
+)";
+
+void
+addMemoryLimit (CLI::App& app, CommandLine& line)
+{
+  const auto parse = [&line] (const std::string& word) {
+    if (!parseSize (word, line.max_memory))
+      throw CLI::ValidationError ("--max-memory",
+                                  "'" + word + "' is not a size, such as 500M or 2G");
+    if (line.max_memory < leastMemory (0))
+      throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
+                                                      formatSize (leastMemory (0)) + " or more");
+  };
+  app.add_option_function<std::string> ("--max-memory", parse,
+                                        "limit on the memory in use, in bytes; arrays that "
+                                        "are\nnot in use are kept on disk; not for discs")
+      ->option_text ("SIZE (no limit)")
+      ->group (GENERAL);
+  addPath (
+      app, "--scratch", line.scratch,
+      "--max-memory: where the arrays are kept; these files\nhave no names and end with the run",
+      GENERAL, "FOLDER (that of OUTPUT)");
+}
+
+void
+addShift (CLI::App& app, CommandLine& line)
+{
+  const auto parse = [&line] (const std::string& word) {
+    line.auto_shift = word == "auto";
+    line.shift = parsePlace (word);
+    if (!line.auto_shift && !line.shift)
+      throw CLI::ValidationError ("--shift", "'" + word +
+                                                 "' is neither auto nor three numbers, such as "
+                                                 "500000,5500000,0");
+  };
+  app.add_option_function<std::string> (
+         "--shift", parse,
+         "origin to subtract from all coordinates, for those\ntoo far from zero for 32 bits; auto: "
+         "the rounded\ncentre of the points, if they are")
+      ->option_text ("X,Y,Z or auto (none)")
+      ->group (GENERAL);
+}
+
+void
+addViewpoint (CLI::App& app, ViewOptions& options, const std::string& group)
+{
+  const auto parse = [&options] (const std::string& word) {
+    const std::optional<Eigen::Vector3d> place = parsePlace (word);
+    if (!place && word != "auto" && word != "none")
+      throw CLI::ValidationError ("--viewpoint", "'" + word +
+                                                     "' is neither auto, none, nor three numbers, "
+                                                     "such as 0,0,1.5");
+    options.use = place ? ViewUse::GIVEN : word == "auto" ? ViewUse::AUTO : ViewUse::NEVER;
+    Eigen::Map<Eigen::Vector3d> (options.viewpoint.data ()) =
+        place.value_or (Eigen::Vector3d::Zero ());
+  };
+  app.add_option_function<std::string> (
+         "--viewpoint", parse,
+         "one scan: where its sensor was, before any shift; its\npoints are connected as they were "
+         "seen from there.\nauto: that of the file, or one that is found, if the\nspacing of the "
+         "points tells so; none: the cloud is no\nsingle scan")
+      ->option_text ("X,Y,Z, auto or none (auto)")
+      ->group (group);
+}
+
+void
+addTopology (CLI::App& app, Options& options)
+{
+  const std::string surface = "Surface";
+  addChoice (app, "--topology", options.topology, TOPOLOGY_CHOICES,
+             "what the points are taken for: a disc (one component\nwith one boundary loop), any "
+             "surface, or whichever\ngives the better mesh",
+             surface);
+  addChoice (
+      app, "--holes", options.holes.policy, HOLE_CHOICES,
+      "boundary loops that stay open: those beyond which\nthere are no points, none, the largest "
+      "of each\ncomponent, a number of the largest, or those above a\nsize",
+      surface);
+  addNumber (app, "--kept-loops", options.holes.kept_loops,
+             "keep-count: boundary loops that stay open, 0 or more", surface);
+  addNumber (app, "--largest-hole", options.holes.largest_hole,
+             "by-size: width of the widest hole to fill, in local\nspacings; 0: no limit", surface);
+  addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
+             "by-size: the same in units of the cloud", surface);
+  addViewpoint (app, options.view, surface);
+  addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
+             "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
+  addNumber (app, "--max-edge-ratio", options.trimming.maximum_edge_ratio,
+             "the same in local spacings", surface);
+  addNumber (app, "--min-component", options.trimming.minimum_component_size,
+             "cut off components of fewer points", surface);
+  addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
+             "leave points that lie off any surface out of\nthe mesh", surface);
+  addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
+             "where noise is strong, connect points as they lie\nwhen projected on local planes",
+             surface);
+  addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
+             "flip edges in space and repair folds at the end", surface);
+}
+
+void
+addGeneral (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
+  addNumber (app, "-j,--threads", options.threads,
+             "threads, 0: one for each core; the result is the\nsame", GENERAL);
+  addNumber (app, "--blocks", options.blocks,
+             "blocks in which the nearest neighbours are searched,\n0: chosen by the number of "
+             "points; the result is\nthe same",
+             GENERAL);
+  addMemoryLimit (app, line);
+  addShift (app, line);
+  addChoice (app, "--precision", line.precision, PRECISION_CHOICES,
+             "of coordinates in outputs; auto: single if the input\nis, or if that is exact. PCL "
+             "reads doubles of a .ply\nas 0",
+             GENERAL);
+  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
+      ->group (GENERAL);
+  app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
+      ->group (GENERAL);
+}
+
+void
+addFiles (CLI::App& app, CommandLine& line)
+{
+  const auto positional = [&app] (const std::string& name, std::filesystem::path& path,
+                                  const std::string& text) {
+    app.add_option_function<std::string> (
+           name, [&path] (const std::string& word) { path = word; }, text)
+        ->option_text (" ")
+        ->required ();
+  };
+  positional ("INPUT", line.input, "point cloud: .pcd, .ply or .obj");
+  positional ("OUTPUT", line.output, "mesh to write: .vtk, .ply, .obj or .stl");
+  const std::string output = "More output";
+  addPath (app, "--report", line.report, "write a report on the run as JSON", output);
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh laid out in the plane z = 0, in any of\nthe mesh formats; makes a disc",
+           output);
+}
+
+void
+addNeighbors (CLI::App& app, Options& options)
+{
+  const std::string neighborhoods = "Neighbourhoods";
+  addNumber (app, "-k,--neighbors", options.neighbors.k,
+             "nearest neighbours of each point, 6 to 200", neighborhoods);
+  addChoice (app, "--neighborhood", options.neighbors.kind, NEIGHBORHOOD_CHOICES,
+             "points that a point of a disc is a mean of: the\nnearest, those in a ball, or the "
+             "Delaunay star among\neither",
+             neighborhoods);
+  addNumber (app, "--ball-radius", options.neighbors.ball_radius,
+             "ball, ball-delaunay: radius, in mean distances of a\npoint to its 6 nearest, 1 to 10",
+             neighborhoods);
+  addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
+             "drop neighbours on another sheet of the surface", neighborhoods);
+}
+
+void
+addBoundary (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
+  const std::string boundary = "Boundary of a disc";
+  addChoice (app, "--boundary", options.boundary.method, BOUNDARY_CHOICES,
+             "how the boundary loop is found: in a spanning tree of\nthe boundary points; as the "
+             "largest boundary loop of\nthe consensus of the stars; or as in TW 385, section 3\n"
+             "(two-segments)",
+             boundary);
+  addPath (app, "--loop", line.loop,
+           "read the loop from this text file: indices of points,\nfrom 0, in order; makes a disc",
+           boundary);
+  addNumber (app, "--opening-angle", options.boundary.opening_angle,
+             "two-segments: degrees; a boundary point has a wider\nsector without neighbours",
+             boundary);
+  addNumber (app, "--cluster-tolerance", options.boundary.cluster_tolerance,
+             "two-segments: distance over which clusters grow, as\na fraction of the bounding box "
+             "diagonal",
+             boundary);
+  addNumber (app, "--cluster-neighbors", options.boundary.cluster_k,
+             "two-segments: boundary points that a cluster takes in\nat a time, 1 or more",
+             boundary);
+}
+
+void
+addParameterization (CLI::App& app, Options& options)
+{
+  const std::string parameterization = "Parameterization of a disc";
+  addChoice (app, "--domain", options.domain.curve, DOMAIN_CHOICES,
+             "convex curve on which the loop is laid", parameterization);
+  addNumber (app, "--sides", options.domain.polygon_sides, "sides of the polygon, 3 or more",
+             parameterization);
+  addChoice (app, "--spacing", options.domain.loop_spacing, SPACING_CHOICES,
+             "how the points of the loop are spaced on that curve", parameterization);
+  addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
+             "weights of the neighbours of a point", parameterization);
+}
+
+void
+addSystem (CLI::App& app, Options& options)
+{
+  const std::string system = "Linear system";
+  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "what solves the system",
+             system);
+  addChoice (app, "--ordering", options.solver.ordering, ORDERING_CHOICES, "order of the unknowns",
+             system);
+  addNumber (app, "--tolerance", options.solver.tolerance,
+             "bicgstab-ilut, gauss-seidel: relative residual to\nreach, above 0 and below 1",
+             system);
+  addNumber (app, "--max-iterations", options.solver.max_iterations,
+             "bicgstab-ilut, gauss-seidel: iterations after which\nthey give up, 1 or more",
+             system);
+  addNumber (app, "--ilut-fill", options.solver.ilut_fill,
+             "bicgstab-ilut: entries kept in a row of each factor,\n1 to 10000", system);
+  addNumber (
+      app, "--ilut-drop", options.solver.ilut_drop,
+      "bicgstab-ilut: entries of the factors below this\nfraction of their row are dropped, 0 "
+      "to 1",
+      system);
+}
+
+} // namespace
+
+void
+addOptions (CLI::App& app, CommandLine& line)
+{
+  constexpr std::size_t NAME_COLUMN = 34;
+  app.description (DESCRIPTION);
+  app.get_formatter ()->column_width (NAME_COLUMN);
+  app.footer (FOOTER);
+  app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
+  app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,
+                        "print the version and exit")
+      ->group (GENERAL);
+  addGeneral (app, line);
+  addTopology (app, line.options);
+  addNeighbors (app, line.options);
+  addBoundary (app, line);
+  addParameterization (app, line.options);
+  addSystem (app, line.options);
+  addFiles (app, line);
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All options of the tool, in the groups of its help.
+#pragma once
+
+#include "command_line.h"
+
+namespace CLI // NOLINT(readability-identifier-naming)
+{
+class App;
+}
+
+namespace pcl
+{
+namespace floater
+{
+/// Adds every option, the two positional arguments and the text around them to \a app, which writes
+/// to \a line when it parses, and so has to end before it.
+void
+addOptions (CLI::App& app, CommandLine& line);
+
+} // namespace floater
+} // namespace pcl

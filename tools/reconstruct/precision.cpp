@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "precision.h"
+
+#include "format.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+/// The number that the shortest decimal of a float is.
+double
+shortestDecimal (float value)
+{
+  constexpr std::size_t LONGEST = 32; // characters; a float takes at most 15
+  std::array<char, LONGEST> text{};
+  const auto end = std::to_chars (text.data (), text.data () + text.size (), value).ptr;
+  double decimal = 0.0;
+  std::from_chars (text.data (), end, decimal);
+  return decimal;
+}
+
+} // namespace
+
+bool
+fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals)
+{
+  constexpr double LARGEST = std::numeric_limits<float>::max ();
+  const auto fits = [are_decimals] (double value) {
+    if (!std::isfinite (value))
+      return true;
+    if (std::abs (value) > LARGEST) // must not be converted
+      return false;
+    const auto single = static_cast<float> (value);
+    return static_cast<double> (single) == value ||
+           (are_decimals && shortestDecimal (single) == value);
+  };
+  return std::all_of (positions.begin (), positions.end (), [&] (const Eigen::Vector3d& position) {
+    return fits (position.x ()) && fits (position.y ()) && fits (position.z ());
+  });
+}
+
+bool
+choosePrecision (Precision wanted, const std::filesystem::path& input,
+                 const std::filesystem::path& output, const std::vector<Eigen::Vector3d>& positions,
+                 Cloud& cloud)
+{
+  if (wanted != Precision::AUTO)
+    return wanted == Precision::SINGLE;
+  if (cloud.single_precision || fitSinglePrecision (positions, lowerExtension (input) == ".obj"))
+    return true;
+  if (lowerExtension (output) == ".ply")
+    cloud.warnings.emplace_back (
+        "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
+        "as 0: use --precision single or another format for PCL, --shift if they are far from "
+        "zero, "
+        "or --precision double if doubles are wanted");
+  return false;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// In which precision coordinates are written.
+#pragma once
+
+#include "cloud.h"
+
+namespace pcl
+{
+namespace floater
+{
+/// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
+/// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
+enum class Precision
+{
+  AUTO,   ///< SINGLE if the input is, or if that holds every coordinate exactly; else DOUBLE
+  SINGLE, ///< 32-bit floats; other coordinates are rounded
+  DOUBLE  ///< 64-bit floats
+};
+
+/// Whether 32-bit floats hold all finite coordinates. O(n).
+/// \param are_decimals the coordinates come from a text without types: a float holds one if its
+/// shortest decimal is that number; otherwise, if it is equal
+bool
+fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals);
+
+/// Whether to write 32-bit floats, and a warning if readers may not expect what is written.
+/// \param positions of the cloud, after the shift
+bool
+choosePrecision (Precision wanted, const std::filesystem::path& input,
+                 const std::filesystem::path& output, const std::vector<Eigen::Vector3d>& positions,
+                 Cloud& cloud);
+
+} // namespace floater
+} // namespace pcl

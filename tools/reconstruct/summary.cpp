@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "summary.h"
+
+#include "atomic_file.h"
+#include "plural.h"
+
+#include <cstdio>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+void
+printWarnings (const Report& report)
+{
+  for (const std::string& warning : report.warnings)
+    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
+}
+
+/// Prints method, components, genus and boundary loops.
+void
+printShape (const Report& report)
+{
+  const MeshCheck& check = report.check;
+  std::printf ("topology   %s%s%s\n", choiceName (TOPOLOGY_CHOICES, report.topology),
+               report.topology_reason.empty () ? "" : ": ", report.topology_reason.c_str ());
+  std::printf ("shape      %s, genus %lld, %s\n", counted (check.components, "component").c_str (),
+               static_cast<long long> (check.genus),
+               check.loops.empty () ? "closed" : "with boundary");
+  if (check.loops.empty ())
+    return;
+  const LoopSummary &longest = check.loops.front (), &shortest = check.loops.back ();
+  if (check.loops.size () == 1)
+    std::printf ("loops      1 of %zu points, %.3g spacings wide\n", longest.points,
+                 longest.width_spacings);
+  else
+    std::printf (
+        "loops      %zu, of %zu points, %.3g spacings wide, to %zu points, %.3g spacings\n",
+        check.loops.size (), longest.points, longest.width_spacings, shortest.points,
+        shortest.width_spacings);
+}
+
+void
+printSummary (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const Statistics& statistics = report.statistics;
+  constexpr double MEGABYTE = 1e6;
+  std::printf (
+      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
+      run.input_points, statistics.used_points, statistics.duplicate_points,
+      statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
+      report.unused.size ());
+  std::printf ("triangles  %zu\n", statistics.triangles);
+  printShape (report);
+  if (statistics.trimmed_triangles > 0)
+    std::printf ("cut off    %s, %s, %s\n",
+                 counted (statistics.trimmed_triangles, "triangle").c_str (),
+                 counted (statistics.trimmed_components, "component").c_str (),
+                 counted (statistics.trimmed_points, "point").c_str ());
+  if (!run.shift.isZero (0.0))
+    std::printf ("shift      %.17g %.17g %.17g, subtracted from all coordinates\n", run.shift.x (),
+                 run.shift.y (), run.shift.z ());
+  if (report.is_view)
+    std::printf ("viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
+                 "out\n",
+                 report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
+                 report.viewpoint[1], report.viewpoint[2],
+                 counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
+  if (report.denoised)
+    std::printf ("noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
+                 "points were "
+                 "projected on local planes\n",
+                 statistics.noise, statistics.noise_quantile_90, statistics.largest_noise,
+                 statistics.projected_points);
+  std::printf ("seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
+               run.read_seconds, run.reconstruct_seconds, run.write_seconds,
+               static_cast<double> (peakMemory ()) / MEGABYTE);
+  std::printf ("warnings   %zu\n", report.warnings.size ());
+  std::printf ("mesh       %s\n", line.output.c_str ());
+  if (!line.parameterization.empty ())
+    std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
+  if (!line.report.empty ())
+    std::printf ("report     %s\n", line.report.c_str ());
+}
+
+} // namespace
+
+void
+printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures)
+{
+  const bool is_ok = report.status == Status::OK && !figures.is_refused;
+  if (!is_ok)
+    std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct '%s': %s (%s)\n",
+                  line.input.c_str (), report.message.c_str (),
+                  outcomeName (report, figures).c_str ());
+  if (figures.is_refused || (is_ok && !line.quiet))
+    printWarnings (report);
+  if (is_ok && !line.quiet)
+    printSummary (line, report, figures);
+  if (line.json)
+    std::printf ("%s\n", summaryLine (line, report, figures).c_str ());
+  if (std::fflush (stdout) != 0 || std::ferror (stdout) != 0)
+    throw WriteError ("cannot write to the standard output");
+}
+
+} // namespace floater
+} // namespace pcl
