@@ -71,15 +71,17 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
 }
 
 LocalGeometry
-makeGeometry (const Points& points, CsrLists neighbors, const Request& request, Noise& noise)
+makeGeometry (const Points& points, CsrLists neighbors, const std::optional<KdTree>& tree,
+              const Request& request, Noise& noise)
 {
   const Limits& limits = request.limits;
   const RunContext& run = request.run;
   if (request.options.denoise)
     noise = measureNoise (points.positions, neighbors, limits.noise, run);
   run.beginStage (Stage::STARS);
-  LocalGeometry geometry = makeLocalGeometry (
-      points, std::move (neighbors), starSettings (request.options, limits), run, limits.planes);
+  LocalGeometry geometry =
+      makeLocalGeometry (points, std::move (neighbors), starSettings (request.options, limits), run,
+                         limits.planes, tree ? &*tree : nullptr);
   noise.is_strong =
       noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
   return geometry;
@@ -95,10 +97,11 @@ projectNoise (Points& points, LocalGeometry geometry, const Noise& noise,
       projectNoisyPoints (points.positions, geometry.neighbors, noise, limits.noise, run);
   geometry = {};
   run.beginStage (Stage::NEIGHBORS);
-  CsrLists neighbors = findNeighbors (points, settings, run);
+  std::optional<KdTree> tree;
+  CsrLists neighbors = findNeighbors (points, settings, run, &tree);
   run.beginStage (Stage::STARS);
   return makeLocalGeometry (points, std::move (neighbors), starSettings (request.options, limits),
-                            run, limits.planes);
+                            run, limits.planes, tree ? &*tree : nullptr);
 }
 
 } // namespace floater

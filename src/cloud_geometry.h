@@ -24,8 +24,10 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
                 const Request& request, Report& report);
 
 /// The geometry around each point as it lies, and the noise, if it may be projected away.
+/// \param tree kd-tree of all points, if there is one already
 LocalGeometry
-makeGeometry (const Points& points, CsrLists neighbors, const Request& request, Noise& noise);
+makeGeometry (const Points& points, CsrLists neighbors, const std::optional<KdTree>& tree,
+              const Request& request, Noise& noise);
 
 /// Beyond TW 385: projects noisy points on the planes of the points around, by which they are
 /// connected. The mesh is triangles only, so the user's points stay where they are.

@@ -313,13 +313,18 @@ reconstructAny (Input& input, const Request& request, Result& result)
 
   run.beginStage (Stage::NEIGHBORS);
   const NeighborSettings settings = neighborSettings (options, input.search);
-  CsrLists neighbors = findNeighbors (points, settings, run);
+  std::optional<KdTree> tree; // searched again for the stars of a surface
+  CsrLists neighbors = findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
+  const std::size_t searched = points.size ();
   if (options.remove_outliers)
     removeOutliers (points, neighbors, settings, request, report);
+  if (points.size () != searched)
+    tree.reset ();
   if (Problem problem = checkPoints (points))
     return problem;
   Noise noise;
-  LocalGeometry geometry = makeGeometry (points, std::move (neighbors), request, noise);
+  LocalGeometry geometry = makeGeometry (points, std::move (neighbors), tree, request, noise);
+  tree.reset ();
   reportNoise (noise, false, report);
   if (may_be_seen)
     if (const std::optional<Viewpoint> viewpoint = findViewpoint (

@@ -4,6 +4,7 @@
 #include "local/spacing.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace pcl
@@ -12,7 +13,7 @@ namespace floater
 {
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run, const PlaneLimits& planes)
+                   const RunContext& run, const PlaneLimits& planes, const KdTree* known)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   LocalGeometry geometry;
@@ -26,7 +27,8 @@ makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings&
                    fitTangentPlanes (positions, geometry.neighbors, run, planes), settings, run);
     return geometry;
   }
-  const KdTree tree (positions, run);
+  std::optional<KdTree> own_tree;
+  const KdTree& tree = known != nullptr ? *known : own_tree.emplace (positions, run);
   const ReachLimits limits;
   const BesideLines beside = findBesideLines (positions, geometry.neighbors, geometry.spacing, tree,
                                               planes.least_aspect, limits, run);

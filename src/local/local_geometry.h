@@ -30,9 +30,11 @@ struct LocalGeometry
 
 /// Tangent planes, spacing and stars by the working positions of the points. O(n k log k).
 /// \param neighbors of each point, nearest first
+/// \param known     kd-tree of the working positions; nullptr: one is built if it is needed
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run, const PlaneLimits& planes = {});
+                   const RunContext& run, const PlaneLimits& planes = {},
+                   const KdTree* known = nullptr);
 
 } // namespace floater
 } // namespace pcl

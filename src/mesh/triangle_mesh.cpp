@@ -61,22 +61,21 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
   const Index start = triangle_of[p];
   if (start == NONE)
     return;
-  // Clockwise to the boundary, or once around the point.
-  Index first = start;
-  while (true) {
-    const Index clockwise = neighbors[first][previous (sideOf (first, p))];
-    if (clockwise == NONE || clockwise == start)
-      break;
-    first = clockwise;
-  }
-  if (neighbors[first][previous (sideOf (first, p))] != NONE)
-    first = start; // closed
-  for (Index t = first; t != NONE;) {
+  for (Index t = start; t != NONE;) {
     fan_triangles.push_back (t);
     t = neighbors[t][next (sideOf (t, p))];
-    if (t == first)
-      break;
+    if (t == start)
+      return; // closed
   }
+  // At the boundary: those clockwise of the start come before it.
+  const std::size_t anti_clockwise = fan_triangles.size ();
+  for (Index t = neighbors[start][previous (sideOf (start, p))]; t != NONE;) {
+    fan_triangles.push_back (t);
+    t = neighbors[t][previous (sideOf (t, p))];
+  }
+  const auto middle = fan_triangles.begin () + static_cast<std::ptrdiff_t> (anti_clockwise);
+  std::reverse (middle, fan_triangles.end ());
+  std::rotate (fan_triangles.begin (), middle, fan_triangles.end ());
 }
 
 // Both fans are walked in step, so that the smaller one decides when the walk ends: one of the ends

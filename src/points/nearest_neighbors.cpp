@@ -35,9 +35,8 @@ writeRow (const std::vector<Neighbor>& found, Index self, std::size_t k, Index* 
 
 void
 searchWhole (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, std::size_t k,
-             const RunContext& run, std::vector<Index>& ids)
+             const KdTree& tree, const RunContext& run, std::vector<Index>& ids)
 {
-  const KdTree tree (positions, run);
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     found.reserve (k + 2);
@@ -80,25 +79,43 @@ searchBlock (const PointBlock& block, const std::vector<Eigen::Vector3d>& positi
   }
 }
 
+// Lists of k neighbours, or of all others if there are fewer, still to be filled in.
+CsrLists
+emptyLists (std::size_t points, std::size_t rows, int k)
+{
+  const std::size_t count =
+      std::min (static_cast<std::size_t> (k), std::max<std::size_t> (1, points) - 1);
+  requireCountable (rows * count, NONE - 1, TABLE, REMEDY);
+  CsrLists lists;
+  lists.offsets.resize (rows + 1);
+  for (std::size_t i = 0; i <= rows; ++i)
+    lists.offsets[i] = static_cast<Index> (i * count);
+  lists.ids.resize (rows * count);
+  return lists;
+}
+
 } // namespace
+
+CsrLists
+findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
+                      const KdTree& tree, const RunContext& run)
+{
+  CsrLists lists = emptyLists (positions.size (), rows.size (), k);
+  if (lists.rows () > 0)
+    searchWhole (positions, rows, lists.offsets[1], tree, run, lists.ids);
+  return lists;
+}
 
 CsrLists
 findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
                       std::size_t blocks, const RunContext& run)
 {
-  const std::size_t n = positions.size ();
-  const std::size_t count =
-      std::min (static_cast<std::size_t> (k), std::max<std::size_t> (1, n) - 1);
-  requireCountable (rows.size () * count, NONE - 1, TABLE, REMEDY);
-  CsrLists lists;
-  lists.offsets.resize (rows.size () + 1);
-  for (std::size_t i = 0; i <= rows.size (); ++i)
-    lists.offsets[i] = static_cast<Index> (i * count);
-  lists.ids.resize (rows.size () * count);
-  if (blocks < 2) {
-    searchWhole (positions, rows, count, run, lists.ids);
+  if (blocks < 2)
+    return findNearestNeighbors (positions, rows, k, KdTree (positions, run), run);
+  CsrLists lists = emptyLists (positions.size (), rows.size (), k);
+  if (lists.rows () == 0)
     return lists;
-  }
+  const std::size_t count = lists.offsets[1];
   const BlockCutter cutter (positions, blocks, run);
   parallelTasks (run, cutter.blocks (), [&] (std::size_t block) {
     const std::size_t begin = rows.placeOf (cutter.first (block));

@@ -4,6 +4,7 @@
 
 #include "core/csr_lists.h"
 #include "points/caller_search.h"
+#include "points/kd_tree.h"
 #include "points/rows.h"
 
 namespace pcl
@@ -18,6 +19,11 @@ namespace floater
 CsrLists
 findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
                       std::size_t blocks, const RunContext& run);
+
+/// The same by a kd-tree of all positions.
+CsrLists
+findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
+                      const KdTree& tree, const RunContext& run);
 
 /// The same by the caller's search structure, in one thread. What it answers twice, or outside of
 /// the working set, is ignored; it may answer fewer than k.

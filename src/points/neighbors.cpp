@@ -15,7 +15,7 @@ namespace
 {
 CsrLists
 findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings& settings,
-                 const RunContext& run)
+                 const RunContext& run, std::optional<KdTree>* tree = nullptr)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   const bool in_balls = settings.options.kind == Neighborhood::BALL ||
@@ -27,8 +27,11 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
   }
   if (in_balls)
     return findBallNeighbors (positions, rows, settings.options.ball_radius, run);
-  return findNearestNeighbors (positions, rows, settings.options.k,
-                               chooseBlocks (positions.size (), settings.blocks, run), run);
+  const std::size_t blocks = chooseBlocks (positions.size (), settings.blocks, run);
+  if (tree == nullptr || blocks > 1)
+    return findNearestNeighbors (positions, rows, settings.options.k, blocks, run);
+  tree->emplace (positions, run);
+  return findNearestNeighbors (positions, rows, settings.options.k, **tree, run);
 }
 
 // Row of each point after points were removed; NONE for these.
@@ -49,9 +52,12 @@ rowsAfterRemoval (std::size_t points_before, const std::vector<Index>& removed)
 } // namespace
 
 CsrLists
-findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run)
+findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,
+               std::optional<KdTree>* tree)
 {
-  return findNeighborsOf (Rows::all (points.size ()), points, settings, run);
+  if (tree != nullptr)
+    tree->reset ();
+  return findNeighborsOf (Rows::all (points.size ()), points, settings, run, tree);
 }
 
 CsrLists

@@ -4,9 +4,12 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/kd_tree.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/reconstruct.h>
+
+#include <optional>
 
 namespace pcl
 {
@@ -22,8 +25,11 @@ struct NeighborSettings
 
 /// Neighbours of every point, nearest first, by the working positions: the k nearest, or those in a
 /// ball (sections 5 and 6 of TW 385: the same serve boundary and weights).
+/// \param tree out, if not nullptr: the kd-tree of all points, for later searches; none where the
+///             search needed none, as in blocks
 CsrLists
-findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run);
+findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,
+               std::optional<KdTree>* tree = nullptr);
 
 /// Makes neighbour lists right again after points were removed: renumbers them, and searches anew
 /// only for points that had one of the removed as a neighbour. The result is that of

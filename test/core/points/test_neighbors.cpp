@@ -88,6 +88,28 @@ allSettings ()
   return {nearest, few, blocks, balls};
 }
 
+// Whoever searches later shares the tree; where the search needed none, an earlier one is gone.
+TEST (FindNeighbors, TheTreeOfAllPointsIsHandedOut)
+{
+  const Points points = workingPoints (samples::randomPoints (1500, 1));
+  std::optional<KdTree> tree;
+  for (const NeighborSettings& settings : allSettings ()) {
+    const CsrLists alone = findNeighbors (points, settings, 1);
+    const CsrLists with_tree = findNeighbors (points, settings, 2, &tree);
+    EXPECT_EQ (with_tree.offsets, alone.offsets);
+    EXPECT_EQ (with_tree.ids, alone.ids);
+    const bool is_ball = settings.options.kind == Neighborhood::BALL_DELAUNAY;
+    ASSERT_EQ (tree.has_value (), settings.blocks == 0 && !is_ball);
+    if (!tree)
+      continue;
+    std::vector<Neighbor> found;
+    tree->nearest (points.positions[7], 2, found);
+    ASSERT_EQ (found.size (), 2U);
+    EXPECT_EQ (found[0].point, 7U);
+    EXPECT_EQ (found[1].point, alone.row (7)[0]);
+  }
+}
+
 TEST (RenewNeighbors, OfRandomPoints)
 {
   const Points points = workingPoints (samples::randomPoints (1500, 1));
