@@ -171,21 +171,21 @@ lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   for (const Index p : loop.points)
     centre += positions[p] / static_cast<double> (count);
-  LogLengths steps;
   Eigen::Vector3d double_area = Eigen::Vector3d::Zero ();
-  double curvature = 0.0, length = 0.0;
+  double curvature = 0.0, length = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Index p = loop.points[i], q = loop.points[i + 1 == count ? 0 : i + 1];
     const double step = (positions[q] - positions[p]).norm ();
-    steps.add (step);
     length += step;
+    squares += step * step;
     double_area += (positions[p] - centre).cross (positions[q] - centre);
     curvature += rings.curvature (p);
   }
   const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
   LoopEvidence evidence;
   evidence.compactness = 2.0 * PI * double_area.norm () / (length * length);
-  evidence.depth = double_area.norm () / (length * std::exp (steps.mean ()));
+  evidence.depth =
+      double_area.norm () / (length * std::sqrt (squares / static_cast<double> (count)));
   evidence.irregularity = edges[2].deviation ();
   evidence.growth = edges[3].isEmpty () ? 0.0 : edges[0].mean () - edges[3].mean ();
   evidence.turning = std::clamp (curvature / (2.0 * PI), -MOST_TURNING, +MOST_TURNING);

@@ -21,8 +21,7 @@ struct EmptySectorLimits
   double sheet_cosine = 0.3; ///< between two normals; below: another sheet. As for the stars
 };
 
-/// What tells a boundary of the surface from a gap of the sampling. No size has a unit: the step of
-/// a loop is the geometric mean of its edges.
+/// What tells a boundary of the surface from a gap of the sampling. No size has a unit.
 struct LoopEvidence
 {
   double open_share = 0.0;   ///< share of its points that see no neighbour on their own sheet in a
@@ -39,8 +38,9 @@ struct LoopEvidence
   double turning = 0.0;      ///< total geodesic curvature in turns, seen from the surface: -1 for a
                              ///< hole in a plane, 0 for the end of a tube, 1 for the border of a
                              ///< disc; at most 3/2 of either sign
-  double depth = 0.0;        ///< 2 area / length, in steps: the radius of a circle, the width of a
-                             ///< slit
+  double depth = 0.0; ///< 2 area / length, which is the radius of a circle and the width of a
+                      ///< slit, by the root mean square of the loop's edges: where spacings
+                      ///< meet that differ, the coarse one says how wide gaps may be
 };
 
 /// Looks at the mesh three rings into the surface, and at the neighbours of the points of each

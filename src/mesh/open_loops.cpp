@@ -59,13 +59,13 @@ keepCount (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgement>& j
 LoopJudgement
 judgeLoop (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoopLimits& limits)
 {
-  const double points = std::log (static_cast<double> (loop.points.size ()));
+  const auto points = static_cast<double> (loop.points.size ());
   LoopJudgement judgement;
-  judgement.log_odds =
-      limits.constant + limits.points * points + limits.compactness * evidence.compactness +
-      limits.irregularity * evidence.irregularity +
-      limits.uneven_points * evidence.irregularity * points + limits.growth * evidence.growth +
-      limits.turning * evidence.turning + limits.open_points * evidence.open_share * points;
+  judgement.log_odds = limits.constant + limits.points * std::log (points) +
+                       limits.compactness * evidence.compactness +
+                       limits.irregularity * evidence.irregularity +
+                       limits.growth * evidence.growth + limits.turning * evidence.turning +
+                       limits.open_points * std::sqrt (points) * std::pow (evidence.open_share, 4);
   judgement.empty_length = evidence.empty_share * loop.length;
   judgement.is_too_deep = evidence.depth * evidence.open_share > limits.deepest_gap;
   return judgement;

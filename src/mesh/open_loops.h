@@ -23,18 +23,18 @@ namespace floater
 struct OpenLoopLimits
 {
   EmptySectorLimits sectors;
-  double constant = -7.12;
-  double points = 1.18;      ///< of the logarithm of the number of points
-  double compactness = 12.2; ///< of this and the others see LoopEvidence
-  double irregularity = -15.4;
-  double uneven_points = 3.29; ///< of irregularity times the logarithm of the number of points
-  double growth = -2.99;
-  double turning = 2.27;
-  double open_points = 0.307; ///< of open_share times the logarithm of the number of points
-  double deepest_gap = 4.2;   ///< steps, of LoopEvidence::depth times open_share, since a loop that
-                              ///< sees points beyond is not empty. What is taken for a gap and
-                              ///< deeper stays open by the automatic policy. Measured: 199 of 200
-                              ///< generated gaps from 4 spacings on are less deep
+  double constant = -9.33;
+  double points = 2.30;      ///< of the logarithm of the number of points
+  double compactness = 12.0; ///< of this and the others see LoopEvidence
+  double irregularity = -8.10;
+  double growth = -2.81;
+  double turning = 2.36;
+  double open_points = 0.358; ///< of the root of the number of points times the 4th power of
+                              ///< open_share: long loops with hardly a point beyond
+  double deepest_gap = 4.2;   ///< of LoopEvidence::depth times open_share, since a loop that sees
+                              ///< points beyond is not empty. What is taken for a gap and deeper
+                              ///< stays open by the automatic policy. Measured: fewer than 1 in 200
+                              ///< generated gaps from 4 spacings on are deeper
   double doubtful = 0.9;      ///< probability; decisions that are less sure are told to the user.
                               ///< One in ten of them is wrong. A matter of taste
 };

@@ -72,7 +72,6 @@ allLimits ()
       PCL_FLOATER_LIMIT (surface.open_loops.points),
       PCL_FLOATER_LIMIT (surface.open_loops.compactness),
       PCL_FLOATER_LIMIT (surface.open_loops.irregularity),
-      PCL_FLOATER_LIMIT (surface.open_loops.uneven_points),
       PCL_FLOATER_LIMIT (surface.open_loops.growth),
       PCL_FLOATER_LIMIT (surface.open_loops.turning),
       PCL_FLOATER_LIMIT (surface.open_loops.open_points),

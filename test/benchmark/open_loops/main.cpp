@@ -22,8 +22,8 @@ using namespace pcl::floater;
 
 // Of a fit: a gap that is kept open counts as much as this many windows that are filled. The
 // surfaces have about as many gaps as windows, while most clouds of users have many gaps and no
-// window. With 2, 4 and 8 the surfaces of the fit lose 24, 28 and 34 % of the windows and keep 2.2,
-// 1.1 and 1.0 % of the gaps from 4 spacings on; by the rule of nine constants it was 50 and 3.2 %.
+// window. With 2, 4 and 8 the surfaces of the fit lose 24, 28 and 36 % of the windows and keep 2.4,
+// 1.1 and 0.7 % of the gaps from 4 spacings on; by the rule of nine constants it was 50 and 3.2 %.
 constexpr double GAP_WEIGHT = 4.0;
 
 constexpr std::uint64_t FIRST_TEST_SEED = 1'000'000; // far from those that are fitted to
@@ -176,12 +176,12 @@ OpenLoopLimits
 fit (const std::vector<LabelledLoop>& loops)
 {
   OpenLoopLimits limits;
-  double* const coefficients[] = {&limits.constant,     &limits.points,        &limits.compactness,
-                                  &limits.irregularity, &limits.uneven_points, &limits.growth,
-                                  &limits.turning,      &limits.open_points};
-  const char* const names[] = {"constant",      "points", "compactness", "irregularity",
-                               "uneven_points", "growth", "turning",     "open_points"};
-  constexpr Eigen::Index COLUMNS = 8;
+  double* const coefficients[] = {&limits.constant,     &limits.points, &limits.compactness,
+                                  &limits.irregularity, &limits.growth, &limits.turning,
+                                  &limits.open_points};
+  const char* const names[] = {"constant", "points",  "compactness", "irregularity",
+                               "growth",   "turning", "open_points"};
+  constexpr Eigen::Index COLUMNS = 7;
   const auto rows = static_cast<Eigen::Index> (loops.size ());
   Eigen::MatrixXd features (rows, COLUMNS);
   Eigen::VectorXd outcomes (rows), weights (rows);
@@ -205,8 +205,9 @@ fit (const std::vector<LabelledLoop>& loops)
     *coefficients[j] = best (j);
     std::printf ("  double %s = %.3g;\n", names[j], best (j));
   }
-  std::printf ("99.5 %% of the gaps from 4 spacings on are at most %.3g steps deep\n",
-               depthOfGaps (loops, 0.995));
+  std::printf (
+      "99.5 %% of the gaps from 4 spacings on have a depth times open share of at most %.3g\n",
+      depthOfGaps (loops, 0.995));
   return limits;
 }
 
