@@ -161,7 +161,7 @@ makeHoleySurface (bool with_windows, std::uint64_t seed)
   }
   const double noise = random.below (4) == 0 ? between (random, 0.0, 0.15) : 0.0;
   for (const Place& p : made.places)
-    made.points.push_back (
+    made.points.emplace_back (
         map (p) + noise * Eigen::Vector3d (random.normal (), random.normal (), random.normal ()));
   return made;
 }
