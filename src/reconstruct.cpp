@@ -218,7 +218,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
     return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, geometry, request, result);
   }
   report.topology = Topology::SURFACE;
-  report.statistics.holes_filled = surface.holes_filled;
+  reportLoops (points, surface, report);
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
 }

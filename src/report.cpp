@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace pcl
@@ -357,6 +358,47 @@ reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, 
     report.warnings.push_back (
         "the surface seems to be one-sided, like a Moebius strip: it was cut open along " +
         std::to_string (seam.size ()) + " triangles near " + place (points, seam.front ()[0]));
+}
+
+void
+reportLoops (const Points& points, const Surface& surface, Report& report)
+{
+  report.statistics.holes_filled = surface.holes_filled;
+  std::size_t too_deep = 0;
+  const BoundaryLoop* widest = nullptr;
+  for (const JudgedLoop& judged : surface.doubtful_loops) {
+    const BoundaryLoop& loop = judged.loop;
+    LoopDecision decision;
+    decision.points = loop.points.size ();
+    decision.width = loop.width * points.scale;
+    decision.width_spacings = loop.spacing > 0.0 ? loop.width / loop.spacing : 0.0;
+    decision.at = points.cloud_index[loop.points.front ()];
+    for (const Index p : loop.points)
+      decision.at = std::min (decision.at, points.cloud_index[p]);
+    decision.stays_open = loop.keep_open;
+    decision.probability = judged.judgement.probability ();
+    decision.is_too_deep = judged.judgement.is_too_deep;
+    if (decision.is_too_deep && decision.stays_open && decision.probability <= 0.5) {
+      ++too_deep;
+      if (widest == nullptr || loop.width > widest->width)
+        widest = &loop;
+    }
+    report.loop_decisions.push_back (decision);
+  }
+  std::stable_sort (report.loop_decisions.begin (), report.loop_decisions.end (),
+                    [] (const LoopDecision& a, const LoopDecision& b) {
+                      return std::abs (a.probability - 0.5) < std::abs (b.probability - 0.5);
+                    });
+  if (too_deep == 0)
+    return;
+  std::ostringstream text;
+  text.precision (3);
+  text << counted (too_deep, "hole stays", "holes stay")
+       << " open though the sampling around looks as if points were missing there, the widest of "
+       << widest->width * points.scale << " (" << widest->width / widest->spacing
+       << " local spacings) around " << place (points, widest->points.front ())
+       << ": triangles across would be a lid; the hole policy decides what is closed";
+  report.warnings.push_back (text.str ());
 }
 
 std::vector<Triangle>

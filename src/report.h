@@ -2,6 +2,7 @@
 // From what the stages found to what the user reads: cloud indices, counts, warnings in words.
 #pragma once
 
+#include "consensus/consensus_method.h"
 #include "core/problem.h"
 #include "core/types.h"
 #include "floater/floater_method.h"
@@ -70,6 +71,11 @@ reportDisc (const Points& points, const Disc& disc, Report& report);
 /// \param seam triangles left out for that
 void
 reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, Report& report);
+
+/// How many holes were filled, the decisions that are not sure, and a warning on loops that stay
+/// open since they are too deep to be filled.
+void
+reportLoops (const Points& points, const Surface& surface, Report& report);
 
 /// Triangles from working set to cloud indices, and counts.
 std::vector<Triangle>

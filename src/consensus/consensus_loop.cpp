@@ -21,11 +21,12 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
   const std::vector<std::size_t> component_points = countPoints (consensus.mesh, components);
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (consensus.mesh, components, positions, geometry.spacing, run);
-  const std::vector<LoopEvidence> evidence = findEvidence (
-      loops, positions, geometry.neighbors, consensus.normals, limits.open_loops, run);
   HoleOptions keep_largest;
   keep_largest.policy = HolePolicy::KEEP_LARGEST;
-  chooseOpenLoops (loops, evidence, component_points, keep_largest, 1.0, limits.open_loops);
+  chooseOpenLoops (loops,
+                   judgeLoops (consensus.mesh, loops, positions, geometry.neighbors,
+                               consensus.normals, limits.open_loops, run),
+                   components.count, keep_largest, 1.0);
 
   // A ragged boundary has points beyond the triangles. They have gaps in their stars.
   std::vector<Index> candidates;

@@ -12,24 +12,26 @@ namespace floater
 {
 namespace
 {
-// Chooses the loops that are kept open and fills the others.
-// \return number of holes filled
-std::size_t
-closeHoles (TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+// Chooses the loops that are kept open and fills the others. Notes how many were filled, and what
+// the user should know of the decisions.
+void
+closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometry,
             const SurfaceSettings& settings, const RunContext& run)
 {
   const SurfaceLimits& limits = settings.limits;
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   const std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
-  const MeshComponents components = findComponents (mesh, run);
+  const MeshComponents components = findComponents (surface.mesh, run);
   std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
-  const std::vector<LoopEvidence> evidence =
-      findEvidence (loops, positions, geometry.neighbors, normals, limits.open_loops, run);
-  chooseOpenLoops (loops, evidence, countPoints (mesh, components), settings.holes,
-                   1.0 / points.scale, limits.open_loops);
+      findBoundaryLoops (surface.mesh, components, positions, geometry.spacing, run);
+  const std::vector<LoopJudgement> judgements = judgeLoops (
+      surface.mesh, loops, positions, geometry.neighbors, normals, limits.open_loops, run);
+  chooseOpenLoops (loops, judgements, components.count, settings.holes, 1.0 / points.scale);
   const TriangleCost cost (positions, normals, nullptr, limits.finish.cost);
-  return fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
+  surface.holes_filled = fillHoles (surface.mesh, loops, positions, cost, limits.hole_filling, run);
+  for (std::size_t i = 0; i < loops.size (); ++i)
+    if (isDoubtful (judgements[i], limits.open_loops))
+      surface.doubtful_loops.push_back ({std::move (loops[i]), judgements[i]});
 }
 
 } // namespace
@@ -50,7 +52,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   geometry.stars.normals = std::move (consensus.normals);
 
   run.beginStage (Stage::HOLES);
-  surface.holes_filled = closeHoles (surface.mesh, points, geometry, settings, run);
+  closeHoles (surface, points, geometry, settings, run);
   orientMissingNormals (surface.mesh, geometry.neighbors, geometry.stars.normals, run);
 
   run.beginStage (Stage::FLIPS);

@@ -31,12 +31,20 @@ struct SurfaceSettings
   SurfaceLimits limits = {};
 };
 
+/// A boundary loop of the consensus mesh, kept open or filled, and what is thought of it.
+struct JudgedLoop
+{
+  BoundaryLoop loop;
+  LoopJudgement judgement;
+};
+
 /// The mesh of a surface and how it was made.
 struct Surface
 {
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
+  std::vector<JudgedLoop> doubtful_loops; ///< in the order of their smallest points, see isDoubtful
   std::vector<Triangle> orientation_seam; ///< where a surface that seems one-sided was cut open
                                           ///< (see findOrientationSeam); else empty
 };

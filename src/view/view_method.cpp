@@ -22,9 +22,11 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, points.positions, spacing, run);
-  chooseOpenLoops (loops, std::vector<LoopEvidence> (loops.size (), {1.0, 1.0}),
-                   countPoints (mesh, components), settings.holes, 1.0 / points.scale,
-                   settings.open_loops);
+  // Nothing is seen beyond any of them: the longest are kept.
+  std::vector<LoopJudgement> judgements (loops.size ());
+  for (std::size_t i = 0; i < loops.size (); ++i)
+    judgements[i].empty_length = loops[i].length;
+  chooseOpenLoops (loops, judgements, components.count, settings.holes, 1.0 / points.scale);
   std::vector<Eigen::Vector3f> normals;
   normals.reserve (points.size ());
   for (const Eigen::Vector3d& position : points.positions) {

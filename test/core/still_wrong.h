@@ -20,8 +20,6 @@ inline const std::set<std::string>&
 stillWrong ()
 {
   static const std::set<std::string> names{
-      // A border of 19 points at the end of a thin tube is taken for a defect and closed.
-      "finger_100",
       // Outliers less than 10 spacings away in the plane of a sheet are taken for a part of it.
       "sphere_outliers_near",
       // Close sheets, slits along sharp edges.

@@ -93,6 +93,7 @@ TEST_F (ReportTest, ReportTellsWhatTheMeshIs)
   EXPECT_EQ (all.at ("strict"), false);
   EXPECT_EQ (all.at ("denoised"), false);
   EXPECT_EQ (all.at ("outliers"), Json::array ());
+  EXPECT_EQ (all.at ("loop_decisions"), Json::array ());
   for (const char* figure : {"outlier_points", "holes_filled"})
     EXPECT_EQ (all.at ("statistics").at (figure), 0) << figure;
   EXPECT_LT (all.at ("statistics").at ("noise").get<double> (), 0.1);

@@ -122,8 +122,9 @@ addTopology (CLI::App& app, Options& options)
              surface);
   addChoice (
       app, "--holes", options.holes.policy, HOLE_CHOICES,
-      "boundary loops that stay open: those beyond which\nthere are no points, none, the largest "
-      "of each\ncomponent, a number of the largest, or those above a\nsize",
+      "boundary loops that stay open: those that look\nlike boundaries, not like gaps of the "
+      "sampling; none;\nthe largest of each component; a number of the\nmost likely; or those "
+      "above a size",
       surface);
   addNumber (app, "--kept-loops", options.holes.kept_loops,
              "keep-count: boundary loops that stay open, 0 or more", surface);

@@ -130,6 +130,21 @@ checkJson (const MeshCheck& check)
 }
 
 Json
+loopDecisionsJson (const Report& report)
+{
+  Json decisions = Json::array ();
+  for (const LoopDecision& decision : report.loop_decisions)
+    decisions.push_back ({{"points", decision.points},
+                          {"width", decision.width},
+                          {"width_spacings", decision.width_spacings},
+                          {"at", decision.at},
+                          {"stays_open", decision.stays_open},
+                          {"probability", decision.probability},
+                          {"is_too_deep", decision.is_too_deep}});
+  return decisions;
+}
+
+Json
 secondsJson (const Statistics& statistics, const RunFigures& run)
 {
   Json seconds = {{"reading", run.read_seconds}};
@@ -211,6 +226,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"viewpoint", viewpointJson (report)},
                     {"denoised", report.denoised},
                     {"check", checkJson (report.check)},
+                    {"loop_decisions", loopDecisionsJson (report)},
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},
                     {"peak_memory_bytes", peakMemory ()},

@@ -103,15 +103,15 @@ public:
   /** \brief The kind of surface asked for; getReport() has the one that was made. */
   floater::Topology getTopology () const { return options_.topology; }
 
-  /** \brief Which boundary loops of a surface stay open; default AUTO: those beyond which the
-   * points have no neighbours. Topology::DISC takes AUTO and KEEP_LARGEST only, which mean the same
+  /** \brief Which boundary loops of a surface stay open; default AUTO: those that look
+   * like boundaries, not like gaps of the sampling. Topology::DISC takes AUTO and KEEP_LARGEST only, which mean the same
    * there. */
   void setHolePolicy (floater::HolePolicy policy) { options_.holes.policy = policy; }
   /** \brief Which boundary loops of a surface stay open. */
   floater::HolePolicy getHolePolicy () const { return options_.holes.policy; }
 
-  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open, the largest ones of the whole
-   * surface; 0 or more, default 1. */
+  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open, the most likely boundaries of
+   * the whole surface; 0 or more, default 1. */
   void setKeptLoops (int loops) { options_.holes.kept_loops = loops; }
   /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open. */
   int getKeptLoops () const { return options_.holes.kept_loops; }

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
 
 namespace pcl
 {
@@ -80,6 +82,46 @@ TEST (CheckReport, WarnsOfSmallHolesIfNoOptionAsksForThem)
     options.holes.policy = policy;
     EXPECT_TRUE (warningsOf (holed, options).empty ());
   }
+}
+
+TEST (LoopReport, TellsDoubtfulDecisionsAndWarnsOfHolesTooDeepToBeFilled)
+{
+  const Points points = pointsAt (sheet (20).positions);
+  const auto judged = [] (std::vector<Index> corners, double width, bool is_open,
+                          const LoopJudgement& judgement) {
+    JudgedLoop one{{}, judgement};
+    one.loop.points = std::move (corners);
+    one.loop.width = width;
+    one.loop.spacing = 0.5;
+    one.loop.keep_open = is_open;
+    return one;
+  };
+  Surface surface;
+  surface.holes_filled = 7;
+  Report report;
+  surface.doubtful_loops = {judged ({9, 8, 4, 5}, 4.0, true, {1.5, 0.0, false}),
+                            judged ({2, 3, 1}, 1.0, false, {-0.5, 0.0, false})};
+  reportLoops (points, surface, report);
+  EXPECT_TRUE (report.warnings.empty ());
+  EXPECT_EQ (report.statistics.holes_filled, 7U);
+  ASSERT_EQ (report.loop_decisions.size (), 2U);
+  const LoopDecision &filled = report.loop_decisions[0], &open = report.loop_decisions[1];
+  EXPECT_FALSE (filled.stays_open); // the least sure one is the first
+  EXPECT_NEAR (filled.probability, 1.0 / (1.0 + std::exp (0.5)), 1e-12);
+  EXPECT_EQ (filled.points, 3U);
+  EXPECT_EQ (filled.at, points.cloud_index[1]);
+  EXPECT_TRUE (open.stays_open);
+  EXPECT_EQ (open.points, 4U);
+  EXPECT_EQ (open.width, 4.0 * points.scale);
+  EXPECT_EQ (open.width_spacings, 8.0);
+
+  surface.doubtful_loops = {judged ({9, 8, 4, 5}, 4.0, true, {-5.0, 0.0, true}),
+                            judged ({30, 31, 32}, 6.0, true, {-5.0, 0.0, true}),
+                            judged ({50, 51, 52}, 9.0, false, {-5.0, 0.0, true}),
+                            judged ({60, 61, 62}, 9.0, true, {1.0, 0.0, true})};
+  reportLoops (points, surface, report);
+  expectWarning (report.warnings, "2 holes stay open though",
+                 "(12 local spacings) around point 91");
 }
 
 TEST (CheckReport, TheReportHasCloudIndicesAndTheLongestLoop)

@@ -2,9 +2,12 @@
 // Which boundary loops are kept open.
 #include "mesh/open_loops.h"
 
-#include "samples.h"
+#include "core/geometry.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace pcl
 {
@@ -12,8 +15,6 @@ namespace floater
 {
 namespace
 {
-using samples::PI;
-
 HoleOptions
 policy (HolePolicy kind)
 {
@@ -36,7 +37,7 @@ widthsKept (double largest_hole, double largest_hole_length, double unit)
   HoleOptions holes = policy (HolePolicy::BY_SIZE);
   holes.largest_hole = largest_hole;
   holes.largest_hole_length = largest_hole_length;
-  chooseOpenLoops (loops, std::vector<LoopEvidence> (loops.size ()), {100}, holes, unit, {});
+  chooseOpenLoops (loops, std::vector<LoopJudgement> (loops.size ()), 1, holes, unit);
   std::vector<double> widths;
   for (const BoundaryLoop& loop : loops)
     if (loop.keep_open)
@@ -53,125 +54,216 @@ TEST (OpenLoops, AreKeptIfTheyExceedAnyOfTheSizesGiven)
   EXPECT_EQ (widthsKept (12.0, 8.0, 1.0), (std::vector<double>{7.0, 8.0, 9.0}));
 }
 
-// The boundary of a regular polygon with steps of 1.
+// A loop of a length, of a component.
 BoundaryLoop
-polygon (std::size_t sides, Index component = 0)
+loopOf (double length, Index component = 0)
 {
   BoundaryLoop loop;
-  loop.points.resize (sides);
-  loop.length = static_cast<double> (sides);
-  loop.width = 1.0 / std::sin (PI / static_cast<double> (sides));
+  loop.points.resize (10);
+  loop.length = length;
   loop.component = component;
   return loop;
 }
 
-bool
-isKept (std::size_t sides, double open_share, std::size_t component_points,
-        const OpenLoopLimits& limits = {})
+std::vector<std::size_t>
+kept (std::vector<BoundaryLoop> loops, const std::vector<LoopJudgement>& judgements,
+      const HoleOptions& holes)
 {
-  std::vector<BoundaryLoop> loops = {polygon (sides)};
-  chooseOpenLoops (loops, {{open_share, open_share}}, {component_points}, {}, 1.0, limits);
-  return loops.front ().keep_open;
+  chooseOpenLoops (loops, judgements, 2, holes, 1.0);
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < loops.size (); ++i)
+    if (loops[i].keep_open)
+      indices.push_back (i);
+  return indices;
 }
 
-TEST (OpenLoops, TheAutomaticPolicyGoesByEvidenceWidthAndLength)
+TEST (OpenLoops, PoliciesGoByTheOdds)
 {
-  constexpr std::size_t LARGE = 1'000'000; // points of the component
-  // Four in five points, and 6 steps wide, which takes 19 sides ...
-  EXPECT_TRUE (isKept (19, 0.8, LARGE));
-  EXPECT_FALSE (isKept (18, 0.8, LARGE));
-  EXPECT_FALSE (isKept (19, 0.79, LARGE));
-  // ... or the whole boundary of a small component.
-  EXPECT_TRUE (isKept (10, 0.8, 100));
-  EXPECT_FALSE (isKept (10, 0.8, 101));
-  // All points, and 4 steps wide, which takes 13 sides.
-  EXPECT_TRUE (isKept (13, 0.97, LARGE));
-  EXPECT_FALSE (isKept (12, 0.97, LARGE));
-  EXPECT_FALSE (isKept (13, 0.96, LARGE));
-  // Half of the points of a very long loop.
-  EXPECT_TRUE (isKept (200, 0.5, 10'000));
-  EXPECT_FALSE (isKept (199, 0.5, 10'000));
-  EXPECT_FALSE (isKept (200, 0.49, 10'000));
-}
-
-TEST (OpenLoops, LimitsAreThoseGiven)
-{
-  OpenLoopLimits limits;
-  limits.wide_steps = 5.0;
-  EXPECT_TRUE (isKept (18, 0.8, 1'000'000, limits));
-  limits.open_share = 0.7;
-  EXPECT_TRUE (isKept (18, 0.75, 1'000'000, limits));
-}
-
-TEST (OpenLoops, PoliciesThatCountPreferBoundaries)
-{
-  // Two boundaries, a longer defect, and a defect of another component.
-  const std::vector<BoundaryLoop> loops = {polygon (30), polygon (40), polygon (90),
-                                           polygon (8, 1)};
-  const std::vector<LoopEvidence> evidence = {{1.0, 1.0}, {1.0, 0.5}, {0.1, 0.1}, {0.1, 0.1}};
-  const auto kept = [&] (const HoleOptions& holes) {
-    std::vector<BoundaryLoop> chosen = loops;
-    chooseOpenLoops (chosen, evidence, {1'000'000, 1000}, holes, 1.0, {});
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < chosen.size (); ++i)
-      if (chosen[i].keep_open)
-        indices.push_back (i);
-    return indices;
-  };
+  // Two boundaries, of which the shorter is surer, a longer gap, and a gap of another component.
+  const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (40.0), loopOf (90.0),
+                                           loopOf (8.0, 1)};
+  const std::vector<LoopJudgement> judgements = {
+      {5.0, 9.0, false}, {3.0, 40.0, false}, {-2.0, 20.0, false}, {-4.0, 8.0, false}};
   using Indices = std::vector<std::size_t>;
-  EXPECT_EQ (kept (policy (HolePolicy::AUTO)), (Indices{0, 1}));
-  EXPECT_EQ (kept (policy (HolePolicy::CLOSE_ALL)), Indices{});
-  EXPECT_EQ (kept (policy (HolePolicy::KEEP_LARGEST)), (Indices{0, 3}));
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), (Indices{0, 1}));
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)), Indices{});
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)), (Indices{1, 3}));
   HoleOptions count = policy (HolePolicy::KEEP_COUNT);
   const std::vector<Indices> by_count = {{}, {0}, {0, 1}, {0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2, 3}};
   for (int i = 0; i < 6; ++i) {
     count.kept_loops = i;
-    EXPECT_EQ (kept (count), by_count[static_cast<std::size_t> (i)]);
+    EXPECT_EQ (kept (loops, judgements, count), by_count[static_cast<std::size_t> (i)]);
   }
 }
 
-TEST (OpenLoops, ABoundarySeesNothingBeyondIt)
+TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
 {
-  // The border of a round sheet, and points around its middle.
-  const samples::Sheet sheet = samples::disc (0.1, 3);
-  const samples::Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
-  const std::vector<Eigen::Vector3d>& positions = made.points.positions;
-  BoundaryLoop boundary, inside;
-  for (Index p = 0; p < positions.size (); ++p)
-    if (made.points.cloud_index[p] < sheet.border)
-      boundary.points.push_back (p);
-    else if (positions[p].norm () < 0.2)
-      inside.points.push_back (p);
-  ASSERT_FALSE (inside.points.empty ());
-  const std::vector<LoopEvidence> evidence = findEvidence (
-      {boundary, inside}, positions, made.geometry.neighbors, made.geometry.stars.normals, {}, 1);
-  ASSERT_EQ (evidence.size (), 2U);
-  EXPECT_GT (evidence[0].open_share, 0.95);
-  EXPECT_GT (evidence[0].empty_share, 0.95);
-  EXPECT_EQ (evidence[1].open_share, 0.0);
-  EXPECT_EQ (evidence[1].empty_share, 0.0);
+  const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (90.0), loopOf (40.0)};
+  const std::vector<LoopJudgement> judgements = {
+      {-1.0, 10.0, false}, {-2.0, 30.0, false}, {-3.0, 20.0, false}};
+  HoleOptions count = policy (HolePolicy::KEEP_COUNT);
+  count.kept_loops = 2;
+  EXPECT_EQ (kept (loops, judgements, count), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)),
+             (std::vector<std::size_t>{1}));
 }
 
-TEST (OpenLoops, PointsOnAnotherSheetDoNotCloseABoundary)
+TEST (OpenLoops, AGapTooDeepToBeFilledStaysOpenUnlessThePolicySaysOtherwise)
 {
-  // A fan of neighbours on one side of point 0, and others whose normals are turned by 90 degrees
-  // on the other side.
-  std::vector<Eigen::Vector3d> positions = {{0, 0, 0}};
-  std::vector<Eigen::Vector3f> normals = {Eigen::Vector3f::UnitZ ()};
-  CsrLists neighbors;
-  neighbors.offsets = {0};
-  for (int i = 0; i < 12; ++i) {
-    const double angle = 2.0 * PI * i / 12.0;
-    positions.emplace_back (std::cos (angle), std::sin (angle), 0.0);
-    normals.push_back (i < 6 ? Eigen::Vector3f::UnitZ () : Eigen::Vector3f::UnitX ());
-    neighbors.ids.push_back (static_cast<Index> (i + 1));
+  const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (30.0)};
+  const std::vector<LoopJudgement> judgements = {{-5.0, 0.0, true}, {-5.0, 0.0, false}};
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), (std::vector<std::size_t>{0}));
+  EXPECT_TRUE (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)).empty ());
+}
+
+TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)
+{
+  const OpenLoopLimits limits; // nine in ten
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_TRUE (isDoubtful ({sign * 2.19, 0.0, false}, limits)); // log (9) is 2.197
+    EXPECT_FALSE (isDoubtful ({sign * 2.20, 0.0, false}, limits));
   }
-  neighbors.offsets.resize (positions.size () + 1, 12);
-  BoundaryLoop loop;
-  loop.points = {0};
-  const LoopEvidence evidence = findEvidence ({loop}, positions, neighbors, normals, {}, 1)[0];
-  EXPECT_EQ (evidence.open_share, 1.0);
-  EXPECT_EQ (evidence.empty_share, 0.0);
+  EXPECT_TRUE (isDoubtful ({-9.0, 0.0, true}, limits));
+  EXPECT_FALSE (isDoubtful ({9.0, 0.0, true}, limits));
+  EXPECT_NEAR ((LoopJudgement{std::log (9.0), 0.0, false}.probability ()), 0.9, 1e-12);
+}
+
+// A sheet of equilateral triangles of side 1 without those that have a corner nearer to the middle
+// than `inside`.
+struct TriangularSheet
+{
+  std::vector<Eigen::Vector3d> positions;
+  TriangleMesh mesh;
+  std::vector<BoundaryLoop> loops; // first that of the hole
+  CsrLists neighbors;              // those that share an edge
+  std::vector<Eigen::Vector3f> normals;
+
+  TriangularSheet (int half, double inside)
+  {
+    const int side = 2 * half + 1;
+    std::vector<Index> index (static_cast<std::size_t> (side * side), NONE);
+    const auto at = [&] (int i, int j) -> Index& {
+      return index[static_cast<std::size_t> ((i + half) * side + j + half)];
+    };
+    for (int i = -half; i <= half; ++i)
+      for (int j = -half; j <= half; ++j) {
+        const Eigen::Vector3d p (j + 0.5 * i, std::sqrt (0.75) * i, 0.0);
+        if (p.norm () < inside)
+          continue;
+        at (i, j) = static_cast<Index> (positions.size ());
+        positions.push_back (p);
+      }
+    const auto add = [&] (Index a, Index b, Index c) {
+      if (a != NONE && b != NONE && c != NONE)
+        mesh.triangles.push_back ({a, b, c});
+    };
+    for (int i = -half; i < half; ++i)
+      for (int j = -half; j < half; ++j) {
+        add (at (i, j), at (i, j + 1), at (i + 1, j));
+        add (at (i, j + 1), at (i + 1, j + 1), at (i + 1, j));
+      }
+    EXPECT_TRUE (mesh.connect (positions.size (), 1));
+    loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
+                               std::vector<float> (positions.size (), 1.0F), 1);
+    EXPECT_EQ (loops.size (), 2U);
+    if (loops.size () == 2 && loops[1].length < loops[0].length)
+      std::swap (loops[0], loops[1]);
+    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
+    neighbors = makeCsrLists (positions.size (), [&] (auto&& emit) {
+      for (const Triangle& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+          emit (t[k], t[(k + 1) % 3]);
+          emit (t[k], t[(k + 2) % 3]);
+        }
+    });
+  }
+
+  std::vector<LoopEvidence> evidence () const
+  {
+    return findEvidence (mesh, loops, positions, neighbors, normals, {}, 1);
+  }
+};
+
+TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
+{
+  // The six neighbours of the missing point: a regular hexagon of side 1.
+  const TriangularSheet sheet (10, 0.5);
+  const LoopEvidence hole = sheet.evidence ()[0];
+  ASSERT_EQ (sheet.loops[0].points.size (), 6U);
+  const double area = 1.5 * std::sqrt (3.0);
+  EXPECT_NEAR (hole.compactness, 4.0 * PI * area / 36.0, 1e-12);
+  EXPECT_NEAR (hole.depth, 2.0 * area / 6.0, 1e-12);
+  EXPECT_NEAR (hole.irregularity, 0.0, 1e-6);
+  EXPECT_NEAR (hole.growth, 0.0, 1e-12);
+  EXPECT_NEAR (hole.turning, -1.0, 1e-12);
+  // A point of the hexagon misses one of six neighbours: a sector of 120 degrees.
+  EXPECT_EQ (hole.open_share, 0.0);
+}
+
+TEST (LoopEvidence, TheBorderOfADiscTurnsTheOtherWay)
+{
+  const TriangularSheet sheet (10, 0.5);
+  const LoopEvidence border = sheet.evidence ()[1];
+  EXPECT_NEAR (border.turning, 1.0, 1e-9);
+  EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
+}
+
+TEST (LoopEvidence, GrowthIsThatOfTheEdgesTowardsTheLoop)
+{
+  // Distances from the middle to the power of 1/2: edges at the hole are longer than those beyond.
+  TriangularSheet sheet (12, 2.5);
+  for (Eigen::Vector3d& p : sheet.positions)
+    p *= std::pow (p.norm (), -0.5);
+  EXPECT_GT (sheet.evidence ()[0].growth, 0.1);
+  for (Eigen::Vector3d& p : sheet.positions)
+    p *= std::pow (p.norm (), 3.0); // to the power of 2
+  EXPECT_LT (sheet.evidence ()[0].growth, -0.1);
+}
+
+TEST (LoopEvidence, DoesNotDependOnScaleAndOrientation)
+{
+  TriangularSheet sheet (8, 2.5);
+  const LoopEvidence before = sheet.evidence ()[0];
+  for (Eigen::Vector3d& p : sheet.positions)
+    p *= 1024.0;
+  for (Triangle& t : sheet.mesh.triangles)
+    std::swap (t[1], t[2]);
+  ASSERT_TRUE (sheet.mesh.connect (sheet.positions.size (), 1));
+  std::reverse (sheet.loops[0].points.begin () + 1, sheet.loops[0].points.end ());
+  sheet.loops[0].length *= 1024.0;
+  const LoopEvidence after = sheet.evidence ()[0];
+  EXPECT_NEAR (after.compactness, before.compactness, 1e-12);
+  EXPECT_NEAR (after.depth, before.depth, 1e-12);
+  EXPECT_NEAR (after.irregularity, before.irregularity, 1e-6);
+  EXPECT_NEAR (after.growth, before.growth, 1e-12);
+  EXPECT_NEAR (after.turning, before.turning, 1e-12);
+  EXPECT_EQ (after.open_share, before.open_share);
+}
+
+TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
+{
+  // Across the border of an even sheet, points whose normals are turned by 90 degrees.
+  TriangularSheet sheet (6, 0.5);
+  const std::size_t count = sheet.positions.size ();
+  EXPECT_EQ (sheet.evidence ()[1].open_share, 1.0);
+  for (std::size_t p = 0; p < count; ++p) {
+    sheet.positions.push_back (1.2 * sheet.positions[p]);
+    sheet.normals.push_back (Eigen::Vector3f::UnitX ());
+  }
+  sheet.mesh.triangle_of.resize (2 * count, NONE);
+  const CsrLists own = sheet.neighbors;
+  sheet.neighbors = makeCsrLists (2 * count, [&] (auto&& emit) {
+    for (std::size_t p = 0; p < count; ++p) {
+      for (const Index q : own.row (p))
+        emit (p, q);
+      emit (p, static_cast<Index> (p + count));
+    }
+  });
+  EXPECT_EQ (sheet.evidence ()[1].open_share, 1.0);
+  EXPECT_LT (sheet.evidence ()[1].empty_share, 0.5);
+  for (std::size_t p = count; p < 2 * count; ++p)
+    sheet.normals[p] = Eigen::Vector3f::UnitZ ();
+  EXPECT_LT (sheet.evidence ()[1].open_share, 0.5);
 }
 
 } // namespace

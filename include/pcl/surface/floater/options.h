@@ -30,10 +30,10 @@ enum class Topology
 /// Which boundary loops of a surface stay open. A disc has one boundary loop and no holes.
 enum class HolePolicy
 {
-  AUTO,         ///< those beyond which the points have no neighbours
+  AUTO,         ///< those that look like boundaries, not like gaps of the sampling
   CLOSE_ALL,    ///< none: every component is closed
   KEEP_LARGEST, ///< the largest loop of every component, as its boundary
-  KEEP_COUNT,   ///< the HoleOptions::kept_loops largest loops of the whole surface
+  KEEP_COUNT,   ///< the HoleOptions::kept_loops likeliest boundaries of the whole surface
   BY_SIZE       ///< those wider than HoleOptions::largest_hole or largest_hole_length
 };
 

@@ -52,6 +52,21 @@ struct LoopSummary
   std::uint32_t at = 0;        ///< smallest cloud index of its points
 };
 
+/// A decision of which the method was not sure: whether a boundary loop of the points that are
+/// connected at first is one of the surface, and stays open, or a gap of the sampling, and is
+/// filled. The hole policy may have decided otherwise than the probability says.
+struct LoopDecision
+{
+  std::size_t points = 0;      ///< number of points
+  double width = 0.0;          ///< largest distance between two of its points, in units of the cloud
+  double width_spacings = 0.0; ///< the same in local spacings
+  std::uint32_t at = 0;        ///< smallest cloud index of its points
+  bool stays_open = false;     ///< else it was filled
+  double probability = 0.0;    ///< that it is a boundary of the surface, 0 to 1
+  bool is_too_deep = false;    ///< too deep to be filled: the sampling around does not tell how the
+                               ///< surface would go on
+};
+
 /// What the final check found on the mesh. It uses nothing but triangles and positions.
 struct MeshCheck
 {
@@ -126,6 +141,9 @@ struct Report
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE
   std::string topology_reason;        ///< why this method, in a few words
   MeshCheck check;                    ///< the mesh, as examined at the end
+  /// Of a surface that is no view: boundary loops that may have been wrongly kept open or filled,
+  /// the least sure first. Empty if the method was sure of all.
+  std::vector<LoopDecision> loop_decisions;
   bool denoised = false; ///< the points were connected as they lie when projected on local planes
   bool is_view = false;  ///< the points are one scan, and were connected as its sensor saw them
   bool is_far_view = false;          ///< the sensor was so far away that its rays are parallel

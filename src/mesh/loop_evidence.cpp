@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/loop_evidence.h"
+
+#include "core/geometry.h"
+#include "core/tangent_frame.h"
+#include "local/planar_star.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have any number
+
+// Tells whether a point has a large sector without neighbours: of those on its own sheet, or of
+// all.
+class SectorTest
+{
+public:
+  SectorTest (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits)
+      : positions_ (positions), neighbors_ (neighbors), normals_ (normals), limits_ (limits)
+  {
+  }
+
+  bool hasEmptySector (Index p, bool same_sheet)
+  {
+    const Eigen::Vector3d normal = normals_[p].cast<double> ();
+    const TangentFrame frame (normal);
+    planar_.clear ();
+    for (Index q : neighbors_.row (p)) {
+      const Eigen::Vector3d offset = positions_[q] - positions_[p];
+      const Eigen::Vector3d other = normals_[q].cast<double> ();
+      const double limit = limits_.sheet_sine * offset.norm ();
+      if (!same_sheet ||
+          (std::abs (normal.dot (offset)) <= limit && std::abs (other.dot (offset)) <= limit &&
+           std::abs (normal.dot (other)) >= limits_.sheet_cosine))
+        planar_.push_back ({frame.project (offset), q});
+    }
+    star_.order (planar_);
+    return star_.openingAngle () > limits_.angle * DEGREE;
+  }
+
+private:
+  const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& neighbors_;
+  const std::vector<Eigen::Vector3f>& normals_;
+  const EmptySectorLimits& limits_;
+  PlanarStar star_;
+  std::vector<PlanarNeighbor> planar_;
+};
+
+// Mean and standard deviation of logarithms of lengths.
+class LogLengths
+{
+public:
+  void add (double length)
+  {
+    const double logarithm = std::log (length);
+    count_ += 1.0;
+    sum_ += logarithm;
+    squares_ += logarithm * logarithm;
+  }
+  bool isEmpty () const { return count_ == 0.0; }
+  double mean () const { return isEmpty () ? 0.0 : sum_ / count_; }
+  double deviation () const
+  {
+    return isEmpty () ? 0.0 : std::sqrt (std::max (0.0, squares_ / count_ - mean () * mean ()));
+  }
+
+private:
+  double count_ = 0.0, sum_ = 0.0, squares_ = 0.0;
+};
+
+// Walks from loops into the surface, ring by ring of points, and measures edges.
+class RingWalk
+{
+public:
+  static constexpr std::size_t RINGS = 4;
+
+  RingWalk (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions)
+      : mesh_ (mesh), positions_ (positions), ring_ (positions.size (), 0)
+  {
+  }
+
+  // The edges that begin in each ring and do not lead back; ring 0 is the loop.
+  std::array<LogLengths, RINGS> walk (const std::vector<Index>& loop)
+  {
+    std::array<LogLengths, RINGS> edges;
+    // A point of ring k has the number base_ + k + 1; lower numbers are of earlier walks.
+    if (base_ > LARGEST_BASE) {
+      std::fill (ring_.begin (), ring_.end (), 0U);
+      base_ = 0;
+    }
+    current_ = loop;
+    for (const Index p : current_)
+      ring_[p] = base_ + 1;
+    for (std::uint32_t k = 0; k < RINGS; ++k) {
+      const std::uint32_t own = base_ + k + 1;
+      next_.clear ();
+      for (const Index p : current_)
+        forEachNeighbor (p, [&] (Index q) {
+          if (ring_[q] <= base_) {
+            ring_[q] = own + 1;
+            next_.push_back (q);
+          }
+        });
+      for (const Index p : current_)
+        forEachNeighbor (p, [&] (Index q) {
+          if (ring_[q] > own || (ring_[q] == own && p < q))
+            edges[k].add ((positions_[q] - positions_[p]).norm ());
+        });
+      current_.swap (next_);
+    }
+    base_ += RINGS + 1;
+    return edges;
+  }
+
+  // Geodesic curvature at a point of a loop: half a turn less the angles of its triangles.
+  double curvature (Index p)
+  {
+    double angle = PI;
+    mesh_.fan (p, fan_);
+    for (const Index t : fan_) {
+      const std::uint8_t side = mesh_.sideOf (t, p);
+      const Eigen::Vector3d a =
+          positions_[mesh_.triangles[t][TriangleMesh::next (side)]] - positions_[p];
+      const Eigen::Vector3d b =
+          positions_[mesh_.triangles[t][TriangleMesh::previous (side)]] - positions_[p];
+      angle -= std::atan2 (a.cross (b).norm (), a.dot (b));
+    }
+    return angle;
+  }
+
+private:
+  static constexpr std::uint32_t LARGEST_BASE = 0xffff0000U;
+
+  // All points that share an edge with p.
+  template <typename Visit>
+  void forEachNeighbor (Index p, Visit&& visit)
+  {
+    const auto first = [&] (Index t) {
+      return mesh_.triangles[t][TriangleMesh::next (mesh_.sideOf (t, p))];
+    };
+    const auto last = [&] (Index t) {
+      return mesh_.triangles[t][TriangleMesh::previous (mesh_.sideOf (t, p))];
+    };
+    mesh_.fan (p, fan_);
+    for (const Index t : fan_)
+      visit (first (t));
+    if (last (fan_.back ()) != first (fan_.front ())) // the fan ends at a boundary
+      visit (last (fan_.back ()));
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  std::vector<std::uint32_t> ring_;
+  std::uint32_t base_ = 0;
+  std::vector<Index> current_, next_, fan_;
+};
+
+LoopEvidence
+lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions, RingWalk& rings)
+{
+  const std::size_t count = loop.points.size ();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  for (const Index p : loop.points)
+    centre += positions[p] / static_cast<double> (count);
+  Eigen::Vector3d double_area = Eigen::Vector3d::Zero ();
+  double curvature = 0.0, length = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index p = loop.points[i], q = loop.points[i + 1 == count ? 0 : i + 1];
+    const double step = (positions[q] - positions[p]).norm ();
+    length += step;
+    squares += step * step;
+    double_area += (positions[p] - centre).cross (positions[q] - centre);
+    curvature += rings.curvature (p);
+  }
+  const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
+  LoopEvidence evidence;
+  evidence.compactness = 2.0 * PI * double_area.norm () / (length * length);
+  evidence.depth =
+      double_area.norm () / (length * std::sqrt (squares / static_cast<double> (count)));
+  evidence.irregularity = edges[2].deviation ();
+  evidence.growth = edges[3].isEmpty () ? 0.0 : edges[0].mean () - edges[3].mean ();
+  evidence.turning = std::clamp (curvature / (2.0 * PI), -MOST_TURNING, +MOST_TURNING);
+  return evidence;
+}
+
+} // namespace
+
+std::vector<LoopEvidence>
+findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
+              const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits,
+              const RunContext& run)
+{
+  std::vector<LoopEvidence> evidence;
+  evidence.reserve (loops.size ());
+  SectorTest test (positions, neighbors, normals, limits);
+  RingWalk rings (mesh, positions);
+  ProgressLoop progress (run);
+  for (const BoundaryLoop& loop : loops) {
+    std::size_t open = 0, empty = 0;
+    for (const Index p : loop.points) {
+      progress.next ();
+      open += test.hasEmptySector (p, true) ? 1 : 0;
+      empty += test.hasEmptySector (p, false) ? 1 : 0;
+    }
+    const auto count = static_cast<double> (loop.points.size ());
+    evidence.push_back (lookAt (loop, positions, rings));
+    evidence.back ().open_share = static_cast<double> (open) / count;
+    evidence.back ().empty_share = static_cast<double> (empty) / count;
+  }
+  return evidence;
+}
+
+} // namespace floater
+} // namespace pcl

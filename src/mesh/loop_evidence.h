@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the mesh and the points around a boundary loop tell about it.
+#pragma once
+
+#include "core/csr_lists.h"
+#include "mesh/boundary_loops.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// When a point counts as one that sees no other point beyond the surface.
+struct EmptySectorLimits
+{
+  double angle = 130.0;      ///< degrees; a larger sector without neighbours counts as empty.
+                             ///< Theory: 180 less the bend of a hole that is 6 spacings wide
+  double sheet_sine = 0.75;  ///< between a neighbour and a tangent plane; above: another sheet.
+                             ///< As for the stars
+  double sheet_cosine = 0.3; ///< between two normals; below: another sheet. As for the stars
+};
+
+/// What tells a boundary of the surface from a gap of the sampling. No size has a unit.
+struct LoopEvidence
+{
+  double open_share = 0.0;   ///< share of its points that see no neighbour on their own sheet in a
+                             ///< sector of EmptySectorLimits::angle or more
+  double empty_share = 0.0;  ///< share of its points that see no neighbour on any sheet in such a
+                             ///< sector
+  double compactness = 0.0;  ///< 4 pi area / length^2: 1 for a circle, near 0 for a slit and for a
+                             ///< ragged loop. The area is that in the direction of the area vector
+  double irregularity = 0.0; ///< of the sampling around: standard deviation of the logarithms of
+                             ///< the edges that begin two rings into the surface
+  double growth = 0.0;       ///< of the spacing towards the loop: logarithm of the mean edge at the
+                             ///< loop by the mean edge that begins three rings into the surface; 0
+                             ///< if there are none
+  double turning = 0.0;      ///< total geodesic curvature in turns, seen from the surface: -1 for a
+                             ///< hole in a plane, 0 for the end of a tube, 1 for the border of a
+                             ///< disc; at most 3/2 of either sign
+  double depth = 0.0; ///< 2 area / length, which is the radius of a circle and the width of a
+                      ///< slit, by the root mean square of the loop's edges: where spacings
+                      ///< meet that differ, the coarse one says how wide gaps may be
+};
+
+/// Looks at the mesh three rings into the surface, and at the neighbours of the points of each
+/// loop. O(n + k log k) for a point of k neighbours, with n for the points of all rings.
+/// \param mesh      with its loops open
+/// \param loops     of the mesh
+/// \param neighbors of each point of the mesh
+/// \param normals   of each point of the mesh, unit length, any sign
+/// \return evidence of each loop, in the order of the loops
+std::vector<LoopEvidence>
+findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
+              const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits,
+              const RunContext& run);
+
+} // namespace floater
+} // namespace pcl
