@@ -8,6 +8,7 @@
 #include "cloud_geometry.h"
 #include "input_cleaning.h"
 #include "mesh/flips.h"
+#include "mesh/self_intersection_removal.h"
 #include "report.h"
 #include "request.h"
 
@@ -80,6 +81,28 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
   request.run.beginStage (Stage::CHECK);
   return checkMesh (mesh.triangles, points, geometry.meshSpacing (), request.run,
                     request.limits.check);
+}
+
+// Changes the mesh where its triangles cross each other, and examines it again.
+void
+uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
+         const Request& request, Statistics& statistics)
+{
+  const Options& options = request.options;
+  statistics.self_intersections_found = found.crossing.size ();
+  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty ())
+    return;
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  orientNormals (mesh, points.positions, normals, request.run);
+  const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
+                           request.limits.surface.finish.cost);
+  const Uncrossing done =
+      removeSelfIntersections (mesh, found.crossing, geometry.neighbors, cost, points.positions,
+                               request.limits.uncrossing, request.run);
+  statistics.self_intersection_flips = done.flips;
+  statistics.self_intersection_moves = done.moves;
+  if (done.flips + done.moves > 0)
+    found = examine (mesh, points, geometry, request);
 }
 
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
@@ -155,9 +178,8 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
-  geometry.neighbors = {};
-  geometry.stars = {};
-  const MeshExamination found = examine (disc.mesh, points, geometry, request);
+  MeshExamination found = examine (disc.mesh, points, geometry, request);
+  uncross (disc.mesh, found, points, geometry, request, result.report.statistics);
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
@@ -199,10 +221,6 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   // Folds of projected points come from their noise, whatever the method.
   const bool may_be_disc = options.topology == Topology::AUTO && points.projected.empty () &&
                            points.size () <= LARGEST_SECOND_TRY;
-  if (!may_be_disc) {
-    geometry.neighbors = {};
-    geometry.stars = {};
-  }
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   Disc disc;
   MeshExamination of_disc;
@@ -211,10 +229,12 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
     report.topology = Topology::DISC;
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
     reportDisc (points, disc, report);
+    uncross (disc.mesh, of_disc, points, geometry, request, report.statistics);
     return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, geometry, request, result);
   }
   report.topology = Topology::SURFACE;
   report.statistics.holes_filled = surface.holes_filled;
+  uncross (surface.mesh, found, points, geometry, request, report.statistics);
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
 }

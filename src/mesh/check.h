@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mesh/boundary_loops.h"
+#include "mesh/self_intersections.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/report.h>
@@ -32,11 +33,13 @@ struct MeshExamination
   std::vector<BoundaryLoop> loops; ///< parallel to check.loops: longest first
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
-  Index broken_at = NONE;      ///< not manifold, or two triangles with opposite orientations
-  Index fold_at = NONE;        ///< start of a folded edge
-  Index degenerate_at = NONE;  ///< corner of a degenerate triangle
-  std::size_t long_edges = 0;  ///< longer than CheckLimits::long_edge, not on a boundary
-  double longest_inside = 0.0; ///< the longest of these, in local spacings
+  Index broken_at = NONE;             ///< not manifold, or two triangles with opposite orientations
+  Index fold_at = NONE;               ///< start of a folded edge
+  Index degenerate_at = NONE;         ///< corner of a degenerate triangle
+  std::vector<CrossingPair> crossing; ///< triangles that cross each other; only of a manifold
+  Index crossing_at = NONE;           ///< corner of such a triangle
+  std::size_t long_edges = 0;         ///< longer than CheckLimits::long_edge, not on a boundary
+  double longest_inside = 0.0;        ///< the longest of these, in local spacings
   std::pair<Index, Index> longest_inside_at{}; ///< its two ends
   std::size_t smallest_component = 0;          ///< vertices of it
   std::size_t largest_component = 0;           ///< vertices of it
@@ -65,8 +68,12 @@ struct MeshExamination
 /// is an edge whose two triangles are more than 120 degrees apart (isFold). Loops are measured by
 /// measureLoop ().
 ///
-/// O(n), one thread: 0.1 microseconds per point, 0.4 if the triangles are in random order, and 40
-/// bytes per point while it runs.
+/// Pairs of triangles that cross are looked for if the mesh is a manifold (findSelfIntersections).
+/// They are exact for the positions of the points, which differ from the coordinates of the cloud
+/// by rounding.
+///
+/// Without these, O(n), one thread: 0.1 microseconds per point, 0.4 if the triangles are in random
+/// order, and 40 bytes per point while it runs.
 /// \param triangles corners as points of `points`
 /// \param spacing   local spacing of each point
 MeshExamination

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/self_intersection_removal.h"
+
+#include "core/geometry.h"
+#include "mesh/crossing_table.h"
+#include "mesh/vertex_mover.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+void
+sortUnique (std::vector<Index>& list)
+{
+  std::sort (list.begin (), list.end ());
+  list.erase (std::unique (list.begin (), list.end ()), list.end ());
+}
+
+class CrossingRepair
+{
+public:
+  CrossingRepair (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
+                  const CsrLists& neighbors, const TriangleCost& cost,
+                  const std::vector<Eigen::Vector3d>& positions, const UncrossingLimits& limits,
+                  const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
+        table_ (mesh, positions, pairs, run),
+        mover_ (mesh, neighbors, cost, limits.largest_fan, run)
+  {
+  }
+
+  Uncrossing run ()
+  {
+    for (std::size_t pass = 0; pass < limits_.passes; ++pass) {
+      const std::size_t before = table_.pairs ();
+      flipAll ();
+      moveAll ();
+      if (table_.pairs () == before)
+        break;
+    }
+    done_.pairs_left = table_.pairs ();
+    return done_;
+  }
+
+private:
+  // Flips single edges as long as that helps.
+  void flipAll ()
+  {
+    bool has_changed = true;
+    while (has_changed) {
+      has_changed = false;
+      const std::vector<Index> triangles = table_.crossing ();
+      ProgressLoop progress (run_, triangles.size ());
+      for (const Index t : triangles) {
+        progress.next ();
+        for (std::uint8_t side = 0; side < 3; ++side)
+          if (flip ({t, side})) {
+            ++done_.flips;
+            has_changed = true;
+          }
+      }
+    }
+  }
+
+  // Keeps the flip if it helps.
+  bool flip (MeshEdge e)
+  {
+    const MeshEdge m = mesh_.mate (e);
+    if (m.triangle == NONE ||
+        (!table_.isCrossing (e.triangle) && !table_.isCrossing (m.triangle)) ||
+        mesh_.hasEdge (mesh_.corner (e), mesh_.corner (m)))
+      return false;
+    const auto flip_it = [&] {
+      mesh_.flip (e);
+      return true;
+    };
+    if (gainOf (flip_it) <= 0.0)
+      return false;
+    keep (flip_it);
+    return true;
+  }
+
+  // Moves vertices of crossing triangles, each at most once.
+  void moveAll ()
+  {
+    std::vector<Index> vertices;
+    for (const Index t : table_.crossing ())
+      vertices.insert (vertices.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+    sortUnique (vertices);
+    ProgressLoop progress (run_, vertices.size ());
+    for (const Index v : vertices) {
+      progress.next ();
+      if (isAtCrossing (v) && move (v))
+        ++done_.moves;
+    }
+  }
+
+  bool isAtCrossing (Index v)
+  {
+    mesh_.fan (v, fan_);
+    return std::any_of (fan_.begin (), fan_.end (),
+                        [this] (Index t) { return table_.isCrossing (t); });
+  }
+
+  // Tries all places of a vertex, and keeps the best one if it helps.
+  bool move (Index v)
+  {
+    double best = 0.0;
+    std::size_t best_rank = 0, rank = 0;
+    const auto move_it = [&] {
+      double change = 0.0;
+      return mover_.moveTo (v, rank, change);
+    };
+    for (; rank < limits_.places; ++rank) {
+      run_.poll ();
+      if (const double gain = gainOf (move_it); gain > best) {
+        best = gain;
+        best_rank = rank;
+      }
+    }
+    mover_.dirty ().clear ();
+    if (best <= 0.0)
+      return false;
+    rank = best_rank;
+    keep (move_it);
+    return true;
+  }
+
+  // What is gained by a change, in the unit of cost: above 0 if it is to be kept. The mesh stays as
+  // it is.
+  template <typename Change>
+  double gainOf (Change&& change)
+  {
+    mover_.start ();
+    if (!change ())
+      return 0.0;
+    noteChanged ();
+    const long pairs = table_.tryChange (changed_, 1);
+    Flaws after;
+    if (pairs <= 0)
+      after = flaws ();
+    mover_.undo ();
+    table_.reject (changed_);
+    if (pairs > 0)
+      return 0.0;
+    const Flaws before = flaws ();
+    const double gain = before.cost - after.cost - limits_.pair_cost * static_cast<double> (pairs);
+    return after.folds <= before.folds && gain > VertexMover::IMPROVES ? gain : 0.0;
+  }
+
+  template <typename Change>
+  void keep (Change&& change)
+  {
+    mover_.start ();
+    change ();
+    noteChanged ();
+    table_.tryChange (changed_, std::numeric_limits<long>::max ());
+    table_.accept (changed_);
+  }
+
+  void noteChanged ()
+  {
+    changed_.clear ();
+    mover_.journal ().appendTriangles (changed_);
+    sortUnique (changed_);
+  }
+
+  struct Flaws
+  {
+    std::size_t folds = 0;
+    double cost = 0.0;
+  };
+
+  // Of the changed triangles and all their edges.
+  Flaws flaws ()
+  {
+    CachedCost& cost = mover_.cost ();
+    Flaws sum;
+    for (const Index t : changed_) {
+      const TriangleCost::Value own = cost (mesh_.triangles[t]);
+      sum.cost += own.cost;
+      for (const Index u : mesh_.neighbors[t])
+        if (u != NONE && (t < u || !std::binary_search (changed_.begin (), changed_.end (), u))) {
+          const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
+          sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
+          sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
+        }
+    }
+    return sum;
+  }
+
+  TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  UncrossingLimits limits_;
+  RunContext run_;
+  CrossingTable table_;
+  VertexMover mover_;
+  Uncrossing done_;
+  std::vector<Index> fan_;
+  std::vector<Index> changed_; // triangles, ascending
+};
+
+} // namespace
+
+Uncrossing
+removeSelfIntersections (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
+                         const CsrLists& neighbors, const TriangleCost& cost,
+                         const std::vector<Eigen::Vector3d>& positions,
+                         const UncrossingLimits& limits, const RunContext& run)
+{
+  return CrossingRepair (mesh, pairs, neighbors, cost, positions, limits, run).run ();
+}
+
+} // namespace floater
+} // namespace pcl
