@@ -83,12 +83,26 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
                     request.limits.check);
 }
 
-// Changes the mesh where its triangles cross each other, and examines it again.
+// The same, and which triangles cross each other. Not for scans that are connected as their sensor
+// saw them: it would take a quarter of their time, and noise along the rays makes true surfaces
+// cross themselves, too.
+MeshExamination
+examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+                     const Request& request)
+{
+  MeshExamination found = examine (mesh, points, geometry, request);
+  checkCrossing (mesh.triangles, points, request.run, found);
+  return found;
+}
+
+// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
+// again.
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
          const Request& request, Statistics& statistics)
 {
   const Options& options = request.options;
+  checkCrossing (mesh.triangles, points, request.run, found);
   statistics.self_intersections_found = found.crossing.size ();
   if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty ())
     return;
@@ -102,7 +116,7 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
   statistics.self_intersection_flips = done.flips;
   statistics.self_intersection_moves = done.moves;
   if (done.flips + done.moves > 0)
-    found = examine (mesh, points, geometry, request);
+    found = examineWithCrossing (mesh, points, geometry, request);
 }
 
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
@@ -152,7 +166,8 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
     trimming =
         trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
     std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
-    found = examine (mesh, points, geometry, request);
+    found = report.is_view ? examine (mesh, points, geometry, request)
+                           : examineWithCrossing (mesh, points, geometry, request);
     found.unused = std::move (unused);
     if (trimming.triangles > 0)
       report.loop.clear ();

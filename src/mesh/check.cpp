@@ -325,23 +325,6 @@ sortLoops (MeshExamination& found)
   found.loops = std::move (sorted_loops);
 }
 
-// Pairs of triangles that cross, and the first of them in indices of the cloud.
-void
-noteCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-              MeshExamination& found)
-{
-  constexpr std::size_t PLACES = 10;
-  found.crossing = findSelfIntersections (triangles, points.positions, run);
-  found.check.self_intersections = found.crossing.size ();
-  for (const CrossingPair& pair : found.crossing) {
-    const Index at = triangles[pair.first][0], other_at = triangles[pair.second][0];
-    if (found.check.self_intersections_at.size () < PLACES)
-      found.check.self_intersections_at.push_back (
-          {points.cloud_index[at], points.cloud_index[other_at]});
-    found.crossing_at = std::min ({found.crossing_at, at, other_at});
-  }
-}
-
 } // namespace
 
 MeshExamination
@@ -359,8 +342,6 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
     found.check.loops.push_back (summaryOf (loop, points));
   }
   sortLoops (found);
-  if (found.isManifold ())
-    noteCrossing (triangles, points, run, found);
   // The Euler characteristic of a component is 2 - 2 genus - loops.
   if (found.isManifold ())
     found.check.genus =
@@ -368,6 +349,24 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
          static_cast<std::int64_t> (found.loops.size ()) - found.check.euler_characteristic) /
         2;
   return found;
+}
+
+void
+checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
+               MeshExamination& found)
+{
+  constexpr std::size_t PLACES = 10; // as in MeshCheck
+  if (!found.isManifold ())
+    return;
+  found.crossing = findSelfIntersections (triangles, points.positions, run);
+  found.check.self_intersections = found.crossing.size ();
+  for (const CrossingPair& pair : found.crossing) {
+    const Index at = triangles[pair.first][0], other_at = triangles[pair.second][0];
+    if (found.check.self_intersections_at.size () < PLACES)
+      found.check.self_intersections_at.push_back (
+          {points.cloud_index[at], points.cloud_index[other_at]});
+    found.crossing_at = std::min ({found.crossing_at, at, other_at});
+  }
 }
 
 } // namespace floater

@@ -36,7 +36,7 @@ struct MeshExamination
   Index broken_at = NONE;             ///< not manifold, or two triangles with opposite orientations
   Index fold_at = NONE;               ///< start of a folded edge
   Index degenerate_at = NONE;         ///< corner of a degenerate triangle
-  std::vector<CrossingPair> crossing; ///< triangles that cross each other; only of a manifold
+  std::vector<CrossingPair> crossing; ///< triangles that cross each other; see checkCrossing
   Index crossing_at = NONE;           ///< corner of such a triangle
   std::size_t long_edges = 0;         ///< longer than CheckLimits::long_edge, not on a boundary
   double longest_inside = 0.0;        ///< the longest of these, in local spacings
@@ -68,18 +68,21 @@ struct MeshExamination
 /// is an edge whose two triangles are more than 120 degrees apart (isFold). Loops are measured by
 /// measureLoop ().
 ///
-/// Pairs of triangles that cross are looked for if the mesh is a manifold (findSelfIntersections).
-/// They are exact for the positions of the points, which differ from the coordinates of the cloud
-/// by rounding.
-///
-/// Without these, O(n), one thread: 0.1 microseconds per point, 0.4 if the triangles are in random
-/// order, and 40 bytes per point while it runs.
+/// O(n), one thread: 0.1 microseconds per point, 0.4 if the triangles are in random order, and 40
+/// bytes per point while it runs.
 /// \param triangles corners as points of `points`
 /// \param spacing   local spacing of each point
 MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
            const std::vector<float>& spacing, const RunContext& run,
            const CheckLimits& limits = {});
+
+/// Adds the pairs of triangles that cross each other, and their places, to what checkMesh () found;
+/// nothing if the mesh is no manifold. See findSelfIntersections. The decisions are exact for the
+/// positions of the points, which are those of the cloud up to rounding in double precision.
+void
+checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
+               MeshExamination& found);
 
 } // namespace floater
 } // namespace pcl

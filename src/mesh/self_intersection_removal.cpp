@@ -21,6 +21,8 @@ sortUnique (std::vector<Index>& list)
   list.erase (std::unique (list.begin (), list.end ()), list.end ());
 }
 
+constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
+
 class CrossingRepair
 {
 public:
@@ -36,11 +38,14 @@ public:
 
   Uncrossing run ()
   {
-    for (std::size_t pass = 0; pass < limits_.passes; ++pass) {
-      const std::size_t before = table_.pairs ();
+    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.places;
+    for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0; ++pass) {
+      const std::size_t before = done_.flips + done_.moves;
       flipAll ();
-      moveAll ();
-      if (table_.pairs () == before)
+      moveAll ([this] (Index v) { return move (v); });
+      if (done_.flips + done_.moves == before)
+        moveAll ([this] (Index v) { return kick (v); });
+      if (done_.flips + done_.moves == before)
         break;
     }
     done_.pairs_left = table_.pairs ();
@@ -58,11 +63,13 @@ private:
       ProgressLoop progress (run_, triangles.size ());
       for (const Index t : triangles) {
         progress.next ();
-        for (std::uint8_t side = 0; side < 3; ++side)
+        for (std::uint8_t side = 0; side < 3; ++side) {
+          mover_.start ();
           if (flip ({t, side})) {
             ++done_.flips;
             has_changed = true;
           }
+        }
       }
     }
   }
@@ -85,8 +92,9 @@ private:
     return true;
   }
 
-  // Moves vertices of crossing triangles, each at most once.
-  void moveAll ()
+  // Tries to move the vertices of crossing triangles, each once.
+  template <typename Move>
+  void moveAll (Move&& move_vertex)
   {
     std::vector<Index> vertices;
     for (const Index t : table_.crossing ())
@@ -95,7 +103,7 @@ private:
     ProgressLoop progress (run_, vertices.size ());
     for (const Index v : vertices) {
       progress.next ();
-      if (isAtCrossing (v) && move (v))
+      if (isAtCrossing (v) && move_vertex (v))
         ++done_.moves;
     }
   }
@@ -110,6 +118,7 @@ private:
   // Tries all places of a vertex, and keeps the best one if it helps.
   bool move (Index v)
   {
+    mover_.start ();
     double best = 0.0;
     std::size_t best_rank = 0, rank = 0;
     const auto move_it = [&] {
@@ -131,12 +140,55 @@ private:
     return true;
   }
 
+  // Moves a vertex to places where it costs more, and flips edges around after it, until that helps
+  // in sum.
+  bool kick (Index v)
+  {
+    for (std::size_t rank = 0; rank < limits_.places && kicks_left_ > 0; ++rank, --kicks_left_) {
+      run_.poll ();
+      const std::size_t before = table_.pairs ();
+      if (!moveAndFlip (v, rank))
+        return false;
+      const auto pairs = static_cast<double> (before) - static_cast<double> (table_.pairs ());
+      noteChanged ();
+      const Flaws after = flaws ();
+      mover_.undo ();
+      table_.tryChange (changed_, EVERY_PAIR);
+      table_.accept (changed_);
+      const Flaws without = flaws ();
+      if (after.folds <= without.folds &&
+          without.cost - after.cost + limits_.pair_cost * pairs > VertexMover::IMPROVES)
+        return moveAndFlip (v, rank);
+    }
+    return false;
+  }
+
+  // \return false if there is no such place; the mesh is then as before
+  bool moveAndFlip (Index v, std::size_t rank)
+  {
+    mover_.start ();
+    double change = 0.0;
+    const bool is_moved = mover_.moveTo (v, rank, change);
+    mover_.dirty ().clear ();
+    if (!is_moved)
+      return false;
+    noteChanged ();
+    table_.tryChange (changed_, EVERY_PAIR);
+    table_.accept (changed_);
+    const std::vector<Index> around = changed_;
+    for (std::size_t round = 0; round < limits_.rounds_after_kick; ++round)
+      for (const Index t : around)
+        for (std::uint8_t side = 0; side < 3; ++side)
+          flip ({t, side});
+    return true;
+  }
+
   // What is gained by a change, in the unit of cost: above 0 if it is to be kept. The mesh stays as
   // it is.
   template <typename Change>
   double gainOf (Change&& change)
   {
-    mover_.start ();
+    const std::size_t mark = mesh_.mark ();
     if (!change ())
       return 0.0;
     noteChanged ();
@@ -144,7 +196,7 @@ private:
     Flaws after;
     if (pairs <= 0)
       after = flaws ();
-    mover_.undo ();
+    mesh_.undo (mark);
     table_.reject (changed_);
     if (pairs > 0)
       return 0.0;
@@ -156,13 +208,13 @@ private:
   template <typename Change>
   void keep (Change&& change)
   {
-    mover_.start ();
     change ();
     noteChanged ();
-    table_.tryChange (changed_, std::numeric_limits<long>::max ());
+    table_.tryChange (changed_, EVERY_PAIR);
     table_.accept (changed_);
   }
 
+  // All triangles that the journal has.
   void noteChanged ()
   {
     changed_.clear ();
@@ -201,6 +253,7 @@ private:
   CrossingTable table_;
   VertexMover mover_;
   Uncrossing done_;
+  std::size_t kicks_left_ = 0;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending
 };

@@ -109,7 +109,7 @@ statisticsJson (const Statistics& statistics)
 }
 
 Json
-checkJson (const MeshCheck& check)
+checkJson (const MeshCheck& check, bool is_view)
 {
   if (!check.done)
     return {};
@@ -128,7 +128,7 @@ checkJson (const MeshCheck& check)
           {"genus", check.genus},
           {"folds", check.folds},
           {"degenerate_triangles", check.degenerate_triangles},
-          {"self_intersections", check.self_intersections},
+          {"self_intersections", is_view ? Json () : Json (check.self_intersections)},
           {"self_intersections_at", check.self_intersections_at},
           {"longest_edge", check.longest_edge},
           {"longest_edge_at", check.longest_edge_at},
@@ -215,7 +215,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"topology_reason", report.topology_reason},
                     {"viewpoint", viewpointJson (report)},
                     {"denoised", report.denoised},
-                    {"check", checkJson (report.check)},
+                    {"check", checkJson (report.check, report.is_view)},
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},
                     {"peak_memory_bytes", peakMemory ()},

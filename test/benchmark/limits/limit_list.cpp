@@ -93,6 +93,8 @@ allLimits ()
       PCL_FLOATER_LIMIT (uncrossing.largest_fan),
       PCL_FLOATER_LIMIT (uncrossing.places),
       PCL_FLOATER_LIMIT (uncrossing.passes),
+      PCL_FLOATER_LIMIT (uncrossing.points_per_kick),
+      PCL_FLOATER_LIMIT (uncrossing.rounds_after_kick),
       PCL_FLOATER_LIMIT (surface.finish.facing.inside_share),
       PCL_FLOATER_LIMIT (surface.finish.facing.equal_axes),
       PCL_FLOATER_LIMIT (view.evidence.patches),

@@ -65,7 +65,8 @@ struct MeshCheck
   std::size_t folds = 0;                 ///< edges whose triangles are folded by over 120 degrees
   std::size_t degenerate_triangles = 0;  ///< without area in the precision of the coordinates
   std::size_t self_intersections = 0; ///< pairs of triangles that have more in common than corners:
-                                      ///< they cross, touch or overlap
+                                      ///< they cross, touch or overlap.
+                                      ///< Not looked for, and 0, if Report::is_view
   std::vector<std::array<std::uint32_t, 2>>
       self_intersections_at;                      ///< the first ten of them, each by
                                                   ///< a point of either triangle
