@@ -38,13 +38,14 @@ public:
 
   Uncrossing run ()
   {
-    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.places;
+    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.kicks;
     for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0; ++pass) {
       const std::size_t before = done_.flips + done_.moves;
       flipAll ();
-      moveAll ([this] (Index v) { return move (v); });
+      moveAll (table_.crossing (), [this] (Index v) { return move (v); });
       if (done_.flips + done_.moves == before)
-        moveAll ([this] (Index v) { return kick (v); });
+        moveAll (table_.crossingInTangles (limits_.largest_tangle),
+                 [this] (Index v) { return kick (v); });
       if (done_.flips + done_.moves == before)
         break;
     }
@@ -94,10 +95,10 @@ private:
 
   // Tries to move the vertices of crossing triangles, each once.
   template <typename Move>
-  void moveAll (Move&& move_vertex)
+  void moveAll (const std::vector<Index>& triangles, Move&& move_vertex)
   {
     std::vector<Index> vertices;
-    for (const Index t : table_.crossing ())
+    for (const Index t : triangles)
       vertices.insert (vertices.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
     sortUnique (vertices);
     ProgressLoop progress (run_, vertices.size ());
@@ -144,7 +145,7 @@ private:
   // in sum.
   bool kick (Index v)
   {
-    for (std::size_t rank = 0; rank < limits_.places && kicks_left_ > 0; ++rank, --kicks_left_) {
+    for (std::size_t rank = 0; rank < limits_.kicks && kicks_left_ > 0; ++rank, --kicks_left_) {
       run_.poll ();
       const std::size_t before = table_.pairs ();
       if (!moveAndFlip (v, rank))

@@ -12,14 +12,18 @@ namespace pcl
 {
 namespace floater
 {
-/// What a change may cost, and how much is tried; the latter are limits of time.
+/// What a change may cost, and how much is tried; the latter are limits of time. All were
+/// chosen by hand.
 struct UncrossingLimits
 {
   double pair_cost = 1000.0;    ///< of a pair that crosses, in the unit of TriangleCost: as much as
                                 ///< an edge that is folded by 180 degrees (CostLimits::fold_cost)
   std::size_t largest_fan = 24; ///< triangles around a vertex that is moved
   std::size_t places = 8;       ///< cheapest triangles in which a vertex to move is tried
-  std::size_t points_per_kick = 16;  ///< points of the mesh for each kick
+  std::size_t kicks = 24;       ///< places to which a vertex is kicked
+  std::size_t largest_tangle = 24;   ///< pairs; kicks in larger tangles hardly ever help, and each
+                                     ///< takes longer there
+  std::size_t points_per_kick = 64;  ///< points of the mesh for each kick
   std::size_t rounds_after_kick = 2; ///< of flips around the place to which a vertex was kicked
   std::size_t passes = 32;           ///< over the triangles that cross others
 };

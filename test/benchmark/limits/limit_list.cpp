@@ -92,6 +92,8 @@ allLimits ()
       PCL_FLOATER_LIMIT (uncrossing.pair_cost),
       PCL_FLOATER_LIMIT (uncrossing.largest_fan),
       PCL_FLOATER_LIMIT (uncrossing.places),
+      PCL_FLOATER_LIMIT (uncrossing.kicks),
+      PCL_FLOATER_LIMIT (uncrossing.largest_tangle),
       PCL_FLOATER_LIMIT (uncrossing.passes),
       PCL_FLOATER_LIMIT (uncrossing.points_per_kick),
       PCL_FLOATER_LIMIT (uncrossing.rounds_after_kick),
