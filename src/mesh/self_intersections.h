@@ -38,7 +38,7 @@ struct CrossingPair
 /// pairs are found by a tree of boxes, and tested if no separating plane is seen in double
 /// precision.
 ///
-/// O(n log n) for a mesh that crosses itself in few places: 0.4 microseconds per point by one
+/// O(n log n) for a mesh that crosses itself in few places: about a microsecond per point by one
 /// thread. In the worst case all pairs of triangles.
 /// \param triangles an oriented manifold, corners below the number of positions
 /// \return sorted
