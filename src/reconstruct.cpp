@@ -10,6 +10,7 @@
 #include "input_cleaning.h"
 #include "mesh/flips.h"
 #include "mesh/mesh_spacing.h"
+#include "mesh/self_intersection_removal.h"
 #include "report.h"
 #include "request.h"
 #include "unused_options.h"
@@ -86,6 +87,42 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
                     request.limits.check);
 }
 
+// The same, and which triangles cross each other. Not for scans that are connected as their sensor
+// saw them: it would take a quarter of their time, and noise along the rays makes true surfaces
+// cross themselves, too.
+MeshExamination
+examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+                     const Request& request)
+{
+  MeshExamination found = examine (mesh, points, geometry, request);
+  checkCrossing (mesh.triangles, points, request.run, found);
+  return found;
+}
+
+// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
+// again.
+void
+uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
+         const Request& request, Statistics& statistics)
+{
+  const Options& options = request.options;
+  checkCrossing (mesh.triangles, points, request.run, found);
+  statistics.self_intersections_found = found.crossing.size ();
+  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty ())
+    return;
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  orientNormals (mesh, points.positions, normals, request.run);
+  const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
+                           request.limits.surface.finish.cost);
+  const Uncrossing done =
+      removeSelfIntersections (mesh, found.crossing, geometry.neighbors, cost, points.positions,
+                               request.limits.uncrossing, request.run);
+  statistics.self_intersection_flips = done.flips;
+  statistics.self_intersection_moves = done.moves;
+  if (done.flips + done.moves > 0)
+    found = examineWithCrossing (mesh, points, geometry, request);
+}
+
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
 Problem
 checkDisc (const MeshExamination& found, std::vector<Index> loop)
@@ -133,7 +170,8 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
     trimming =
         trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
     std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
-    found = examine (mesh, points, geometry, request);
+    found = report.is_view ? examine (mesh, points, geometry, request)
+                           : examineWithCrossing (mesh, points, geometry, request);
     found.unused = std::move (unused);
     if (trimming.triangles > 0)
       report.loop.clear ();
@@ -159,9 +197,8 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
-  geometry.neighbors = {};
-  geometry.stars = {};
-  const MeshExamination found = examine (disc.mesh, points, geometry, request);
+  MeshExamination found = examine (disc.mesh, points, geometry, request);
+  uncross (disc.mesh, found, points, geometry, request, result.report.statistics);
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
@@ -203,10 +240,6 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   // Folds of projected points come from their noise, whatever the method.
   const bool may_be_disc = options.topology == Topology::AUTO && points.projected.empty () &&
                            points.size () <= LARGEST_SECOND_TRY;
-  if (!may_be_disc) {
-    geometry.neighbors = {};
-    geometry.stars = {};
-  }
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   Disc disc;
   MeshExamination of_disc;
@@ -215,10 +248,12 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
     report.topology = Topology::DISC;
     report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
     reportDisc (points, disc, report);
+    uncross (disc.mesh, of_disc, points, geometry, request, report.statistics);
     return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, geometry, request, result);
   }
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
+  uncross (surface.mesh, found, points, geometry, request, report.statistics);
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
 }

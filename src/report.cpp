@@ -54,6 +54,12 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
                         " folded by more than 120 degrees, one of them at " +
                         place (points, found.fold_at) +
                         ": sheets of the surface come close there, or a feature is thinly sampled");
+  if (!found.crossing.empty ())
+    warnings.push_back (
+        counted (found.crossing.size (), "pair of triangles crosses", "pairs of triangles cross") +
+        " each other, one of them at " + place (points, found.crossing_at) +
+        ": sheets of the surface come closer there than their points are, or a feature is thinly "
+        "sampled");
   if (found.long_edges > 0)
     warnings.push_back (
         counted (found.long_edges, "edge inside the surface is", "edges inside the surface are") +

@@ -9,6 +9,7 @@
 #include "local/stars.h"
 #include "local/tangent_planes.h"
 #include "mesh/check.h"
+#include "mesh/self_intersection_removal.h"
 #include "points/gross_outliers.h"
 #include "points/noise.h"
 #include "points/outliers.h"
@@ -30,6 +31,7 @@ struct Limits
   LoopLimits loop;
   DiscLimits disc;
   CheckLimits check;
+  UncrossingLimits uncrossing;
 };
 
 } // namespace floater

@@ -351,5 +351,23 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
   return found;
 }
 
+void
+checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
+               MeshExamination& found)
+{
+  constexpr std::size_t PLACES = 10; // as in MeshCheck
+  if (!found.isManifold ())
+    return;
+  found.crossing = findSelfIntersections (triangles, points.positions, run);
+  found.check.self_intersections = found.crossing.size ();
+  for (const CrossingPair& pair : found.crossing) {
+    const Index at = triangles[pair.first][0], other_at = triangles[pair.second][0];
+    if (found.check.self_intersections_at.size () < PLACES)
+      found.check.self_intersections_at.push_back (
+          {points.cloud_index[at], points.cloud_index[other_at]});
+    found.crossing_at = std::min ({found.crossing_at, at, other_at});
+  }
+}
+
 } // namespace floater
 } // namespace pcl

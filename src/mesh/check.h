@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mesh/boundary_loops.h"
+#include "mesh/self_intersections.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/report.h>
@@ -32,11 +33,13 @@ struct MeshExamination
   std::vector<BoundaryLoop> loops; ///< parallel to check.loops: longest first
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
-  Index broken_at = NONE;      ///< not manifold, or two triangles with opposite orientations
-  Index fold_at = NONE;        ///< start of a folded edge
-  Index degenerate_at = NONE;  ///< corner of a degenerate triangle
-  std::size_t long_edges = 0;  ///< longer than CheckLimits::long_edge, not on a boundary
-  double longest_inside = 0.0; ///< the longest of these, in local spacings
+  Index broken_at = NONE;             ///< not manifold, or two triangles with opposite orientations
+  Index fold_at = NONE;               ///< start of a folded edge
+  Index degenerate_at = NONE;         ///< corner of a degenerate triangle
+  std::vector<CrossingPair> crossing; ///< triangles that cross each other; see checkCrossing
+  Index crossing_at = NONE;           ///< corner of such a triangle
+  std::size_t long_edges = 0;         ///< longer than CheckLimits::long_edge, not on a boundary
+  double longest_inside = 0.0;        ///< the longest of these, in local spacings
   std::pair<Index, Index> longest_inside_at{}; ///< its two ends
   std::size_t smallest_component = 0;          ///< vertices of it
   std::size_t largest_component = 0;           ///< vertices of it
@@ -73,6 +76,13 @@ MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
            const std::vector<float>& spacing, const RunContext& run,
            const CheckLimits& limits = {});
+
+/// Adds the pairs of triangles that cross each other, and their places, to what checkMesh () found;
+/// nothing if the mesh is no manifold. See findSelfIntersections. The decisions are exact for the
+/// positions of the points, which are those of the cloud up to rounding in double precision.
+void
+checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
+               MeshExamination& found);
 
 } // namespace floater
 } // namespace pcl

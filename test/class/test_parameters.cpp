@@ -41,6 +41,7 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getIlutDropTolerance (), defaults.solver.ilut_drop);
   EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
+  EXPECT_EQ (floater.getRemoveSelfIntersections (), defaults.remove_self_intersections);
   EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
   EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
   EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
@@ -100,6 +101,7 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (IlutDropTolerance, 1e-3),
       CHOICE (FilterSheets, false),
       CHOICE (FlipEdges, false),
+      CHOICE (RemoveSelfIntersections, false),
       CHOICE (NumberOfThreads, 1),
   };
   const Cloud::Ptr cloud = heightField ();

@@ -245,6 +245,7 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--ilut-drop", "0.001", "ilut_drop", 0.001},
       {"--ordering", "metis", "ordering", "metis"},
       {"--flips", "off", "flips", false},
+      {"--uncross", "off", "uncross", false},
       {"--threads", "2", "threads", 2},
       {"--blocks", "3", "blocks", 3}};
   for (const auto& [option, value, key, expected] : cases) {

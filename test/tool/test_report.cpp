@@ -101,8 +101,12 @@ TEST_F (ReportTest, ReportTellsWhatTheMeshIs)
     EXPECT_GE (all.at ("seconds").at (stage).get<double> (), 0.0) << stage;
   const Json& check = all.at ("check");
   for (const char* flaw : {"nonmanifold_edges", "nonmanifold_vertices", "orientation_conflicts",
-                           "genus", "folds", "degenerate_triangles"})
+                           "genus", "folds", "degenerate_triangles", "self_intersections"})
     EXPECT_EQ (check.at (flaw), 0) << flaw;
+  EXPECT_EQ (check.at ("self_intersections_at"), Json::array ());
+  for (const char* figure :
+       {"self_intersections_found", "self_intersection_flips", "self_intersection_moves"})
+    EXPECT_EQ (all.at ("statistics").at (figure), 0) << figure;
   EXPECT_EQ (check.at ("components"), 1);
   EXPECT_EQ (check.at ("euler_characteristic"), 1);
   EXPECT_GT (check.at ("longest_edge").get<double> (), 1.0);

@@ -146,6 +146,8 @@ addTopology (CLI::App& app, Options& options)
              surface);
   addChoice (app, "--flips", options.flip_edges, SWITCH_CHOICES,
              "flip edges in space and repair folds at the end", surface);
+  addChoice (app, "--uncross", options.remove_self_intersections, SWITCH_CHOICES,
+             "change the mesh where its triangles cross each other", surface);
 }
 
 void

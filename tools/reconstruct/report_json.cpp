@@ -51,6 +51,7 @@ optionsJson (const Options& options)
           {"ilut_fill", options.solver.ilut_fill},
           {"ilut_drop", options.solver.ilut_drop},
           {"flips", options.flip_edges},
+          {"uncross", options.remove_self_intersections},
           {"threads", options.threads},
           {"blocks", options.blocks}};
 }
@@ -92,6 +93,9 @@ statisticsJson (const Statistics& statistics)
           {"levels", statistics.levels},
           {"flips", statistics.flips},
           {"folds", statistics.folds},
+          {"self_intersections_found", statistics.self_intersections_found},
+          {"self_intersection_flips", statistics.self_intersection_flips},
+          {"self_intersection_moves", statistics.self_intersection_moves},
           {"unknowns", statistics.unknowns},
           {"nnz_matrix", statistics.nnz_matrix},
           {"nnz_factors", statistics.nnz_factors},
@@ -105,7 +109,7 @@ statisticsJson (const Statistics& statistics)
 }
 
 Json
-checkJson (const MeshCheck& check)
+checkJson (const MeshCheck& check, bool is_view)
 {
   if (!check.done)
     return {};
@@ -124,6 +128,8 @@ checkJson (const MeshCheck& check)
           {"genus", check.genus},
           {"folds", check.folds},
           {"degenerate_triangles", check.degenerate_triangles},
+          {"self_intersections", is_view ? Json () : Json (check.self_intersections)},
+          {"self_intersections_at", check.self_intersections_at},
           {"longest_edge", check.longest_edge},
           {"longest_edge_at", check.longest_edge_at},
           {"loops", loops}};
@@ -225,7 +231,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"topology_reason", report.topology_reason},
                     {"viewpoint", viewpointJson (report)},
                     {"denoised", report.denoised},
-                    {"check", checkJson (report.check)},
+                    {"check", checkJson (report.check, report.is_view)},
                     {"loop_decisions", loopDecisionsJson (report)},
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},

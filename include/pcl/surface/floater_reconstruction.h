@@ -304,6 +304,13 @@ public:
   /** \brief Whether edges are flipped in space and folds repaired. */
   bool getFlipEdges () const { return options_.flip_edges; }
 
+  /** \brief Whether the mesh is changed where its triangles cross each other, by flips of edges and
+   * by moving points to other triangles; default true. Not without setFlipEdges, and not for scans
+   * that are connected as their sensor saw them. Report::check tells how many pairs are left. */
+  void setRemoveSelfIntersections (bool remove) { options_.remove_self_intersections = remove; }
+  /** \brief Whether the mesh is changed where its triangles cross each other. */
+  bool getRemoveSelfIntersections () const { return options_.remove_self_intersections; }
+
   /** \brief Number of threads, 0 or more; default 0: one for each core. The result is the same. */
   void setNumberOfThreads (int threads = 0) { options_.threads = threads; }
   /** \brief Number of threads; 0: one for each core. */

@@ -229,6 +229,9 @@ struct Options
                                ///< projected on local planes; the vertices are not moved
   bool filter_sheets = true;   ///< drop neighbours that lie on another sheet of the surface
   bool flip_edges = true;      ///< flip edges in space towards Delaunay, and repair folds
+  bool remove_self_intersections = true; ///< change the mesh where its triangles cross each other;
+                                         ///< only with flip_edges, and not for scans that are
+                                         ///< connected as their sensor saw them
   int blocks = 0;  ///< blocks in which the nearest neighbours are searched, 0 or more; 0: chosen by
                    ///< the number of points. Does not change the result
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result

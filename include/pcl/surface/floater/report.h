@@ -79,7 +79,13 @@ struct MeshCheck
   std::int64_t genus = 0;                ///< handles, summed over the components
   std::size_t folds = 0;                 ///< edges whose triangles are folded by over 120 degrees
   std::size_t degenerate_triangles = 0;  ///< without area in the precision of the coordinates
-  double longest_edge = 0.0;             ///< in local spacings
+  std::size_t self_intersections = 0; ///< pairs of triangles that have more in common than corners:
+                                      ///< they cross, touch or overlap.
+                                      ///< Not looked for, and 0, if Report::is_view
+  std::vector<std::array<std::uint32_t, 2>>
+      self_intersections_at;                      ///< the first ten of them, each by
+                                                  ///< a point of either triangle
+  double longest_edge = 0.0;                      ///< in local spacings
   std::array<std::uint32_t, 2> longest_edge_at{}; ///< end points of that edge, as cloud indices
   std::vector<LoopSummary> loops;                 ///< longest first
 };
@@ -119,6 +125,9 @@ struct Statistics
   std::size_t levels = 0; ///< depth to which collapsed regions of a disc were laid out again
   std::size_t flips = 0;  ///< edges flipped in space
   std::size_t folds = 0;  ///< as MeshCheck::folds
+  std::size_t self_intersections_found = 0; ///< before any were removed
+  std::size_t self_intersection_flips = 0;  ///< edges flipped to remove them
+  std::size_t self_intersection_moves = 0;  ///< points moved to other triangles to remove them
 
   std::size_t unknowns = 0;            ///< interior points m, rows of the system
   std::size_t nnz_matrix = 0;          ///< nnz (A)

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A tree of boxes, to find those that overlap.
+#pragma once
+
+#include "core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Boxes in leaves of LEAF_SIZE, which lie in nodes of FAN nodes each. Those next to each other in
+/// the order in which they are given should be near in space. 28 bytes per box; they are rounded
+/// outwards to single precision, so that a few more may seem to overlap. Const functions may be
+/// called by several threads.
+class BoxTree
+{
+public:
+  static constexpr std::size_t LEAF_SIZE = 8, FAN = 4;
+
+  /// \param box_of (i): box of type Eigen::AlignedBox3d
+  template <typename BoxOf>
+  BoxTree (std::size_t count, BoxOf&& box_of, const RunContext& run)
+      : leaves_ ((count + LEAF_SIZE - 1) / LEAF_SIZE)
+  {
+    levels_.emplace_back (leaves_.size ());
+    parallelRanges (run, leaves_.size (), [&] (std::size_t first, std::size_t last) {
+      for (std::size_t leaf = first; leaf < last; ++leaf)
+        for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
+          const std::size_t i = leaf * LEAF_SIZE + k;
+          const Box box = i < count ? roundOutwards (box_of (i)) : Box{};
+          leaves_[leaf].set (k, box);
+          levels_.front ()[leaf].extend (box);
+        }
+    });
+    while (levels_.back ().size () > FAN)
+      levels_.push_back (groups (levels_.back ()));
+  }
+
+  std::size_t leaves () const { return leaves_.size (); }
+
+  /// Calls visit (i, j) for all boxes i of a leaf and j that overlap or touch, i < j. All leaves
+  /// together give each pair once.
+  template <typename Visit>
+  void forOverlaps (std::size_t leaf, Visit&& visit) const
+  {
+    forLeaves (levels_.front ()[leaf], leaf, [&] (std::size_t other) {
+      for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
+        const Leaf::Hits is_hit = leaves_[other].overlaps (leaves_[leaf].at (k));
+        for (std::size_t m = other == leaf ? k + 1 : 0; m < LEAF_SIZE; ++m)
+          if (is_hit[m] != 0)
+            visit (leaf * LEAF_SIZE + k, other * LEAF_SIZE + m);
+      }
+    });
+  }
+
+  /// Calls visit (j) for all boxes j that overlap or touch a box of any place, ascending.
+  template <typename Visit>
+  void forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
+  {
+    const Box box = roundOutwards (exact);
+    forLeaves (box, 0, [&] (std::size_t leaf) {
+      const Leaf::Hits is_hit = leaves_[leaf].overlaps (box);
+      for (std::size_t m = 0; m < LEAF_SIZE; ++m)
+        if (is_hit[m] != 0)
+          visit (leaf * LEAF_SIZE + m);
+    });
+  }
+
+  /// Replaces box i. Nodes around it only grow: after many changes far apart, searches are slower.
+  void set (std::size_t i, const Eigen::AlignedBox3d& exact)
+  {
+    const Box box = roundOutwards (exact);
+    leaves_[i / LEAF_SIZE].set (i % LEAF_SIZE, box);
+    std::size_t node = i / LEAF_SIZE;
+    for (std::vector<Box>& level : levels_) {
+      level[node].extend (box);
+      node /= FAN;
+    }
+  }
+
+private:
+  static constexpr float FAR = std::numeric_limits<float>::infinity ();
+
+  struct Box
+  {
+    std::array<float, 3> low{FAR, FAR, FAR}, high{-FAR, -FAR, -FAR}; // an empty one
+
+    void extend (const Box& box)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min (low[axis], box.low[axis]);
+        high[axis] = std::max (high[axis], box.high[axis]);
+      }
+    }
+
+    // Without branches: which of the six decides is different each time.
+    bool overlaps (const Box& b) const
+    {
+      return (static_cast<int> (low[0] <= b.high[0]) & static_cast<int> (b.low[0] <= high[0]) &
+              static_cast<int> (low[1] <= b.high[1]) & static_cast<int> (b.low[1] <= high[1]) &
+              static_cast<int> (low[2] <= b.high[2]) & static_cast<int> (b.low[2] <= high[2])) != 0;
+    }
+  };
+
+  // Some boxes, coordinate by coordinate, so that one box is compared with all of them at once.
+  struct Leaf
+  {
+    using Row = std::array<float, LEAF_SIZE>;
+    using Hits = std::array<int, LEAF_SIZE>; // 1: overlaps
+
+    std::array<Row, 3> low, high;
+
+    void set (std::size_t k, const Box& box)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis][k] = box.low[axis];
+        high[axis][k] = box.high[axis];
+      }
+    }
+
+    Box at (std::size_t k) const
+    {
+      return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}};
+    }
+
+    Hits overlaps (const Box& box) const
+    {
+      Hits is_hit;
+      for (std::size_t k = 0; k < LEAF_SIZE; ++k)
+        is_hit[k] = static_cast<int> (low[0][k] <= box.high[0]) &
+                    static_cast<int> (box.low[0] <= high[0][k]) &
+                    static_cast<int> (low[1][k] <= box.high[1]) &
+                    static_cast<int> (box.low[1] <= high[1][k]) &
+                    static_cast<int> (low[2][k] <= box.high[2]) &
+                    static_cast<int> (box.low[2] <= high[2][k]);
+      return is_hit;
+    }
+  };
+
+  // Calls visit for the leaves that overlap a box, from some leaf on.
+  template <typename Visit>
+  void forLeaves (const Box& box, std::size_t first, Visit&& visit) const
+  {
+    struct Node
+    {
+      std::size_t level, index;
+    };
+    constexpr std::size_t DEPTH = 32; // more levels than boxes that fit any memory have
+    std::array<Node, DEPTH * FAN> stack;
+    std::size_t left = 0;
+    for (std::size_t i = levels_.back ().size (); i-- > 0;)
+      stack[left++] = {levels_.size () - 1, i};
+    while (left > 0) {
+      const Node node = stack[--left];
+      // All leaves below it are before the first one, or it is elsewhere.
+      if (((node.index + 1) << (LOG_FAN * node.level)) <= first ||
+          !box.overlaps (levels_[node.level][node.index]))
+        continue;
+      if (node.level == 0) {
+        visit (node.index);
+        continue;
+      }
+      const std::size_t begin = node.index * FAN;
+      for (std::size_t i = std::min (levels_[node.level - 1].size (), begin + FAN); i-- > begin;)
+        stack[left++] = {node.level - 1, i};
+    }
+  }
+
+  static Box roundOutwards (const Eigen::AlignedBox3d& exact)
+  {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = exact.min ()[static_cast<Eigen::Index> (axis)];
+      const double high = exact.max ()[static_cast<Eigen::Index> (axis)];
+      box.low[axis] = static_cast<float> (low);
+      if (static_cast<double> (box.low[axis]) > low)
+        box.low[axis] = std::nextafter (box.low[axis], -FAR);
+      box.high[axis] = static_cast<float> (high);
+      if (static_cast<double> (box.high[axis]) < high)
+        box.high[axis] = std::nextafter (box.high[axis], FAR);
+    }
+    return box;
+  }
+
+  static std::vector<Box> groups (const std::vector<Box>& boxes)
+  {
+    std::vector<Box> around ((boxes.size () + FAN - 1) / FAN);
+    for (std::size_t i = 0; i < boxes.size (); ++i)
+      around[i / FAN].extend (boxes[i]);
+    return around;
+  }
+
+  static constexpr unsigned LOG_FAN = 2;
+  static_assert (std::size_t{1} << LOG_FAN == FAN, "the logarithm of the fan");
+
+  std::vector<Leaf> leaves_;
+  std::vector<std::vector<Box>> levels_; // boxes around the leaves, and around these, upwards
+};
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/crossing_table.h"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_set>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+bool
+contains (const std::vector<Index>& ascending, Index t)
+{
+  return std::binary_search (ascending.begin (), ascending.end (), t);
+}
+
+// Triangles in the order of their smallest points, which are near each other in space.
+std::vector<Index>
+orderByPoints (const std::vector<Triangle>& triangles)
+{
+  std::vector<Index> order (triangles.size ());
+  std::iota (order.begin (), order.end (), Index{0});
+  const auto smallest = [&triangles] (Index t) {
+    return std::min ({triangles[t][0], triangles[t][1], triangles[t][2]});
+  };
+  std::sort (order.begin (), order.end (), [&smallest] (Index t, Index u) {
+    return std::make_pair (smallest (t), t) < std::make_pair (smallest (u), u);
+  });
+  return order;
+}
+
+std::vector<Index>
+inverseOf (const std::vector<Index>& order)
+{
+  std::vector<Index> place (order.size ());
+  for (Index i = 0; i < order.size (); ++i)
+    place[order[i]] = i;
+  return place;
+}
+
+} // namespace
+
+CrossingTable::CrossingTable (const TriangleMesh& mesh,
+                              const std::vector<Eigen::Vector3d>& positions,
+                              const std::vector<CrossingPair>& pairs, const RunContext& run)
+    : mesh_ (mesh), positions_ (positions), order_ (orderByPoints (mesh.triangles)),
+      place_ (inverseOf (order_)),
+      tree_ (
+          order_.size (),
+          [this] (std::size_t i) { return boxOf (mesh_.triangles[order_[i]], positions_); }, run),
+      pairs_ (pairs.size ())
+{
+  for (const CrossingPair& pair : pairs) {
+    partners_[pair.first].push_back (pair.second);
+    partners_[pair.second].push_back (pair.first);
+  }
+}
+
+std::vector<Index>
+CrossingTable::crossing () const
+{
+  std::vector<Index> triangles;
+  for (const auto& [t, partners] : partners_)
+    triangles.push_back (t);
+  std::sort (triangles.begin (), triangles.end ());
+  return triangles;
+}
+
+std::vector<Index>
+CrossingTable::crossingInTangles (std::size_t most_pairs) const
+{
+  std::vector<Index> triangles, tangle;
+  std::unordered_set<Index> is_seen;
+  for (const Index first : crossing ()) {
+    if (!is_seen.insert (first).second)
+      continue;
+    tangle.assign (1, first);
+    std::size_t ends = 0; // each pair has two
+    for (std::size_t i = 0; i < tangle.size (); ++i) {
+      const std::vector<Index>& partners = partners_.at (tangle[i]);
+      ends += partners.size ();
+      for (const Index u : partners)
+        if (is_seen.insert (u).second)
+          tangle.push_back (u);
+    }
+    if (ends <= 2 * most_pairs)
+      triangles.insert (triangles.end (), tangle.begin (), tangle.end ());
+  }
+  std::sort (triangles.begin (), triangles.end ());
+  return triangles;
+}
+
+long
+CrossingTable::tryChange (const std::vector<Index>& changed, long limit)
+{
+  renewBoxes (changed);
+  // A pair of two changed triangles counts at the smaller one.
+  const auto count = [&changed] (Index t, const std::vector<Index>& partners) {
+    return std::count_if (partners.begin (), partners.end (),
+                          [&] (Index u) { return t < u || !contains (changed, u); });
+  };
+  long change = 0;
+  for (const Index t : changed)
+    if (const auto known = partners_.find (t); known != partners_.end ())
+      change -= count (t, known->second);
+  std::vector<Index> partners;
+  for (const Index t : changed) {
+    if (change >= limit)
+      break;
+    findPartners (t, partners);
+    change += count (t, partners);
+  }
+  return change;
+}
+
+void
+CrossingTable::accept (const std::vector<Index>& changed)
+{
+  for (const Index t : changed) {
+    const auto known = partners_.find (t);
+    if (known == partners_.end ())
+      continue;
+    for (const Index u : known->second) {
+      const auto others = partners_.find (u);
+      others->second.erase (std::find (others->second.begin (), others->second.end (), t));
+      if (others->second.empty ())
+        partners_.erase (others);
+      --pairs_;
+    }
+    partners_.erase (t);
+  }
+  std::vector<Index> partners;
+  for (const Index t : changed) {
+    findPartners (t, partners);
+    for (const Index u : partners)
+      if (t < u || !contains (changed, u)) {
+        partners_[t].push_back (u);
+        partners_[u].push_back (t);
+        ++pairs_;
+      }
+  }
+}
+
+void
+CrossingTable::renewBoxes (const std::vector<Index>& changed)
+{
+  for (const Index t : changed)
+    tree_.set (place_[t], boxOf (mesh_.triangles[t], positions_));
+}
+
+void
+CrossingTable::findPartners (Index t, std::vector<Index>& partners) const
+{
+  partners.clear ();
+  const Triangle& own = mesh_.triangles[t];
+  tree_.forOverlaps (boxOf (own, positions_), [&] (std::size_t i) {
+    const Index u = order_[i];
+    if (u != t && doCross (own, mesh_.triangles[u], positions_))
+      partners.push_back (u);
+  });
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which triangles of a mesh cross which, kept up to date while the mesh changes.
+#pragma once
+
+#include "mesh/box_tree.h"
+#include "mesh/self_intersections.h"
+#include "mesh/triangle_mesh.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The crossing pairs of a mesh. A search changes the mesh, asks what that does to the pairs around
+/// the triangles that changed, and either accepts the change or undoes it in the mesh and here. The
+/// mesh must keep its number of triangles.
+class CrossingTable
+{
+public:
+  /// \param pairs all that the mesh has (see findSelfIntersections)
+  CrossingTable (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<CrossingPair>& pairs, const RunContext& run);
+
+  std::size_t pairs () const { return pairs_; }
+
+  /// Triangles that cross others, ascending.
+  std::vector<Index> crossing () const;
+
+  /// The same, but only of tangles of at most so many pairs. A tangle is a set of triangles that
+  /// are connected by crossing each other.
+  std::vector<Index> crossingInTangles (std::size_t most_pairs) const;
+
+  bool isCrossing (Index t) const { return partners_.count (t) != 0; }
+
+  /// Pairs that a change has added, less those that it has removed. If as many as `limit` or more,
+  /// any number from `limit` on.
+  /// \param changed triangles that are not as they were, ascending; followed by accept or reject
+  long tryChange (const std::vector<Index>& changed, long limit);
+
+  /// Keeps the change that was tried last.
+  void accept (const std::vector<Index>& changed);
+
+  /// After the change that was tried last has been undone in the mesh.
+  void reject (const std::vector<Index>& changed) { renewBoxes (changed); }
+
+private:
+  void renewBoxes (const std::vector<Index>& changed);
+  void findPartners (Index t, std::vector<Index>& partners) const;
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  std::vector<Index> order_, place_; // triangles in the tree, and where each of them is there
+  BoxTree tree_;
+  std::unordered_map<Index, std::vector<Index>> partners_; // of the triangles that cross others
+  std::size_t pairs_;
+};
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/self_intersection_removal.h"
+
+#include "core/geometry.h"
+#include "mesh/crossing_table.h"
+#include "mesh/vertex_mover.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+void
+sortUnique (std::vector<Index>& list)
+{
+  std::sort (list.begin (), list.end ());
+  list.erase (std::unique (list.begin (), list.end ()), list.end ());
+}
+
+constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
+
+class CrossingRepair
+{
+public:
+  CrossingRepair (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
+                  const CsrLists& neighbors, const TriangleCost& cost,
+                  const std::vector<Eigen::Vector3d>& positions, const UncrossingLimits& limits,
+                  const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
+        table_ (mesh, positions, pairs, run),
+        mover_ (mesh, neighbors, cost, limits.largest_fan, run)
+  {
+  }
+
+  Uncrossing run ()
+  {
+    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.kicks;
+    for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0; ++pass) {
+      const std::size_t before = done_.flips + done_.moves;
+      flipAll ();
+      moveAll (table_.crossing (), [this] (Index v) { return move (v); });
+      if (done_.flips + done_.moves == before)
+        moveAll (table_.crossingInTangles (limits_.largest_tangle),
+                 [this] (Index v) { return kick (v); });
+      if (done_.flips + done_.moves == before)
+        break;
+    }
+    done_.pairs_left = table_.pairs ();
+    return done_;
+  }
+
+private:
+  // Flips single edges as long as that helps.
+  void flipAll ()
+  {
+    bool has_changed = true;
+    while (has_changed) {
+      has_changed = false;
+      const std::vector<Index> triangles = table_.crossing ();
+      ProgressLoop progress (run_, triangles.size ());
+      for (const Index t : triangles) {
+        progress.next ();
+        for (std::uint8_t side = 0; side < 3; ++side) {
+          mover_.start ();
+          if (flip ({t, side})) {
+            ++done_.flips;
+            has_changed = true;
+          }
+        }
+      }
+    }
+  }
+
+  // Keeps the flip if it helps.
+  bool flip (MeshEdge e)
+  {
+    const MeshEdge m = mesh_.mate (e);
+    if (m.triangle == NONE ||
+        (!table_.isCrossing (e.triangle) && !table_.isCrossing (m.triangle)) ||
+        mesh_.hasEdge (mesh_.corner (e), mesh_.corner (m)))
+      return false;
+    const auto flip_it = [&] {
+      mesh_.flip (e);
+      return true;
+    };
+    if (gainOf (flip_it) <= 0.0)
+      return false;
+    keep (flip_it);
+    return true;
+  }
+
+  // Tries to move the vertices of crossing triangles, each once.
+  template <typename Move>
+  void moveAll (const std::vector<Index>& triangles, Move&& move_vertex)
+  {
+    std::vector<Index> vertices;
+    for (const Index t : triangles)
+      vertices.insert (vertices.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+    sortUnique (vertices);
+    ProgressLoop progress (run_, vertices.size ());
+    for (const Index v : vertices) {
+      progress.next ();
+      if (isAtCrossing (v) && move_vertex (v))
+        ++done_.moves;
+    }
+  }
+
+  bool isAtCrossing (Index v)
+  {
+    mesh_.fan (v, fan_);
+    return std::any_of (fan_.begin (), fan_.end (),
+                        [this] (Index t) { return table_.isCrossing (t); });
+  }
+
+  // Tries all places of a vertex, and keeps the best one if it helps.
+  bool move (Index v)
+  {
+    mover_.start ();
+    double best = 0.0;
+    std::size_t best_rank = 0, rank = 0;
+    const auto move_it = [&] {
+      double change = 0.0;
+      return mover_.moveTo (v, rank, change);
+    };
+    for (; rank < limits_.places; ++rank) {
+      run_.poll ();
+      if (const double gain = gainOf (move_it); gain > best) {
+        best = gain;
+        best_rank = rank;
+      }
+    }
+    mover_.dirty ().clear ();
+    if (best <= 0.0)
+      return false;
+    rank = best_rank;
+    keep (move_it);
+    return true;
+  }
+
+  // Moves a vertex to places where it costs more, and flips edges around after it, until that helps
+  // in sum.
+  bool kick (Index v)
+  {
+    for (std::size_t rank = 0; rank < limits_.kicks && kicks_left_ > 0; ++rank, --kicks_left_) {
+      run_.poll ();
+      const std::size_t before = table_.pairs ();
+      if (!moveAndFlip (v, rank))
+        return false;
+      const auto pairs = static_cast<double> (before) - static_cast<double> (table_.pairs ());
+      noteChanged ();
+      const Flaws after = flaws ();
+      mover_.undo ();
+      table_.tryChange (changed_, EVERY_PAIR);
+      table_.accept (changed_);
+      const Flaws without = flaws ();
+      if (after.folds <= without.folds &&
+          without.cost - after.cost + limits_.pair_cost * pairs > VertexMover::IMPROVES)
+        return moveAndFlip (v, rank);
+    }
+    return false;
+  }
+
+  // \return false if there is no such place; the mesh is then as before
+  bool moveAndFlip (Index v, std::size_t rank)
+  {
+    mover_.start ();
+    double change = 0.0;
+    const bool is_moved = mover_.moveTo (v, rank, change);
+    mover_.dirty ().clear ();
+    if (!is_moved)
+      return false;
+    noteChanged ();
+    table_.tryChange (changed_, EVERY_PAIR);
+    table_.accept (changed_);
+    const std::vector<Index> around = changed_;
+    for (std::size_t round = 0; round < limits_.rounds_after_kick; ++round)
+      for (const Index t : around)
+        for (std::uint8_t side = 0; side < 3; ++side)
+          flip ({t, side});
+    return true;
+  }
+
+  // What is gained by a change, in the unit of cost: above 0 if it is to be kept. The mesh stays as
+  // it is.
+  template <typename Change>
+  double gainOf (Change&& change)
+  {
+    const std::size_t mark = mesh_.mark ();
+    if (!change ())
+      return 0.0;
+    noteChanged ();
+    const long pairs = table_.tryChange (changed_, 1);
+    Flaws after;
+    if (pairs <= 0)
+      after = flaws ();
+    mesh_.undo (mark);
+    table_.reject (changed_);
+    if (pairs > 0)
+      return 0.0;
+    const Flaws before = flaws ();
+    const double gain = before.cost - after.cost - limits_.pair_cost * static_cast<double> (pairs);
+    return after.folds <= before.folds && gain > VertexMover::IMPROVES ? gain : 0.0;
+  }
+
+  template <typename Change>
+  void keep (Change&& change)
+  {
+    change ();
+    noteChanged ();
+    table_.tryChange (changed_, EVERY_PAIR);
+    table_.accept (changed_);
+  }
+
+  // All triangles that the journal has.
+  void noteChanged ()
+  {
+    changed_.clear ();
+    mover_.journal ().appendTriangles (changed_);
+    sortUnique (changed_);
+  }
+
+  struct Flaws
+  {
+    std::size_t folds = 0;
+    double cost = 0.0;
+  };
+
+  // Of the changed triangles and all their edges.
+  Flaws flaws ()
+  {
+    CachedCost& cost = mover_.cost ();
+    Flaws sum;
+    for (const Index t : changed_) {
+      const TriangleCost::Value own = cost (mesh_.triangles[t]);
+      sum.cost += own.cost;
+      for (const Index u : mesh_.neighbors[t])
+        if (u != NONE && (t < u || !std::binary_search (changed_.begin (), changed_.end (), u))) {
+          const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
+          sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
+          sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
+        }
+    }
+    return sum;
+  }
+
+  TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  UncrossingLimits limits_;
+  RunContext run_;
+  CrossingTable table_;
+  VertexMover mover_;
+  Uncrossing done_;
+  std::size_t kicks_left_ = 0;
+  std::vector<Index> fan_;
+  std::vector<Index> changed_; // triangles, ascending
+};
+
+} // namespace
+
+Uncrossing
+removeSelfIntersections (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
+                         const CsrLists& neighbors, const TriangleCost& cost,
+                         const std::vector<Eigen::Vector3d>& positions,
+                         const UncrossingLimits& limits, const RunContext& run)
+{
+  return CrossingRepair (mesh, pairs, neighbors, cost, positions, limits, run).run ();
+}
+
+} // namespace floater
+} // namespace pcl

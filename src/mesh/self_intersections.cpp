@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/self_intersections.h"
+
+#include "core/csr_lists.h"
+#include "core/geometry.h"
+#include "core/parallel.h"
+#include "mesh/box_tree.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <array>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Positions = std::vector<Eigen::Vector3d>;
+
+// What rounding can do to a product of three differences of coordinates is some 20 units in the
+// last place of the product of their lengths. A value above this share of it has the right sign.
+constexpr double ROUNDING = 1e-13;
+
+Kernel::Point_3
+exactly (const Eigen::Vector3d& p)
+{
+  return {p.x (), p.y (), p.z ()};
+}
+
+// Corners of two triangles, those that both have first.
+struct Corners
+{
+  Triangle one, other;
+  int common = 0;
+};
+
+Corners
+commonFirst (Triangle one, Triangle other)
+{
+  int common = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (auto j = static_cast<std::size_t> (common); j < 3; ++j)
+      if (one[i] == other[j]) {
+        // Earlier corners of `one` stay in their order, and those of `other` follow it.
+        std::swap (one[static_cast<std::size_t> (common)], one[i]);
+        std::swap (other[static_cast<std::size_t> (common)], other[j]);
+        ++common;
+        break;
+      }
+  return {one, other, common};
+}
+
+// Whether a plane separates two triangles without a common corner, so far apart that rounding does
+// not matter. Planes along one of the triangles, or through one of their edges and across it.
+class SeparatingPlane
+{
+public:
+  SeparatingPlane (const Triangle& one, const Triangle& other, const Positions& positions)
+  {
+    const Eigen::Vector3d& origin = positions[one[0]];
+    double sqr_reach = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      one_[i] = positions[one[i]] - origin;
+      other_[i] = positions[other[i]] - origin;
+      sqr_reach = std::max ({sqr_reach, one_[i].squaredNorm (), other_[i].squaredNorm ()});
+    }
+    sqr_precision_ = ROUNDING * ROUNDING * sqr_reach;
+  }
+
+  bool exists () const
+  {
+    const Eigen::Vector3d normal = areaVector (one_[0], one_[1], one_[2]);
+    const Eigen::Vector3d other_normal = areaVector (other_[0], other_[1], other_[2]);
+    if (isAcross (normal) || isAcross (other_normal))
+      return true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = i == 2 ? 0 : i + 1;
+      if (isAcross (normal.cross (one_[j] - one_[i])) ||
+          isAcross (other_normal.cross (other_[j] - other_[i])))
+        return true;
+    }
+    return false;
+  }
+
+private:
+  // Whether a plane across this direction has one triangle on either side.
+  bool isAcross (const Eigen::Vector3d& direction) const
+  {
+    const auto [low, high] = range (one_, direction);
+    const auto [other_low, other_high] = range (other_, direction);
+    const double gap = std::max (other_low - high, low - other_high);
+    return gap > 0.0 && gap * gap > sqr_precision_ * direction.squaredNorm ();
+  }
+
+  static std::pair<double, double> range (const std::array<Eigen::Vector3d, 3>& corners,
+                                          const Eigen::Vector3d& direction)
+  {
+    const double a = corners[0].dot (direction), b = corners[1].dot (direction),
+                 c = corners[2].dot (direction);
+    return {std::min ({a, b, c}), std::max ({a, b, c})};
+  }
+
+  std::array<Eigen::Vector3d, 3> one_, other_;
+  double sqr_precision_;
+};
+
+// Tells of a point whether the triangles around it, seen from some direction, lie side by side. No
+// two of them then have anything in common but the point and their edges.
+class PlainFans
+{
+public:
+  PlainFans (const std::vector<Triangle>& triangles, const Positions& positions)
+      : triangles_ (triangles), positions_ (positions)
+  {
+  }
+
+  bool isPlain (Index p, const Row& around)
+  {
+    sectors_.clear ();
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero (), even = direction;
+    for (const Index t : around) {
+      const Triangle& c = triangles_[t];
+      const std::size_t side = c[0] == p ? 0 : c[1] == p ? 1 : 2;
+      const Index from = c[side == 2 ? 0 : side + 1], to = c[side == 0 ? 2 : side - 1];
+      sectors_.push_back ({from, to, positions_[from] - positions_[p],
+                           positions_[to] - positions_[p], Eigen::Vector3d::Zero ()});
+      Sector& sector = sectors_.back ();
+      sector.area = sector.begin.cross (sector.end);
+      direction += sector.area;
+    }
+    if (areSideBySide (direction))
+      return true;
+    for (const Sector& sector : sectors_)
+      even += sector.area.stableNormalized ();
+    return areSideBySide (even);
+  }
+
+private:
+  struct Sector
+  {
+    Index from, to;
+    Eigen::Vector3d begin, end, area;
+  };
+
+  // As seen against the direction, each sector turns to the left, and all together do not go round
+  // more than once: the first spoke is in no sector that does not begin or end with it.
+  bool areSideBySide (const Eigen::Vector3d& direction) const
+  {
+    const double sqr_direction = direction.squaredNorm ();
+    for (const Sector& sector : sectors_)
+      if (!isPositive (sector.area.dot (direction), sector.begin, sector.end, sqr_direction))
+        return false;
+    const Sector& first = firstSector ();
+    for (const Sector& sector : sectors_) {
+      if (sector.from == first.from || sector.to == first.from)
+        continue;
+      const Eigen::Vector3d across = direction.cross (first.begin); // to the left of the spoke
+      if (!isPositive (across.dot (sector.begin), first.begin, sector.begin, sqr_direction) &&
+          !isPositive (-across.dot (sector.end), first.begin, sector.end, sqr_direction))
+        return false;
+    }
+    return true;
+  }
+
+  // The one with which an open fan begins; in a closed one, any.
+  const Sector& firstSector () const
+  {
+    for (const Sector& sector : sectors_)
+      if (std::none_of (sectors_.begin (), sectors_.end (),
+                        [&sector] (const Sector& other) { return other.to == sector.from; }))
+        return sector;
+    return sectors_.front ();
+  }
+
+  // Whether a product of three vectors is surely above zero.
+  static bool isPositive (double product, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          double sqr_c)
+  {
+    return product > 0.0 &&
+           product * product > ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm () * sqr_c;
+  }
+
+  const std::vector<Triangle>& triangles_;
+  const Positions& positions_;
+  std::vector<Sector> sectors_;
+};
+
+// Finds pairs block by block of a tree of boxes.
+class PairFinder
+{
+public:
+  PairFinder (const std::vector<Triangle>& triangles, const Positions& positions,
+              const RunContext& run)
+      : triangles_ (triangles), positions_ (positions), run_ (run), is_plain_ (positions.size ())
+  {
+    const CsrLists around = makeCsrLists (positions.size (), [&] (const auto& emit) {
+      for (Index t = 0; t < triangles.size (); ++t)
+        for (const Index p : triangles[t])
+          emit (p, t);
+    });
+    parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+      PlainFans fans (triangles_, positions_);
+      for (auto p = static_cast<Index> (first); p < last; ++p)
+        is_plain_[p] = around.row (p).size () > 0 && fans.isPlain (p, around.row (p)) ? 1 : 0;
+    });
+    sortByPoints (around);
+  }
+
+  std::vector<CrossingPair> find () const
+  {
+    const BoxTree tree (
+        sorted_.size (), [this] (std::size_t i) { return boxOf (sorted_[i], positions_); }, run_);
+    const std::size_t ranges = (tree.leaves () + RANGE_LENGTH - 1) / RANGE_LENGTH;
+    std::vector<std::vector<CrossingPair>> found (ranges);
+    parallelRanges (run_, tree.leaves (), [&] (std::size_t first, std::size_t last) {
+      std::vector<CrossingPair>& pairs = found[first / RANGE_LENGTH];
+      for (std::size_t leaf = first; leaf < last; ++leaf)
+        tree.forOverlaps (leaf, [&] (std::size_t i, std::size_t j) {
+          if (isCrossing (sorted_[i], sorted_[j])) {
+            const auto [t, u] = std::minmax (order_[i], order_[j]);
+            pairs.push_back ({t, u});
+          }
+        });
+    });
+    std::vector<CrossingPair> all;
+    for (const std::vector<CrossingPair>& pairs : found)
+      all.insert (all.end (), pairs.begin (), pairs.end ());
+    std::sort (all.begin (), all.end ());
+    return all;
+  }
+
+private:
+  // Triangles in the order of their smallest points: those near in memory are near in space.
+  void sortByPoints (const CsrLists& around)
+  {
+    order_.reserve (triangles_.size ());
+    sorted_.reserve (triangles_.size ());
+    for (Index p = 0; p < around.rows (); ++p)
+      for (const Index t : around.row (p)) {
+        const Triangle& c = triangles_[t];
+        if (p == std::min ({c[0], c[1], c[2]})) {
+          order_.push_back (t);
+          sorted_.push_back (c);
+        }
+      }
+  }
+
+  bool isCrossing (const Triangle& one, const Triangle& other) const
+  {
+    for (const Index p : one)
+      if (is_plain_[p] != 0 && (p == other[0] || p == other[1] || p == other[2]))
+        return false;
+    return doCross (one, other, positions_);
+  }
+
+  const std::vector<Triangle>& triangles_;
+  const Positions& positions_;
+  RunContext run_;
+  std::vector<std::uint8_t> is_plain_; // per point, see PlainFans
+  std::vector<Index> order_;           // the triangles, by their smallest points
+  std::vector<Triangle> sorted_;       // their corners in this order
+};
+
+} // namespace
+
+bool
+doCross (const Triangle& one, const Triangle& other, const Positions& positions)
+{
+  const Corners corners = commonFirst (one, other);
+  if (corners.common == 0 && SeparatingPlane (one, other, positions).exists ())
+    return false;
+  std::array<Kernel::Point_3, 3> a, b;
+  for (std::size_t i = 0; i < 3; ++i) {
+    a[i] = exactly (positions[corners.one[i]]);
+    b[i] = exactly (positions[corners.other[i]]);
+  }
+  if (CGAL::collinear (a[0], a[1], a[2]) || CGAL::collinear (b[0], b[1], b[2]))
+    return false;
+  if (corners.common == 3)
+    return true;
+  if (corners.common == 2)
+    return CGAL::coplanar (a[0], a[1], a[2], b[2]) &&
+           CGAL::coplanar_orientation (a[0], a[1], a[2], b[2]) == CGAL::POSITIVE;
+  const Kernel::Triangle_3 triangle_a (a[0], a[1], a[2]), triangle_b (b[0], b[1], b[2]);
+  if (corners.common == 0)
+    return CGAL::do_intersect (triangle_a, triangle_b);
+  // Whatever they have in common but the corner reaches the edge opposite to it, of one of them.
+  return CGAL::do_intersect (triangle_a, Kernel::Segment_3 (b[1], b[2])) ||
+         CGAL::do_intersect (triangle_b, Kernel::Segment_3 (a[1], a[2]));
+}
+
+std::vector<CrossingPair>
+findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& positions,
+                       const RunContext& run)
+{
+  return PairFinder (triangles, positions, run).find ();
+}
+
+} // namespace floater
+} // namespace pcl
