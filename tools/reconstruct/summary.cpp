@@ -20,6 +20,25 @@ printWarnings (const Report& report)
     std::fprintf (stderr, "warning: %s\n", warning.c_str ());
 }
 
+/// Prints boundary loops that may have been wrongly kept open or filled, the least sure ones.
+void
+printLoopDecisions (const Report& report)
+{
+  constexpr std::size_t MOST = 10;
+  const std::size_t count = report.loop_decisions.size ();
+  if (count == 0)
+    return;
+  std::printf ("not sure   of %s%s\n", counted (count, "boundary loop").c_str (),
+               count > MOST ? ", the least sure of them:" : "");
+  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
+    const LoopDecision& decision = report.loop_decisions[i];
+    std::printf ("           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with a "
+                 "probability of %.0f %%\n",
+                 decision.points, decision.width_spacings, decision.at,
+                 decision.stays_open ? "stays open" : "filled", 100.0 * decision.probability);
+  }
+}
+
 /// Prints method, components, genus and boundary loops.
 void
 printShape (const Report& report)
@@ -85,25 +104,6 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
     std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
   if (!line.report.empty ())
     std::printf ("report     %s\n", line.report.c_str ());
-}
-
-/// Prints boundary loops that may have been wrongly kept open or filled, the least sure ones.
-void
-printLoopDecisions (const Report& report)
-{
-  constexpr std::size_t MOST = 10;
-  const std::size_t count = report.loop_decisions.size ();
-  if (count == 0)
-    return;
-  std::printf ("not sure   of %s%s\n", counted (count, "boundary loop").c_str (),
-               count > MOST ? ", the least sure of them:" : "");
-  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
-    const LoopDecision& decision = report.loop_decisions[i];
-    std::printf ("           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with a "
-                 "probability of %.0f %%\n",
-                 decision.points, decision.width_spacings, decision.at,
-                 decision.stays_open ? "stays open" : "filled", 100.0 * decision.probability);
-  }
 }
 
 } // namespace

@@ -104,8 +104,8 @@ public:
   floater::Topology getTopology () const { return options_.topology; }
 
   /** \brief Which boundary loops of a surface stay open; default AUTO: those that look
-   * like boundaries, not like gaps of the sampling. Topology::DISC takes AUTO and KEEP_LARGEST only, which mean the same
-   * there. */
+   * like boundaries, not like gaps of the sampling. Topology::DISC takes AUTO and KEEP_LARGEST
+   * only, which mean the same there. */
   void setHolePolicy (floater::HolePolicy policy) { options_.holes.policy = policy; }
   /** \brief Which boundary loops of a surface stay open. */
   floater::HolePolicy getHolePolicy () const { return options_.holes.policy; }

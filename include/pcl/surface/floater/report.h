@@ -57,8 +57,8 @@ struct LoopSummary
 /// filled. The hole policy may have decided otherwise than the probability says.
 struct LoopDecision
 {
-  std::size_t points = 0;      ///< number of points
-  double width = 0.0;          ///< largest distance between two of its points, in units of the cloud
+  std::size_t points = 0; ///< number of points
+  double width = 0.0;     ///< largest distance between two of its points, in units of the cloud
   double width_spacings = 0.0; ///< the same in local spacings
   std::uint32_t at = 0;        ///< smallest cloud index of its points
   bool stays_open = false;     ///< else it was filled
