@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_set>
 #include <utility>
 
 namespace pcl
@@ -66,30 +65,6 @@ CrossingTable::crossing () const
   std::vector<Index> triangles;
   for (const auto& [t, partners] : partners_)
     triangles.push_back (t);
-  std::sort (triangles.begin (), triangles.end ());
-  return triangles;
-}
-
-std::vector<Index>
-CrossingTable::crossingInTangles (std::size_t most_pairs) const
-{
-  std::vector<Index> triangles, tangle;
-  std::unordered_set<Index> is_seen;
-  for (const Index first : crossing ()) {
-    if (!is_seen.insert (first).second)
-      continue;
-    tangle.assign (1, first);
-    std::size_t ends = 0; // each pair has two
-    for (std::size_t i = 0; i < tangle.size (); ++i) {
-      const std::vector<Index>& partners = partners_.at (tangle[i]);
-      ends += partners.size ();
-      for (const Index u : partners)
-        if (is_seen.insert (u).second)
-          tangle.push_back (u);
-    }
-    if (ends <= 2 * most_pairs)
-      triangles.insert (triangles.end (), tangle.begin (), tangle.end ());
-  }
   std::sort (triangles.begin (), triangles.end ());
   return triangles;
 }

@@ -28,10 +28,6 @@ public:
   /// Triangles that cross others, ascending.
   std::vector<Index> crossing () const;
 
-  /// The same, but only of tangles of at most so many pairs. A tangle is a set of triangles that
-  /// are connected by crossing each other.
-  std::vector<Index> crossingInTangles (std::size_t most_pairs) const;
-
   bool isCrossing (Index t) const { return partners_.count (t) != 0; }
 
   /// Pairs that a change has added, less those that it has removed. If as many as `limit` or more,

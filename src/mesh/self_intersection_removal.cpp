@@ -38,14 +38,10 @@ public:
 
   Uncrossing run ()
   {
-    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.kicks;
     for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0; ++pass) {
       const std::size_t before = done_.flips + done_.moves;
       flipAll ();
-      moveAll (table_.crossing (), [this] (Index v) { return move (v); });
-      if (done_.flips + done_.moves == before)
-        moveAll (table_.crossingInTangles (limits_.largest_tangle),
-                 [this] (Index v) { return kick (v); });
+      moveAll ();
       if (done_.flips + done_.moves == before)
         break;
     }
@@ -94,9 +90,9 @@ private:
   }
 
   // Tries to move the vertices of crossing triangles, each once.
-  template <typename Move>
-  void moveAll (const std::vector<Index>& triangles, Move&& move_vertex)
+  void moveAll ()
   {
+    const std::vector<Index> triangles = table_.crossing ();
     std::vector<Index> vertices;
     for (const Index t : triangles)
       vertices.insert (vertices.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
@@ -104,7 +100,7 @@ private:
     ProgressLoop progress (run_, vertices.size ());
     for (const Index v : vertices) {
       progress.next ();
-      if (isAtCrossing (v) && move_vertex (v))
+      if (isAtCrossing (v) && move (v))
         ++done_.moves;
     }
   }
@@ -138,49 +134,6 @@ private:
       return false;
     rank = best_rank;
     keep (move_it);
-    return true;
-  }
-
-  // Moves a vertex to places where it costs more, and flips edges around after it, until that helps
-  // in sum.
-  bool kick (Index v)
-  {
-    for (std::size_t rank = 0; rank < limits_.kicks && kicks_left_ > 0; ++rank, --kicks_left_) {
-      run_.poll ();
-      const std::size_t before = table_.pairs ();
-      if (!moveAndFlip (v, rank))
-        return false;
-      const auto pairs = static_cast<double> (before) - static_cast<double> (table_.pairs ());
-      noteChanged ();
-      const Flaws after = flaws ();
-      mover_.undo ();
-      table_.tryChange (changed_, EVERY_PAIR);
-      table_.accept (changed_);
-      const Flaws without = flaws ();
-      if (after.folds <= without.folds &&
-          without.cost - after.cost + limits_.pair_cost * pairs > VertexMover::IMPROVES)
-        return moveAndFlip (v, rank);
-    }
-    return false;
-  }
-
-  // \return false if there is no such place; the mesh is then as before
-  bool moveAndFlip (Index v, std::size_t rank)
-  {
-    mover_.start ();
-    double change = 0.0;
-    const bool is_moved = mover_.moveTo (v, rank, change);
-    mover_.dirty ().clear ();
-    if (!is_moved)
-      return false;
-    noteChanged ();
-    table_.tryChange (changed_, EVERY_PAIR);
-    table_.accept (changed_);
-    const std::vector<Index> around = changed_;
-    for (std::size_t round = 0; round < limits_.rounds_after_kick; ++round)
-      for (const Index t : around)
-        for (std::uint8_t side = 0; side < 3; ++side)
-          flip ({t, side});
     return true;
   }
 
@@ -254,7 +207,6 @@ private:
   CrossingTable table_;
   VertexMover mover_;
   Uncrossing done_;
-  std::size_t kicks_left_ = 0;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending
 };

@@ -20,12 +20,7 @@ struct UncrossingLimits
                                 ///< an edge that is folded by 180 degrees (CostLimits::fold_cost)
   std::size_t largest_fan = 24; ///< triangles around a vertex that is moved
   std::size_t places = 8;       ///< cheapest triangles in which a vertex to move is tried
-  std::size_t kicks = 24;       ///< places to which a vertex is kicked
-  std::size_t largest_tangle = 24;   ///< pairs; kicks in larger tangles hardly ever help, and each
-                                     ///< takes longer there
-  std::size_t points_per_kick = 64;  ///< points of the mesh for each kick
-  std::size_t rounds_after_kick = 2; ///< of flips around the place to which a vertex was kicked
-  std::size_t passes = 32;           ///< over the triangles that cross others
+  std::size_t passes = 6; ///< over the triangles that cross others; most is done in the first two
 };
 
 /// What was changed.
@@ -38,13 +33,12 @@ struct Uncrossing
 
 /// Flips edges and moves vertices (see VertexMover) where triangles cross. A change is kept if no
 /// more pairs cross after it, no more edges are folded (isFold), and it lowers the sum of the cost
-/// of the mesh and that of the crossing pairs; of several, the one that lowers it most. Where
-/// nothing helps by itself, a vertex is kicked: moved to a place where that sum is higher, and
-/// edges around are flipped after it. The boundary and the topology stay as they are, and every
+/// of the mesh and that of the crossing pairs; of several, the one that lowers it most.
+/// The boundary and the topology stay as they are, and every
 /// point keeps its triangles. O(n) to begin with, and O(log n) for each of a few hundred trials for
-/// each triangle that crosses another. One thread. \param pairs     all that the mesh has (see
-/// findSelfIntersections) \param neighbors nearest neighbours of each point, where places for it
-/// are searched
+/// each triangle that crosses another. One thread.
+/// \param pairs all that the mesh has (see findSelfIntersections)
+/// \param neighbors nearest neighbours of each point, where places for it are searched
 Uncrossing
 removeSelfIntersections (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
                          const CsrLists& neighbors, const TriangleCost& cost,

@@ -199,11 +199,13 @@ class ViewpointSearch
 public:
   ViewpointSearch (const Points& points, const LocalGeometry& geometry, const SearchLimits& limits,
                    const EvidenceLimits& evidence, const RunContext& run)
-      : positions_ (points.positions), limits_ (limits), evidence_ (evidence), run_ (run),
-        samples_ (takeSamples (points, geometry, limits.samples))
+      : positions_ (points.positions), neighbors_ (geometry.neighbors), limits_ (limits),
+        evidence_ (evidence), run_ (run), samples_ (takeSamples (points, geometry, limits.samples))
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
+    coarse_ = evidence_;
+    coarse_.patches = std::min (coarse_.patches, limits.coarse_patches);
     constexpr std::size_t EVERY = 4;
     for (std::size_t i = 0; i < samples_.size (); i += EVERY)
       few_samples_.push_back (samples_[i]);
@@ -220,30 +222,55 @@ public:
     return quartileSpread (angles_);
   }
 
+  // Patches of points, the nearest to the first one first.
+  std::vector<RayPatch> nearbyPoints () const
+  {
+    constexpr std::size_t FEW = 16; // with 480 rays that are judged
+    std::vector<RayPatch> patches (std::min (coarse_.patches, FEW));
+    std::vector<Index> sorted;
+    for (std::size_t k = 0; k < patches.size (); ++k) {
+      const std::size_t seed = (2 * k + 1) * positions_.size () / (2 * patches.size ());
+      RayPatch& patch = patches[k];
+      patch.assign (1, static_cast<Index> (seed));
+      sorted = patch;
+      for (std::size_t i = 0; i < patch.size () && patch.size () < coarse_.patch_points; ++i)
+        for (const Index q : neighbors_.row (patch[i])) {
+          const auto place = std::lower_bound (sorted.begin (), sorted.end (), q);
+          if (patch.size () == coarse_.patch_points || (place != sorted.end () && *place == q))
+            continue;
+          sorted.insert (place, q);
+          patch.push_back (q);
+        }
+      const auto distance = [&] (Index p) {
+        return (positions_[p] - positions_[seed]).squaredNorm ();
+      };
+      std::stable_sort (patch.begin (), patch.end (),
+                        [&] (Index a, Index b) { return distance (a) < distance (b); });
+    }
+    return patches;
+  }
+
   // Parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
   std::optional<Viewpoint> findAlongRows (const Eigen::Vector3d& across) const
   {
-    EvidenceLimits few = evidence_;
-    few.patches = std::min (few.patches, FEW_PATCHES);
     const Eigen::Vector3d x = across.unitOrthogonal (), y = across.cross (x);
-    const std::size_t count = limits_.row_directions * BETWEEN;
+    const std::size_t count = limits_.row_directions;
     const double step = PI / static_cast<double> (count);
     std::vector<Candidate> candidates;
     for (std::size_t k = 0; k < count; ++k) {
       const double angle = step * static_cast<double> (k);
       candidates.push_back ({0.0, {std::cos (angle) * x + std::sin (angle) * y, true}});
     }
-    // Patches hardly change within a few degrees.
-    for (std::size_t first = 0; first < count; first += BETWEEN) {
-      const std::vector<RayPatch> patches =
-          findRayPatches (positions_, candidates[first + BETWEEN / 2].viewpoint, few, run_);
-      for (std::size_t k = first; k < first + BETWEEN; ++k)
-        candidates[k].cost = costByRays (candidates[k].viewpoint, patches);
-    }
+    // Whatever the direction, rays of a patch lead to points that are near each other.
+    const std::vector<RayPatch> patches = nearbyPoints ();
+    for (Candidate& candidate : candidates)
+      candidate.cost = costByRays (candidate.viewpoint, patches);
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    if (isHopeless (candidates.front ().viewpoint))
+      return {};
     std::vector<Candidate> starts;
     for (const Candidate& candidate : candidates)
-      if (starts.size () < limits_.by_rows && !isNear (candidate, starts, BETWEEN * step))
+      if (starts.size () < limits_.by_rows && !isNear (candidate, starts, APART))
         starts.push_back (candidate);
     // Rays are spaced evenly from the right direction only; from others, less unevenly than around.
     Candidate best{std::numeric_limits<double>::infinity (), {}};
@@ -285,16 +312,15 @@ public:
         return found;
     for (auto candidate = others; candidate != candidates.end (); ++candidate)
       candidate->cost = costByRays (
-          candidate->viewpoint, findRayPatches (positions_, candidate->viewpoint, evidence_, run_));
+          candidate->viewpoint, findRayPatches (positions_, candidate->viewpoint, coarse_, run_));
     const auto best = std::min_element (others, candidates.end (), isCheaper);
     return best == candidates.end () ? std::nullopt : refineWithFar (best->viewpoint);
   }
 
 private:
-  static constexpr std::size_t FEW_PATCHES = 16; // with 480 rays that are judged
-  static constexpr std::size_t BETWEEN = 5;      // directions that are tried with the same patches
-  static constexpr double EVEN = 0.02;           // spread of rays that needs no other try
-  static constexpr double AREA_ERROR = 0.05;     // of a place, in bounding boxes
+  static constexpr double APART = 0.1;       // two directions whose descents may differ
+  static constexpr double EVEN = 0.02;       // spread of rays that needs no other try
+  static constexpr double AREA_ERROR = 0.05; // of a place, in bounding boxes
 
   // Areas tell a place to about a hundredth of the bounding box; rays tell the rest.
   static constexpr double SMALLEST_AREA_STEP = 4e-3;
@@ -389,6 +415,21 @@ private:
     return refine (viewpoint);
   }
 
+  bool isHopeless (const RayEvidence& evidence, const Viewpoint& viewpoint) const
+  {
+    constexpr double REGULARITY = 2.0, NEAR = 5.0; // of what is enough in the end
+    return evidence.ray_spread > REGULARITY * evidence_.regularity * evidence.point_spread ||
+           (viewpoint.is_far && evidence.near_share > NEAR * evidence_.near_share);
+  }
+
+  bool isHopeless (const Viewpoint& viewpoint) const
+  {
+    return isHopeless (findRayEvidence (positions_,
+                                        findRayPatches (positions_, viewpoint, coarse_, run_),
+                                        viewpoint, coarse_, run_),
+                       viewpoint);
+  }
+
   // Rows tell the place of a spinning lidar along its axis, but may mislead among other rasters.
   std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
@@ -398,19 +439,16 @@ private:
 
   std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
   {
-    constexpr double HOPELESS = 2.0, HOPELESS_NEAR = 5.0;
     constexpr double PRECISION = 1e-6; // a tenth of the spacing of a scan of 1e10 points
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
-      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
+      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, coarse_, run_);
       const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches, with_rows); };
       viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
                       .run (viewpoint, step, 0.2 * step)
                       .viewpoint;
       step *= 0.3;
       // Where the first, coarse steps lead to no more evidence than this, finer ones hardly do.
-      const RayEvidence so_far = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
-      if (so_far.ray_spread > HOPELESS * evidence_.regularity * so_far.point_spread ||
-          (viewpoint.is_far && so_far.near_share > HOPELESS_NEAR * evidence_.near_share))
+      if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_), viewpoint))
         return {};
     }
     // The patches of a better place lead to a better one yet.
@@ -429,8 +467,10 @@ private:
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& neighbors_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
+  EvidenceLimits coarse_; // fewer patches, while a place is searched
   RunContext run_;
   std::vector<AreaSample> samples_, few_samples_; // the latter to compare many places
   Eigen::AlignedBox3d box_;

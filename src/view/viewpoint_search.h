@@ -21,7 +21,7 @@ struct SearchLimits
   double rows =
       0.6; ///< share of points between their two nearest neighbours; above, the cloud was
            ///< scanned along lines. Of points at random it is 0.25, on a square raster 0.33
-  std::size_t row_directions = 36; ///< in which patches of such a cloud are found: 5 degrees apart
+  std::size_t row_directions = 90; ///< in which such a cloud is looked at: two degrees apart
   std::size_t by_rows = 4;         ///< best of the directions between, which are refined
   double explained = 0.75; ///< of that spread; with more left at the best place, areas do not come
                            ///< from a view. In scans with noise of 3 spacings, 0.7 is left
@@ -36,6 +36,7 @@ struct SearchLimits
   std::size_t compared = 6;          ///< next ones, of which the best by rays is refined
   std::size_t rounds = 2;            ///< of a refinement, each with patches found anew
   std::size_t fits = 6;              ///< after it, each with patches found anew
+  std::size_t coarse_patches = 32;   ///< of EvidenceLimits::patches, until the first fit
   std::size_t ray_evaluations = 200; ///< in each round
 };
 
