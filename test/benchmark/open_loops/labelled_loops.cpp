@@ -47,7 +47,7 @@ findLoops (const Points& points)
   const Request request{options, limits, run};
   Noise noise;
   LocalGeometry geometry = makeGeometry (
-      points, findNeighbors (points, neighborSettings (options, nullptr), run), request, noise);
+      points, findNeighbors (points, neighborSettings (options, nullptr), run), {}, request, noise);
   const ConsensusMesh consensus =
       makeConsensusMesh (points.positions, geometry.neighbors, std::move (geometry.stars),
                          geometry.spacing, limits.surface.consensus, run);
