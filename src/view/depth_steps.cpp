@@ -59,16 +59,20 @@ public:
       return order.begin () + static_cast<std::ptrdiff_t> (b * order.size () / bins);
     };
     std::vector<double> noises (bins);
+    std::vector<std::uint8_t> is_rounded (bins);
     parallelTasks (run_, bins, [&] (std::size_t b) {
-      noises[b] = measureNoise ({binBegin (b), binBegin (b + 1)});
+      noises[b] = measureNoise ({binBegin (b), binBegin (b + 1)}, is_rounded[b]);
     });
     for (std::size_t b = 0; b < bins; ++b) {
       run_.poll ();
       const double noise = medianAround (noises, b);
+      // A bin between two steps of quantized depths does not tell how large these are.
+      const double sharp_noise = std::max (limits_.sharp_noise * noise,
+                                           is_rounded[b] != 0 ? limits_.largest_quantum : 0.0);
       for (auto e = binBegin (b); e != binBegin (b + 1); ++e) {
         const MeshEdge edge = edges_[*e].edge;
         const double unit = unitAt (static_cast<double> (edges_[*e].depth));
-        if (!isStep (edge, noise * unit))
+        if (!isStep (edge, limits_.noise * noise * unit, sharp_noise * unit))
           continue;
         is_step[edge.triangle] = 1;
         if (const Index other = view_.neighbors[edge.triangle][edge.side]; other != NONE)
@@ -191,7 +195,7 @@ private:
   }
 
   // Of edges of about the same depth, as a share of the depth.
-  double measureNoise (const std::vector<Index>& bin) const
+  double measureNoise (const std::vector<Index>& bin, std::uint8_t& is_rounded) const
   {
     std::vector<float> deviations;
     for (const Index e : bin)
@@ -203,7 +207,8 @@ private:
     // What a share of the depth is in levels.
     const double unit = unitAt (static_cast<double> (edges_[bin.front ()].depth));
     const double median = quantile (deviations, 0.5);
-    if (median > limits_.rounding * unit)
+    is_rounded = median > limits_.rounding * unit ? 0 : 1;
+    if (is_rounded == 0)
       return noise / unit;
     constexpr double ABOVE = 20.0; // times the median: that is no rounding any more
     constexpr std::size_t FEWEST = 20;
@@ -255,7 +260,7 @@ private:
     return v.straight.dot (v.edge) < largest_cosine_ * v.straight.norm () * v.edge.norm ();
   }
 
-  bool isStep (MeshEdge e, double noise) const
+  bool isStep (MeshEdge e, double steep_noise, double sharp_noise) const
   {
     const Index p = view_.from (e), q = view_.to (e);
     const double change = changeOf (e);
@@ -263,7 +268,7 @@ private:
     const double width = rays_.distance (p, q) *
                          (rays_.are_parallel ? 1.0 : std::min (rays_.depths[p], rays_.depths[q]));
     const bool is_steep = std::abs (rays_.depths[p] - rays_.depths[q]) > limits_.slope * width;
-    const double least = noise * (is_steep ? limits_.noise : limits_.sharp_noise);
+    const double least = is_steep ? steep_noise : sharp_noise;
     const auto isNoise = [&] (const Continuation& c) {
       return c.weight > 0.0F && std::abs (change - static_cast<double> (c.change)) <=
                                     least * static_cast<double> (c.weight);

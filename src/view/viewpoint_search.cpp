@@ -266,7 +266,8 @@ public:
     for (Candidate& candidate : candidates)
       candidate.cost = costByRays (candidate.viewpoint, patches);
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    if (isHopeless (candidates.front ().viewpoint))
+    // Lines on a plane are as even from all directions: they do not tell any.
+    if (candidates.front ().cost > evidence_.regularity * candidates[count / 2].cost)
       return {};
     std::vector<Candidate> starts;
     for (const Candidate& candidate : candidates)
@@ -274,7 +275,7 @@ public:
         starts.push_back (candidate);
     // Rays are spaced evenly from the right direction only; from others, less unevenly than around.
     Candidate best{std::numeric_limits<double>::infinity (), {}};
-    for (const Candidate& start : starts)
+    for (const Candidate& start : starts) {
       if (const std::optional<Viewpoint> found = refine (start.viewpoint, step)) {
         const double cost =
             costByRays (*found, findRayPatches (positions_, *found, evidence_, run_));
@@ -283,6 +284,7 @@ public:
         if (cost < EVEN)
           break;
       }
+    }
     if (best.cost == std::numeric_limits<double>::infinity ())
       return {};
     return best.viewpoint;
@@ -420,14 +422,6 @@ private:
     constexpr double REGULARITY = 2.0, NEAR = 5.0; // of what is enough in the end
     return evidence.ray_spread > REGULARITY * evidence_.regularity * evidence.point_spread ||
            (viewpoint.is_far && evidence.near_share > NEAR * evidence_.near_share);
-  }
-
-  bool isHopeless (const Viewpoint& viewpoint) const
-  {
-    return isHopeless (findRayEvidence (positions_,
-                                        findRayPatches (positions_, viewpoint, coarse_, run_),
-                                        viewpoint, coarse_, run_),
-                       viewpoint);
   }
 
   // Rows tell the place of a spinning lidar along its axis, but may mislead among other rasters.
