@@ -71,12 +71,15 @@ struct RowEvidence
 {
   double share = 0.0; // of points between their two nearest neighbors, which lie to opposite sides
   Eigen::Vector3d across = Eigen::Vector3d::Zero (); // unit vector across the planes of the rows
+  bool are_straight = true;                          // all of them along one direction, so that
+                                                     // they do not tell their planes
 };
 
 RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
+  constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
   const std::vector<Eigen::Vector3d>& positions = points.positions;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
   std::size_t looked_at = 0, in_rows = 0;
@@ -97,7 +100,9 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
   if (in_rows == 0)
     return rows;
   rows.share = static_cast<double> (in_rows) / static_cast<double> (looked_at);
-  rows.across = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (along).eigenvectors ().col (0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes (along);
+  rows.across = axes.eigenvectors ().col (0);
+  rows.are_straight = axes.eigenvalues ()[1] < STRAIGHT * axes.eigenvalues ()[2];
   return rows;
 }
 
@@ -484,10 +489,11 @@ findViewpoint (const Points& points, const LocalGeometry& geometry, bool is_nois
   filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
   ViewpointSearch search (points, geometry, limits, filled, run);
   const RowEvidence rows = findRows (points, geometry.neighbors, limits.samples);
-  if (rows.share > limits.rows)
+  if (rows.share > limits.rows && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;
-  if (!search.hasSamples () || (!is_noisy && search.spreadOfAreas () <= limits.even))
+  if (filled.patches < evidence.patches || !search.hasSamples () ||
+      (!is_noisy && search.spreadOfAreas () <= limits.even))
     return {};
   return search.find ();
 }
