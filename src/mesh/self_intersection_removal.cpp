@@ -30,8 +30,7 @@ public:
                   const CsrLists& neighbors, const TriangleCost& cost,
                   const std::vector<Eigen::Vector3d>& positions, const UncrossingLimits& limits,
                   const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
-        table_ (mesh, positions, pairs, run),
+      : mesh_ (mesh), limits_ (limits), run_ (run), table_ (mesh, positions, pairs, run),
         mover_ (mesh, neighbors, cost, limits.largest_fan, run)
   {
   }
@@ -201,7 +200,6 @@ private:
   }
 
   TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
   UncrossingLimits limits_;
   RunContext run_;
   CrossingTable table_;
