@@ -3,7 +3,7 @@
 
 #include "local/star_agreement.h"
 #include "points/outliers.h"
-#include "report.h"
+#include "report_cloud.h"
 
 #include <algorithm>
 #include <array>

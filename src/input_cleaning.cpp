@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "input_cleaning.h"
 
-#include "report.h"
+#include "report_cloud.h"
 
 #include <algorithm>
 

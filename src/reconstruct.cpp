@@ -7,11 +7,12 @@
 #include "check_input.h"
 #include "check_options.h"
 #include "cloud_geometry.h"
+#include "finished_mesh.h"
 #include "input_cleaning.h"
 #include "mesh/flips.h"
 #include "mesh/mesh_spacing.h"
-#include "mesh/self_intersection_removal.h"
-#include "report.h"
+#include "report_cloud.h"
+#include "report_mesh.h"
 #include "request.h"
 #include "unused_options.h"
 
@@ -77,52 +78,6 @@ layOutDisc (const Points& points, LocalGeometry& geometry, const Request& reques
                    discSettings (request.options, request.limits), request.run);
 }
 
-// The mesh as it is, on the user's own points, whatever the stages think that they made.
-MeshExamination
-examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-         const Request& request)
-{
-  request.run.beginStage (Stage::CHECK);
-  return checkMesh (mesh.triangles, points, geometry.meshSpacing (), request.run,
-                    request.limits.check);
-}
-
-// The same, and which triangles cross each other. Not for scans that are connected as their sensor
-// saw them: it would take a quarter of their time, and noise along the rays makes true surfaces
-// cross themselves, too.
-MeshExamination
-examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-                     const Request& request)
-{
-  MeshExamination found = examine (mesh, points, geometry, request);
-  checkCrossing (mesh.triangles, points, request.run, found);
-  return found;
-}
-
-// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
-// again.
-void
-uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics)
-{
-  const Options& options = request.options;
-  checkCrossing (mesh.triangles, points, request.run, found);
-  statistics.self_intersections_found = found.crossing.size ();
-  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty ())
-    return;
-  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
-  orientNormals (mesh, points.positions, normals, request.run);
-  const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
-                           request.limits.surface.finish.cost);
-  const Uncrossing done =
-      removeSelfIntersections (mesh, found.crossing, geometry.neighbors, cost, points.positions,
-                               request.limits.uncrossing, request.run);
-  statistics.self_intersection_flips = done.flips;
-  statistics.self_intersection_moves = done.moves;
-  if (done.flips + done.moves > 0)
-    found = examineWithCrossing (mesh, points, geometry, request);
-}
-
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
 Problem
 checkDisc (const MeshExamination& found, std::vector<Index> loop)
@@ -156,33 +111,6 @@ std::size_t
 countFlaws (const MeshExamination& found)
 {
   return found.check.folds + found.unused.size ();
-}
-
-// Makes the result of a mesh. \return INTERNAL_ERROR if it is no oriented manifold, INVALID_OPTION
-// if nothing is left of it
-Problem
-useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
-         const LocalGeometry& geometry, const Request& request, Result& result)
-{
-  Report& report = result.report;
-  Trimming trimming;
-  if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
-    trimming =
-        trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
-    std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
-    found = report.is_view ? examine (mesh, points, geometry, request)
-                           : examineWithCrossing (mesh, points, geometry, request);
-    found.unused = std::move (unused);
-    if (trimming.triangles > 0)
-      report.loop.clear ();
-  }
-  std::vector<Triangle> triangles = std::move (mesh.triangles);
-  mesh = {};
-  Problem problem = reportCheck (points, found, request.options, report);
-  if (!problem)
-    problem = reportTrimming (points, trimming, triangles.size (), report);
-  result.triangles = reportMesh (points, std::move (triangles), finish, report);
-  return problem;
 }
 
 Problem

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus_loop.h"
 
+#include "core/order_statistics.h"
 #include "floater/boundary/gaps.h"
 #include "floater/boundary/loop_refinement.h"
 
@@ -40,8 +41,7 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
         loop.component == static_cast<Index> (largest - component_points.begin ()))
       boundary.loop = std::move (loop.points);
   }
-  std::sort (candidates.begin (), candidates.end ());
-  candidates.erase (std::unique (candidates.begin (), candidates.end ()), candidates.end ());
+  sortUnique (candidates);
   boundary.candidates = candidates.size ();
   if (!boundary.loop.empty ())
     refineLoop (positions, geometry.stars, geometry.spacing, candidates, boundary.loop, run);

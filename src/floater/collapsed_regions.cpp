@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/collapsed_regions.h"
 
+#include "core/order_statistics.h"
+
 #include <algorithm>
 
 namespace pcl
@@ -185,8 +187,7 @@ collectInterior (const TriangleMesh& mesh, const CollapsedRegion& region, LostPo
   std::vector<Index> corners;
   for (const Index t : region.triangles)
     corners.insert (corners.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
-  std::sort (corners.begin (), corners.end ());
-  corners.erase (std::unique (corners.begin (), corners.end ()), corners.end ());
+  sortUnique (corners);
   std::vector<Index> loop = region.loop, interior;
   std::sort (loop.begin (), loop.end ());
   std::set_difference (corners.begin (), corners.end (), loop.begin (), loop.end (),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/reachability.h"
 
+#include "core/order_statistics.h"
 #include "core/run_context.h"
 
 #include <algorithm>
@@ -54,8 +55,7 @@ linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
     for (const Index q : row)
       if (reachable[q] != 0)
         candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
-  std::sort (candidates.begin (), candidates.end ());
-  candidates.erase (std::unique (candidates.begin (), candidates.end ()), candidates.end ());
+  sortUnique (candidates);
   candidates.resize (std::min (candidates.size (), most));
   for (const auto& candidate : candidates)
     links.push_back ({p, candidate.second});

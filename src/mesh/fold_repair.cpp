@@ -2,6 +2,7 @@
 #include "mesh/fold_repair.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "mesh/vertex_mover.h"
 
 #include <algorithm>
@@ -14,13 +15,6 @@ namespace floater
 {
 namespace
 {
-void
-sortUnique (std::vector<Index>& list)
-{
-  std::sort (list.begin (), list.end ());
-  list.erase (std::unique (list.begin (), list.end ()), list.end ());
-}
-
 class FoldRepair
 {
 public:

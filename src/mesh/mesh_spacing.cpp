@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/mesh_spacing.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <algorithm>
@@ -15,11 +16,6 @@ spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                const RunContext& run)
 {
   std::vector<float> spacing (positions.size (), 0.0F);
-  const auto median = [] (std::vector<float>& values) {
-    const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-    std::nth_element (values.begin (), middle, values.end ());
-    return *middle;
-  };
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Index> fan;
     std::vector<float> lengths;

@@ -2,6 +2,7 @@
 #include "mesh/self_intersection_removal.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "mesh/crossing_table.h"
 #include "mesh/vertex_mover.h"
 
@@ -14,13 +15,6 @@ namespace floater
 {
 namespace
 {
-void
-sortUnique (std::vector<Index>& list)
-{
-  std::sort (list.begin (), list.end ());
-  list.erase (std::unique (list.begin (), list.end ()), list.end ());
-}
-
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
 
 class CrossingRepair

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/coordinate_grid.h"
 
+#include "core/order_statistics.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,8 +52,7 @@ sortedCoordinates (const Points& points, int axis)
   values.reserve (points.size () / stride + 1);
   for (std::size_t p = 0; p < points.size (); p += stride)
     values.push_back (points.positions[p][axis]);
-  std::sort (values.begin (), values.end ());
-  values.erase (std::unique (values.begin (), values.end ()), values.end ());
+  sortUnique (values);
   return values;
 }
 
@@ -108,14 +109,6 @@ isFloatStep (const std::array<AxisGrid, 3>& grids, const AxisGrid& grid, double 
          });
 }
 
-double
-medianOf (std::vector<float> values)
-{
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), middle, values.end ());
-  return *middle;
-}
-
 } // namespace
 
 CoordinateGrid
@@ -124,7 +117,8 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing)
   CoordinateGrid found;
   if (points.size () < FEWEST)
     return found;
-  const double usual = medianOf (spacing);
+  std::vector<float> spacings = spacing;
+  const auto usual = static_cast<double> (median (spacings));
   std::array<AxisGrid, 3> grids;
   for (int axis = 0; axis < 3; ++axis)
     grids[static_cast<std::size_t> (axis)] = lookAlong (points, axis);

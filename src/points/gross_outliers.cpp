@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/gross_outliers.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "points/kd_tree.h"
 
@@ -16,19 +17,11 @@ namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-double
-medianOf (std::vector<double>& values)
-{
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), middle, values.end ());
-  return *middle;
-}
-
 // The median in each coordinate, of the finite points.
 Eigen::Vector3d
 medianPoint (const Positions& positions)
 {
-  Eigen::Vector3d median = Eigen::Vector3d::Zero ();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
   std::vector<double> values;
   values.reserve (positions.size ());
   for (int axis = 0; axis < 3; ++axis) {
@@ -37,9 +30,9 @@ medianPoint (const Positions& positions)
       if (p.allFinite ())
         values.push_back (p[axis]);
     if (!values.empty ())
-      median[axis] = medianOf (values);
+      middle[axis] = median (values);
   }
-  return median;
+  return middle;
 }
 
 // Squares would overflow. The difference itself may: then it is infinite, and larger than all.
@@ -76,9 +69,9 @@ findBulk (const Positions& positions, double gap)
   }
   if (distances.empty ())
     return bulk;
-  const double median = medianOf (distances);
+  const double usual = median (distances);
   const auto beyond = std::partition (distances.begin (), distances.end (),
-                                      [&] (double distance) { return distance <= gap * median; });
+                                      [&] (double distance) { return distance <= gap * usual; });
   if (beyond == distances.end ())
     return bulk;
   double radius = *std::max_element (distances.begin (), beyond);

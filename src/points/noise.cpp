@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/noise.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "core/plane_fit.h"
 #include "core/tangent_frame.h"
@@ -229,10 +230,8 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
       values.clear ();
       for (const Neighbor& neighbor : found)
         values.push_back (at_centre[neighbor.point / CENTRES]);
-      const auto rank =
-          static_cast<std::ptrdiff_t> (quantile * static_cast<double> (values.size () - 1));
-      std::nth_element (values.begin (), values.begin () + rank, values.end ());
-      result[c] = values[static_cast<std::size_t> (rank)];
+      result[c] = valueAtRank (
+          values, static_cast<std::size_t> (quantile * static_cast<double> (values.size () - 1)));
     }
   });
   return result;
@@ -241,17 +240,11 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
 void
 summarize (std::vector<float> relative, Noise& noise)
 {
-  const auto quantile = [&relative] (double share) {
-    const auto rank =
-        static_cast<std::ptrdiff_t> (share * static_cast<double> (relative.size () - 1));
-    std::nth_element (relative.begin (), relative.begin () + rank, relative.end ());
-    return static_cast<double> (relative[static_cast<std::size_t> (rank)]);
-  };
   noise.noisy_points = static_cast<std::size_t> (
       std::count_if (relative.begin (), relative.end (), [] (float x) { return x > 0.0F; }));
-  noise.median = quantile (0.5);
-  noise.quantile_90 = quantile (0.9);
-  noise.largest = quantile (1.0);
+  noise.median = static_cast<double> (median (relative));
+  noise.quantile_90 = static_cast<double> (quantile (relative, 0.9));
+  noise.largest = static_cast<double> (quantile (relative, 1.0));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "points/outliers.h"
 
 #include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "core/plane_fit.h"
 
@@ -65,20 +66,13 @@ public:
       scratch_.push_back (reach_[row[i]]);
     if (to_others <= limits_.off_plane * *std::min_element (scratch_.begin (), scratch_.end ()))
       return false; // so are nearly all points, without a median
-    const double usual = median ();
+    const double usual = median (scratch_);
     if (to_others > limits_.far * usual)
       return true;
     return to_others > limits_.off_plane * usual && isOffPlane (p, row, limits_.off_plane * usual);
   }
 
 private:
-  double median ()
-  {
-    const auto middle = scratch_.begin () + static_cast<std::ptrdiff_t> (scratch_.size () / 2);
-    std::nth_element (scratch_.begin (), middle, scratch_.end ());
-    return *middle;
-  }
-
   // The plane of the neighbours without the point, fitted again without those that stray from it.
   bool isOffPlane (Index p, Row row, double least_height)
   {
@@ -95,7 +89,7 @@ private:
       scratch_.clear ();
       for (Index q : row)
         scratch_.push_back (std::abs (plane.height (positions_[q] - positions_[p])));
-      spread = median ();
+      spread = median (scratch_);
     }
     const double height = std::abs (plane.height (Eigen::Vector3d::Zero ()));
     return height > least_height && spread < limits_.flat * height;

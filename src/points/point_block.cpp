@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/point_block.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <algorithm>
@@ -73,9 +74,7 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls) const
   std::vector<double> diagonals;
   for (std::size_t bucket = own_first; bucket < own_last; ++bucket)
     diagonals.push_back (buckets_[bucket].diagonal ().norm ());
-  const auto middle = diagonals.begin () + static_cast<std::ptrdiff_t> (diagonals.size () / 2);
-  std::nth_element (diagonals.begin (), middle, diagonals.end ());
-  cut.halo = *middle;
+  cut.halo = median (diagonals);
   cut.balls = balls;
 
   const auto isWanted = [&] (const Box& box, bool closely) {

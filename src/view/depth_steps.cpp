@@ -2,6 +2,7 @@
 #include "view/depth_steps.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <algorithm>
@@ -189,9 +190,7 @@ private:
     const std::size_t last = std::min (noises.size (), bin + limits_.bins_beside + 1);
     std::vector<double> window (noises.begin () + static_cast<std::ptrdiff_t> (first),
                                 noises.begin () + static_cast<std::ptrdiff_t> (last));
-    const auto middle = window.begin () + static_cast<std::ptrdiff_t> (window.size () / 2);
-    std::nth_element (window.begin (), middle, window.end ());
-    return *middle;
+    return median (window);
   }
 
   // Of edges of about the same depth, as a share of the depth.
@@ -203,33 +202,25 @@ private:
         deviations.push_back (edges_[e].deviation);
     if (deviations.empty ())
       return 0.0;
-    const double noise = quantile (deviations, limits_.noise_quantile);
+    const auto noise = static_cast<double> (quantile (deviations, limits_.noise_quantile));
     // What a share of the depth is in levels.
     const double unit = unitAt (static_cast<double> (edges_[bin.front ()].depth));
-    const double median = quantile (deviations, 0.5);
-    is_rounded = median > limits_.rounding * unit ? 0 : 1;
+    const double usual = static_cast<double> (median (deviations));
+    is_rounded = usual > limits_.rounding * unit ? 0 : 1;
     if (is_rounded == 0)
       return noise / unit;
     constexpr double ABOVE = 20.0; // times the median: that is no rounding any more
     constexpr std::size_t FEWEST = 20;
     deviations.erase (std::remove_if (deviations.begin (), deviations.end (),
-                                      [median] (float deviation) {
-                                        return static_cast<double> (deviation) <= ABOVE * median;
+                                      [usual] (float deviation) {
+                                        return static_cast<double> (deviation) <= ABOVE * usual;
                                       }),
                       deviations.end ());
     if (deviations.size () < FEWEST)
       return noise / unit;
     // The weights of a step are 2 or more.
-    return std::max (noise / unit, std::min (quantile (deviations, limits_.step_quantile) / unit,
-                                             0.5 * limits_.largest_quantum));
-  }
-
-  static double quantile (std::vector<float>& values, double share)
-  {
-    const auto at = values.begin () +
-                    static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size ()));
-    std::nth_element (values.begin (), at, values.end ());
-    return static_cast<double> (*at);
+    const auto step = static_cast<double> (quantile (deviations, limits_.step_quantile));
+    return std::max (noise / unit, std::min (step / unit, 0.5 * limits_.largest_quantum));
   }
 
   // Of a ray at a level, from the sensor. A level that is not positive is far away.

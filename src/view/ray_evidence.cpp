@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/ray_evidence.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <algorithm>
@@ -27,12 +28,8 @@ spreadOf (std::vector<double>& values)
   constexpr std::size_t FEW = 10;
   if (values.size () < FEW)
     return 0.0;
-  const auto quantile = [&values] (std::size_t tenths) {
-    const auto place = values.begin () + static_cast<std::ptrdiff_t> (values.size () * tenths / 10);
-    std::nth_element (values.begin (), place, values.end ());
-    return *place;
-  };
-  const double small = quantile (1), large = quantile (9);
+  const double small = valueAtRank (values, values.size () / 10);
+  const double large = valueAtRank (values, values.size () * 9 / 10);
   constexpr double LARGEST = 10.0; // of the logarithm; a patch without rows has no more
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_gaps.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <Eigen/Geometry>
@@ -33,14 +34,6 @@ circumradii (const TriangleMesh& view, const Rays& rays, const RunContext& run)
   return radii;
 }
 
-float
-atRank (std::vector<float>& values, std::size_t rank)
-{
-  const auto place = values.begin () + static_cast<std::ptrdiff_t> (rank);
-  std::nth_element (values.begin (), place, values.end ());
-  return *place;
-}
-
 } // namespace
 
 std::vector<std::uint8_t>
@@ -69,13 +62,13 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
   forPoints ([&] (Index p, const std::vector<Index>& fan, std::vector<float>& values) {
     for (const Index t : fan)
       values.push_back (radii[t]);
-    around[p] = atRank (values, std::min<std::size_t> (1, values.size () - 1));
+    around[p] = valueAtRank (values, std::min<std::size_t> (1, values.size () - 1));
   });
   forPoints ([&] (Index p, const std::vector<Index>& fan, std::vector<float>& values) {
     for (const Index t : fan)
       for (const Index q : view.triangles[t])
         values.push_back (around[q]);
-    typical[p] = atRank (values, values.size () / 2);
+    typical[p] = median (values);
   });
   std::vector<std::uint8_t> is_gap (radii.size (), 0);
   for (std::size_t t = 0; t < radii.size (); ++t) {

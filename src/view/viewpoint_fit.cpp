@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/viewpoint_fit.h"
 
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <Eigen/Cholesky>
@@ -103,13 +104,6 @@ public:
   }
 
 private:
-  static double median (std::vector<double>& values)
-  {
-    const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-    std::nth_element (values.begin (), middle, values.end ());
-    return *middle;
-  }
-
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<PairGroup>& groups_;
 };

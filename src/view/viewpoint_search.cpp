@@ -2,10 +2,11 @@
 #include "view/viewpoint_search.h"
 
 #include "core/geometry.h"
-#include "core/parallel.h"
+#include "view/area_evidence.h"
+#include "view/pattern_search.h"
+#include "view/row_evidence.h"
 #include "view/viewpoint_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -18,194 +19,14 @@ namespace floater
 {
 namespace
 {
-// A point and the area that it stands for.
-struct AreaSample
-{
-  Eigen::Vector3d position, normal;
-  double area;
-};
-
-struct Candidate
-{
-  double cost;
-  Viewpoint viewpoint;
-};
-
-std::vector<AreaSample>
-takeSamples (const Points& points, const LocalGeometry& geometry, std::size_t count)
-{
-  const std::vector<Eigen::Vector3d>& positions = points.positions;
-  const Stars& stars = geometry.stars;
-  std::vector<AreaSample> samples;
-  // Every second place is spare: open stars have no area.
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / (2 * count));
-  for (std::size_t p = step / 2; p < positions.size () && samples.size () < 2 * count; p += step) {
-    if (stars.open[p] != 0)
-      continue;
-    const Row star = stars.neighbors.row (p);
-    double area = 0.0;
-    for (std::size_t i = 0; i < star.size (); ++i)
-      area += (positions[star[i]] - positions[p])
-                  .cross (positions[star[(i + 1) % star.size ()]] - positions[p])
-                  .norm ();
-    if (area > 0.0)
-      samples.push_back ({positions[p], stars.normals[p].cast<double> (), area});
-  }
-  return samples;
-}
-
-// Logarithm of the ratio of the upper to the lower quartile.
-double
-quartileSpread (std::vector<double>& values)
-{
-  const auto quartile = [&values] (std::size_t quarters) {
-    const auto at = values.begin () + static_cast<std::ptrdiff_t> (values.size () * quarters / 4);
-    std::nth_element (values.begin (), at, values.end ());
-    return *at;
-  };
-  const double upper = quartile (3);
-  return std::log (upper / quartile (1));
-}
-
-struct RowEvidence
-{
-  double share = 0.0; // of points between their two nearest neighbors, which lie to opposite sides
-  Eigen::Vector3d across = Eigen::Vector3d::Zero (); // unit vector across the planes of the rows
-  bool are_straight = true;                          // all of them along one direction, so that
-                                                     // they do not tell their planes
-};
-
-RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
-{
-  constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
-  constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
-  const std::vector<Eigen::Vector3d>& positions = points.positions;
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
-  std::size_t looked_at = 0, in_rows = 0;
-  Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
-  for (std::size_t p = step / 2; p < positions.size (); p += step) {
-    const Row row = neighbors.row (p);
-    if (row.size () < 2)
-      continue;
-    const Eigen::Vector3d u = (positions[row[0]] - positions[p]).normalized ();
-    const Eigen::Vector3d v = (positions[row[1]] - positions[p]).normalized ();
-    ++looked_at;
-    if (u.dot (v) >= OPPOSITE)
-      continue;
-    ++in_rows;
-    along += (u - v) * (u - v).transpose ();
-  }
-  RowEvidence rows;
-  if (in_rows == 0)
-    return rows;
-  rows.share = static_cast<double> (in_rows) / static_cast<double> (looked_at);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes (along);
-  rows.across = axes.eigenvectors ().col (0);
-  rows.are_straight = axes.eigenvalues ()[1] < STRAIGHT * axes.eigenvalues ()[2];
-  return rows;
-}
-
-// Spread of the solid angles of the samples.
-double
-areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
-            std::vector<double>& angles)
-{
-  // Of points at grazing rays, normal and area are too uncertain to tell a smaller cosine.
-  constexpr double LEAST_COSINE = 0.02;
-  angles.clear ();
-  for (const AreaSample& sample : samples) {
-    const Eigen::Vector3d ray =
-        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (sample.position - viewpoint.place);
-    const double sqr_distance = ray.squaredNorm ();
-    const double cosine = std::abs (sample.normal.dot (ray)) / std::sqrt (sqr_distance);
-    angles.push_back (sample.area * std::max (cosine, LEAST_COSINE) / sqr_distance);
-  }
-  return quartileSpread (angles);
-}
-
-// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or turns the direction
-// of one that is far away; goes on in the direction of a move that lowered the cost; else halves
-// the step. Steps are relative to the distance from the middle of the cloud, if that is above 1.
-template <typename Cost>
-class PatternSearch
-{
-public:
-  PatternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost cost)
-      : middle_ (middle), left_ (most_evaluations), cost_ (std::move (cost))
-  {
-  }
-
-  Candidate run (const Viewpoint& start, double step, double smallest_step)
-  {
-    Candidate best{cost_ (start), start};
-    for (; step >= smallest_step && left_ > 0; step *= 0.5)
-      for (bool has_moved = true; has_moved && left_ > 0;) {
-        const Candidate before = best;
-        explore (best, step);
-        has_moved = best.cost < before.cost;
-        while (has_moved && left_ > 0) {
-          Candidate further = moved (best, best.viewpoint.place - before.viewpoint.place);
-          explore (further, step);
-          if (!(further.cost < best.cost))
-            break;
-          best = further;
-        }
-      }
-    return best;
-  }
-
-private:
-  Candidate moved (const Candidate& from, const Eigen::Vector3d& by)
-  {
-    Viewpoint viewpoint = from.viewpoint;
-    viewpoint.place += by;
-    if (viewpoint.is_far)
-      viewpoint.place.normalize ();
-    left_ -= left_ > 0 ? 1 : 0;
-    return {cost_ (viewpoint), viewpoint};
-  }
-
-  void explore (Candidate& at, double step)
-  {
-    const double unit =
-        at.viewpoint.is_far ? 1.0 : std::max (1.0, (at.viewpoint.place - middle_).norm ());
-    // Other axes each time: along a narrow valley of the cost, no axis may lead down.
-    axes_ = (axes_ * turn_).normalized ();
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double sign : {-1.0, 1.0}) {
-        if (left_ == 0)
-          return;
-        const Candidate tried =
-            moved (at, sign * step * unit * (axes_ * Eigen::Vector3d::Unit (axis)));
-        if (tried.cost < at.cost) {
-          at = tried;
-          break;
-        }
-      }
-  }
-
-  Eigen::Vector3d middle_;
-  std::size_t left_; // evaluations of the cost
-  Eigen::Quaterniond axes_ = Eigen::Quaterniond::Identity ();
-  Eigen::Quaterniond turn_{0.8, 0.2, 0.33, 0.46}; // by 74 degrees; nothing hangs on it
-  Cost cost_;
-};
-
-template <typename Cost>
-PatternSearch<Cost>
-patternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost cost)
-{
-  return {middle, most_evaluations, std::move (cost)};
-}
-
 class ViewpointSearch
 {
 public:
   ViewpointSearch (const Points& points, const LocalGeometry& geometry, const SearchLimits& limits,
                    const EvidenceLimits& evidence, const RunContext& run)
       : positions_ (points.positions), neighbors_ (geometry.neighbors), limits_ (limits),
-        evidence_ (evidence), run_ (run), samples_ (takeSamples (points, geometry, limits.samples))
+        evidence_ (evidence), run_ (run),
+        samples_ (takeAreaSamples (points, geometry, limits.samples))
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
@@ -261,26 +82,26 @@ public:
     const Eigen::Vector3d x = across.unitOrthogonal (), y = across.cross (x);
     const std::size_t count = limits_.row_directions;
     const double step = PI / static_cast<double> (count);
-    std::vector<Candidate> candidates;
+    std::vector<RatedViewpoint> candidates;
     for (std::size_t k = 0; k < count; ++k) {
       const double angle = step * static_cast<double> (k);
       candidates.push_back ({0.0, {std::cos (angle) * x + std::sin (angle) * y, true}});
     }
     // Whatever the direction, rays of a patch lead to points that are near each other.
     const std::vector<RayPatch> patches = nearbyPoints ();
-    for (Candidate& candidate : candidates)
+    for (RatedViewpoint& candidate : candidates)
       candidate.cost = costByRays (candidate.viewpoint, patches);
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     // Lines on a plane are as even from all directions: they do not tell any.
     if (candidates.front ().cost > evidence_.regularity * candidates[count / 2].cost)
       return {};
-    std::vector<Candidate> starts;
-    for (const Candidate& candidate : candidates)
+    std::vector<RatedViewpoint> starts;
+    for (const RatedViewpoint& candidate : candidates)
       if (starts.size () < limits_.by_rows && !isNear (candidate, starts, APART))
         starts.push_back (candidate);
     // Rays are spaced evenly from the right direction only; from others, less unevenly than around.
-    Candidate best{std::numeric_limits<double>::infinity (), {}};
-    for (const Candidate& start : starts) {
+    RatedViewpoint best{std::numeric_limits<double>::infinity (), {}};
+    for (const RatedViewpoint& start : starts) {
       if (const std::optional<Viewpoint> found = refine (start.viewpoint, step)) {
         const double cost =
             costByRays (*found, findRayPatches (positions_, *found, evidence_, run_));
@@ -297,9 +118,9 @@ public:
 
   std::optional<Viewpoint> find ()
   {
-    std::vector<Candidate> candidates;
-    for (const Candidate& start : bestStarts ()) {
-      const Candidate found =
+    std::vector<RatedViewpoint> candidates;
+    for (const RatedViewpoint& start : bestStarts ()) {
+      const RatedViewpoint found =
           patternSearch (box_.center (), limits_.area_evaluations, [this] (const Viewpoint& v) {
             return costByAreas (v);
           }).run (start.viewpoint, cell (), SMALLEST_AREA_STEP);
@@ -332,12 +153,15 @@ private:
   // Areas tell a place to about a hundredth of the bounding box; rays tell the rest.
   static constexpr double SMALLEST_AREA_STEP = 4e-3;
 
-  static bool isCheaper (const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
+  static bool isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
+  {
+    return a.cost < b.cost;
+  }
 
-  static bool isNear (const Candidate& candidate, const std::vector<Candidate>& others,
+  static bool isNear (const RatedViewpoint& candidate, const std::vector<RatedViewpoint>& others,
                       double distance)
   {
-    return std::any_of (others.begin (), others.end (), [&] (const Candidate& other) {
+    return std::any_of (others.begin (), others.end (), [&] (const RatedViewpoint& other) {
       return other.viewpoint.is_far == candidate.viewpoint.is_far &&
              (other.viewpoint.place - candidate.viewpoint.place).norm () < distance;
     });
@@ -350,12 +174,12 @@ private:
   }
 
   // The best places by areas, but for those around a better one.
-  std::vector<Candidate> bestStarts ()
+  std::vector<RatedViewpoint> bestStarts ()
   {
-    std::vector<Candidate> candidates = startingPlaces ();
+    std::vector<RatedViewpoint> candidates = startingPlaces ();
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    std::vector<Candidate> starts;
-    for (const Candidate& candidate : candidates) {
+    std::vector<RatedViewpoint> starts;
+    for (const RatedViewpoint& candidate : candidates) {
       if (starts.size () == limits_.starts)
         break;
       if (!isNear (candidate, starts, 2.0 * cell ()))
@@ -369,14 +193,14 @@ private:
     return areaSpread (samples_, viewpoint, angles_);
   }
 
-  void add (std::vector<Candidate>& candidates, const Viewpoint& viewpoint)
+  void add (std::vector<RatedViewpoint>& candidates, const Viewpoint& viewpoint)
   {
     candidates.push_back ({areaSpread (few_samples_, viewpoint, angles_), viewpoint});
   }
 
-  std::vector<Candidate> startingPlaces ()
+  std::vector<RatedViewpoint> startingPlaces ()
   {
-    std::vector<Candidate> candidates;
+    std::vector<RatedViewpoint> candidates;
     const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
     const auto cells = static_cast<double> (limits_.cells);
     const std::size_t n = limits_.cells;
@@ -388,7 +212,7 @@ private:
       add (candidates, {centre + offset.cwiseProduct (size), false});
     }
     // Farther away, on spheres around the box, the last of infinite radius.
-    const double golden_angle = M_PI * (3.0 - std::sqrt (5.0));
+    const double golden_angle = PI * (3.0 - std::sqrt (5.0));
     for (std::size_t i = 0; i < limits_.directions; ++i) {
       const double z =
           1.0 - (2.0 * static_cast<double> (i) + 1.0) / static_cast<double> (limits_.directions);

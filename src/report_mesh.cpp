@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report.h"
+#include "report_mesh.h"
+
+#include "report_text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace pcl
@@ -12,29 +15,10 @@ namespace floater
 namespace
 {
 // When to warn; nothing else hangs on these.
-constexpr double LONG_STEP = 8.0;          // spacings: of an edge of the boundary loop
-constexpr double SMALL_HOLE = 6.0;         // spacings: a wider hole may well be one of the surface
-constexpr std::size_t FEW_POINTS = 50;     // of a component, while ...
-constexpr std::size_t MANY_COINCIDE = 100; // of so many points one coincides with another
-constexpr std::size_t TINY_SHARE = 20;     // ... another one has this many times as many
-
-std::string
-place (const Points& points, Index p)
-{
-  std::ostringstream text;
-  text.precision (9); // tells all numbers of single precision apart
-  const Eigen::Vector3d at = points.inCloud (p);
-  text << "point " << points.cloud_index[p] << " (" << at.x () << ", " << at.y () << ", " << at.z ()
-       << ")";
-  return text.str ();
-}
-
-// "1 edge is", "2 edges are".
-std::string
-counted (std::size_t count, const char* one, const char* several)
-{
-  return std::to_string (count) + " " + (count == 1 ? one : several);
-}
+constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary loop
+constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
+constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
+constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
 
 // Far fewer points than the border of a disc as large as its component has, and not wide: 3.5 sqrt
 // (n) if that were round.
@@ -149,154 +133,6 @@ reportUnused (const Points& points, const MeshExamination& found, Report& report
                              " not connect to the rest of the surface");
 }
 
-} // namespace
-
-void
-reportPoints (const Points& points, Report& report)
-{
-  report.non_finite = points.non_finite;
-  report.duplicates = points.duplicates;
-  report.statistics.non_finite_points = points.non_finite.size ();
-  report.statistics.duplicate_points = points.duplicates.size ();
-  report.statistics.working_points = points.positions.size ();
-  const std::size_t coincident = points.duplicates.size ();
-  if (coincident > 0 && MANY_COINCIDE * coincident >= coincident + points.positions.size ())
-    report.warnings.push_back (counted (coincident, "point coincides", "points coincide") +
-                               " with another one, point " +
-                               std::to_string (points.duplicates.front ()[0]) + " with point " +
-                               std::to_string (points.duplicates.front ()[1]) +
-                               " among them: one point of each place is in the mesh; coordinates "
-                               "may have been rounded, or "
-                               "a cloud may be in the file twice");
-}
-
-namespace
-{
-// Adds points to the outliers, and a warning.
-void
-addOutliers (const std::vector<Index>& outliers, const std::string& what, Report& report)
-{
-  if (outliers.empty ())
-    return;
-  const bool is_one = outliers.size () == 1;
-  report.warnings.push_back (what + ", " + (is_one ? "point " : "among them point ") +
-                             std::to_string (outliers.front ()) + ": " +
-                             (is_one ? "it was" : "they were") + " left out");
-  std::vector<Index> all;
-  std::merge (report.outliers.begin (), report.outliers.end (), outliers.begin (), outliers.end (),
-              std::back_inserter (all));
-  report.outliers = std::move (all);
-  report.statistics.outlier_points = report.outliers.size ();
-}
-
-} // namespace
-
-Problem
-tooFarAway (Index cloud_index, const Eigen::Vector3d& position)
-{
-  std::ostringstream text;
-  text << "point " << cloud_index << " (" << position.x () << ", " << position.y () << ", "
-       << position.z ()
-       << ") is so far away that double precision cannot hold it together with the others: take "
-          "such points out of the cloud, or have outliers left out";
-  return {Status::DEGENERATE, text.str ()};
-}
-
-void
-reportGrossOutliers (const std::vector<Index>& outliers, Report& report)
-{
-  addOutliers (outliers,
-               counted (outliers.size (), "point is", "points are") +
-                   " over a thousand times as far away as all others",
-               report);
-}
-
-void
-reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report)
-{
-  report.statistics.working_points = working_points;
-  addOutliers (outliers,
-               counted (outliers.size (), "point lies", "points lie") + " off any surface", report);
-}
-
-void
-reportNoise (const Noise& noise, bool denoised, Report& report)
-{
-  report.statistics.noise = noise.median;
-  report.statistics.noise_quantile_90 = noise.quantile_90;
-  report.statistics.largest_noise = noise.largest;
-  report.statistics.projected_points = denoised ? noise.noisy_points : 0;
-  report.denoised = denoised;
-  if (denoised)
-    report.warnings.push_back (
-        counted (noise.noisy_points, "point is", "points are") + " noisy, by up to " +
-        std::to_string (noise.largest) + " local spacings (median of all points " +
-        std::to_string (noise.median) + ", 90 % below " + std::to_string (noise.quantile_90) +
-        "): they were connected by their places on the planes of the points around; the vertices "
-        "of the mesh are the points themselves");
-}
-
-void
-reportCoordinateGrid (const Points& points, const CoordinateGrid& grid, Report& report)
-{
-  report.statistics.coordinate_step = grid.spacings;
-  if (grid.spacings == 0.0)
-    return;
-  const std::size_t coincident = points.duplicates.size ();
-  std::ostringstream text;
-  text.precision (3);
-  text << "the coordinates are coarse: along "
-       << "xyz"[grid.axis] << " they are " << grid.step << " apart, " << grid.spacings
-       << " of the local spacing"
-       << (coincident > 0 ? ", and " + counted (coincident, "point coincides", "points coincide") +
-                                " with another"
-                          : "")
-       << ". "
-       << (grid.is_single_precision
-               ? "32-bit numbers have this step so far from the origin: subtract an origin before "
-                 "coordinates are stored in 32 bits; the tool's --shift does that for files in "
-                 "text or in double precision"
-               : "They were rounded when they were stored: store them with more digits");
-  report.warnings.push_back (text.str ());
-}
-
-void
-reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
-            Report& report)
-{
-  report.is_view = true;
-  report.is_far_view = viewpoint.is_far;
-  constexpr double ROUNDING = 1e-14; // of the scale, as a place is moved to the box and back
-  Eigen::Vector3d place = viewpoint.is_far
-                              ? viewpoint.place
-                              : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
-  place = (place.array ().abs () < ROUNDING * points.scale).select (0.0, place);
-  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = place;
-  report.statistics.view_steps = surface.steps;
-  report.statistics.view_gaps = surface.gaps;
-}
-
-void
-reportDoubtfulView (const Points& points, std::size_t unused, Report& report)
-{
-  report.warnings.push_back (std::to_string (unused) + " of " + std::to_string (points.size ()) +
-                             " points are in no triangle of the view: the sensor may not have been "
-                             "at the given viewpoint");
-}
-
-void
-reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report)
-{
-  std::vector<Index> outliers;
-  outliers.reserve (unused.size ());
-  for (const Index p : unused)
-    outliers.push_back (points.cloud_index[p]);
-  std::sort (outliers.begin (), outliers.end ());
-  reportOutliers (outliers, points.size () - unused.size (), report);
-}
-
-namespace
-{
 void
 reportBoundary (const Points& points, const Boundary& boundary, Report& report)
 {

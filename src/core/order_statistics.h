@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ranks in lists without order, and lists put in order.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The value that has `rank` others before it. O(n).
+/// \param[in,out] values more than `rank`; their order changes
+template <typename Value>
+Value
+valueAtRank (std::vector<Value>& values, std::size_t rank)
+{
+  const auto place = values.begin () + static_cast<std::ptrdiff_t> (rank);
+  std::nth_element (values.begin (), place, values.end ());
+  return *place;
+}
+
+/// The upper one of the two in the middle where their number is even. O(n).
+/// \param[in,out] values at least one; their order changes
+template <typename Value>
+Value
+median (std::vector<Value>& values)
+{
+  return valueAtRank (values, values.size () / 2);
+}
+
+/// The value above which a share of 1 - `share` lies. O(n).
+/// \param[in,out] values at least one; their order changes
+/// \param share 0 for the smallest, 1 for the largest
+template <typename Value>
+Value
+quantile (std::vector<Value>& values, double share)
+{
+  const auto rank = static_cast<std::size_t> (share * static_cast<double> (values.size ()));
+  return valueAtRank (values, std::min (rank, values.size () - 1));
+}
+
+/// Ascending, each value once. O(n log n).
+template <typename Value>
+void
+sortUnique (std::vector<Value>& values)
+{
+  std::sort (values.begin (), values.end ());
+  values.erase (std::unique (values.begin (), values.end ()), values.end ());
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "finished_mesh.h"
+
+#include "mesh/flips.h"
+#include "mesh/self_intersection_removal.h"
+#include "mesh/trimming.h"
+#include "report_mesh.h"
+
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Also looks for triangles that cross each other. Not for scans that are connected as their sensor
+// saw them: it would take a quarter of their time, and noise along the rays makes true surfaces
+// cross themselves, too.
+MeshExamination
+examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+                     const Request& request)
+{
+  MeshExamination found = examine (mesh, points, geometry, request);
+  checkCrossing (mesh.triangles, points, request.run, found);
+  return found;
+}
+
+} // namespace
+
+MeshExamination
+examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+         const Request& request)
+{
+  request.run.beginStage (Stage::CHECK);
+  return checkMesh (mesh.triangles, points, geometry.meshSpacing (), request.run,
+                    request.limits.check);
+}
+
+void
+uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
+         const Request& request, Statistics& statistics)
+{
+  const Options& options = request.options;
+  checkCrossing (mesh.triangles, points, request.run, found);
+  statistics.self_intersections_found = found.crossing.size ();
+  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty ())
+    return;
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  orientNormals (mesh, points.positions, normals, request.run);
+  const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
+                           request.limits.surface.finish.cost);
+  const Uncrossing done =
+      removeSelfIntersections (mesh, found.crossing, geometry.neighbors, cost, points.positions,
+                               request.limits.uncrossing, request.run);
+  statistics.self_intersection_flips = done.flips;
+  statistics.self_intersection_moves = done.moves;
+  if (done.flips + done.moves > 0)
+    found = examineWithCrossing (mesh, points, geometry, request);
+}
+
+Problem
+useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
+         const LocalGeometry& geometry, const Request& request, Result& result)
+{
+  Report& report = result.report;
+  Trimming trimming;
+  if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
+    trimming =
+        trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
+    std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
+    found = report.is_view ? examine (mesh, points, geometry, request)
+                           : examineWithCrossing (mesh, points, geometry, request);
+    found.unused = std::move (unused);
+    if (trimming.triangles > 0)
+      report.loop.clear ();
+  }
+  std::vector<Triangle> triangles = std::move (mesh.triangles);
+  mesh = {};
+  Problem problem = reportCheck (points, found, request.options, report);
+  if (!problem)
+    problem = reportTrimming (points, trimming, triangles.size (), report);
+  result.triangles = reportMesh (points, std::move (triangles), finish, report);
+  return problem;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The end of every way: the mesh is checked, triangles that cross each other are moved apart, what
+// is asked for is cut off, and the rest is reported.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "mesh/check.h"
+#include "mesh/finish.h"
+#include "points/points.h"
+#include "request.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+namespace pcl
+{
+namespace floater
+{
+/// The mesh as it is, on the user's own points, whatever the stages think that they made.
+MeshExamination
+examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+         const Request& request);
+
+/// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
+/// again.
+void
+uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
+         const Request& request, Statistics& statistics);
+
+/// Makes the result of a mesh.
+/// \return INTERNAL_ERROR if it is no oriented manifold, INVALID_OPTION if nothing is left of it
+Problem
+useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
+         const LocalGeometry& geometry, const Request& request, Result& result);
+
+} // namespace floater
+} // namespace pcl

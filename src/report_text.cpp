@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_text.h"
+
+#include <sstream>
+
+namespace pcl
+{
+namespace floater
+{
+std::string
+place (const Points& points, Index p)
+{
+  std::ostringstream text;
+  text.precision (9); // tells all numbers of single precision apart
+  const Eigen::Vector3d at = points.inCloud (p);
+  text << "point " << points.cloud_index[p] << " (" << at.x () << ", " << at.y () << ", " << at.z ()
+       << ")";
+  return text.str ();
+}
+
+std::string
+counted (std::size_t count, const char* one, const char* several)
+{
+  return std::to_string (count) + " " + (count == 1 ? one : several);
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Phrases that messages to the user are made of.
+#pragma once
+
+#include "core/types.h"
+#include "points/points.h"
+
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// "point 7 (1.5, 0, 2.25)": its cloud index and its place in the cloud.
+std::string
+place (const Points& points, Index p);
+
+/// "1 edge is", "2 edges are".
+std::string
+counted (std::size_t count, const char* one, const char* several);
+
+} // namespace floater
+} // namespace pcl

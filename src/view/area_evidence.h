@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How alike the solid angles of rays are, by the areas that points stand for.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "points/points.h"
+#include "view/rays.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// A point and the area that it stands for.
+struct AreaSample
+{
+  Eigen::Vector3d position, normal;
+  double area; ///< of its star, times six
+};
+
+/// Points that are spread evenly over the order of the points, at most `2 * count`; those with an
+/// open star are left out. O(count).
+std::vector<AreaSample>
+takeAreaSamples (const Points& points, const LocalGeometry& geometry, std::size_t count);
+
+/// Logarithm of the ratio of the upper to the lower quartile.
+/// \param[in,out] values at least one, all positive; their order changes
+double
+quartileSpread (std::vector<double>& values);
+
+/// Spread of the solid angles of the samples as seen from a viewpoint: area, times the cosine
+/// between normal and ray, over the squared distance.
+/// \param angles room for as many numbers as there are samples
+double
+areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
+            std::vector<double>& angles);
+
+} // namespace floater
+} // namespace pcl
