@@ -96,7 +96,7 @@ labelLoops (const HoleySurface& surface, std::uint64_t seed)
   std::vector<bool> found (surface.windows.size (), false);
   for (std::size_t i = 0; i < loops.size (); ++i) {
     LabelledLoop& one = loops[i];
-    one.sampling = surface.sampling;
+    one.source = nameOf (surface.sampling);
     one.seed = seed;
     if (i == static_cast<std::size_t> (widest - areas.begin ()))
       one.kind = LoopKind::BORDER;
@@ -116,6 +116,47 @@ labelLoops (const HoleySurface& surface, std::uint64_t seed)
   }
   labelled.lost_windows =
       static_cast<std::size_t> (std::count (found.begin (), found.end (), false));
+  return labelled;
+}
+
+LabelledLoops
+labelLoops (const SolidSurface& surface, std::uint64_t seed)
+{
+  LabelledLoops labelled;
+  std::vector<Index> cloud_index (surface.positions.size ());
+  std::iota (cloud_index.begin (), cloud_index.end (), Index{0});
+  const Points points = makePoints (surface.positions, cloud_index, 1);
+  TriangleMesh truth;
+  truth.triangles = surface.triangles;
+  if (!truth.connect (surface.positions.size (), 1))
+    return labelled;
+  const std::vector<BoundaryLoop> true_loops =
+      findBoundaryLoops (truth, findComponents (truth, 1), surface.positions,
+                         std::vector<float> (surface.positions.size (), 1.0F), 1);
+  std::vector<std::size_t> true_loop_of (surface.positions.size (), true_loops.size ());
+  for (std::size_t i = 0; i < true_loops.size (); ++i)
+    for (const Index p : true_loops[i].points)
+      true_loop_of[p] = i;
+  std::vector<bool> is_found (true_loops.size (), false);
+  for (LabelledLoop& one : findLoops (points)) {
+    std::vector<std::size_t> shared (true_loops.size () + 1, 0);
+    for (const Index p : one.loop.points)
+      ++shared[true_loop_of[points.cloud_index[p]]];
+    const std::size_t size = one.loop.points.size (), on_none = shared.back ();
+    const auto most = std::max_element (shared.begin (), shared.end () - 1);
+    const auto i = static_cast<std::size_t> (most - shared.begin ());
+    one.seed = seed;
+    one.source = "bodies";
+    if (i < true_loops.size () && 2 * *most >= size && 2 * *most >= true_loops[i].points.size ()) {
+      one.kind = LoopKind::WINDOW;
+      is_found[i] = true;
+    }
+    else if (5 * (size - on_none) >= size)
+      continue;
+    labelled.loops.push_back (std::move (one));
+  }
+  labelled.lost_windows =
+      static_cast<std::size_t> (std::count (is_found.begin (), is_found.end (), false));
   return labelled;
 }
 

@@ -5,7 +5,9 @@
 #include "holey_surfaces.h"
 #include "mesh/loop_evidence.h"
 #include "points/points.h"
+#include "solid_surface.h"
 
+#include <string>
 #include <vector>
 
 namespace pcl
@@ -26,7 +28,7 @@ struct LabelledLoop
   LoopEvidence evidence;
   std::size_t component_points = 0;
   bool largest_component = true;
-  Sampling sampling = Sampling::GRID;
+  std::string source;    ///< name of the sampling, or "bodies"
   bool even_rim = false; ///< of a window
   std::uint64_t seed = 0;
 };
@@ -46,6 +48,13 @@ findLoops (const Points& points);
 /// places of their points. Only those of the largest component.
 LabelledLoops
 labelLoops (const HoleySurface& surface, std::uint64_t seed);
+
+/// Makes the consensus mesh of the vertices of a surface, and tells its loops by those of the
+/// surface: a loop is a window, or a border, if it shares at least half of its points with a
+/// boundary loop of the surface, and has at least half of that loop's; it is a gap if less than a
+/// fifth of its points lie on any. Others are left out.
+LabelledLoops
+labelLoops (const SolidSurface& surface, std::uint64_t seed);
 
 } // namespace floater
 } // namespace pcl

@@ -15,6 +15,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <set>
 
 namespace
 {
@@ -75,6 +76,26 @@ collect (std::uint64_t first, std::size_t surfaces)
   return loops;
 }
 
+std::vector<LabelledLoop>
+collectOfSolids (std::uint64_t first, std::size_t count)
+{
+  std::vector<LabelledLoop> loops;
+  std::size_t surfaces = 0, lost = 0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const std::optional<SolidSurface> surface = makeSolidSurface (seed);
+    if (!surface)
+      continue;
+    LabelledLoops labelled = labelLoops (*surface, seed);
+    ++surfaces;
+    lost += labelled.lost_windows;
+    for (LabelledLoop& one : labelled.loops)
+      loops.push_back (std::move (one));
+  }
+  std::printf ("bodies: %zu surfaces, %zu of their boundary loops without a loop\n", surfaces,
+               lost);
+  return loops;
+}
+
 // One row of the table: of all loops that `belongs` holds for, how many the rule decides wrongly.
 void
 printRow (const std::string& what, const std::vector<LabelledLoop>& loops,
@@ -105,7 +126,7 @@ printSurfaces (const std::vector<LabelledLoop>& loops, const Rule& before, const
   for (const bool with_windows : {true, false}) {
     std::map<std::uint64_t, std::array<bool, 2>> wrong;
     for (const LabelledLoop& one : loops) {
-      if ((one.seed % 2 == 0) != with_windows)
+      if (one.source == "bodies" || (one.seed % 2 == 0) != with_windows)
         continue;
       const bool is_open = one.kind != LoopKind::GAP;
       std::array<bool, 2>& of_surface = wrong[one.seed];
@@ -143,15 +164,16 @@ printTable (const std::vector<LabelledLoop>& loops, const Rule& before, const Ru
           },
           before, now);
   }
-  for (std::size_t s = 0; s < static_cast<std::size_t> (Sampling::COUNT); ++s)
+  std::set<std::string> sources;
+  for (const LabelledLoop& one : loops)
+    sources.insert (one.source);
+  for (const std::string& source : sources)
     for (const LoopKind kind : {LoopKind::WINDOW, LoopKind::GAP}) {
-      const auto sampling = static_cast<Sampling> (s);
       printRow (
-          std::string (names[static_cast<std::size_t> (kind)]) + " from 4 spacings on, " +
-              nameOf (sampling),
+          std::string (names[static_cast<std::size_t> (kind)]) + " from 4 spacings on, " + source,
           loops,
           [&] (const LabelledLoop& one) {
-            return one.kind == kind && one.sampling == sampling && widthInSpacings (one) >= 4.0;
+            return one.kind == kind && one.source == source && widthInSpacings (one) >= 4.0;
           },
           before, now);
     }
@@ -215,10 +237,10 @@ void
 writeEvidence (const std::string& file, const std::vector<LabelledLoop>& loops)
 {
   std::ofstream out (file);
-  out << "seed kind sampling points width_spacings compactness irregularity growth turning "
+  out << "seed kind source points width_spacings compactness irregularity growth turning "
          "open_share depth\n";
   for (const LabelledLoop& one : loops)
-    out << one.seed << ' ' << static_cast<int> (one.kind) << ' ' << nameOf (one.sampling) << ' '
+    out << one.seed << ' ' << static_cast<int> (one.kind) << ' ' << one.source << ' '
         << one.loop.points.size () << ' ' << widthInSpacings (one) << ' '
         << one.evidence.compactness << ' ' << one.evidence.irregularity << ' '
         << one.evidence.growth << ' ' << one.evidence.turning << ' ' << one.evidence.open_share
@@ -236,10 +258,12 @@ main (int argc, char** argv)
       "Makes surfaces with windows and surfaces with gaps of the sampling, and prints how "
       "often the rule that keeps boundary loops open is wrong, and how often that of nine "
       "constants was, which it replaced. One surface takes about a third of a second.");
-  std::size_t surfaces = 1000;
+  std::size_t surfaces = 1000, bodies = 1000;
   bool is_fit = false;
   std::string evidence;
   app.add_option ("--surfaces", surfaces, "number of surfaces; every other one has windows")
+      ->capture_default_str ();
+  app.add_option ("--bodies", bodies, "number of random bodies, two thirds of which give a surface")
       ->capture_default_str ();
   app.add_flag ("--fit", is_fit,
                 "fit the coefficients, print them, and use them; to other surfaces than those on "
@@ -247,7 +271,10 @@ main (int argc, char** argv)
   app.add_option ("--evidence", evidence, "file for what was measured on each loop");
   CLI11_PARSE (app, argc, argv);
   try {
-    const std::vector<LabelledLoop> loops = collect (is_fit ? 0 : FIRST_TEST_SEED, surfaces);
+    const std::uint64_t first = is_fit ? 0 : FIRST_TEST_SEED;
+    std::vector<LabelledLoop> loops = collect (first, surfaces);
+    for (LabelledLoop& one : collectOfSolids (first, bodies))
+      loops.push_back (std::move (one));
     if (!evidence.empty ())
       writeEvidence (evidence, loops);
     printTable (loops, oldRule, newRule (is_fit ? fit (loops) : OpenLoopLimits{}));
