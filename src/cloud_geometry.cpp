@@ -25,6 +25,7 @@ starSettings (const Options& options, const Limits& limits)
   settings.reach_beyond =
       !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
   settings.limits = limits.sheets;
+  settings.reach = limits.reach;
   return settings;
 }
 

@@ -26,6 +26,7 @@ struct Limits
   NoiseLimits noise;
   PlaneLimits planes;
   SheetLimits sheets;
+  ReachLimits reach;
   SurfaceLimits surface;
   ViewLimits view;
   LoopLimits loop;

@@ -29,11 +29,10 @@ makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings&
   }
   std::optional<KdTree> own_tree;
   const KdTree& tree = known != nullptr ? *known : own_tree.emplace (positions, run);
-  const ReachLimits limits;
   const BesideLines beside = findBesideLines (positions, geometry.neighbors, geometry.spacing, tree,
-                                              planes.least_aspect, limits, run);
+                                              planes.least_aspect, settings.reach, run);
   appendRows (beside.neighbors, geometry.neighbors);
-  const BeyondNeighbors beyond{tree, geometry.spacing, beside, limits};
+  const BeyondNeighbors beyond{tree, geometry.spacing, beside, settings.reach};
   geometry.stars = makeStars (positions, geometry.neighbors,
                               fitTangentPlanes (positions, geometry.neighbors, run, planes),
                               settings, run, &beyond);

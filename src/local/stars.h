@@ -25,6 +25,7 @@ struct StarSettings
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
   StarKind kind = StarKind::DELAUNAY;
   bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
+  ReachLimits reach{};
   bool with_offsets = true;  ///< keep the neighbours' places in the plane: 16 bytes per entry
   SheetLimits limits{};
 };

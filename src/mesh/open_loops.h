@@ -17,19 +17,20 @@ namespace floater
 ///
 /// The coefficients are those of a logistic regression: the sum of evidence times coefficient is
 /// the logarithm of the odds that the loop is a boundary. They are fitted to the loops of generated
-/// surfaces: windows of 4 to 40 spacings, borders, and gaps, on ten shapes in thirteen samplings.
-/// `pcl_floater_open_loops --fit` makes them; without an option it prints the error rates on other
-/// surfaces than those. A gap that stays open counts as four windows that are filled.
+/// surfaces: windows of 4 to 40 spacings, borders, and gaps, on ten shapes in thirteen samplings,
+/// and on random bodies in four. `pcl_floater_open_loops --fit` makes them; without an option it
+/// prints the error rates on other surfaces than those. A gap that stays open counts as four
+/// windows that are filled.
 struct OpenLoopLimits
 {
   EmptySectorLimits sectors;
-  double constant = -9.33;
-  double points = 2.30;      ///< of the logarithm of the number of points
-  double compactness = 12.0; ///< of this and the others see LoopEvidence
-  double irregularity = -8.10;
-  double growth = -2.81;
-  double turning = 2.36;
-  double open_points = 0.358; ///< of the root of the number of points times the 4th power of
+  double constant = -12.8;
+  double points = 2.24;      ///< of the logarithm of the number of points
+  double compactness = 13.0; ///< of this and the others see LoopEvidence
+  double irregularity = -5.44;
+  double growth = -2.16;
+  double turning = 1.48;
+  double open_points = 0.550; ///< of the root of the number of points times the 4th power of
                               ///< open_share: long loops with hardly a point beyond
   double deepest_gap = 4.2;   ///< of LoopEvidence::depth times open_share, since a loop that sees
                               ///< points beyond is not empty. What is taken for a gap and deeper

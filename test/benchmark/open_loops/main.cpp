@@ -258,7 +258,7 @@ main (int argc, char** argv)
       "Makes surfaces with windows and surfaces with gaps of the sampling, and prints how "
       "often the rule that keeps boundary loops open is wrong, and how often that of nine "
       "constants was, which it replaced. One surface takes about a third of a second.");
-  std::size_t surfaces = 1000, bodies = 1000;
+  std::size_t surfaces = 1000, bodies = 500;
   bool is_fit = false;
   std::string evidence;
   app.add_option ("--surfaces", surfaces, "number of surfaces; every other one has windows")
