@@ -9,7 +9,6 @@
 #include "cloud_geometry.h"
 #include "finished_mesh.h"
 #include "input_cleaning.h"
-#include "mesh/flips.h"
 #include "mesh/mesh_spacing.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
@@ -30,10 +29,6 @@ namespace floater
 {
 namespace
 {
-// Points up to which the disc method makes a surface that is a disc, too, if that came out with
-// folds; above, it would take more than a second and half a GB.
-constexpr std::size_t LARGEST_SECOND_TRY = 300'000;
-
 DiscSettings
 discSettings (const Options& options, const Limits& limits)
 {
@@ -98,21 +93,6 @@ checkDisc (const MeshExamination& found, std::vector<Index> loop)
                             "please report this with the cloud"};
 }
 
-double
-costOf (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-        const RunContext& run)
-{
-  std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
-  orientNormals (mesh, points.positions, normals, run);
-  return meshCost (mesh, TriangleCost (points.positions, normals, &geometry.meshSpacing ()), run);
-}
-
-std::size_t
-countFlaws (const MeshExamination& found)
-{
-  return found.check.folds + found.unused.size ();
-}
-
 Problem
 reconstructDisc (const Points& points, LocalGeometry geometry, const Request& request,
                  Result& result)
@@ -132,30 +112,6 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
-// Topology::AUTO: where the surface is one disc but came out with folds or without points, and is
-// not too large, the disc method makes it, too. That one is taken if it has fewer of these, and is
-// the smoother one.
-// \return whether it was taken
-bool
-tryDisc (const Points& points, LocalGeometry& geometry, const TriangleMesh& surface,
-         const MeshExamination& of_surface, const Request& request, Disc& disc,
-         MeshExamination& of_disc)
-{
-  const RunContext& run = request.run;
-  run.setMethod (Topology::DISC);
-  run.beginStage (Stage::STARS);
-  geometry.stars =
-      makeStars (points.workingPositions (), geometry.neighbors, geometry.stars.normals,
-                 discSettings (request.options, request.limits).stars, run);
-  disc = layOutDisc (points, geometry, request);
-  if (disc.problem)
-    return false;
-  of_disc = examine (disc.mesh, points, geometry, request);
-  return !checkDisc (of_disc, disc.boundary.loop) &&
-         countFlaws (of_disc) < countFlaws (of_surface) &&
-         costOf (disc.mesh, points, geometry, run) < costOf (surface, points, geometry, run);
-}
-
 Problem
 reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
                     Result& result)
@@ -165,20 +121,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   Surface surface = makeSurface (
       points, geometry, {options.holes, options.flip_edges, request.limits.surface}, request.run);
   reportOrientationSeam (points, surface.orientation_seam, report);
-  // Folds of projected points come from their noise, whatever the method.
-  const bool may_be_disc = options.topology == Topology::AUTO && points.projected.empty () &&
-                           points.size () <= LARGEST_SECOND_TRY;
   MeshExamination found = examine (surface.mesh, points, geometry, request);
-  Disc disc;
-  MeshExamination of_disc;
-  if (may_be_disc && found.isManifold () && found.isDisc () && countFlaws (found) > 0 &&
-      tryDisc (points, geometry, surface.mesh, found, request, disc, of_disc)) {
-    report.topology = Topology::DISC;
-    report.topology_reason = "one disc, laid out with fewer folds than by stars alone";
-    reportDisc (points, disc, report);
-    uncross (disc.mesh, of_disc, points, geometry, request, report.statistics);
-    return useMesh (std::move (disc.mesh), disc.finish, of_disc, points, geometry, request, result);
-  }
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
   uncross (surface.mesh, found, points, geometry, request, report.statistics);

@@ -35,23 +35,6 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
 }
 
 double
-meshCost (const TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
-{
-  CachedCost cached (cost);
-  double sum = 0.0;
-  ProgressLoop progress (run, mesh.triangles.size ());
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    progress.next ();
-    const TriangleCost::Value value = cached (mesh.triangles[t]);
-    sum += value.cost;
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
-        sum += cost.ofEdge (value.unit_normal, normalAcross (mesh, cached, {t, side}));
-  }
-  return sum;
-}
-
-double
 splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double limit)
 {
   const auto [a, b, c] = mesh.triangles[t];

@@ -27,10 +27,6 @@ normalAcross (const TriangleMesh& mesh, CachedCost& cost, MeshEdge e)
                        : cost (mesh.triangles[other]).unit_normal;
 }
 
-/// Cost of all triangles and edges of a mesh. O(n).
-double
-meshCost (const TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);
-
 /// Cost that the split of triangle t at point p would add, with that of the edges. If it is above
 /// the limit, the result may be any value above the limit.
 double

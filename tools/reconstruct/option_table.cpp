@@ -117,8 +117,8 @@ addTopology (CLI::App& app, Options& options)
 {
   const std::string surface = "Surface";
   addChoice (app, "--topology", options.topology, TOPOLOGY_CHOICES,
-             "what the points are taken for: a disc (one component\nwith one boundary loop), any "
-             "surface, or whichever\ngives the better mesh",
+             "what the points are taken for: a disc (one component\nwith one boundary loop) or any "
+             "surface; auto: a disc\nif the boundary loop is given, else any surface",
              surface);
   addChoice (
       app, "--holes", options.holes.policy, HOLE_CHOICES,

@@ -45,9 +45,7 @@ namespace pcl
  *
  * The view method is used where the spacing of the points tells that they are one scan (see
  * setViewUse()), or if the viewpoint is given. The disc method is used for Topology::DISC and where
- * the boundary loop is given. With Topology::AUTO, a surface of up to 300,000 points that comes out
- * as one disc, but with folds or with points left over, is made by both methods, and the better
- * mesh is taken. getReport() tells which method made the mesh, and why.
+ * the boundary loop is given. getReport() tells which method made the mesh, and why.
  *
  * After the first two methods, points without a triangle are inserted, edges are flipped in space,
  * folds are repaired, and every component is turned to face outwards.

@@ -22,7 +22,7 @@ namespace floater
 /// The kind of surface that the points are taken for. It decides which method makes the mesh.
 enum class Topology
 {
-  AUTO,   ///< SURFACE; a single disc that has folds is also made as DISC, and the better mesh taken
+  AUTO,   ///< DISC if the boundary loop is given, else SURFACE
   DISC,   ///< one component with one boundary loop, laid out in the plane; all holes are closed
   SURFACE ///< any number of components, boundary loops and handles, by the consensus of the stars
 };
