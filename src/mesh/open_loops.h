@@ -24,15 +24,15 @@ namespace floater
 struct OpenLoopLimits
 {
   EmptySectorLimits sectors;
-  double constant = -12.8;
-  double points = 2.24;      ///< of the logarithm of the number of points
-  double compactness = 13.0; ///< of this and the others see LoopEvidence
-  double irregularity = -5.44;
-  double growth = -2.16;
-  double turning = 1.48;
-  double open_points = 0.550; ///< of the root of the number of points times the 4th power of
+  double constant = -12.6;
+  double points = 2.19;      ///< of the logarithm of the number of points
+  double compactness = 12.9; ///< of this and the others see LoopEvidence
+  double irregularity = -5.35;
+  double growth = -2.06;
+  double turning = 1.54;
+  double open_points = 0.599; ///< of the root of the number of points times the 4th power of
                               ///< open_share: long loops with hardly a point beyond
-  double deepest_gap = 4.2;   ///< of LoopEvidence::depth times open_share, since a loop that sees
+  double deepest_gap = 1.94;  ///< of LoopEvidence::depth times open_share, since a loop that sees
                               ///< points beyond is not empty. What is taken for a gap and deeper
                               ///< stays open by the automatic policy. Measured: fewer than 1 in 200
                               ///< generated gaps from 4 spacings on are deeper
