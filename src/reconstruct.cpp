@@ -33,15 +33,29 @@ namespace
 // folds; above, it would take more than a second and half a GB.
 constexpr std::size_t LARGEST_SECOND_TRY = 300'000;
 
-DiscSettings
-discSettings (const Options& options, const Limits& limits)
+// A sensor at the origin of the cloud is one that nobody told.
+FacingHints
+facingHints (const Points& points, const Request& request)
 {
+  const Eigen::Map<const Eigen::Vector3d> sensor (request.sensor_origin.data ());
+  FacingHints hints;
+  if (request.options.view.use != ViewUse::NEVER && !sensor.isZero (0.0) && sensor.allFinite ())
+    hints.sensor = (sensor - points.centre) / points.scale;
+  return hints;
+}
+
+DiscSettings
+discSettings (const Points& points, const Request& request)
+{
+  const Options& options = request.options;
+  const Limits& limits = request.limits;
   DiscSettings settings;
   settings.neighborhood = options.neighbors.kind;
   settings.stars.filter_sheets = options.filter_sheets;
   settings.stars.limits = limits.sheets;
   settings.parameterization = {options.weighting, options.domain, options.solver};
   settings.flip_edges = options.flip_edges;
+  settings.facing = facingHints (points, request);
   settings.limits = limits.disc;
   settings.finish = limits.surface.finish;
   return settings;
@@ -73,8 +87,8 @@ layOutDisc (const Points& points, LocalGeometry& geometry, const Request& reques
     none.boundary = std::move (boundary);
     return none;
   }
-  return makeDisc (points, geometry, std::move (boundary),
-                   discSettings (request.options, request.limits), request.run);
+  return makeDisc (points, geometry, std::move (boundary), discSettings (points, request),
+                   request.run);
 }
 
 // The mesh as it is, on the user's own points, whatever the stages think that they made.
@@ -181,6 +195,8 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   Problem problem = reportCheck (points, found, request.options, report);
   if (!problem)
     problem = reportTrimming (points, trimming, triangles.size (), report);
+  if (!problem)
+    reportFacing (points, finish.facing, report);
   result.triangles = reportMesh (points, std::move (triangles), finish, report);
   return problem;
 }
@@ -216,9 +232,8 @@ tryDisc (const Points& points, LocalGeometry& geometry, const TriangleMesh& surf
   const RunContext& run = request.run;
   run.setMethod (Topology::DISC);
   run.beginStage (Stage::STARS);
-  geometry.stars =
-      makeStars (points.workingPositions (), geometry.neighbors, geometry.stars.normals,
-                 discSettings (request.options, request.limits).stars, run);
+  geometry.stars = makeStars (points.workingPositions (), geometry.neighbors,
+                              geometry.stars.normals, discSettings (points, request).stars, run);
   disc = layOutDisc (points, geometry, request);
   if (disc.problem)
     return false;
@@ -235,7 +250,9 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   const Options& options = request.options;
   Report& report = result.report;
   Surface surface = makeSurface (
-      points, geometry, {options.holes, options.flip_edges, request.limits.surface}, request.run);
+      points, geometry,
+      {options.holes, options.flip_edges, request.limits.surface, facingHints (points, request)},
+      request.run);
   reportOrientationSeam (points, surface.orientation_seam, report);
   // Folds of projected points come from their noise, whatever the method.
   const bool may_be_disc = options.topology == Topology::AUTO && points.projected.empty () &&
@@ -421,7 +438,7 @@ reconstruct (Input input, const Options& options, const Limits& limits)
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
-    problem = reconstructAny (input, {options, limits, run}, result);
+    problem = reconstructAny (input, {options, limits, run, input.sensor_origin}, result);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report))
         result.report.warnings.push_back (std::move (unused));
