@@ -80,6 +80,8 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   Problem problem = reportCheck (points, found, request.options, report);
   if (!problem)
     problem = reportTrimming (points, trimming, triangles.size (), report);
+  if (!problem)
+    reportFacing (points, finish.facing, report);
   result.triangles = reportMesh (points, std::move (triangles), finish, report);
   return problem;
 }

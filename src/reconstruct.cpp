@@ -29,15 +29,29 @@ namespace floater
 {
 namespace
 {
-DiscSettings
-discSettings (const Options& options, const Limits& limits)
+// A sensor at the origin of the cloud is one that nobody told.
+FacingHints
+facingHints (const Points& points, const Request& request)
 {
+  const Eigen::Map<const Eigen::Vector3d> sensor (request.sensor_origin.data ());
+  FacingHints hints;
+  if (request.options.view.use != ViewUse::NEVER && !sensor.isZero (0.0) && sensor.allFinite ())
+    hints.sensor = (sensor - points.centre) / points.scale;
+  return hints;
+}
+
+DiscSettings
+discSettings (const Points& points, const Request& request)
+{
+  const Options& options = request.options;
+  const Limits& limits = request.limits;
   DiscSettings settings;
   settings.neighborhood = options.neighbors.kind;
   settings.stars.filter_sheets = options.filter_sheets;
   settings.stars.limits = limits.sheets;
   settings.parameterization = {options.weighting, options.domain, options.solver};
   settings.flip_edges = options.flip_edges;
+  settings.facing = facingHints (points, request);
   settings.limits = limits.disc;
   settings.finish = limits.surface.finish;
   return settings;
@@ -69,8 +83,8 @@ layOutDisc (const Points& points, LocalGeometry& geometry, const Request& reques
     none.boundary = std::move (boundary);
     return none;
   }
-  return makeDisc (points, geometry, std::move (boundary),
-                   discSettings (request.options, request.limits), request.run);
+  return makeDisc (points, geometry, std::move (boundary), discSettings (points, request),
+                   request.run);
 }
 
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
@@ -119,7 +133,9 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   const Options& options = request.options;
   Report& report = result.report;
   Surface surface = makeSurface (
-      points, geometry, {options.holes, options.flip_edges, request.limits.surface}, request.run);
+      points, geometry,
+      {options.holes, options.flip_edges, request.limits.surface, facingHints (points, request)},
+      request.run);
   reportOrientationSeam (points, surface.orientation_seam, report);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
@@ -292,7 +308,7 @@ reconstruct (Input input, const Options& options, const Limits& limits)
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
-    problem = reconstructAny (input, {options, limits, run}, result);
+    problem = reconstructAny (input, {options, limits, run, input.sensor_origin}, result);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report))
         result.report.warnings.push_back (std::move (unused));

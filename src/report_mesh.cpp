@@ -19,6 +19,8 @@ constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary l
 constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
 constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
 constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
+constexpr double SURE_FACING = 0.9;    // certainty; told to the user below
+constexpr double GUESSED_FACING = 0.6; // certainty; a warning below
 
 // Far fewer points than the border of a disc as large as its component has, and not wide: 3.5 sqrt
 // (n) if that were round.
@@ -185,7 +187,7 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
     return;
   const Eigen::Vector2d nowhere =
       Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
-  const Eigen::Array2d mirror (1.0, disc.finish.turned > 0 ? -1.0 : 1.0);
+  const Eigen::Array2d mirror (1.0, disc.finish.facing.turned > 0 ? -1.0 : 1.0);
   report.parameters.assign (report.statistics.cloud_points, nowhere);
   for (Index p = 0; p < points.cloud_index.size (); ++p)
     report.parameters[points.cloud_index[p]] = parameterization.uv[p].array () * mirror;
@@ -241,6 +243,35 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
        << " local spacings) around " << place (points, widest->points.front ())
        << ": triangles across would be a lid; the hole policy decides what is closed";
   report.warnings.push_back (text.str ());
+}
+
+void
+reportFacing (const Points& points, const Facing& facing, Report& report)
+{
+  std::size_t guessed = 0, triangles = 0;
+  const FacingObject* largest = nullptr;
+  for (const FacingObject& object : facing.objects)
+    triangles += object.triangles;
+  for (const FacingObject& object : facing.objects) {
+    report.facing_certainty = std::min (report.facing_certainty, object.certainty);
+    if (object.certainty >= SURE_FACING)
+      continue;
+    report.facing_decisions.push_back (
+        {object.triangles, points.cloud_index[object.at], object.rule, object.certainty});
+    if (object.certainty >= GUESSED_FACING || TINY_SHARE * object.triangles < triangles)
+      continue;
+    ++guessed;
+    if (largest == nullptr || object.triangles > largest->triangles)
+      largest = &object;
+  }
+  std::stable_sort (
+      report.facing_decisions.begin (), report.facing_decisions.end (),
+      [] (const FacingDecision& a, const FacingDecision& b) { return a.certainty < b.certainty; });
+  if (guessed > 0)
+    report.warnings.push_back (
+        "which side is the front of " + counted (guessed, "part", "parts") +
+        " of the mesh is a guess, the largest at " + place (points, largest->at) +
+        ": it may be a body or a sheet; the place of the sensor would tell, if it is one scan");
 }
 
 std::vector<Triangle>

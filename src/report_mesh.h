@@ -33,6 +33,11 @@ reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, 
 void
 reportLoops (const Points& points, const Surface& surface, Report& report);
 
+/// How sure it is which side of each part of the mesh is its front, and a warning where that is a
+/// guess.
+void
+reportFacing (const Points& points, const Facing& facing, Report& report);
+
 /// Triangles from working set to cloud indices, and counts.
 std::vector<Triangle>
 reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFinish& finish,

@@ -5,6 +5,8 @@
 #include "core/run_context.h"
 #include "stage_limits.h"
 
+#include <array>
+
 namespace pcl
 {
 namespace floater
@@ -14,6 +16,7 @@ struct Request
   const Options& options;
   const Limits& limits;
   const RunContext& run;
+  std::array<double, 3> sensor_origin{}; ///< as in Input
 };
 
 /// Whether the disc method is asked for.

@@ -29,6 +29,7 @@ struct SurfaceSettings
   HoleOptions holes = {};
   bool flip_edges = true; ///< flip edges and repair folds
   SurfaceLimits limits = {};
+  FacingHints facing = {};
 };
 
 /// A boundary loop of the consensus mesh, kept open or filled, and what is thought of it.

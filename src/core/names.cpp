@@ -79,5 +79,23 @@ statusName (Status status)
   return "UNKNOWN";
 }
 
+const char*
+facingRuleName (FacingRule rule)
+{
+  switch (rule) {
+  case FacingRule::CLOSED:
+    return "closed";
+  case FacingRule::HOLLOW:
+    return "hollow";
+  case FacingRule::SENSOR:
+    return "sensor";
+  case FacingRule::BODY:
+    return "body";
+  case FacingRule::SHEET:
+    return "sheet";
+  }
+  return "unknown";
+}
+
 } // namespace floater
 } // namespace pcl

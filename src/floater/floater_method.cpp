@@ -69,9 +69,10 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Beyond TW 385: points without a triangle, as those that coincide in the plane, are inserted,
   // and edges are flipped in space.
   run.beginStage (Stage::FLIPS);
-  disc.finish =
-      finishMesh (disc.mesh, points.positions, geometry,
-                  {settings.flip_edges, settings.limits.largest_fold_share, settings.finish}, run);
+  disc.finish = finishMesh (
+      disc.mesh, points.positions, geometry,
+      {settings.flip_edges, settings.limits.largest_fold_share, settings.finish, settings.facing},
+      run);
   if (!disc.finish.is_repairable)
     disc.problem = describeFolds (disc);
   return disc;

@@ -19,6 +19,7 @@ struct DiscSettings
   bool flip_edges = true; ///< flip edges in space at the end, and repair folds
   DiscLimits limits{};
   FinishLimits finish{};
+  FacingHints facing{};
 };
 
 /// The mesh of a disc and how it came about, or why there is none.

@@ -74,6 +74,24 @@ public:
     });
   }
 
+  /// Calls visit (j) for all boxes j that a ray meets, in no order of distance, until it returns
+  /// true. O(log n) for boxes that hardly overlap.
+  /// \param direction not zero, any length
+  template <typename Visit>
+  void forAlongRay (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                    Visit&& visit) const
+  {
+    const Ray ray (origin, direction);
+    forNodes ([&] (const Box& box) { return ray.meets (box.low, box.high); },
+              [&] (std::size_t leaf) {
+                const Leaf::Hits is_hit = leaves_[leaf].along (ray);
+                for (std::size_t m = 0; m < LEAF_SIZE; ++m)
+                  if (is_hit[m] != 0 && visit (leaf * LEAF_SIZE + m))
+                    return true;
+                return false;
+              });
+  }
+
   /// Replaces box i. Nodes around it only grow: after many changes far apart, searches are slower.
   void set (std::size_t i, const Eigen::AlignedBox3d& exact)
   {
@@ -110,6 +128,35 @@ private:
     }
   };
 
+  // A ray, and which planes of a box it meets first.
+  struct Ray
+  {
+    Ray (const Eigen::Vector3d& from, const Eigen::Vector3d& direction) : origin (from)
+    {
+      constexpr double NOT_ZERO = 1e-300; // so that no infinity is multiplied by zero
+      for (int axis = 0; axis < 3; ++axis) {
+        const double d = direction[axis];
+        inverse[axis] = 1.0 / (std::abs (d) < NOT_ZERO ? NOT_ZERO : d);
+      }
+    }
+
+    bool meets (const std::array<float, 3>& low, const std::array<float, 3>& high) const
+    {
+      double begin = 0.0, end = std::numeric_limits<double>::infinity ();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<Eigen::Index> (axis);
+        const bool ascends = inverse[a] > 0.0;
+        const double first = static_cast<double> (ascends ? low[axis] : high[axis]);
+        const double last = static_cast<double> (ascends ? high[axis] : low[axis]);
+        begin = std::max (begin, (first - origin[a]) * inverse[a]);
+        end = std::min (end, (last - origin[a]) * inverse[a]);
+      }
+      return begin <= end;
+    }
+
+    Eigen::Vector3d origin, inverse;
+  };
+
   // Some boxes, coordinate by coordinate, so that one box is compared with all of them at once.
   struct Leaf
   {
@@ -143,11 +190,44 @@ private:
                     static_cast<int> (box.low[2] <= high[2][k]);
       return is_hit;
     }
+
+    Hits along (const Ray& ray) const
+    {
+      std::array<double, LEAF_SIZE> begin{}, end;
+      end.fill (std::numeric_limits<double>::infinity ());
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double origin = ray.origin[static_cast<Eigen::Index> (axis)];
+        const double inverse = ray.inverse[static_cast<Eigen::Index> (axis)];
+        const Row& first = inverse > 0.0 ? low[axis] : high[axis];
+        const Row& last = inverse > 0.0 ? high[axis] : low[axis];
+        for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
+          begin[k] = std::max (begin[k], (static_cast<double> (first[k]) - origin) * inverse);
+          end[k] = std::min (end[k], (static_cast<double> (last[k]) - origin) * inverse);
+        }
+      }
+      Hits is_hit;
+      for (std::size_t k = 0; k < LEAF_SIZE; ++k)
+        is_hit[k] = begin[k] <= end[k] ? 1 : 0;
+      return is_hit;
+    }
   };
 
   // Calls visit for the leaves that overlap a box, from some leaf on.
   template <typename Visit>
   void forLeaves (const Box& box, std::size_t first, Visit&& visit) const
+  {
+    forNodes ([&box] (const Box& node) { return box.overlaps (node); },
+              [&visit] (std::size_t leaf) {
+                visit (leaf);
+                return false;
+              },
+              first);
+  }
+
+  // Calls visit for the leaves from some leaf on whose boxes and those around them are met, in
+  // ascending order, until it returns true.
+  template <typename IsMet, typename Visit>
+  void forNodes (IsMet&& is_met, Visit&& visit, std::size_t first = 0) const
   {
     struct Node
     {
@@ -162,10 +242,11 @@ private:
       const Node node = stack[--left];
       // All leaves below it are before the first one, or it is elsewhere.
       if (((node.index + 1) << (LOG_FAN * node.level)) <= first ||
-          !box.overlaps (levels_[node.level][node.index]))
+          !is_met (levels_[node.level][node.index]))
         continue;
       if (node.level == 0) {
-        visit (node.index);
+        if (visit (node.index))
+          return;
         continue;
       }
       const std::size_t begin = node.index * FAN;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/facing.h"
 
-#include "core/geometry.h"
-
-#include <Eigen/Geometry>
+#include "mesh/facing_objects.h"
+#include "mesh/visibility.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -16,56 +14,7 @@ namespace floater
 {
 namespace
 {
-// Sums over the triangles of a component.
-struct Component
-{
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero ();
-  Eigen::Vector3d area_vector = Eigen::Vector3d::Zero ();
-  double area = 0.0;   // doubled
-  double volume = 0.0; // six times that of the tetrahedra from the centroid to the triangles
-  double largest_volume = 0.0; // the same if all triangles faced straight away from the centroid
-  bool is_closed = true;
-};
-
-Eigen::Vector3d
-sumOfCorners (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
-{
-  return positions[t[0]] + positions[t[1]] + positions[t[2]];
-}
-
-std::vector<Component>
-measureComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const MeshComponents& found, const RunContext& run)
-{
-  std::vector<Component> components (found.count);
-  ProgressLoop progress (run);
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    progress.next ();
-    Component& component = components[found.of_triangle[t]];
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Eigen::Vector3d area_vector = areaVector (positions[a], positions[b], positions[c]);
-    const double area = area_vector.norm ();
-    component.centroid += area / 3.0 * sumOfCorners (mesh.triangles[t], positions);
-    component.area_vector += area_vector;
-    component.area += area;
-    for (const Index u : mesh.neighbors[t])
-      component.is_closed = component.is_closed && u != NONE;
-  }
-  for (Component& component : components)
-    if (component.area > 0.0)
-      component.centroid /= component.area;
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    progress.next ();
-    Component& component = components[found.of_triangle[t]];
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Eigen::Vector3d area_vector = areaVector (positions[a], positions[b], positions[c]);
-    const Eigen::Vector3d away =
-        sumOfCorners (mesh.triangles[t], positions) / 3.0 - component.centroid;
-    component.volume += away.dot (area_vector);
-    component.largest_volume += away.norm () * area_vector.norm ();
-  }
-  return components;
-}
+using Positions = std::vector<Eigen::Vector3d>;
 
 bool
 facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
@@ -77,31 +26,300 @@ facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
   return normal.x () < 0.0;
 }
 
-bool
-facesInwards (const Component& component, const FacingLimits& limits)
+// How sure a decision is whose evidence is this many times as large as that against it, 1 or more.
+// A factor of two makes 0.9.
+double
+certaintyOf (double factor)
 {
-  if (component.is_closed ||
-      std::abs (component.volume) >= limits.inside_share * component.largest_volume)
-    return component.volume < 0.0;
-  return facesDown (component.area_vector, limits);
+  const double cube = factor * factor * factor;
+  return cube / (1.0 + cube);
 }
+
+// Decides on one object after the other.
+class FacingJudge
+{
+public:
+  FacingJudge (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& found,
+               const FacingObjects& objects, const FacingLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), limits_ (limits),
+        run_ (run), judged_ (objects.sums.size ()), is_turned_ (objects.sums.size (), 0)
+  {
+  }
+
+  void judge (const std::optional<Eigen::Vector3d>& sensor)
+  {
+    const bool is_scan = sensor && isSeenFrom (*sensor);
+    std::vector<Index> open;
+    for (Index o = 0; o < judged_.size (); ++o) {
+      const FacingSums& sums = objects_.sums[o];
+      FacingObject& object = judged_[o];
+      object.triangles = sums.triangles;
+      object.at = sums.at;
+      object.mean_normal = sums.meanNormal ();
+      if (sums.is_closed)
+        decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
+      else if (is_scan && std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
+        decide (o, FacingRule::SENSOR, sums.seen < 0.0,
+                0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
+      // The back sees at least as much of the outside as the mean normal is long: whatever light
+      // comes in through the lid of the boundary loops, falls on it.
+      else if (object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
+        decide (o, FacingRule::SHEET, facesDown (sums.area_vector, limits_), 1.0);
+      else
+        open.push_back (o);
+    }
+    judgeOpen (open);
+    judgeNested ();
+  }
+
+  const std::vector<FacingObject>& objects () const { return judged_; }
+  bool isTurned (Index object) const { return is_turned_[object] != 0; }
+
+private:
+  void decide (Index o, FacingRule rule, bool is_turned, double certainty)
+  {
+    judged_[o].rule = rule;
+    judged_[o].certainty = certainty;
+    is_turned_[o] = is_turned ? 1 : 0;
+  }
+
+  Index objectOf (Index triangle) const
+  {
+    return objects_.of_component[found_.of_triangle[triangle]];
+  }
+
+  std::size_t countLines (Index o) const
+  {
+    return std::clamp (objects_.sums[o].triangles / limits_.triangles_per_line,
+                       limits_.fewest_lines, limits_.lines);
+  }
+
+  // Lines through these objects, towards the front of the object.
+  std::vector<SightLine> linesThrough (const std::vector<Index>& objects) const
+  {
+    std::vector<std::optional<SightLineSampler>> samplers (judged_.size ());
+    for (const Index o : objects)
+      samplers[o].emplace (objects_.sums[o].area, countLines (o));
+    std::vector<SightLine> lines;
+    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+      const Index component = found_.of_triangle[t];
+      std::optional<SightLineSampler>& sampler = samplers[objects_.of_component[component]];
+      if (!sampler)
+        continue;
+      const Eigen::Vector3d normal = areaVectorOf (mesh_.triangles[t], positions_);
+      const double area = normal.norm ();
+      if (area > 0.0)
+        sampler->add (t, area, middleOf (mesh_.triangles[t], positions_),
+                      objects_.sign (component) / area * normal, lines);
+    }
+    return lines;
+  }
+
+  // Whether nothing hides most of the mesh from the sensor.
+  bool isSeenFrom (const Eigen::Vector3d& sensor)
+  {
+    double area = 0.0;
+    for (const FacingSums& sums : objects_.sums)
+      area += sums.area;
+    SightLineSampler sampler (area, limits_.lines);
+    std::vector<SightLine> lines;
+    for (Index t = 0; t < mesh_.triangles.size (); ++t)
+      sampler.add (t, areaVectorOf (mesh_.triangles[t], positions_).norm (),
+                   middleOf (mesh_.triangles[t], positions_), Eigen::Vector3d::UnitZ (), lines);
+    std::size_t free = 0;
+    for (const SightLine& line : lines) {
+      bool is_free = true;
+      rays ().forHits (line.middle, sensor - line.middle, [&] (Index t, double at) {
+        is_free = t == line.triangle || at >= 1.0;
+        return !is_free;
+      });
+      free += is_free ? 1 : 0;
+    }
+    return static_cast<double> (free) >= limits_.seen_share * static_cast<double> (lines.size ());
+  }
+
+  const TriangleRays& rays ()
+  {
+    if (!rays_)
+      rays_.emplace (mesh_.triangles, positions_, run_);
+    return *rays_;
+  }
+
+  // How many lines of each object are free towards either side.
+  struct Free
+  {
+    std::size_t lines = 0, front = 0, back = 0;
+  };
+  template <typename Blocks>
+  std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
+  {
+    const std::vector<SightLine> lines = linesThrough (objects);
+    const std::vector<Sight> sights = look (
+        rays (), lines,
+        [&] (std::size_t i, Index t) {
+          return blocks (objectOf (lines[i].triangle), objectOf (t));
+        },
+        run_);
+    std::vector<Free> free (judged_.size ());
+    for (std::size_t i = 0; i < lines.size (); ++i) {
+      Free& of_object = free[objectOf (lines[i].triangle)];
+      ++of_object.lines;
+      of_object.front += sights[i].front ? 1 : 0;
+      of_object.back += sights[i].back ? 1 : 0;
+    }
+    return free;
+  }
+
+  // Each by itself: nothing else hides it.
+  void judgeOpen (const std::vector<Index>& open)
+  {
+    if (open.empty ())
+      return;
+    const std::vector<Free> free =
+        lookFrom (open, [] (Index own, Index other) { return own == other; });
+    for (const Index o : open) {
+      FacingObject& object = judged_[o];
+      const double lines = static_cast<double> (std::max<std::size_t> (free[o].lines, 1));
+      object.front = static_cast<double> (free[o].front) / lines;
+      object.back = static_cast<double> (free[o].back) / lines;
+      const double body = object.front - object.back;
+      const double sheet = limits_.body_ratio * object.mean_normal;
+      const bool is_body = std::abs (body) >= sheet;
+      const bool is_inwards = body < 0.0,
+                 is_down = facesDown (objects_.sums[o].area_vector, limits_);
+      const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
+      const double certainty = is_inwards == is_down
+                                   ? certaintyOf ((std::abs (body) + sheet + chance) / chance)
+                                   : certaintyOf ((std::max (std::abs (body), sheet) + chance) /
+                                                  (std::min (std::abs (body), sheet) + chance));
+      decide (o, is_body ? FacingRule::BODY : FacingRule::SHEET, is_body ? is_inwards : is_down,
+              certainty);
+    }
+  }
+
+  bool isBody (Index o) const
+  {
+    return judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY;
+  }
+
+  // Whether one object may lie within another. Windows may have cut off where the outer one
+  // protruded.
+  bool mayLieIn (Index o, Index other) const
+  {
+    constexpr double MARGIN = 0.1; // of the size of the outer box
+    const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
+    Eigen::AlignedBox3d box = outer.box;
+    const Eigen::Vector3d margin = MARGIN * box.sizes ();
+    box.min () -= margin;
+    box.max () += margin;
+    return inner.area < outer.area && box.contains (inner.box);
+  }
+
+  // Bodies that may lie within other bodies. Where one does, it is the wall of a hollow, unless its
+  // front is seen from outside and its back is not, or hardly: then it is a body of its own, seen
+  // through the windows of the other one. Of the wall of a hollow, the windows show the back; its
+  // front is seen at their rims only. In generated hollow bodies with windows, up to three times as
+  // many lines are free there, but for some by chance.
+  void judgeNested ()
+  {
+    std::vector<Index> bodies, inner;
+    for (Index o = 0; o < judged_.size (); ++o)
+      if (isBody (o))
+        bodies.push_back (o);
+    std::vector<std::vector<Index>> around (judged_.size ());
+    for (const Index o : bodies) {
+      for (const Index other : bodies)
+        if (other != o && mayLieIn (o, other))
+          around[o].push_back (other);
+      if (countAround (o, around[o]) % 2 == 1)
+        inner.push_back (o);
+    }
+    if (inner.empty ())
+      return;
+    const std::vector<Free> free = lookFrom (inner, [] (Index, Index) { return true; });
+    for (const Index o : inner) {
+      const std::size_t outside = isTurned (o) ? free[o].back : free[o].front;
+      const std::size_t inside = isTurned (o) ? free[o].front : free[o].back;
+      const bool is_own =
+          objects_.sums[o].is_closed ? outside > 0 : outside > OWN_BODY * (inside + CHANCE_SIGHTS);
+      if (!is_own)
+        decide (o, FacingRule::HOLLOW, !isTurned (o), 1.0);
+    }
+  }
+
+  // In how many of these objects an object lies: rays from it cross their surfaces an odd number of
+  // times. By majority, since objects may have windows.
+  std::size_t countAround (Index o, const std::vector<Index>& around)
+  {
+    if (around.empty ())
+      return 0;
+    std::vector<SightLine> lines = linesThrough ({o});
+    lines.resize (std::min (lines.size (), NESTING_LINES));
+    std::size_t count = 0;
+    for (const Index other : around) {
+      std::size_t odd = 0;
+      for (const SightLine& line : lines) {
+        std::size_t crossed = 0;
+        rays ().forHits (line.middle, line.direction, [&] (Index t, double) {
+          crossed += objectOf (t) == other ? 1 : 0;
+          return false;
+        });
+        odd += crossed % 2;
+      }
+      count += 2 * odd > lines.size () ? 1 : 0;
+    }
+    return count;
+  }
+
+  static constexpr std::size_t OWN_BODY = 8, CHANCE_SIGHTS = 2, NESTING_LINES = 15;
+
+  const TriangleMesh& mesh_;
+  const Positions& positions_;
+  const MeshComponents& found_;
+  const FacingObjects& objects_;
+  const FacingLimits& limits_;
+  const RunContext& run_;
+  std::optional<TriangleRays> rays_; // made when they are needed
+  std::vector<FacingObject> judged_;
+  std::vector<std::uint8_t> is_turned_; // of each object
+};
 
 } // namespace
 
-std::size_t
+Facing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const FacingLimits& limits, const RunContext& run)
+              const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
 {
   const MeshComponents found = findComponents (mesh, run);
-  std::vector<std::uint8_t> is_turned;
-  for (const Component& component : measureComponents (mesh, positions, found, run))
-    is_turned.push_back (facesInwards (component, limits) ? 1 : 0);
+  const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, hints.sensor, run);
+  SignedSets sets (found.count);
+  if (hints.is_one_view) {
+    Index first = NONE;
+    for (Index c = 0; c < found.count; ++c)
+      if (!sums[c].is_closed && first == NONE)
+        first = c;
+      else if (!sums[c].is_closed)
+        sets.join (first, c, false);
+  }
+  else
+    joinContinuations (findContinuations (mesh, found, positions, limits.continuations, run), sets);
+  const FacingObjects objects = makeObjects (sums, std::move (sets));
+  FacingJudge judge (mesh, positions, found, objects, limits, run);
+  judge.judge (hints.sensor);
+
+  Facing facing;
+  facing.objects = judge.objects ();
+  std::vector<std::uint8_t> is_turned (found.count);
+  for (Index c = 0; c < found.count; ++c)
+    is_turned[c] =
+        judge.isTurned (objects.of_component[c]) != (objects.is_opposite[c] != 0) ? 1 : 0;
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     if (is_turned[found.of_triangle[t]] != 0) {
       std::swap (mesh.triangles[t][1], mesh.triangles[t][2]);
       std::swap (mesh.neighbors[t][1], mesh.neighbors[t][2]);
     }
-  return static_cast<std::size_t> (std::count (is_turned.begin (), is_turned.end (), 1));
+  facing.turned = static_cast<std::size_t> (std::count (is_turned.begin (), is_turned.end (), 1));
+  return facing;
 }
 
 } // namespace floater

@@ -2,36 +2,89 @@
 // Which side of a surface is its front.
 #pragma once
 
+#include "mesh/continuations.h"
 #include "mesh/triangle_mesh.h"
+
+#include <pcl/surface/floater/report.h>
+
+#include <optional>
+#include <vector>
 
 namespace pcl
 {
 namespace floater
 {
-/// When an open component has an inside and an outside, and along which axis it faces if not.
+/// When a surface has an inside and an outside, and along which axis it faces if not.
 struct FacingLimits
 {
-  /// Share of the largest volume that an open component could enclose with its centroid, if all of
-  /// it faced straight away from there. Above, it has an inside. A half sphere has 0.8, a round
-  /// bowl half as deep 0.5, a volcano 0.25, terrain less.
-  double inside_share = 0.3;
+  /// How much more of the front than of the back is seen from outside, as a share of all
+  /// directions, by the length of the mean normal. Above, the surface has an inside. Of a cap whose
+  /// area is a share f of its sphere they are f and 1 - f, so that a bowl becomes a valley at
+  /// f = 1/4, where its rim is 60 degrees steep. Theory: an open pit with slopes of 45 degrees,
+  /// which is terrain, has 0.31; a half sphere, which is half a body, has 1.
+  double body_ratio = 1.0 / 3.0;
+
+  std::size_t lines = 512; ///< at most, through an object, to see which of its sides is hidden. The
+                           ///< shares have a standard deviation of 0.02 then
+  std::size_t triangles_per_line = 8; ///< there are fewer lines through smaller objects, ...
+  std::size_t fewest_lines = 64;      ///< ... but so many. Both: a matter of time
+
+  /// Share of the mesh that nothing hides from the sensor; and of an object, by how much more of it
+  /// faces the sensor than looks away, by solid angle. If both are above, it was seen from there:
+  /// one scan has 1 less its noise, while a whole body is hidden by half, and has 0.
+  double seen_share = 0.8;
 
   /// Ratio of the lengths of the mean normal along two axes. Above, they count as equal. Chosen by
   /// hand.
   double equal_axes = 0.9;
+
+  ContinuationLimits continuations;
 };
 
-/// Turns every component of a mesh so that it faces outwards. A closed component encloses a
-/// positive volume. An open one, such as a bowl, a scanned face or half a statue, faces away from
-/// its centroid. A component that has no inside, such as terrain or a flat sheet, faces up the axis
-/// along which its mean normal is longest; of equal axes z comes before y before x. O(n).
+/// What is known beyond the mesh.
+struct FacingHints
+{
+  std::optional<Eigen::Vector3d> sensor; ///< where the points were seen from, if it is told
+  bool is_one_view = false; ///< all open components face one side already, that of an unknown
+                            ///< sensor or the other one
+};
+
+/// Components that continue each other, or one alone.
+struct FacingObject
+{
+  FacingRule rule = FacingRule::SHEET;
+  double certainty = 1.0;    ///< 0.5: as good as guessed, to 1
+  double front = 0.0;        ///< share of directions in which the front sees the outside; ...
+  double back = 0.0;         ///< ... and the back; both 0 if they were not looked at
+  double mean_normal = 0.0;  ///< its length: 1 of a plane, 0 of a closed surface
+  std::size_t triangles = 0; ///< of all its components
+  Index at = NONE;           ///< its smallest point
+};
+
+struct Facing
+{
+  std::size_t turned = 0;            ///< components that were turned round
+  std::vector<FacingObject> objects; ///< in the order of their first triangles
+};
+
+/// Turns every component of a mesh so that its front is where it can be seen. Components that
+/// continue each other are turned together, as one object.
 ///
-/// Weakness: closed components are turned one by one, so the inner wall of a hollow body faces the
-/// wrong way.
-/// \return number of components turned round
-std::size_t
+/// - A closed one encloses a positive volume. If it lies in an odd number of other bodies and is
+/// not
+///   seen through windows of theirs, it is the wall of a hollow, and faces into it.
+/// - One that was seen from the sensor faces the sensor.
+/// - A body, such as a statue open at the bottom, a tube, a scanned face or half a sphere, faces
+///   where more of it is seen from outside, by lines through it in all directions (see
+///   FacingLimits::body_ratio). If it lies within another body, that one hides it, too: the inner
+///   wall of a hollow with windows faces into the hollow.
+/// - Terrain or a flat sheet, of which both sides are seen alike, faces up the axis along which its
+///   mean normal is longest; of equal axes z comes before y before x.
+///
+/// O(n log n), 0.1 microseconds per point of a body.
+Facing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const FacingLimits& limits, const RunContext& run);
+              const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

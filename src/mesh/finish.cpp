@@ -37,7 +37,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     moveVertices (mesh, geometry.neighbors, cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
-  finish.turned = faceOutwards (mesh, positions, settings.limits.facing, run);
+  finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;
 }
 

@@ -31,6 +31,7 @@ struct FinishSettings
   /// repair is skipped.
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
+  FacingHints facing = {};
 };
 
 /// What finishMesh has done.
@@ -40,7 +41,7 @@ struct MeshFinish
   std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
   std::size_t folds = 0;             ///< folded edges that are left
   bool is_repairable = true;         ///< false: more than FinishSettings::largest_fold_share of all
-  std::size_t turned = 0;            ///< components that were turned round (see faceOutwards)
+  Facing facing;                     ///< which components were turned round, and why
 };
 
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, and turns

@@ -140,7 +140,8 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   if (settings.holes.policy != HolePolicy::AUTO)
     surface.holes_filled = closeHoles (mesh, points, viewpoint, settings, run);
   if (viewpoint.is_far || !hasBoundary (mesh))
-    surface.finish.turned = faceOutwards (mesh, points.positions, settings.finish.facing, run);
+    surface.finish.facing =
+        faceOutwards (mesh, points.positions, {{}, viewpoint.is_far}, settings.finish.facing, run);
   return surface;
 }
 

@@ -94,6 +94,8 @@ TEST_F (ReportTest, ReportTellsWhatTheMeshIs)
   EXPECT_EQ (all.at ("denoised"), false);
   EXPECT_EQ (all.at ("outliers"), Json::array ());
   EXPECT_EQ (all.at ("loop_decisions"), Json::array ());
+  EXPECT_EQ (all.at ("facing_certainty"), 1.0);
+  EXPECT_EQ (all.at ("facing_decisions"), Json::array ());
   for (const char* figure : {"outlier_points", "holes_filled"})
     EXPECT_EQ (all.at ("statistics").at (figure), 0) << figure;
   EXPECT_LT (all.at ("statistics").at ("noise").get<double> (), 0.1);
@@ -198,6 +200,31 @@ TEST_F (ReportTest, StrictTakesWarningsForAFailure)
   EXPECT_EQ (readPly (path ("good.ply")).points, sample_.points);
   writeFile ("line.pcd", pcdText ({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}));
   expectFailure ({"line.pcd", "out.ply", "--strict"}, RECONSTRUCTION_FAILED, "(DEGENERATE)");
+}
+
+// A shallow bowl is half a body or a valley.
+TEST_F (ReportTest, TellsWhichSideMayNotBeTheFront)
+{
+  constexpr double GOLDEN_ANGLE = 2.399963229728653, SHARE = 0.3; // of the sphere
+  constexpr int POINTS = 2000;
+  std::vector<Eigen::Vector3d> bowl;
+  for (int i = 0; i < POINTS; ++i) {
+    const double depth = 1.0 - 2.0 * SHARE * (i + 0.5) / POINTS;
+    const double radius = std::sqrt (1.0 - depth * depth), angle = GOLDEN_ANGLE * i;
+    bowl.emplace_back (radius * std::cos (angle), radius * std::sin (angle), -depth);
+  }
+  writeFile ("bowl.pcd", pcdText (bowl));
+  const Outcome outcome = run ({"bowl.pcd", "out.ply", "--report", "out.json"});
+  ASSERT_EQ (outcome.code, 0) << outcome.err;
+  EXPECT_NE (outcome.out.find ("not sure   which side is the front of 1 part\n"), std::string::npos)
+      << outcome.out;
+  const Json all = Json::parse (readFile ("out.json"));
+  ASSERT_EQ (all.at ("facing_decisions").size (), 1U);
+  const Json& decision = all.at ("facing_decisions").front ();
+  EXPECT_EQ (decision.at ("rule"), "body");
+  EXPECT_EQ (decision.at ("certainty"), all.at ("facing_certainty"));
+  EXPECT_EQ (decision.at ("triangles"), all.at ("statistics").at ("triangles"));
+  EXPECT_LT (all.at ("facing_certainty").get<double> (), 0.9);
 }
 
 } // namespace

@@ -151,6 +151,18 @@ loopDecisionsJson (const Report& report)
 }
 
 Json
+facingDecisionsJson (const Report& report)
+{
+  Json decisions = Json::array ();
+  for (const FacingDecision& decision : report.facing_decisions)
+    decisions.push_back ({{"triangles", decision.triangles},
+                          {"at", decision.at},
+                          {"rule", facingRuleName (decision.rule)},
+                          {"certainty", decision.certainty}});
+  return decisions;
+}
+
+Json
 secondsJson (const Statistics& statistics, const RunFigures& run)
 {
   Json seconds = {{"reading", run.read_seconds}};
@@ -233,6 +245,8 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"denoised", report.denoised},
                     {"check", checkJson (report.check, report.is_view)},
                     {"loop_decisions", loopDecisionsJson (report)},
+                    {"facing_certainty", report.facing_certainty},
+                    {"facing_decisions", facingDecisionsJson (report)},
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},
                     {"peak_memory_bytes", peakMemory ()},

@@ -39,6 +39,24 @@ printLoopDecisions (const Report& report)
   }
 }
 
+/// Prints parts of the mesh whose front may be their back, the least sure ones.
+void
+printFacingDecisions (const Report& report)
+{
+  constexpr std::size_t MOST = 10;
+  const std::size_t count = report.facing_decisions.size ();
+  if (count == 0)
+    return;
+  std::printf ("not sure   which side is the front of %s%s\n", counted (count, "part").c_str (),
+               count > MOST ? ", the least sure of them:" : "");
+  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
+    const FacingDecision& decision = report.facing_decisions[i];
+    std::printf ("           of %zu triangles at point %u: as a %s, with a certainty of %.0f %%\n",
+                 decision.triangles, decision.at, facingRuleName (decision.rule),
+                 100.0 * decision.certainty);
+  }
+}
+
 /// Prints method, components, genus and boundary loops.
 void
 printShape (const Report& report)
@@ -75,6 +93,7 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
   std::printf ("triangles  %zu\n", statistics.triangles);
   printShape (report);
   printLoopDecisions (report);
+  printFacingDecisions (report);
   if (statistics.trimmed_triangles > 0)
     std::printf ("cut off    %s, %s, %s\n",
                  counted (statistics.trimmed_triangles, "triangle").c_str (),

@@ -48,7 +48,9 @@ namespace pcl
  * the boundary loop is given. getReport() tells which method made the mesh, and why.
  *
  * After the first two methods, points without a triangle are inserted, edges are flipped in space,
- * folds are repaired, and every component is turned to face outwards.
+ * folds are repaired, and every component is turned to face outwards: bodies where they are seen
+ * from outside, walls of hollows into the hollow, terrain up, one scan towards the sensor if the
+ * sensor_origin_ of the cloud is set.
  *
  * Sources: M. S. Floater, "Parametrization and smooth approximation of surface triangulations",
  * 1997; M. S. Floater and M. Reimers, "Meshless parameterization and surface reconstruction", 2001;
@@ -141,7 +143,8 @@ public:
 
   /** \brief Whether a cloud of one scan is connected as its sensor saw it; default AUTO: if the
    * spacing of its points tells so. The origin of the sensor in the cloud is tried, and where
-   * points are noisy or uneven, the place is searched. */
+   * points are noisy or uneven, the place is searched. With NEVER, the mesh does not face the
+   * sensor either. */
   void setViewUse (floater::ViewUse use) { options_.view.use = use; }
   /** \brief Whether a cloud of one scan is connected as its sensor saw it. */
   floater::ViewUse getViewUse () const { return options_.view.use; }

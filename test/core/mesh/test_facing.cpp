@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/facing.h"
 
+#include "facing_cases.h"
 #include "samples.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -83,6 +84,8 @@ expectConnected (const TriangleMesh& mesh)
   ASSERT_TRUE (fresh.connect (mesh.triangle_of.size (), 1));
   EXPECT_EQ (mesh.neighbors, fresh.neighbors);
   for (Index p = 0; p < mesh.triangle_of.size (); ++p) {
+    if (mesh.triangle_of[p] == NONE)
+      continue;
     const Triangle& t = mesh.triangles[mesh.triangle_of[p]];
     EXPECT_EQ (std::count (t.begin (), t.end (), p), 1);
   }
@@ -139,7 +142,7 @@ forms ()
        [] (const Eigen::Vector3d& p) { return Eigen::Vector3d (p.x (), p.y (), 0.0); }, true},
       {"half sphere", bowl (0.5), fromMiddle},
       {"nearly a sphere", bowl (0.9), fromMiddle},
-      {"bowl", bowl (0.35), fromMiddle},
+      {"bowl", bowl (0.4), fromMiddle},
       {"flat", [] (double u, double v) { return Eigen::Vector3d (u, v, 1.0); }, up},
       {"terrain", [] (double u, double v) { return Eigen::Vector3d (u, v, hills (u, v)); }, up},
       {"shallow valley",
@@ -161,10 +164,10 @@ TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
     std::size_t turned = 0;
     for (const bool reversed : {false, true}) {
       Patch patch (form.shape, form.wraps_u, form.wraps_v, reversed);
-      turned += faceOutwards (patch.mesh, patch.positions, {}, 1);
+      turned += faceOutwards (patch.mesh, patch.positions, {}, {}, 1).turned;
       EXPECT_GT (shareFacing (patch.mesh.triangles, patch.positions, form.outside), 0.99);
       expectConnected (patch.mesh);
-      EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, 1), 0U);
+      EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, {}, 1).turned, 0U);
     }
     EXPECT_EQ (turned, 1U);
   }
@@ -187,7 +190,8 @@ TEST (Facing, ComponentsAreTurnedOneByOne)
   TriangleMesh before = patch.mesh;
   const bool torus_was_right =
       shareFacing ({before.triangles[0]}, patch.positions, all[0].outside) == 1.0;
-  EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, 1), torus_was_right ? 0U : 1U);
+  EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, {}, 1).turned,
+             torus_was_right ? 0U : 1U);
   for (std::size_t t = sheet.mesh.triangles.size (); t < before.triangles.size (); ++t)
     EXPECT_EQ (patch.mesh.triangles[t], before.triangles[t]);
 }
@@ -195,11 +199,113 @@ TEST (Facing, ComponentsAreTurnedOneByOne)
 TEST (Facing, AMeshOfNothingStaysNothing)
 {
   TriangleMesh mesh;
-  EXPECT_EQ (faceOutwards (mesh, {}, {}, 1), 0U);
+  EXPECT_EQ (faceOutwards (mesh, {}, {}, {}, 1).turned, 0U);
   mesh.triangles = {{0, 1, 2}}; // without area
   ASSERT_TRUE (mesh.connect (3, 1));
-  faceOutwards (mesh, Positions (3, Eigen::Vector3d::Zero ()), {}, 1);
+  faceOutwards (mesh, Positions (3, Eigen::Vector3d::Zero ()), {}, {}, 1);
   EXPECT_EQ (mesh.triangles.size (), 1U);
+}
+
+// Bodies with thin parts, hollows, tubes, caps, terrain, scans, torn surfaces.
+TEST (Facing, GeneratedSurfacesFaceAsTheyShould)
+{
+  using namespace facing_cases;
+  constexpr std::uint64_t CASES = 2;
+  for (std::size_t f = 0; f < static_cast<std::size_t> (Family::COUNT); ++f)
+    for (std::uint64_t seed = 1; seed <= CASES; ++seed) {
+      SCOPED_TRACE (std::string (familyName (static_cast<Family> (f))) + ", seed " +
+                    std::to_string (seed));
+      const FacingCase one = makeFacingCase (static_cast<Family> (f), seed);
+      RandomStream random (seed);
+      TriangleMesh mesh = turnAtRandom (one, random), with_threads = mesh;
+      const Facing facing = faceOutwards (mesh, one.positions, one.hints, {}, 1);
+      EXPECT_EQ (wrongShare (one, mesh), 0.0);
+      expectConnected (mesh);
+      const Facing same = faceOutwards (with_threads, one.positions, one.hints, {}, 3);
+      EXPECT_EQ (mesh.triangles, with_threads.triangles);
+      ASSERT_EQ (facing.objects.size (), same.objects.size ());
+      for (std::size_t i = 0; i < same.objects.size (); ++i)
+        EXPECT_EQ (facing.objects[i].certainty, same.objects[i].certainty);
+    }
+}
+
+// Of a cap that is a share f of its sphere, the front sees all of the outside, the back 1 - f, and
+// the mean normal is as long.
+TEST (Facing, ACapIsSeenAsTheoryTells)
+{
+  for (const double share : {0.3, 0.5, 0.7, 0.9}) {
+    const facing_cases::FacingCase one = facing_cases::makeBowl (share);
+    TriangleMesh mesh = one.mesh;
+    const Facing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
+    ASSERT_EQ (facing.objects.size (), 1U);
+    const FacingObject& object = facing.objects.front ();
+    EXPECT_EQ (object.rule, FacingRule::BODY);
+    EXPECT_GT (object.front, 0.98);
+    EXPECT_NEAR (object.back, 1.0 - share, 0.06);
+    EXPECT_NEAR (object.mean_normal, 1.0 - share, 0.01);
+    EXPECT_EQ (facing.turned, 0U);
+  }
+}
+
+TEST (Facing, ABowlBecomesAValleyWhereItIsUnsure)
+{
+  const auto facingOf = [] (double share, std::size_t& turned) {
+    const facing_cases::FacingCase one = facing_cases::makeBowl (share);
+    TriangleMesh mesh = one.mesh;
+    const Facing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
+    turned = facing.turned;
+    return facing.objects.front ().certainty;
+  };
+  std::size_t turned = 0;
+  EXPECT_EQ (facingOf (0.15, turned), 1.0);
+  EXPECT_EQ (turned, 1U); // it was outwards, which is down
+  EXPECT_LT (facingOf (0.27, turned), 0.75);
+  EXPECT_GT (facingOf (0.5, turned), 0.9);
+  EXPECT_EQ (turned, 0U);
+}
+
+// The same bowl faces a sensor in it, but not one from which half of another body is hidden.
+TEST (Facing, ASensorThatSawTheSurfaceIsFaced)
+{
+  const facing_cases::FacingCase bowl = facing_cases::makeBowl (0.6);
+  TriangleMesh mesh = bowl.mesh;
+  FacingHints hints;
+  hints.sensor = Eigen::Vector3d (0.1, 0.0, 1.5);
+  EXPECT_EQ (faceOutwards (mesh, bowl.positions, hints, {}, 1).objects.front ().rule,
+             FacingRule::SENSOR);
+  EXPECT_GT (facing_cases::wrongShare (bowl, mesh), 0.99);
+  hints.sensor = Eigen::Vector3d (0.1, 0.0, -9.0);
+  faceOutwards (mesh, bowl.positions, hints, {}, 1);
+  EXPECT_EQ (facing_cases::wrongShare (bowl, mesh), 0.0);
+
+  const facing_cases::FacingCase body =
+      facing_cases::makeFacingCase (facing_cases::Family::WINGED_BODY, 1);
+  mesh = body.mesh;
+  hints.sensor = Eigen::Vector3d (2.0, 1.0, 1.0);
+  EXPECT_NE (faceOutwards (mesh, body.positions, hints, {}, 1).objects.front ().rule,
+             FacingRule::SENSOR);
+  EXPECT_EQ (facing_cases::wrongShare (body, mesh), 0.0);
+}
+
+TEST (Facing, WhatOneViewHasShownIsTurnedTogether)
+{
+  // A bowl, whose inside was seen, and a sheet beside it.
+  facing_cases::FacingCase one = facing_cases::makeBowl (0.6);
+  const Patch sheet ([] (double u, double v) { return Eigen::Vector3d (u + 9.0, v, 0.0); }, false,
+                     false, true);
+  const auto offset = static_cast<Index> (one.positions.size ());
+  one.positions.insert (one.positions.end (), sheet.positions.begin (), sheet.positions.end ());
+  for (const Triangle& t : sheet.mesh.triangles)
+    one.mesh.triangles.push_back ({t[0] + offset, t[1] + offset, t[2] + offset});
+  ASSERT_TRUE (one.mesh.connect (one.positions.size (), 1));
+  FacingHints hints;
+  for (const bool is_one_view : {false, true}) {
+    hints.is_one_view = is_one_view;
+    TriangleMesh mesh = one.mesh;
+    const Facing facing = faceOutwards (mesh, one.positions, hints, {}, 1);
+    EXPECT_EQ (facing.objects.size (), is_one_view ? 1U : 2U);
+    EXPECT_EQ (facing.turned, is_one_view ? 0U : 1U);
+  }
 }
 
 // Both methods, on a half sphere of scattered points in two orders.
@@ -233,6 +339,59 @@ TEST (Facing, IsHowEveryResultFaces)
                               [] (const Eigen::Vector3d&) { return Eigen::Vector3d::UnitZ (); }),
                  0.95);
     }
+}
+
+// A cloud that is too uneven for the view method.
+TEST (Facing, TheSensorOfACloudIsFacedByBothMethods)
+{
+  const samples::Sheet sheet = samples::disc (0.06, 3);
+  Positions points;
+  for (const Eigen::Vector3d& p : sheet.positions)
+    points.emplace_back (p.x () + 5.0, p.y () - 3.0, 0.1 * std::sin (5.0 * p.x ()));
+  for (const double height : {4.0, -4.0})
+    for (const Topology method : {Topology::DISC, Topology::SURFACE})
+      for (const ViewUse use : {ViewUse::AUTO, ViewUse::NEVER}) {
+        Options options;
+        options.topology = method;
+        options.view.use = use;
+        Input input = samples::asInput (points);
+        input.sensor_origin = {5.0, -3.0, height};
+        const Result result = reconstruct (std::move (input), options);
+        ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+        EXPECT_FALSE (result.report.is_view);
+        EXPECT_TRUE (result.report.facing_decisions.empty ());
+        const double front = use == ViewUse::NEVER ? 1.0 : height;
+        EXPECT_EQ (shareFacing (result.triangles, points,
+                                [front] (const Eigen::Vector3d&) {
+                                  return Eigen::Vector3d (0.0, 0.0, front);
+                                }),
+                   1.0);
+      }
+}
+
+TEST (Facing, TheReportTellsWhatIsNotSure)
+{
+  const auto reportOf = [] (double share) {
+    const samples::Sheet sheet = samples::disc (0.05, 3);
+    const double end = std::acos (1.0 - 2.0 * share);
+    Positions points;
+    for (const Eigen::Vector3d& p : sheet.positions) {
+      const double angle = end * p.norm (), radius = std::max (1e-9, p.norm ());
+      points.emplace_back (p.x () / radius * std::sin (angle), p.y () / radius * std::sin (angle),
+                           -std::cos (angle));
+    }
+    return reconstruct (samples::asInput (points), {}).report;
+  };
+  const Report sure = reportOf (0.6);
+  EXPECT_GT (sure.facing_certainty, 0.9);
+  EXPECT_TRUE (sure.facing_decisions.empty ());
+  const Report unsure = reportOf (0.3);
+  ASSERT_EQ (unsure.facing_decisions.size (), 1U);
+  EXPECT_EQ (unsure.facing_decisions.front ().rule, FacingRule::BODY);
+  EXPECT_EQ (unsure.facing_decisions.front ().certainty, unsure.facing_certainty);
+  EXPECT_EQ (unsure.facing_decisions.front ().triangles, unsure.statistics.triangles);
+  EXPECT_LT (unsure.facing_certainty, 0.9);
+  EXPECT_GE (unsure.facing_certainty, 0.5);
 }
 
 } // namespace

@@ -51,7 +51,8 @@ struct Input
   std::vector<std::uint32_t> cloud_index; ///< one for each position; distinct
   std::size_t cloud_size = 0;       ///< points of the whole cloud; every cloud index is smaller
   NeighborSearch* search = nullptr; ///< nullptr: a kd-tree of the core's, in parallel
-  std::array<double, 3> sensor_origin{}; ///< of the sensor, if the cloud is one scan; see ViewUse
+  std::array<double, 3> sensor_origin{}; ///< of the sensor, if the cloud is one scan; see ViewUse.
+                                         ///< If it is not 0, the mesh faces it where it can
 };
 
 /// A mesh and the report on the run that made it.
@@ -67,8 +68,11 @@ struct Result
 /// is meshless parameterization (Floater and Reimers 2001) as in TW 385. After either method,
 /// points without a triangle are inserted, edges are flipped in space and folds are repaired.
 ///
-/// Every component of the mesh faces outwards: a closed one encloses a positive volume, a bowl
-/// faces away from its inside, and a sheet or terrain faces up (+z; +y or +x where it is upright).
+/// Every component of the mesh faces outwards: a closed one encloses a positive volume, but the
+/// wall of a hollow within another body faces into the hollow. A body with openings faces where
+/// more of it is seen from outside. A sheet or terrain faces up (+z; +y or +x where it is upright).
+/// A single scan whose sensor is known faces the sensor. Components that continue each other across
+/// a gap face alike. Report::facing_decisions has those that are not sure.
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
 /// on the number of threads, on the number of blocks, or on the order of the points. A surface of

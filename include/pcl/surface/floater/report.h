@@ -67,6 +67,30 @@ struct LoopDecision
                                ///< surface would go on
 };
 
+/// Why a part of the mesh faces as it does.
+enum class FacingRule
+{
+  CLOSED, ///< it encloses a volume, and faces away from it
+  HOLLOW, ///< it is the wall of a hollow within another part, and faces into it
+  SENSOR, ///< it was seen from the sensor, and faces it
+  BODY,   ///< one side is seen more from outside than the other one, and is the front
+  SHEET   ///< both sides are seen alike: it faces up
+};
+
+/// Short name of a rule in lower case ("body").
+PCL_FLOATER_EXPORT const char*
+facingRuleName (FacingRule rule);
+
+/// A part of the mesh, one component or several that continue each other, whose front may be its
+/// back.
+struct FacingDecision
+{
+  std::size_t triangles = 0; ///< number of triangles
+  std::uint32_t at = 0;      ///< cloud index of one of its points
+  FacingRule rule = FacingRule::SHEET;
+  double certainty = 0.0; ///< that the rule fits: 0.5 where another one does so as well, to 1
+};
+
 /// What the final check found on the mesh. It uses nothing but triangles and positions.
 struct MeshCheck
 {
@@ -153,6 +177,10 @@ struct Report
   /// Of a surface that is no view: boundary loops that may have been wrongly kept open or filled,
   /// the least sure first. Empty if the method was sure of all.
   std::vector<LoopDecision> loop_decisions;
+  /// Parts of the mesh whose front may be their back, the least sure first: those with a certainty
+  /// below 0.9. Empty if the method was sure of all.
+  std::vector<FacingDecision> facing_decisions;
+  double facing_certainty = 1.0; ///< least of FacingDecision::certainty of all parts of the mesh
   bool denoised = false; ///< the points were connected as they lie when projected on local planes
   bool is_view = false;  ///< the points are one scan, and were connected as its sensor saw them
   bool is_far_view = false;          ///< the sensor was so far away that its rays are parallel

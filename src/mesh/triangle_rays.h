@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which triangles a ray meets.
+#pragma once
+
+#include "core/run_context.h"
+#include "core/types.h"
+#include "mesh/box_tree.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Triangles in a tree of boxes. About 12 bytes per triangle; O(n) to make, in parallel but for the
+/// sorting. Rays may be cast by several threads.
+class TriangleRays
+{
+public:
+  /// \param triangles must outlive this, as must the positions
+  TriangleRays (const std::vector<Triangle>& triangles,
+                const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
+
+  /// Calls visit (t, at) for each triangle t that a ray meets beyond its origin, at origin + at *
+  /// direction, in any order, until it returns true. A ray through an edge or a corner meets at
+  /// least one of the triangles around, and none that it runs along. \param direction not zero, any
+  /// length
+  template <typename Visit>
+  void forHits (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                Visit&& visit) const
+  {
+    tree_.forAlongRay (origin, direction, [&] (std::size_t group) {
+      for (std::size_t i = group * GROUP; i < std::min (order_.size (), (group + 1) * GROUP); ++i) {
+        const double at = hit (order_[i], origin, direction);
+        if (at > 0.0 && visit (order_[i], at))
+          return true;
+      }
+      return false;
+    });
+  }
+
+private:
+  // Triangles in one box of the tree: with more there are fewer boxes to make, and more triangles
+  // to look at. Measured.
+  static constexpr std::size_t GROUP = 4;
+
+  Eigen::AlignedBox3d boxOf (std::size_t group) const;
+
+  // Where a ray meets a triangle, as a multiple of its direction; 0 if it does not.
+  double hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+
+  const std::vector<Triangle>& triangles_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  std::vector<Index> order_; // the triangles, by their smallest points
+  BoxTree tree_;
+};
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which side of a surface is seen from outside: lines of sight through it.
+#pragma once
+
+#include "core/parallel.h"
+#include "mesh/triangle_rays.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// A line through a triangle.
+struct SightLine
+{
+  Index triangle;
+  Eigen::Vector3d middle;    ///< of the triangle
+  Eigen::Vector3d direction; ///< towards its front
+};
+
+/// Chooses lines, evenly over an area that is given triangle by triangle. Their directions are
+/// distributed by Lambert's cosine law, so that each counts by how large the surface looks from
+/// there. They are the same each time: a sequence of low discrepancy (Roberts 2018).
+class SightLineSampler
+{
+public:
+  /// \param area of all triangles that will be added, in any unit
+  SightLineSampler (double area, std::size_t lines)
+      : step_ (area / static_cast<double> (lines)), next_ (0.5 * step_)
+  {
+  }
+
+  /// Appends a line if one is due at this triangle, and several if it is large.
+  /// \param normal of unit length
+  void add (Index triangle, double area, const Eigen::Vector3d& middle,
+            const Eigen::Vector3d& normal, std::vector<SightLine>& lines);
+
+private:
+  double step_, next_, sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+/// Whether nothing blocks a line towards either side.
+struct Sight
+{
+  bool front = false, back = false;
+};
+
+/// \param blocks (line, triangle): whether that triangle counts; not asked of the line's own one
+template <typename Blocks>
+std::vector<Sight>
+look (const TriangleRays& rays, const std::vector<SightLine>& lines, Blocks&& blocks,
+      const RunContext& run)
+{
+  constexpr std::size_t LINES_PER_TASK = 32;
+  std::vector<Sight> sights (lines.size ());
+  parallelTasks (run, (lines.size () + LINES_PER_TASK - 1) / LINES_PER_TASK,
+                 [&] (std::size_t task) {
+                   const std::size_t last = std::min (lines.size (), (task + 1) * LINES_PER_TASK);
+                   for (std::size_t i = task * LINES_PER_TASK; i < last; ++i) {
+                     const auto isFree = [&] (const Eigen::Vector3d& direction) {
+                       bool is_free = true;
+                       rays.forHits (lines[i].middle, direction, [&] (Index t, double) {
+                         is_free = t == lines[i].triangle || !blocks (i, t);
+                         return !is_free;
+                       });
+                       return is_free;
+                     };
+                     sights[i] = {isFree (lines[i].direction), isFree (-lines[i].direction)};
+                   }
+                 });
+  return sights;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/triangle_rays.h"
+
+#include "core/geometry.h"
+#include "samples.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::Positions;
+
+Eigen::Vector3d
+randomDirection (RandomStream& random)
+{
+  return {random.normal (), random.normal (), random.normal ()};
+}
+
+// Solves for the place in the plane of the triangle, and returns the multiple of the direction; 0:
+// none.
+double
+hitBySolving (const Triangle& t, const Positions& positions, const Eigen::Vector3d& origin,
+              const Eigen::Vector3d& direction)
+{
+  Eigen::Matrix3d system;
+  system << positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]], -direction;
+  const Eigen::Vector3d x = system.fullPivLu ().solve (origin - positions[t[0]]);
+  return x[0] >= 0.0 && x[1] >= 0.0 && x[0] + x[1] <= 1.0 ? std::max (0.0, x[2]) : 0.0;
+}
+
+TEST (TriangleRays, MeetTheTrianglesThatTheyCross)
+{
+  const Positions positions = samples::randomPoints (300, 1);
+  RandomStream random (2);
+  std::vector<Triangle> triangles;
+  while (triangles.size () < 500) {
+    const auto a = static_cast<Index> (random.below (300)),
+               b = static_cast<Index> (random.below (300)),
+               c = static_cast<Index> (random.below (300));
+    if (a != b && b != c && c != a)
+      triangles.push_back ({a, b, c});
+  }
+  const TriangleRays rays (triangles, positions, 2);
+  std::size_t hits = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d origin = 2.0 * randomDirection (random);
+    Eigen::Vector3d direction =
+        positions[random.below (300)] + 0.1 * randomDirection (random) - origin;
+    if (i % 5 == 0)
+      direction = Eigen::Vector3d::Unit (i % 3);
+    std::map<Index, double> found;
+    rays.forHits (origin, direction, [&] (Index t, double at) {
+      EXPECT_TRUE (found.emplace (t, at).second) << "met twice";
+      return false;
+    });
+    for (Index t = 0; t < triangles.size (); ++t) {
+      const double at = hitBySolving (triangles[t], positions, origin, direction);
+      ASSERT_EQ (found.count (t), at > 0.0 ? 1U : 0U);
+      if (at > 0.0) {
+        EXPECT_NEAR (found[t], at, 1e-9 * std::max (1.0, at));
+      }
+    }
+    hits += found.size ();
+  }
+  EXPECT_GT (hits, 1000U);
+}
+
+TEST (TriangleRays, EndWhenTheyAreToldTo)
+{
+  const Positions positions{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}};
+  const TriangleRays rays (triangles, positions, 1);
+  for (const bool ends : {true, false}) {
+    std::size_t hits = 0;
+    rays.forHits ({0.2, 0.2, 0.0}, {0.0, 0.0, 3.0}, [&] (Index, double) {
+      ++hits;
+      return ends;
+    });
+    EXPECT_EQ (hits, ends ? 1U : 2U);
+  }
+  rays.forHits ({0.2, 0.2, 3.0}, {0.0, 0.0, 1.0}, [] (Index, double) {
+    ADD_FAILURE () << "behind the origin";
+    return false;
+  });
+}
+
+TEST (TriangleRays, DoNotSlipBetweenTriangles)
+{
+  // Through the edges and corners of a grid.
+  const int side = 8;
+  Positions positions;
+  std::vector<Triangle> triangles;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x)
+      positions.emplace_back (0.1 * x, 0.1 * y, 0.01 * x * y);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto a = static_cast<Index> (y * (side + 1) + x), b = a + static_cast<Index> (side) + 1;
+      triangles.push_back ({a, a + 1, b + 1});
+      triangles.push_back ({a, b + 1, b});
+    }
+  const TriangleRays rays (triangles, positions, 1);
+  RandomStream random (3);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d origin (0.4 + 0.1 * random.normal (), 0.4 + 0.1 * random.normal (), 3.0);
+    const Triangle& t = triangles[random.below (triangles.size ())];
+    const double share = i % 4 == 0 ? 0.0 : random.uniform ();
+    const Eigen::Vector3d target = (1.0 - share) * positions[t[0]] + share * positions[t[1]];
+    const bool is_border = target.x () < 1e-9 || target.y () < 1e-9 || target.x () > 0.8 - 1e-9 ||
+                           target.y () > 0.8 - 1e-9;
+    std::size_t hits = 0;
+    rays.forHits (origin, target - origin, [&hits] (Index, double) {
+      ++hits;
+      return false;
+    });
+    if (!is_border) {
+      EXPECT_GT (hits, 0U);
+    }
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
