@@ -26,7 +26,7 @@ struct StarSettings
   StarKind kind = StarKind::DELAUNAY;
   bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
   ReachLimits reach{};
-  bool with_offsets = true;  ///< keep the neighbours' places in the plane: 16 bytes per entry
+  bool with_offsets = true; ///< keep the neighbours' places in the plane: 16 bytes per entry
   SheetLimits limits{};
 };
 
