@@ -94,6 +94,8 @@ allLimits ()
       PCL_FLOATER_LIMIT (uncrossing.largest_fan),
       PCL_FLOATER_LIMIT (uncrossing.places),
       PCL_FLOATER_LIMIT (uncrossing.passes),
+      PCL_FLOATER_LIMIT (uncrossing.tests_per_triangle),
+      PCL_FLOATER_LIMIT (uncrossing.fewest_tests),
       PCL_FLOATER_LIMIT (surface.finish.facing.inside_share),
       PCL_FLOATER_LIMIT (surface.finish.facing.equal_axes),
       PCL_FLOATER_LIMIT (view.evidence.patches),
