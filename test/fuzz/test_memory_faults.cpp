@@ -82,21 +82,20 @@ allWays (std::size_t points)
   return ways;
 }
 
-// Failures for each way and kind of fault, spread over all allocations. PCL_FLOATER_MEMORY_FAULTS
-// asks for another number, 0 for all.
+// Failures for each way and kind of fault, spread over all allocations; 0: at every allocation.
+// PCL_FLOATER_MEMORY_FAULTS asks for another number.
 std::size_t
 failuresWanted ()
 {
-  constexpr std::size_t FEW = 150;
   const char* const wanted = std::getenv ("PCL_FLOATER_MEMORY_FAULTS");
-  return wanted == nullptr ? FEW : std::strtoull (wanted, nullptr, 10);
+  return wanted == nullptr ? 0 : std::strtoull (wanted, nullptr, 10);
 }
 
 // Points of each cloud. PCL_FLOATER_MEMORY_POINTS asks for others.
 std::size_t
 pointsWanted ()
 {
-  constexpr std::size_t FEW = 200;
+  constexpr std::size_t FEW = 120;
   const char* const wanted = std::getenv ("PCL_FLOATER_MEMORY_POINTS");
   return wanted == nullptr ? FEW : std::strtoull (wanted, nullptr, 10);
 }
