@@ -36,9 +36,10 @@ makeGrid (std::size_t count, RandomStream& random)
   const auto width = 1 + random.below (static_cast<std::size_t> (std::sqrt (count)) + 1);
   const double aspect = random.below (2) == 0 ? 1.0 : std::pow (10.0, 4.0 * random.uniform ());
   Points points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.emplace_back (aspect * static_cast<double> (i / width), static_cast<double> (i % width),
-                         0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t row = i / width;
+    points.emplace_back (aspect * static_cast<double> (row), static_cast<double> (i % width), 0.0);
+  }
   return points;
 }
 
@@ -145,7 +146,8 @@ makeSheets (std::size_t count, RandomStream& random)
   for (std::size_t i = 0; i < count; ++i) {
     const auto sheet = static_cast<double> (i % sheets);
     const auto x = static_cast<double> (i / sheets % width);
-    const auto y = static_cast<double> (i / sheets / width);
+    const std::size_t row = i / sheets / width;
+    const auto y = static_cast<double> (row);
     points.emplace_back (x, y, sheet * (gap + tilt * x));
   }
   return points;
@@ -176,10 +178,11 @@ makeSpike (std::size_t count, RandomStream& random)
   const double shrink = 0.3 + 0.65 * random.uniform ();
   Points points;
   for (std::size_t i = 0; i < count; ++i) {
-    const double radius = std::pow (shrink, static_cast<double> (i / round));
+    const std::size_t ring = i / round;
+    const double radius = std::pow (shrink, static_cast<double> (ring));
     const double angle = TURN * fraction (i % round, round);
     points.emplace_back (radius * std::cos (angle), radius * std::sin (angle),
-                         static_cast<double> (i / round));
+                         static_cast<double> (ring));
   }
   return points;
 }
