@@ -64,6 +64,10 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
          const LocalGeometry& geometry, const Request& request, Result& result)
 {
   Report& report = result.report;
+  if (mesh.triangles.empty ())
+    return {Status::DEGENERATE,
+            "no three points make a triangle of a surface: they lie along lines or curves, or each "
+            "on its own; a surface needs points side by side"};
   Trimming trimming;
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =

@@ -263,6 +263,37 @@ reconstructAny (Input& input, const Request& request, Result& result)
                  : reconstructSurface (points, std::move (geometry), request, result);
 }
 
+// A message so short that a string takes no memory for it.
+constexpr const char* NO_MEMORY = "out of memory";
+
+// What the exception that is being handled means. \throws std::bad_alloc if there is no memory for
+// the message
+Problem
+problemOfException ()
+{
+  try {
+    throw;
+  }
+  catch (const Cancelled&) {
+    return {Status::CANCELLED, "the run was cancelled by its caller"};
+  }
+  catch (const std::bad_alloc&) {
+    return {Status::OUT_OF_MEMORY, "not enough memory: use fewer points, or a machine with more"};
+  }
+  catch (const IndexLimitReached& limit) {
+    return {Status::OUT_OF_MEMORY, limit.what ()};
+  }
+  catch (const std::length_error&) {
+    return {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
+  }
+  catch (const std::exception& error) {
+    return {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
+  }
+  catch (...) {
+    return {Status::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
+  }
+}
+
 } // namespace
 
 Result
@@ -277,7 +308,12 @@ reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
   const auto failed = [] (Status status, const char* message) {
     Result result;
     result.report.status = status;
-    result.report.message = message;
+    try {
+      result.report.message = message;
+    }
+    catch (const std::bad_alloc&) {
+      result.report.message = NO_MEMORY;
+    }
     return result;
   };
   if (positions.empty ())
@@ -315,24 +351,13 @@ reconstruct (Input input, const Options& options, const Limits& limits)
       monitor.finish ();
     }
   }
-  catch (const Cancelled&) {
-    problem = {Status::CANCELLED, "the run was cancelled by its caller"};
-  }
-  catch (const std::bad_alloc&) {
-    problem = {Status::OUT_OF_MEMORY,
-               "not enough memory: use fewer points, or a machine with more"};
-  }
-  catch (const IndexLimitReached& limit) {
-    problem = {Status::OUT_OF_MEMORY, limit.what ()};
-  }
-  catch (const std::length_error&) {
-    problem = {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
-  }
-  catch (const std::exception& error) {
-    problem = {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
-  }
   catch (...) {
-    problem = {Status::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
+    try {
+      problem = problemOfException ();
+    }
+    catch (...) {
+      problem = {Status::OUT_OF_MEMORY, NO_MEMORY};
+    }
   }
   if (problem.status == Status::CANCELLED) {
     Report cancelled;

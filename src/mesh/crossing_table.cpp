@@ -128,15 +128,18 @@ CrossingTable::renewBoxes (const std::vector<Index>& changed)
 }
 
 void
-CrossingTable::findPartners (Index t, std::vector<Index>& partners) const
+CrossingTable::findPartners (Index t, std::vector<Index>& partners)
 {
   partners.clear ();
+  std::size_t tests = 0;
   const Triangle& own = mesh_.triangles[t];
   tree_.forOverlaps (boxOf (own, positions_), [&] (std::size_t i) {
     const Index u = order_[i];
+    ++tests;
     if (u != t && doCross (own, mesh_.triangles[u], positions_))
       partners.push_back (u);
   });
+  tests_ += tests;
 }
 
 } // namespace floater

@@ -25,6 +25,9 @@ public:
 
   std::size_t pairs () const { return pairs_; }
 
+  /// Pairs of triangles whose boxes overlap that were tested since the table was made.
+  std::size_t tests () const { return tests_; }
+
   /// Triangles that cross others, ascending.
   std::vector<Index> crossing () const;
 
@@ -43,7 +46,7 @@ public:
 
 private:
   void renewBoxes (const std::vector<Index>& changed);
-  void findPartners (Index t, std::vector<Index>& partners) const;
+  void findPartners (Index t, std::vector<Index>& partners);
 
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;
@@ -51,6 +54,7 @@ private:
   BoxTree tree_;
   std::unordered_map<Index, std::vector<Index>> partners_; // of the triangles that cross others
   std::size_t pairs_;
+  std::size_t tests_ = 0;
 };
 
 } // namespace floater

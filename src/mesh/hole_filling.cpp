@@ -36,6 +36,8 @@ public:
 
   bool fill (const BoundaryLoop& loop)
   {
+    if (isRoundOneTriangle (loop))
+      return false;
     std::vector<Index> polygon (loop.points.rbegin (), loop.points.rend ());
     const double step = loop.length / static_cast<double> (loop.points.size ());
     area_cost_ = limits_.area_cost / (step * step);
@@ -62,6 +64,17 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
+  // Whether the loop goes round a component of one triangle. The only filling is that triangle from
+  // its other side.
+  bool isRoundOneTriangle (const BoundaryLoop& loop) const
+  {
+    const auto isInLoop = [&loop] (Index p) {
+      return std::find (loop.points.begin (), loop.points.end (), p) != loop.points.end ();
+    };
+    const Triangle& t = mesh_.triangles[mesh_.triangle_of[loop.points.front ()]];
+    return loop.points.size () == 3 && std::all_of (t.begin (), t.end (), isInLoop);
+  }
+
   double fillCost (Index p, Index q, Index r) const
   {
     const double double_area = areaVector (positions_[p], positions_[q], positions_[r]).norm ();

@@ -23,8 +23,8 @@ struct HoleFillingLimits
 /// Fills every loop that is not kept open by triangles of least total cost between its points (see
 /// PolygonFilling). A longer loop than HoleFillingLimits::largest_polygon is first made shorter by
 /// cutting off the ear of least cost, again and again. Edges of the mesh are not used twice; a loop
-/// that cannot be filled otherwise is kept open. O(m^3) for a loop of m points up to that limit,
-/// O(m log m) beyond.
+/// that cannot be filled otherwise, or that goes round a single triangle, is kept open. O(m^3) for
+/// a loop of m points up to that limit, O(m log m) beyond.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
 /// \return number of loops filled
 /// \throw std::logic_error if the loops are not those of the mesh

@@ -25,13 +25,16 @@ public:
                   const std::vector<Eigen::Vector3d>& positions, const UncrossingLimits& limits,
                   const RunContext& run)
       : mesh_ (mesh), limits_ (limits), run_ (run), table_ (mesh, positions, pairs, run),
-        mover_ (mesh, neighbors, cost, limits.largest_fan, run)
+        mover_ (mesh, neighbors, cost, limits.largest_fan, run),
+        most_tests_ (
+            std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle))
   {
   }
 
   Uncrossing run ()
   {
-    for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0; ++pass) {
+    for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0 && !isSpent ();
+         ++pass) {
       const std::size_t before = done_.flips + done_.moves;
       flipAll ();
       moveAll ();
@@ -43,6 +46,8 @@ public:
   }
 
 private:
+  bool isSpent () const { return table_.tests () >= most_tests_; }
+
   // Flips single edges as long as that helps.
   void flipAll ()
   {
@@ -53,6 +58,9 @@ private:
       ProgressLoop progress (run_, triangles.size ());
       for (const Index t : triangles) {
         progress.next ();
+        run_.poll (); // where much crosses, a triangle may take some hundredths of a second
+        if (isSpent ())
+          return;
         for (std::uint8_t side = 0; side < 3; ++side) {
           mover_.start ();
           if (flip ({t, side})) {
@@ -93,6 +101,8 @@ private:
     ProgressLoop progress (run_, vertices.size ());
     for (const Index v : vertices) {
       progress.next ();
+      if (isSpent ())
+        return;
       if (isAtCrossing (v) && move (v))
         ++done_.moves;
     }
@@ -198,6 +208,7 @@ private:
   RunContext run_;
   CrossingTable table_;
   VertexMover mover_;
+  std::size_t most_tests_;
   Uncrossing done_;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending

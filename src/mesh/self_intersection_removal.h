@@ -21,6 +21,11 @@ struct UncrossingLimits
   std::size_t largest_fan = 24; ///< triangles around a vertex that is moved
   std::size_t places = 8;       ///< cheapest triangles in which a vertex to move is tried
   std::size_t passes = 6; ///< over the triangles that cross others; most is done in the first two
+  /// Pairs of triangles with overlapping boxes that may be tested, for each triangle of the mesh
+  /// and at least. Where points lie on no surface, each trial meets hundreds of triangles, and few
+  /// trials help. A test takes up to a microsecond with all that belongs to it, so that a triangle
+  /// may take a millisecond on average, and a small mesh a second.
+  std::size_t tests_per_triangle = 1000, fewest_tests = 1'000'000;
 };
 
 /// What was changed.
@@ -34,9 +39,9 @@ struct Uncrossing
 /// Flips edges and moves vertices (see VertexMover) where triangles cross. A change is kept if no
 /// more pairs cross after it, no more edges are folded (isFold), and it lowers the sum of the cost
 /// of the mesh and that of the crossing pairs; of several, the one that lowers it most.
-/// The boundary and the topology stay as they are, and every
-/// point keeps its triangles. O(n) to begin with, and O(log n) for each of a few hundred trials for
-/// each triangle that crosses another. One thread.
+/// The boundary and the topology stay as they are, and every point keeps its triangles. O(n) to
+/// begin with, and O(log n) for each of a few hundred trials for each triangle that crosses
+/// another; the limits end it early. One thread.
 /// \param pairs all that the mesh has (see findSelfIntersections)
 /// \param neighbors nearest neighbours of each point, where places for it are searched
 Uncrossing

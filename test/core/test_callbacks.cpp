@@ -2,13 +2,13 @@
 // Callbacks of a whole run: its progress, its cancellation, and what else a callback may do.
 #include <pcl/surface/floater/reconstruct.h>
 
+#include "poll_wait.h"
 #include "samples.h"
 #include "surfaces.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -21,9 +21,6 @@ namespace
 using samples::asInput;
 using samples::discOptions;
 using samples::Positions;
-
-// A little longer than a monitor waits between two polls.
-constexpr std::chrono::milliseconds UNTIL_NEXT_POLL{60};
 
 Positions
 surface (SurfaceKind kind, std::size_t points)
@@ -123,9 +120,8 @@ TEST (Cancellation, EndsTheRunWhereverItIsAskedFor)
     }
 }
 
-// Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. The
-// next poll comes 50 ms later at the earliest, and a small cloud does not take so long. So that
-// first poll waits for as long.
+// Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. A
+// small cloud would be done before the next poll is due. So that first poll waits for that.
 bool
 isCancelledWithin (Stage stage, const Positions& points, Options options)
 {
@@ -136,7 +132,7 @@ isCancelledWithin (Stage stage, const Positions& points, Options options)
     if (running != stage)
       return questions > 0; // too late
     if (questions++ == 0)
-      std::this_thread::sleep_for (UNTIL_NEXT_POLL);
+      samples::waitUntilAPollIsDue ();
     return questions > 1;
   };
   const Result result = reconstruct (asInput (points), options);

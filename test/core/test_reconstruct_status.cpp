@@ -148,6 +148,19 @@ private:
   Exception exception_;
 };
 
+// Points along a curve are in no triangle: an empty mesh is no success.
+TEST (Status, PointsAlongACurveAreDegenerate)
+{
+  Positions curve;
+  for (int i = 0; i < 60; ++i)
+    curve.emplace_back (i, 1e-3 * std::sin (7.0 * i), 1e-3 * std::cos (5.0 * i));
+  for (const Topology topology : {Topology::AUTO, Topology::SURFACE}) {
+    Options options;
+    options.topology = topology;
+    expectFailure (reconstruct (asInput (curve), options), Status::DEGENERATE, "no three points");
+  }
+}
+
 TEST (Status, ExceptionsBecomeStatuses)
 {
   const Positions cloud = samples::disc (0.1, 5).positions;

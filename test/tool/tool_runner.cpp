@@ -6,7 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -63,8 +65,14 @@ become (const std::vector<std::string>& arguments, const std::filesystem::path& 
       ::chdir (folder.c_str ()) != 0 || !limitTo (RLIMIT_FSIZE, surroundings.file_limit) ||
       !limitTo (RLIMIT_AS, surroundings.address_limit))
     ::_exit (NOT_STARTED);
+  std::array<int, 2> ends{};
+  if (surroundings.has_closed_pipe &&
+      (::pipe (ends.data ()) != 0 || ::dup2 (ends[1], STDOUT_FILENO) < 0 || ::close (ends[0]) != 0))
+    ::_exit (NOT_STARTED);
+  for (const auto& [variable, value] : surroundings.environment)
+    ::setenv (variable.c_str (), value.c_str (), 1);
   constexpr unsigned LONG_ENOUGH = 60; // seconds
-  if (surroundings.address_limit)
+  if (surroundings.address_limit || !surroundings.environment.empty ())
     ::alarm (LONG_ENOUGH);
   ::execv (tool.c_str (), argv.data ());
   ::_exit (NOT_STARTED);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -29,6 +30,8 @@ struct Surroundings
   std::optional<std::size_t> file_limit;    ///< largest size of a file in bytes (RLIMIT_FSIZE)
   std::optional<std::size_t> address_limit; ///< bytes of addresses (RLIMIT_AS)
   std::string standard_output;              ///< file that takes it; empty: what is printed is kept
+  bool has_closed_pipe = false;             ///< the standard output is a pipe that nobody reads
+  std::vector<std::pair<std::string, std::string>> environment = {}; ///< variables and values
 };
 
 /// A test with a folder that is empty at the start and removed at the end.

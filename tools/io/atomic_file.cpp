@@ -133,7 +133,9 @@ handleSignals (int input_failed)
   ::sigaction (SIGXFSZ, &action, nullptr);
   action.sa_handler = endOnSignal;
   action.sa_flags = static_cast<int> (SA_RESETHAND);
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+  // SIGPIPE: who reads what is printed has gone. The last four: limits of time, and schedulers.
+  for (const int signal_number :
+       {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2}) {
     struct sigaction before = {};
     // Signals that the parent ignores, as nohup does, stay ignored.
     if (::sigaction (signal_number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
@@ -225,8 +227,8 @@ AtomicFile::writeThrough (const char* bytes, std::size_t size)
     const ssize_t done = ::write (descriptor_, bytes, size);
     if (done < 0 && errno == EINTR)
       continue;
-    if (done < 0)
-      fail (errno);
+    if (done <= 0)
+      fail (done < 0 ? errno : EIO);
     bytes += done;
     size -= static_cast<std::size_t> (done);
     written_ += static_cast<std::size_t> (done);
@@ -238,7 +240,11 @@ AtomicFile::close ()
 {
   flush ();
   // Some file systems report a full disk only here.
-  if (::fsync (descriptor_) != 0 && errno != EINVAL)
+  int synced = -1;
+  do
+    synced = ::fsync (descriptor_);
+  while (synced != 0 && errno == EINTR);
+  if (synced != 0 && errno != EINVAL)
     fail (errno);
   struct stat status = {};
   if (::fstat (descriptor_, &status) != 0)

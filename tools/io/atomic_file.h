@@ -27,8 +27,8 @@ public:
 void
 requireWritable (const std::filesystem::path& path);
 
-/// Installs signal handlers: SIGINT, SIGTERM and SIGHUP end the program without leaving temporary
-/// files, and a limit on file sizes makes a write fail instead of ending the program.
+/// Installs signal handlers: the signals by which users, shells and schedulers end a program, and
+/// SIGPIPE, do so without leaving temporary files, and a limit on file sizes makes a write fail.
 /// \param input_failed exit code if a mapped file (FileBytes) is truncated while it is in use
 void
 handleSignals (int input_failed = 1);

@@ -352,7 +352,13 @@ main (int argc, char** argv)
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
   const bool may_lack_memory = isAddressSpaceLimited ();
-  const int code = pcl::floater::runTool (argc, argv);
+  int code = pcl::floater::EXIT_INTERNAL;
+  try {
+    code = pcl::floater::runTool (argc, argv);
+  }
+  catch (const std::bad_alloc&) { // while another failure was being told
+    std::fputs ("pcl_floater_reconstruct: out of memory\n", stderr);
+  }
   if (code != pcl::floater::EXIT_INTERNAL && !may_lack_memory)
     return code;
   // A worker thread of OpenBLAS that finds no memory, already when it is started with the program,

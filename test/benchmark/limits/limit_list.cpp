@@ -103,6 +103,8 @@ allLimits ()
       PCL_FLOATER_LIMIT (uncrossing.largest_fan),
       PCL_FLOATER_LIMIT (uncrossing.places),
       PCL_FLOATER_LIMIT (uncrossing.passes),
+      PCL_FLOATER_LIMIT (uncrossing.tests_per_triangle),
+      PCL_FLOATER_LIMIT (uncrossing.fewest_tests),
       PCL_FLOATER_LIMIT (surface.finish.facing.body_ratio),
       PCL_FLOATER_LIMIT (surface.finish.facing.lines),
       PCL_FLOATER_LIMIT (surface.finish.facing.triangles_per_line),

@@ -3,6 +3,7 @@
 #include "core/run_context.h"
 
 #include "core/parallel.h"
+#include "poll_wait.h"
 
 #include <gtest/gtest.h>
 
@@ -17,18 +18,16 @@ namespace floater
 {
 namespace
 {
-// A little longer than a monitor waits between two polls.
-constexpr std::chrono::milliseconds UNTIL_NEXT_POLL{60};
+using samples::waitUntilAPollIsDue;
 
 // Tasks that last until the run is cancelled end with it, on whatever thread they are.
 TEST (RunMonitor, CancellationReachesTasksThatAreUnderWay)
 {
   for (const int threads : {1, 2, 4}) {
-    const auto begin = std::chrono::steady_clock::now ();
+    constexpr int LATER = 3; // when the tasks have begun
+    int questions = 0;
     Callbacks callbacks;
-    callbacks.cancelled = [begin] {
-      return std::chrono::steady_clock::now () - begin > std::chrono::milliseconds (120);
-    };
+    callbacks.cancelled = [&questions] { return ++questions == LATER; };
     Statistics statistics;
     RunMonitor monitor (callbacks, statistics);
     const RunContext run (threads, &monitor);
@@ -63,7 +62,7 @@ struct Recorder
   // The fraction at this moment.
   double now ()
   {
-    std::this_thread::sleep_for (UNTIL_NEXT_POLL);
+    waitUntilAPollIsDue ();
     monitor.pollNowAndThen ();
     return done;
   }
@@ -153,7 +152,7 @@ TEST (RunMonitor, CallsBackOnItsOwnThreadOnly)
   const double done = recorder.done;
   const auto useElsewhere = [&] {
     ProgressLoop loop (run, 100);
-    std::this_thread::sleep_for (UNTIL_NEXT_POLL);
+    waitUntilAPollIsDue ();
     loop.reach (50);
     run.poll ();
   };
@@ -227,7 +226,7 @@ TEST (RunContext, WithinAStageNothingIsCalledBack)
   EXPECT_GT (recorder.statistics.seconds[static_cast<std::size_t> (Stage::BOUNDARY)], 0.0);
   // It can be cancelled, in a loop as well as where a stage begins.
   recorder.is_cancelled = true;
-  std::this_thread::sleep_for (UNTIL_NEXT_POLL);
+  waitUntilAPollIsDue ();
   ProgressLoop loop (part);
   EXPECT_THROW (loop.reach (1), Cancelled);
   EXPECT_THROW (part.beginStage (Stage::STARS), Cancelled);

@@ -185,6 +185,43 @@ TEST (HoleFilling, ALoopThatCannotBeFilledIsKeptOpen)
   EXPECT_EQ (mesh.triangles.size (), 2U);
 }
 
+// Its loop could be filled by the same triangle only, seen from behind: no manifold.
+TEST (HoleFilling, ATriangleOnItsOwnStaysOpen)
+{
+  const Positions positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const Triangle& triangle : {Triangle{0, 1, 2}, Triangle{2, 0, 1}}) {
+    TriangleMesh mesh;
+    mesh.triangles = {triangle};
+    ASSERT_TRUE (mesh.connect (positions.size (), 1));
+    const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
+    std::vector<BoundaryLoop> loops (1);
+    loops[0].points = {0, 1, 2};
+    loops[0].length = 3.4;
+    const TriangleCost cost (positions, normals);
+    EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), 0U);
+    EXPECT_TRUE (loops[0].keep_open);
+    EXPECT_EQ (mesh.triangles.size (), 1U);
+  }
+}
+
+// The other loop of three points: around a point whose three triangles are a cone.
+TEST (HoleFilling, AConeOfThreeTrianglesIsClosed)
+{
+  const Positions positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  TriangleMesh mesh;
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  ASSERT_TRUE (mesh.connect (positions.size (), 1));
+  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
+  std::vector<BoundaryLoop> loops (1);
+  loops[0].points = {0, 1, 2};
+  loops[0].length = 3.4;
+  const TriangleCost cost (positions, normals);
+  EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), 1U);
+  const samples::Topology topology = samples::topologyOf (mesh.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.euler, 2);
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

@@ -166,11 +166,11 @@ struct Swapped
     }
   }
 
-  Uncrossing remove ()
+  Uncrossing remove (const UncrossingLimits& limits = {})
   {
     return removeSelfIntersections (connected, crossingOf (mesh), neighbors,
                                     TriangleCost (mesh.positions, normals, &spacing),
-                                    mesh.positions, {}, 1);
+                                    mesh.positions, limits, 1);
   }
 };
 
@@ -191,6 +191,28 @@ TEST (SelfIntersections, AreRemovedByMovesAndNothingElseChanges)
   EXPECT_EQ (topology.components, before.components);
   EXPECT_EQ (topology.euler, before.euler);
   EXPECT_EQ (topology.loops, before.loops);
+}
+
+// What has been done when the tests are used up stays, and is told.
+TEST (SelfIntersections, FewTestsEndTheRemovalEarly)
+{
+  UncrossingLimits limits;
+  limits.tests_per_triangle = 0;
+  std::size_t left_before = crossingOf (Swapped (8, {10, 30, 50}).mesh).size ();
+  for (const std::size_t tests : {0U, 300U, 1'000'000U}) {
+    Swapped sheets (8, {10, 30, 50});
+    limits.fewest_tests = tests;
+    const Uncrossing done = sheets.remove (limits);
+    const Mesh after{sheets.mesh.positions, sheets.connected.triangles};
+    EXPECT_EQ (crossingOf (after).size (), done.pairs_left);
+    EXPECT_EQ (done.moves + done.flips == 0, tests == 0);
+    if (tests > 0) {
+      EXPECT_LT (done.pairs_left, left_before);
+    }
+    left_before = done.pairs_left;
+    EXPECT_TRUE (samples::topologyOf (after.triangles).manifold);
+  }
+  EXPECT_EQ (left_before, 0U);
 }
 
 TEST (SelfIntersections, TheTableKnowsWhatIsLeft)

@@ -85,8 +85,8 @@ enum class Solver
 {
   UMFPACK,             ///< direct; symmetric strategy
   UMFPACK_UNSYMMETRIC, ///< direct; unsymmetric strategy
-  SUPERLU,             ///< direct; only if the library was built with SuperLU
-  EIGEN_SPARSE_LU,     ///< direct
+  SUPERLU,             ///< direct; if built with SuperLU; ends the program if there is no memory
+  EIGEN_SPARSE_LU,     ///< direct; may end the program if there is no memory
   BICGSTAB_ILUT,       ///< iterative, preconditioned by an incomplete LU factorization
   GAUSS_SEIDEL         ///< iterative; converges for small clouds only
 };

@@ -25,7 +25,7 @@ enum class Status
   INVALID_OPTION,  ///< an option is out of its range, or leaves no triangle
   INVALID_INDICES, ///< an index is outside the cloud, or the arrays of Input do not fit together
   TOO_FEW_POINTS,  ///< fewer than 4 distinct finite points
-  DEGENERATE,      ///< all points lie on one line, or some are too far away for double precision
+  DEGENERATE,      ///< points on one line or in no triangle, or too far away for double precision
   NO_BOUNDARY,     ///< disc: no boundary loop was found; the surface is closed or not one disc
   INVALID_LOOP,    ///< disc: the given loop is too short, repeats a point or names an unusable one
   UNREACHABLE,     ///< disc: most points are not connected to the boundary loop

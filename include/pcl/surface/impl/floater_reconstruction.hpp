@@ -92,7 +92,8 @@ FloaterReconstruction<PointT>::guarded (const std::function<void ()>& reconstruc
       reconstruction ();
   }
   catch (const std::bad_alloc&) {
-    fail (floater::Status::OUT_OF_MEMORY, "not enough memory for the input and output clouds");
+    report_.status = floater::Status::OUT_OF_MEMORY;
+    report_.message = "out of memory"; // so short that the string takes no memory
   }
   catch (const std::exception& error) {
     fail (floater::Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ());
@@ -100,14 +101,20 @@ FloaterReconstruction<PointT>::guarded (const std::function<void ()>& reconstruc
   catch (...) {
     fail (floater::Status::INTERNAL_ERROR, "unexpected error of unknown type");
   }
-  if (report_.status != floater::Status::OK) {
-    PCL_ERROR ("[pcl::%s::performReconstruction] %s: %s\n", getClassName ().c_str (),
-               floater::statusName (report_.status), report_.message.c_str ());
-    return false;
+  const bool has_mesh = report_.status == floater::Status::OK;
+  try {
+    if (!has_mesh)
+      PCL_ERROR ("[pcl::%s::performReconstruction] %s: %s\n", getClassName ().c_str (),
+                 floater::statusName (report_.status), report_.message.c_str ());
+    else
+      for (const std::string& warning : report_.warnings)
+        PCL_WARN ("[pcl::%s::performReconstruction] %s\n", getClassName ().c_str (),
+                  warning.c_str ());
   }
-  for (const std::string& warning : report_.warnings)
-    PCL_WARN ("[pcl::%s::performReconstruction] %s\n", getClassName ().c_str (), warning.c_str ());
-  return true;
+  catch (const std::bad_alloc&) {
+    // No memory to print; the report tells the same.
+  }
+  return has_mesh;
 }
 
 template <typename PointT>

@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloud_recipe.h"
+
+#include "random_stream.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl
+{
+namespace floater
+{
+namespace fuzz
+{
+namespace
+{
+using Eigen::Vector3d;
+using Points = std::vector<Vector3d>;
+
+constexpr double TURN = 6.283185307179586;
+
+double
+fraction (std::size_t i, std::size_t n)
+{
+  return static_cast<double> (i) / static_cast<double> (std::max<std::size_t> (n, 1));
+}
+
+Points
+makeGrid (std::size_t count, RandomStream& random)
+{
+  const auto width = 1 + random.below (static_cast<std::size_t> (std::sqrt (count)) + 1);
+  const double aspect = random.below (2) == 0 ? 1.0 : std::pow (10.0, 4.0 * random.uniform ());
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t row = i / width;
+    points.emplace_back (aspect * static_cast<double> (row), static_cast<double> (i % width), 0.0);
+  }
+  return points;
+}
+
+Points
+makeLine (std::size_t count, RandomStream& random)
+{
+  const Vector3d step (random.normal (), random.normal (), random.normal ());
+  const double growth = random.below (2) == 0 ? 1.0 : 1.0 + 0.2 * random.uniform ();
+  Points points;
+  double at = 0.0;
+  double length = 1.0;
+  for (std::size_t i = 0; i < count; ++i, at += length, length *= growth)
+    points.emplace_back (at * step);
+  return points;
+}
+
+Points
+makeCircle (std::size_t count, RandomStream& random)
+{
+  const std::size_t rings = 1 + random.below (4);
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = TURN * fraction (i / rings, count / rings);
+    points.emplace_back (std::cos (angle), std::sin (angle), 0.1 * static_cast<double> (i % rings));
+  }
+  return points;
+}
+
+// Points on a sphere: in circles of latitude, or at random. All stars are co-circular in some way.
+Points
+makeSphere (std::size_t count, RandomStream& random)
+{
+  const std::size_t round = random.below (2) == 0 ? 0 : 3 + random.below (30);
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double u = round == 0 ? random.uniform () : fraction (i % round, round);
+    const double v = round == 0 ? random.uniform ()
+                                : fraction (i / round, std::max<std::size_t> (count / round, 1));
+    const double z = 2.0 * v - 1.0;
+    const double r = std::sqrt (std::max (0.0, 1.0 - z * z));
+    points.emplace_back (r * std::cos (TURN * u), r * std::sin (TURN * u), z);
+  }
+  return points;
+}
+
+Points
+makeDisc (std::size_t count, RandomStream& random)
+{
+  const double bend = random.below (2) == 0 ? 0.0 : 3.0 * random.uniform ();
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double r = std::sqrt (random.uniform ());
+    const double angle = TURN * random.uniform ();
+    points.emplace_back (r * std::cos (angle), r * std::sin (angle), bend * r * r);
+  }
+  return points;
+}
+
+Points
+makeVolume (std::size_t count, RandomStream& random)
+{
+  Points points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.emplace_back (random.uniform (), random.uniform (), random.uniform ());
+  return points;
+}
+
+// Few places with many points: equal, or apart by the last bits only.
+Points
+makeCoincident (std::size_t count, RandomStream& random)
+{
+  const Points places = makeVolume (1 + random.below (12), random);
+  const double apart =
+      random.below (2) == 0 ? 0.0 : std::pow (10.0, -17.0 + 6.0 * random.uniform ());
+  Points points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.emplace_back (places[random.below (places.size ())] +
+                         apart * Vector3d (random.normal (), random.normal (), random.normal ()));
+  return points;
+}
+
+// A hub with all others around it.
+Points
+makeHub (std::size_t count, RandomStream& random)
+{
+  const double height = random.below (2) == 0 ? 0.0 : random.normal ();
+  Points points{{0.0, 0.0, height}};
+  for (std::size_t i = 1; i < count; ++i) {
+    const double angle = TURN * fraction (i - 1, count - 1);
+    points.emplace_back (std::cos (angle), std::sin (angle), 0.0);
+  }
+  return points;
+}
+
+// Sheets that touch, cross, or lie closer together than their points.
+Points
+makeSheets (std::size_t count, RandomStream& random)
+{
+  const std::size_t sheets = 2 + random.below (3);
+  const double gap = random.below (3) == 0 ? 0.0 : std::pow (10.0, -3.0 + 4.0 * random.uniform ());
+  const double tilt = random.below (2) == 0 ? 0.0 : random.uniform ();
+  const auto width = 1 + static_cast<std::size_t> (std::sqrt (fraction (count, sheets)));
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto sheet = static_cast<double> (i % sheets);
+    const auto x = static_cast<double> (i / sheets % width);
+    const std::size_t row = i / sheets / width;
+    const auto y = static_cast<double> (row);
+    points.emplace_back (x, y, sheet * (gap + tilt * x));
+  }
+  return points;
+}
+
+// The faces of a box on a lattice, without its inside.
+Points
+makeBox (std::size_t count, RandomStream& random)
+{
+  const auto side = static_cast<std::size_t> (std::sqrt (fraction (count, 6))) + 2;
+  const double thin = random.below (2) == 0 ? 1.0 : 0.02;
+  Points points;
+  for (std::size_t i = 0; i < side * side * side && points.size () < count; ++i) {
+    const std::array<std::size_t, 3> at{i % side, i / side % side, i / side / side};
+    if (std::any_of (at.begin (), at.end (),
+                     [side] (std::size_t c) { return c == 0 || c == side - 1; }))
+      points.emplace_back (static_cast<double> (at[0]), static_cast<double> (at[1]),
+                           thin * static_cast<double> (at[2]));
+  }
+  return points;
+}
+
+// A spike: circles that become smaller towards a tip, down to the last bits.
+Points
+makeSpike (std::size_t count, RandomStream& random)
+{
+  const std::size_t round = 3 + random.below (10);
+  const double shrink = 0.3 + 0.65 * random.uniform ();
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t ring = i / round;
+    const double radius = std::pow (shrink, static_cast<double> (ring));
+    const double angle = TURN * fraction (i % round, round);
+    points.emplace_back (radius * std::cos (angle), radius * std::sin (angle),
+                         static_cast<double> (ring));
+  }
+  return points;
+}
+
+// A one-sided strip.
+Points
+makeMoebius (std::size_t count, RandomStream& random)
+{
+  const std::size_t across = 2 + random.below (6);
+  const std::size_t along = std::max<std::size_t> (count / across, 1);
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double u = TURN * fraction (i / across, along);
+    const double v = fraction (i % across, across - 1) - 0.5;
+    const double r = 1.0 + 0.5 * v * std::cos (0.5 * u);
+    points.emplace_back (r * std::cos (u), r * std::sin (u), 0.5 * v * std::sin (0.5 * u));
+  }
+  return points;
+}
+
+// What a depth camera at the origin sees: rays in rows, coarse depths, steps between surfaces.
+Points
+makeDepthImage (std::size_t count, RandomStream& random)
+{
+  const auto width = 2 + static_cast<std::size_t> (std::sqrt (count));
+  const double step = random.below (2) == 0 ? 1e-4 : 0.05;
+  const double edge = random.uniform () - 0.5;
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = fraction (i % width, width) - 0.5;
+    const double y = fraction (i / width, width) - 0.5;
+    const double depth = (x + 0.3 * y > edge ? 3.0 : 1.0 + 0.2 * x) + 0.01 * random.normal ();
+    const double z = std::max (step, step * std::round (depth / step));
+    points.emplace_back (x * z, y * z, z);
+  }
+  return points;
+}
+
+Points
+makeRaw (std::size_t count, ByteSource& bytes)
+{
+  Points points;
+  for (std::size_t i = 0; i < count && !bytes.isEmpty (); ++i) {
+    const double x = bytes.anyDouble ();
+    const double y = bytes.anyDouble ();
+    points.emplace_back (x, y, bytes.anyDouble ());
+  }
+  return points;
+}
+
+Points
+makePart (std::size_t count, ByteSource& bytes)
+{
+  using Maker = Points (*) (std::size_t, RandomStream&);
+  static constexpr std::array<Maker, 13> MAKERS{
+      makeGrid, makeDisc,   makeSphere, makeLine,  makeCircle,  makeVolume,    makeCoincident,
+      makeHub,  makeSheets, makeBox,    makeSpike, makeMoebius, makeDepthImage};
+  const std::size_t kind = bytes.below (MAKERS.size () + 1);
+  if (kind == MAKERS.size ())
+    return makeRaw (count, bytes);
+  RandomStream random (bytes.byte ());
+  Points points = MAKERS[kind](count, random);
+  const std::size_t jitter = bytes.below (8);
+  if (jitter > 3) {
+    const double size = std::pow (10.0, -static_cast<double> (jitter - 3));
+    for (Vector3d& p : points)
+      p += size * Vector3d (random.normal (), random.normal (), random.normal ());
+  }
+  // Placed along the axes as often as not, so that coordinates tie.
+  const std::size_t place = bytes.below (4);
+  const double scale = bytes.isOneIn (4) ? std::pow (10.0, 8.0 * random.uniform () - 4.0) : 1.0;
+  const Vector3d shift = (place & 1U) != 0U ? Vector3d (3.0 * random.normal (),
+                                                        3.0 * random.normal (), random.normal ())
+                                            : Vector3d::Zero ();
+  const Eigen::Quaterniond turn =
+      (place & 2U) != 0U
+          ? Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), 1.0)
+                .normalized ()
+          : Eigen::Quaterniond::Identity ();
+  for (Vector3d& p : points)
+    p = scale * (turn * p) + shift;
+  return points;
+}
+
+// What goes wrong with coordinates on their way from a sensor.
+void
+spoil (Points& points, ByteSource& bytes, RandomStream& random)
+{
+  if (points.empty ())
+    return;
+  const auto any = [&] () -> Vector3d& { return points[random.below (points.size ())]; };
+  const auto anyOf = [&] (Vector3d& p) -> double& {
+    return p[static_cast<Eigen::Index> (random.below (3))];
+  };
+  const std::size_t spikes = 1 + random.below (1 + points.size () / 4);
+  switch (bytes.below (16)) {
+  case 8:
+    for (std::size_t i = 0; i < spikes; ++i)
+      anyOf (any ()) = std::numeric_limits<double>::quiet_NaN ();
+    break;
+  case 9:
+    for (std::size_t i = 0; i < spikes; ++i)
+      anyOf (any ()) = (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::infinity ();
+    break;
+  case 10:
+    for (std::size_t i = 0; i < spikes; ++i) {
+      const Vector3d copy = any ();
+      any () = copy;
+    }
+    break;
+  case 11: // outliers, near and far
+    for (std::size_t i = 0; i < 3; ++i)
+      anyOf (any ()) = std::pow (10.0, 300.0 * random.uniform ());
+    break;
+  case 12: // coordinates in 32 bits, far from the origin
+    for (Vector3d& p : points)
+      p = (p + Vector3d::Constant (1e5)).cast<float> ().cast<double> ();
+    break;
+  case 13: // whole numbers
+    for (Vector3d& p : points)
+      p = (16.0 * p).array ().round ();
+    break;
+  case 14: { // the whole range of double
+    const double scale = std::pow (10.0, 600.0 * random.uniform () - 300.0);
+    for (Vector3d& p : points)
+      p *= scale;
+    break;
+  }
+  case 15: // flat, or on one line
+    for (Vector3d& p : points) {
+      p.z () = random.below (2) == 0 ? 0.0 : 1e-17 * random.normal ();
+      if (spikes % 3 == 0)
+        p.y () = p.x ();
+    }
+    break;
+  default:
+    break;
+  }
+}
+
+template <typename Enum>
+Enum
+decodeEnum (ByteSource& bytes, Enum last)
+{
+  return static_cast<Enum> (bytes.below (static_cast<std::size_t> (last) + 1));
+}
+
+// A limit of any size, mostly a sensible one.
+double
+decodeLimit (ByteSource& bytes)
+{
+  const std::size_t kind = bytes.below (16);
+  return kind == 15 ? bytes.anyDouble () : 0.5 * static_cast<double> (kind * kind);
+}
+
+void
+decodeDiscOptions (ByteSource& bytes, std::size_t points, Options& options)
+{
+  options.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
+  options.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
+  options.domain.polygon_sides = static_cast<int> (bytes.below (20));
+  options.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
+  options.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
+  options.solver.method = decodeEnum (bytes, Solver::GAUSS_SEIDEL);
+  options.solver.ordering = decodeEnum (bytes, Ordering::NATURAL);
+  options.boundary.cluster_k = static_cast<int> (bytes.below (40));
+  options.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
+  options.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;
+  if (bytes.isOneIn (4)) {
+    const std::size_t length = bytes.below (24);
+    for (std::size_t i = 0; i < length; ++i)
+      options.boundary.loop.push_back (static_cast<std::uint32_t> (bytes.below (points + 2)));
+  }
+}
+
+} // namespace
+
+Options
+decodeOptions (ByteSource& bytes, std::size_t points)
+{
+  Options options;
+  // Plain defaults are what users have, so they come most often.
+  const std::size_t kind = bytes.below (8);
+  options.topology = kind < 4 ? Topology::AUTO : kind < 6 ? Topology::SURFACE : Topology::DISC;
+  options.threads = static_cast<int> (1 + bytes.below (2));
+  if (options.topology == Topology::DISC)
+    decodeDiscOptions (bytes, points, options);
+  if (kind < 3)
+    return options;
+  const std::uint8_t switches = bytes.byte ();
+  options.remove_outliers = (switches & 1U) == 0;
+  options.denoise = (switches & 2U) == 0;
+  options.filter_sheets = (switches & 4U) == 0;
+  options.flip_edges = (switches & 8U) == 0;
+  options.remove_self_intersections = (switches & 16U) == 0;
+  options.blocks = (switches & 32U) == 0 ? 0 : static_cast<int> (bytes.below (9));
+  if ((switches & 64U) != 0) {
+    options.neighbors.kind = decodeEnum (bytes, Neighborhood::BALL);
+    options.neighbors.k = static_cast<int> (4 + bytes.below (60));
+    options.neighbors.ball_radius = 1.0 + 0.1 * static_cast<double> (bytes.below (40));
+  }
+  if ((switches & 128U) == 0)
+    return options;
+  if (options.topology != Topology::DISC) {
+    options.holes.policy = decodeEnum (bytes, HolePolicy::BY_SIZE);
+    options.holes.kept_loops = static_cast<int> (bytes.below (6));
+    options.holes.largest_hole = decodeLimit (bytes);
+    options.holes.largest_hole_length = decodeLimit (bytes);
+    options.view.use = decodeEnum (bytes, ViewUse::NEVER);
+    for (double& coordinate : options.view.viewpoint)
+      coordinate = 3.0 - decodeLimit (bytes);
+  }
+  options.trimming.maximum_edge_length = decodeLimit (bytes);
+  options.trimming.maximum_edge_ratio = decodeLimit (bytes);
+  options.trimming.minimum_component_size = static_cast<int> (bytes.below (12));
+  return options;
+}
+
+Attack
+decodeAttack (ByteSource& bytes, std::size_t most)
+{
+  const std::uint64_t seed = bytes.byte ();
+  RandomStream random (seed);
+  const std::size_t parts = 1 + bytes.below (bytes.isOneIn (2) ? 6 : 1);
+  // The options come first, so that they stay the same when a fuzzer makes the cloud longer.
+  Attack attack;
+  attack.options = decodeOptions (bytes, most);
+  Points& points = attack.input.positions;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t left = most - std::min (most, points.size ());
+    const std::size_t count =
+        std::min (left, 1 + bytes.below (std::min<std::size_t> (most, 65536)));
+    const Points more = makePart (count, bytes);
+    const auto end = more.begin () + static_cast<std::ptrdiff_t> (std::min (left, more.size ()));
+    points.insert (points.end (), more.begin (), end);
+  }
+  spoil (points, bytes, random);
+  if (bytes.isOneIn (2))
+    for (std::size_t i = points.size (); i > 1; --i)
+      std::swap (points[i - 1], points[random.below (i)]);
+  attack.input.cloud_index.resize (points.size ());
+  std::iota (attack.input.cloud_index.begin (), attack.input.cloud_index.end (), 0U);
+  attack.input.cloud_size = points.size ();
+  if (bytes.isOneIn (4)) { // a selection of a larger cloud, backwards
+    attack.input.cloud_size = 2 * points.size () + 1;
+    for (std::uint32_t& index : attack.input.cloud_index)
+      index = static_cast<std::uint32_t> (2 * points.size ()) - 2 * index;
+  }
+  if (bytes.isOneIn (4))
+    for (double& coordinate : attack.input.sensor_origin)
+      coordinate = decodeLimit (bytes);
+  return attack;
+}
+
+} // namespace fuzz
+} // namespace floater
+} // namespace pcl

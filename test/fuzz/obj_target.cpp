@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fuzz target: the bytes are a OBJ file.
+#include "fuzz_target.h"
+#include "reader_target.h"
+
+int
+LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size)
+{
+  pcl::floater::fuzz::readBytes (data, size, [] (const pcl::floater::FileBytes& file) {
+    return pcl::floater::parseObj (file);
+  });
+  return 0;
+}

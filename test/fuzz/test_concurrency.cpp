@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Objects of the class in several threads, cancellation from another thread, and one object used
+// again and again.
+#include "surfaces.h"
+
+#include <pcl/console/print.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/surface/floater_reconstruction.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <malloc.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
+
+Cloud::Ptr
+makeCloud (SurfaceKind kind, std::size_t points)
+{
+  SurfaceSpec spec;
+  spec.kind = kind;
+  spec.points = points;
+  const Cloud::Ptr cloud (new Cloud);
+  for (const Eigen::Vector3d& position : generateSurface (spec)) {
+    pcl::PointXYZ point;
+    point.getVector3fMap () = position.cast<float> ();
+    cloud->push_back (point);
+  }
+  return cloud;
+}
+
+std::vector<pcl::Indices>
+polygonsOf (Floater& floater, const Cloud::Ptr& cloud)
+{
+  floater.setInputCloud (cloud);
+  Cloud points;
+  std::vector<pcl::Vertices> polygons;
+  floater.reconstruct (points, polygons);
+  std::vector<pcl::Indices> all;
+  for (const pcl::Vertices& polygon : polygons)
+    all.push_back (polygon.vertices);
+  return all;
+}
+
+// What a thread of the next test does.
+struct Task
+{
+  SurfaceKind kind;
+  Topology topology;
+  int threads;
+};
+
+TEST (Concurrency, EightObjectsInEightThreads)
+{
+  std::vector<Task> tasks;
+  for (const int threads : {1, 2})
+    for (const auto& [kind, topology] : {std::pair{SurfaceKind::HEIGHT_FIELD, Topology::DISC},
+                                         std::pair{SurfaceKind::FINGER, Topology::DISC},
+                                         std::pair{SurfaceKind::TORUS, Topology::SURFACE},
+                                         std::pair{SurfaceKind::CUT_OUT, Topology::AUTO}})
+      tasks.push_back ({kind, topology, threads});
+  const auto run = [] (const Task& task) {
+    Floater floater;
+    floater.setTopology (task.topology);
+    floater.setNumberOfThreads (task.threads);
+    return polygonsOf (floater, makeCloud (task.kind, 1500));
+  };
+  std::vector<std::vector<pcl::Indices>> expected;
+  for (const Task& task : tasks)
+    expected.push_back (run (task));
+  std::vector<std::size_t> wrong (tasks.size (), 0);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < tasks.size (); ++t)
+    threads.emplace_back ([&, t] {
+      for (int round = 0; round < 3; ++round)
+        wrong[t] += expected[t].empty () || run (tasks[t]) != expected[t] ? 1 : 0;
+    });
+  for (std::thread& thread : threads)
+    thread.join ();
+  EXPECT_EQ (wrong, std::vector<std::size_t> (tasks.size (), 0));
+}
+
+// Another thread waits until a fraction of the run is done, and cancels it then.
+TEST (Concurrency, CancelledFromAnotherThread)
+{
+  pcl::console::setVerbosityLevel (pcl::console::L_ALWAYS); // a failure is expected
+  const Cloud::Ptr cloud = makeCloud (SurfaceKind::CUT_OUT, 3000);
+  Floater plain;
+  const std::vector<pcl::Indices> expected = polygonsOf (plain, cloud);
+  std::size_t cancelled = 0;
+  constexpr int MOMENTS = 40;
+  for (int moment = 0; moment < MOMENTS; ++moment) {
+    std::mutex mutex;
+    std::condition_variable changed;
+    double done = -1.0;
+    std::atomic<bool> is_cancelled{false};
+    Floater floater;
+    floater.setProgressCallback ([&] (double fraction) {
+      std::unique_lock<std::mutex> lock (mutex);
+      done = fraction;
+      changed.notify_one ();
+      if (fraction >= moment / (MOMENTS - 1.0)) // so that the flag is set before the run goes on
+        changed.wait (lock, [&] { return is_cancelled.load (); });
+    });
+    floater.setCancelledCallback ([&] { return is_cancelled.load (); });
+    std::thread canceller ([&] {
+      std::unique_lock<std::mutex> lock (mutex);
+      changed.wait (lock, [&] { return done >= moment / (MOMENTS - 1.0); });
+      is_cancelled = true;
+      changed.notify_one ();
+    });
+    const std::vector<pcl::Indices> polygons = polygonsOf (floater, cloud);
+    canceller.join ();
+    const Status status = floater.getReport ().status;
+    if (status == Status::CANCELLED) {
+      ++cancelled;
+      EXPECT_TRUE (polygons.empty ());
+    }
+    else {
+      EXPECT_EQ (status, Status::OK);
+      EXPECT_EQ (polygons, expected);
+    }
+    // The object is as good as new.
+    floater.setProgressCallback ({});
+    floater.setCancelledCallback ({});
+    EXPECT_EQ (polygonsOf (floater, cloud), expected);
+  }
+  EXPECT_GE (cancelled, MOMENTS / 2U);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST (Memory, DoesNotGrowWithTheNumberOfRuns)
+{
+  const auto inUse = [] {
+    const struct mallinfo2 info = ::mallinfo2 ();
+    return info.uordblks + info.hblkhd;
+  };
+  for (const Topology topology : {Topology::DISC, Topology::SURFACE}) {
+    const Cloud::Ptr cloud = makeCloud (SurfaceKind::HEIGHT_FIELD, 300);
+    Floater floater;
+    floater.setTopology (topology);
+    floater.setNumberOfThreads (1); // the memory of other threads is not in these figures
+    std::size_t after_ten = 0;
+    for (int run = 0; run < 200; ++run) {
+      EXPECT_FALSE (polygonsOf (floater, cloud).empty ());
+      if (run == 10)
+        after_ten = inUse ();
+    }
+    EXPECT_EQ (inUse (), after_ten);
+  }
+}
+#endif
+
+} // namespace
+} // namespace floater
+} // namespace pcl
