@@ -46,6 +46,8 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
       return app.exit (error);
     throw UsageError (error.what ());
   }
+  if (command_line.input.empty () || command_line.output.empty ())
+    throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");
   const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();
   Topology& topology = command_line.options.topology;
   if (needs_disc && topology == Topology::SURFACE)
