@@ -44,7 +44,10 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
   const Options& options = request.options;
   checkCrossing (mesh.triangles, points, request.run, found);
   statistics.self_intersections_found = found.crossing.size ();
-  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty ())
+  // Where points lie off the surface by noise, so that they were projected to connect them, the
+  // true triangles cross each other, too.
+  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty () ||
+      !points.projected.empty ())
     return;
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, points.positions, normals, request.run);

@@ -41,6 +41,14 @@ inverseOf (const std::vector<Index>& order)
   return place;
 }
 
+// A pair of two changed triangles counts at the smaller one.
+long
+countPairs (Index t, const std::vector<Index>& partners, const std::vector<Index>& changed)
+{
+  return std::count_if (partners.begin (), partners.end (),
+                        [&] (Index u) { return t < u || !contains (changed, u); });
+}
+
 } // namespace
 
 CrossingTable::CrossingTable (const TriangleMesh& mesh,
@@ -70,24 +78,26 @@ CrossingTable::crossing () const
 }
 
 long
+CrossingTable::pairsOf (const std::vector<Index>& triangles) const
+{
+  long pairs = 0;
+  for (const Index t : triangles)
+    if (const std::vector<Index>* const partners = partnersOf (t))
+      pairs += countPairs (t, *partners, triangles);
+  return pairs;
+}
+
+long
 CrossingTable::tryChange (const std::vector<Index>& changed, long limit)
 {
   renewBoxes (changed);
-  // A pair of two changed triangles counts at the smaller one.
-  const auto count = [&changed] (Index t, const std::vector<Index>& partners) {
-    return std::count_if (partners.begin (), partners.end (),
-                          [&] (Index u) { return t < u || !contains (changed, u); });
-  };
-  long change = 0;
-  for (const Index t : changed)
-    if (const auto known = partners_.find (t); known != partners_.end ())
-      change -= count (t, known->second);
+  long change = -pairsOf (changed);
   std::vector<Index> partners;
   for (const Index t : changed) {
     if (change >= limit)
       break;
     findPartners (t, partners);
-    change += count (t, partners);
+    change += countPairs (t, partners, changed);
   }
   return change;
 }

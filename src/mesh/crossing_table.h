@@ -33,6 +33,17 @@ public:
 
   bool isCrossing (Index t) const { return partners_.count (t) != 0; }
 
+  /// Triangles that cross one; none if nullptr.
+  const std::vector<Index>* partnersOf (Index t) const
+  {
+    const auto known = partners_.find (t);
+    return known == partners_.end () ? nullptr : &known->second;
+  }
+
+  /// Pairs with one of these triangles.
+  /// \param triangles ascending
+  long pairsOf (const std::vector<Index>& triangles) const;
+
   /// Pairs that a change has added, less those that it has removed. If as many as `limit` or more,
   /// any number from `limit` on.
   /// \param changed triangles that are not as they were, ascending; followed by accept or reject

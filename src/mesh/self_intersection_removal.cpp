@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 
 namespace pcl
 {
@@ -27,7 +28,8 @@ public:
       : mesh_ (mesh), limits_ (limits), run_ (run), table_ (mesh, positions, pairs, run),
         mover_ (mesh, neighbors, cost, limits.largest_fan, run),
         most_tests_ (
-            std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle))
+            std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),
+        changed_in_ (mesh.triangles.size (), 1), tried_in_ (mesh.triangle_of.size (), 0)
   {
   }
 
@@ -61,6 +63,9 @@ private:
         run_.poll (); // where much crosses, a triangle may take some hundredths of a second
         if (isSpent ())
           return;
+        if (flips_tried_in_[t] >= lastChangeAround (t))
+          continue;
+        flips_tried_in_[t] = step_;
         for (std::uint8_t side = 0; side < 3; ++side) {
           mover_.start ();
           if (flip ({t, side})) {
@@ -103,16 +108,36 @@ private:
       progress.next ();
       if (isSpent ())
         return;
-      if (isAtCrossing (v) && move (v))
+      if (!isWorthATry (v))
+        continue;
+      tried_in_[v] = step_;
+      if (move (v))
         ++done_.moves;
     }
   }
 
-  bool isAtCrossing (Index v)
+  // Whether a triangle of a vertex crosses another one, and something has changed there since the
+  // vertex was tried last.
+  bool isWorthATry (Index v)
   {
     mesh_.fan (v, fan_);
     return std::any_of (fan_.begin (), fan_.end (),
-                        [this] (Index t) { return table_.isCrossing (t); });
+                        [this] (Index t) { return table_.isCrossing (t); }) &&
+           std::any_of (fan_.begin (), fan_.end (),
+                        [&] (Index t) { return lastChangeAround (t) > tried_in_[v]; });
+  }
+
+  // The last step that changed a triangle, one beside it, or one that crosses it.
+  std::uint32_t lastChangeAround (Index t) const
+  {
+    std::uint32_t last = changed_in_[t];
+    for (const Index u : mesh_.neighbors[t])
+      if (u != NONE)
+        last = std::max (last, changed_in_[u]);
+    if (const std::vector<Index>* const partners = table_.partnersOf (t))
+      for (const Index u : *partners)
+        last = std::max (last, changed_in_[u]);
+    return last;
   }
 
   // Tries all places of a vertex, and keeps the best one if it helps.
@@ -141,7 +166,8 @@ private:
   }
 
   // What is gained by a change, in the unit of cost: above 0 if it is to be kept. The mesh stays as
-  // it is.
+  // it is. Most changes cost more than all pairs there would be worth, or fold the surface: that is
+  // looked at first, since the search for pairs takes most of the time.
   template <typename Change>
   double gainOf (Change&& change)
   {
@@ -149,17 +175,19 @@ private:
     if (!change ())
       return 0.0;
     noteChanged ();
+    const Flaws after = flaws ();
+    mesh_.undo (mark);
+    const Flaws before = flaws ();
+    const auto gain = [&] (long pairs) {
+      return before.cost - after.cost - limits_.pair_cost * static_cast<double> (pairs);
+    };
+    if (after.folds > before.folds || !(gain (-table_.pairsOf (changed_)) > VertexMover::IMPROVES))
+      return 0.0;
+    change ();
     const long pairs = table_.tryChange (changed_, 1);
-    Flaws after;
-    if (pairs <= 0)
-      after = flaws ();
     mesh_.undo (mark);
     table_.reject (changed_);
-    if (pairs > 0)
-      return 0.0;
-    const Flaws before = flaws ();
-    const double gain = before.cost - after.cost - limits_.pair_cost * static_cast<double> (pairs);
-    return after.folds <= before.folds && gain > VertexMover::IMPROVES ? gain : 0.0;
+    return pairs <= 0 && gain (pairs) > VertexMover::IMPROVES ? gain (pairs) : 0.0;
   }
 
   template <typename Change>
@@ -169,6 +197,9 @@ private:
     noteChanged ();
     table_.tryChange (changed_, EVERY_PAIR);
     table_.accept (changed_);
+    ++step_;
+    for (const Index t : changed_)
+      changed_in_[t] = step_;
   }
 
   // All triangles that the journal has.
@@ -209,6 +240,10 @@ private:
   CrossingTable table_;
   VertexMover mover_;
   std::size_t most_tests_;
+  std::uint32_t step_ = 1;                // counts the changes that were kept, from 1 on
+  std::vector<std::uint32_t> changed_in_; // of each triangle: the last step that changed it
+  std::vector<std::uint32_t> tried_in_;   // of each vertex: the step after which it was tried
+  std::unordered_map<Index, std::uint32_t> flips_tried_in_; // the same of crossing triangles
   Uncrossing done_;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending

@@ -23,9 +23,9 @@ struct UncrossingLimits
   std::size_t passes = 6; ///< over the triangles that cross others; most is done in the first two
   /// Pairs of triangles with overlapping boxes that may be tested, for each triangle of the mesh
   /// and at least. Where points lie on no surface, each trial meets hundreds of triangles, and few
-  /// trials help. A test takes up to a microsecond with all that belongs to it, so that a triangle
-  /// may take a millisecond on average, and a small mesh a second.
-  std::size_t tests_per_triangle = 1000, fewest_tests = 1'000'000;
+  /// trials help. A test takes about half a microsecond with all that belongs to it, so that a
+  /// triangle may take 10 microseconds on average, and a small mesh a second.
+  std::size_t tests_per_triangle = 20, fewest_tests = 2'000'000;
 };
 
 /// What was changed.

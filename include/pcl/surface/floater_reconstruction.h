@@ -306,8 +306,10 @@ public:
   bool getFlipEdges () const { return options_.flip_edges; }
 
   /** \brief Whether the mesh is changed where its triangles cross each other, by flips of edges and
-   * by moving points to other triangles; default true. Not without setFlipEdges, and not for scans
-   * that are connected as their sensor saw them. Report::check tells how many pairs are left. */
+   * by moving points to other triangles; default true. Not without setFlipEdges, and not where
+   * noise makes the true triangles cross each other, too: for scans that are connected as their
+   * sensor saw them, and where noisy points were projected to connect them (see setDenoise).
+   * Report::check tells how many pairs are left. */
   void setRemoveSelfIntersections (bool remove) { options_.remove_self_intersections = remove; }
   /** \brief Whether the mesh is changed where its triangles cross each other. */
   bool getRemoveSelfIntersections () const { return options_.remove_self_intersections; }
