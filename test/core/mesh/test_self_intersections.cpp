@@ -4,7 +4,7 @@
 
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersection_removal.h"
-#include "report.h"
+#include "report_mesh.h"
 
 #include <gtest/gtest.h>
 
