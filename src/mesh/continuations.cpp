@@ -19,7 +19,7 @@ namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-struct RimEdge
+struct BoundaryEdge
 {
   Index component;
   double length;
@@ -27,9 +27,9 @@ struct RimEdge
   Eigen::Vector3d ahead; // unit length, in the plane of the triangle, away from it
 };
 
-struct Rims
+struct BoundaryEdges
 {
-  std::vector<RimEdge> edges;
+  std::vector<BoundaryEdge> edges;
   Positions middles;
   std::vector<double> length, mean_length; // of all edges of each component, and of one
   std::size_t components = 0;              // that have any
@@ -38,7 +38,7 @@ struct Rims
 // Directions are averaged with those of the edges before and after, since borders are ragged.
 // \param ends of each edge
 void
-smoothDirections (std::vector<RimEdge>& edges, const std::vector<std::array<Index, 2>>& ends,
+smoothDirections (std::vector<BoundaryEdge>& edges, const std::vector<std::array<Index, 2>>& ends,
                   std::size_t points)
 {
   std::vector<Index> from (points, NONE), to (points, NONE); // edges by their end points
@@ -46,24 +46,24 @@ smoothDirections (std::vector<RimEdge>& edges, const std::vector<std::array<Inde
     from[ends[i][0]] = i;
     to[ends[i][1]] = i;
   }
-  const std::vector<RimEdge> rough = edges;
+  const std::vector<BoundaryEdge> rough = edges;
   for (Index i = 0; i < edges.size (); ++i)
     for (const Index j : {to[ends[i][0]], from[ends[i][1]]}) {
       edges[i].along += rough[j].along;
       edges[i].ahead += rough[j].ahead;
     }
-  for (RimEdge& edge : edges) {
+  for (BoundaryEdge& edge : edges) {
     edge.along.normalize ();
     edge.ahead.normalize ();
   }
 }
 
-Rims
-findRims (const TriangleMesh& mesh, const MeshComponents& components, const Positions& positions,
-          const RunContext& run)
+BoundaryEdges
+findBoundaryEdges (const TriangleMesh& mesh, const MeshComponents& components,
+                   const Positions& positions, const RunContext& run)
 {
-  Rims rims;
-  rims.length.assign (components.count, 0.0);
+  BoundaryEdges boundary;
+  boundary.length.assign (components.count, 0.0);
   std::vector<std::size_t> count (components.count, 0);
   std::vector<std::array<Index, 2>> ends;
   ProgressLoop progress (run);
@@ -78,25 +78,26 @@ findRims (const TriangleMesh& mesh, const MeshComponents& components, const Posi
       const Eigen::Vector3d normal =
           areaVector (positions[mesh.corner (edge)], from, to).normalized ();
       const Index component = components.of_triangle[t];
-      rims.edges.push_back ({component, (to - from).norm (), along, along.cross (normal)});
-      rims.middles.emplace_back (0.5 * (from + to));
+      boundary.edges.push_back ({component, (to - from).norm (), along, along.cross (normal)});
+      boundary.middles.emplace_back (0.5 * (from + to));
       ends.push_back ({mesh.from (edge), mesh.to (edge)});
-      rims.length[component] += rims.edges.back ().length;
+      boundary.length[component] += boundary.edges.back ().length;
       ++count[component];
     }
   }
-  smoothDirections (rims.edges, ends, positions.size ());
+  smoothDirections (boundary.edges, ends, positions.size ());
   for (std::size_t c = 0; c < count.size (); ++c) {
-    rims.mean_length.push_back (rims.length[c] /
-                                static_cast<double> (std::max<std::size_t> (count[c], 1)));
-    rims.components += count[c] > 0 ? 1 : 0;
+    boundary.mean_length.push_back (boundary.length[c] /
+                                    static_cast<double> (std::max<std::size_t> (count[c], 1)));
+    boundary.components += count[c] > 0 ? 1 : 0;
   }
-  return rims;
+  return boundary;
 }
 
 // How well one edge is continued by another: positive if their fronts are on the same side.
 double
-agreement (const RimEdge& one, const RimEdge& other, const Eigen::Vector3d& across, double cosine)
+agreement (const BoundaryEdge& one, const BoundaryEdge& other, const Eigen::Vector3d& across,
+           double cosine)
 {
   const double ahead = across.dot (one.ahead), back = -across.dot (other.ahead);
   return ahead >= cosine && back >= cosine ? -one.along.dot (other.along) * ahead * back : 0.0;
@@ -109,20 +110,20 @@ struct Vote
 };
 
 std::vector<Vote>
-vote (const Rims& rims, const ContinuationLimits& limits, const RunContext& run)
+vote (const BoundaryEdges& boundary, const ContinuationLimits& limits, const RunContext& run)
 {
-  const KdTree tree (rims.middles, run);
-  std::vector<Vote> votes (rims.edges.size ());
+  const KdTree tree (boundary.middles, run);
+  std::vector<Vote> votes (boundary.edges.size ());
   parallelRanges (run, votes.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t i = first; i < last; ++i) {
-      const RimEdge& edge = rims.edges[i];
+      const BoundaryEdge& edge = boundary.edges[i];
       const auto to = [&] (Index j, const Eigen::Vector3d& middle) {
-        return agreement (edge, rims.edges[j], (middle - rims.middles[i]).normalized (),
+        return agreement (edge, boundary.edges[j], (middle - boundary.middles[i]).normalized (),
                           limits.cosine);
       };
       tree.nearestIf (
-          rims.middles[i], edge.ahead, limits.reach * rims.mean_length[edge.component], 1,
+          boundary.middles[i], edge.ahead, limits.reach * boundary.mean_length[edge.component], 1,
           [&] (const Neighbor& near, const Eigen::Vector3d& middle) {
             return std::abs (to (near.point, middle)) > 0.0;
           },
@@ -130,8 +131,8 @@ vote (const Rims& rims, const ContinuationLimits& limits, const RunContext& run)
       if (found.empty ())
         continue;
       const Index j = found.front ().point;
-      if (rims.edges[j].component != edge.component)
-        votes[i] = {rims.edges[j].component, edge.length * to (j, rims.middles[j])};
+      if (boundary.edges[j].component != edge.component)
+        votes[i] = {boundary.edges[j].component, edge.length * to (j, boundary.middles[j])};
     }
   });
   return votes;
@@ -146,18 +147,18 @@ findContinuations (const TriangleMesh& mesh, const MeshComponents& components,
 {
   if (components.count < 2)
     return {};
-  const Rims rims = findRims (mesh, components, positions, run);
-  if (rims.components < 2)
+  const BoundaryEdges boundary = findBoundaryEdges (mesh, components, positions, run);
+  if (boundary.components < 2)
     return {};
   struct Sum
   {
     double signed_weight = 0.0, weight = 0.0;
   };
   std::map<std::pair<Index, Index>, Sum> sums;
-  const std::vector<Vote> votes = vote (rims, limits, run);
+  const std::vector<Vote> votes = vote (boundary, limits, run);
   for (std::size_t i = 0; i < votes.size (); ++i)
     if (votes[i].other != NONE) {
-      Sum& sum = sums[std::minmax (rims.edges[i].component, votes[i].other)];
+      Sum& sum = sums[std::minmax (boundary.edges[i].component, votes[i].other)];
       sum.signed_weight += votes[i].weight;
       sum.weight += std::abs (votes[i].weight);
     }
@@ -166,7 +167,7 @@ findContinuations (const TriangleMesh& mesh, const MeshComponents& components,
     const auto [a, b] = pair;
     const double support = std::abs (sum.signed_weight);
     if (support >= limits.agreement * sum.weight &&
-        support >= limits.support * std::min (rims.length[a], rims.length[b]))
+        support >= limits.support * std::min (boundary.length[a], boundary.length[b]))
       found.push_back ({a, b, sum.signed_weight < 0.0, support});
   }
   return found;
