@@ -49,7 +49,8 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
   const std::array<Triangle, 3> corners{{{p, b, c}, {p, c, a}, {p, a, b}}};
   std::array<Eigen::Vector3d, 3> part;
   for (std::uint8_t side = 0; side < 3; ++side) {
-    const TriangleCost::Value& value = cost (corners[side]);
+    // Not cached: nearly all splits that are looked at are never made.
+    const TriangleCost::Value value = cost.plain ().value (p, corners[side][1], corners[side][2]);
     part[side] = value.unit_normal;
     added += value.cost;
     if (added > limit)

@@ -25,10 +25,10 @@ public:
   {
   }
 
-  std::size_t moveAll ()
+  // Moves vertices, and then again those at folds that something was moved at.
+  std::size_t moveAll (std::vector<Index> vertices)
   {
     std::size_t moves = 0;
-    std::vector<Index> vertices = badVertices ();
     for (int pass = 0; pass < limits_.passes && !vertices.empty (); ++pass) {
       mover_.dirty ().clear ();
       ProgressLoop progress (run_, vertices.size ());
@@ -40,7 +40,7 @@ public:
       vertices.swap (mover_.dirty ());
       sortUnique (vertices);
       vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
-                                      [this] (Index v) { return !isBad (v); }),
+                                      [this] (Index v) { return !isAtFold (v); }),
                       vertices.end ());
     }
     return moves;
@@ -64,7 +64,7 @@ public:
           ++kept;
           allowKicksAround (again);
         }
-        else if (next_rank_[v] < limits_.kicks)
+        else if (next_rank_[v] != NO_PLACE)
           again.push_back (v);
         if (kicks_left_ == 0)
           return kept;
@@ -76,40 +76,7 @@ public:
   }
 
 private:
-  // True if a triangle is turned, or more than 90 degrees from a neighbouring triangle.
-  bool isBad (const Triangle& corners, Index t)
-  {
-    if (cost_.plain ().isTurned (corners))
-      return true;
-    const Eigen::Vector3d normal = cost_ (corners).unit_normal;
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (normal.dot (normalAcross (mesh_, cost_, {t, side})) < 0.0)
-        return true;
-    return false;
-  }
-
-  // True if that holds for a triangle around a vertex. Moves of other vertices hardly ever lower
-  // the cost.
-  bool isBad (Index v)
-  {
-    mesh_.fan (v, fan_);
-    return std::any_of (fan_.begin (), fan_.end (),
-                        [this] (Index t) { return isBad (mesh_.triangles[t], t); });
-  }
-
-  std::vector<Index> badVertices ()
-  {
-    std::vector<Index> vertices;
-    ProgressLoop progress (run_);
-    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
-      progress.next ();
-      const Triangle& corners = mesh_.triangles[t];
-      if (isBad (corners, t))
-        vertices.insert (vertices.end (), corners.begin (), corners.end ());
-    }
-    sortUnique (vertices);
-    return vertices;
-  }
+  static constexpr std::uint8_t NO_PLACE = 255; // all were tried in vain
 
   // True if an edge of a triangle around a vertex is folded.
   bool isAtFold (Index v)
@@ -130,15 +97,12 @@ private:
   {
     rings_.clear ();
     noteRing (v);
-    while (times > 0 && kicks_left_ > 0 && next_rank_[v] < limits_.kicks) {
+    const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.kicks);
+    for (; times > 0 && kicks_left_ > 0 && next_rank_[v] < places.size (); ++next_rank_[v]) {
       run_.poll ();
       mover_.start ();
       mover_.dirty ().clear ();
-      double change = 0.0;
-      if (!mover_.moveTo (v, next_rank_[v]++, change)) {
-        next_rank_[v] = static_cast<std::uint8_t> (limits_.kicks);
-        return false;
-      }
+      const double change = mover_.moveTo (v, places[next_rank_[v]]);
       if (noteRing (v)) {
         --times;
         --kicks_left_;
@@ -147,6 +111,8 @@ private:
       }
       mover_.undo ();
     }
+    if (next_rank_[v] >= places.size ())
+      next_rank_[v] = NO_PLACE;
     return false;
   }
 
@@ -159,7 +125,7 @@ private:
       mover_.dirty ().clear ();
       sortUnique (around_);
       for (Index w : around_) {
-        if (!isBad (w))
+        if (!isAtFold (w))
           continue;
         change += mover_.move (w, limits_.places_after_kick);
         if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
@@ -207,6 +173,18 @@ private:
   std::vector<Index> fan_, around_, changed_;
 };
 
+// The corners of the triangles at some edges.
+std::vector<Index>
+verticesAt (const std::vector<MeshEdge>& edges, const TriangleMesh& mesh)
+{
+  std::vector<Index> vertices;
+  for (const MeshEdge& e : edges)
+    for (Index p : {mesh.corner (e), mesh.from (e), mesh.to (e), mesh.corner (mesh.mate (e))})
+      vertices.push_back (p);
+  sortUnique (vertices);
+  return vertices;
+}
+
 } // namespace
 
 std::vector<MeshEdge>
@@ -236,14 +214,8 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost&
               const RunContext& run)
 {
   FoldRepair repair (mesh, neighbors, cost, limits, run);
-  const std::size_t moves = repair.moveAll ();
-  std::vector<Index> vertices;
-  for (const MeshEdge& fold : findFolds (mesh, positions, run))
-    for (Index p :
-         {mesh.corner (fold), mesh.from (fold), mesh.to (fold), mesh.corner (mesh.mate (fold))})
-      vertices.push_back (p);
-  sortUnique (vertices);
-  return moves + repair.kickAll (std::move (vertices));
+  const std::size_t moves = repair.moveAll (verticesAt (findFolds (mesh, positions, run), mesh));
+  return moves + repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
 }
 
 } // namespace floater

@@ -85,10 +85,7 @@ private:
         (!table_.isCrossing (e.triangle) && !table_.isCrossing (m.triangle)) ||
         mesh_.hasEdge (mesh_.corner (e), mesh_.corner (m)))
       return false;
-    const auto flip_it = [&] {
-      mesh_.flip (e);
-      return true;
-    };
+    const auto flip_it = [&] { mesh_.flip (e); };
     if (gainOf (flip_it) <= 0.0)
       return false;
     keep (flip_it);
@@ -145,24 +142,19 @@ private:
   {
     mover_.start ();
     double best = 0.0;
-    std::size_t best_rank = 0, rank = 0;
-    const auto move_it = [&] {
-      double change = 0.0;
-      return mover_.moveTo (v, rank, change);
-    };
-    for (; rank < limits_.places; ++rank) {
+    const VertexMover::Place* best_place = nullptr;
+    const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.places);
+    for (const VertexMover::Place& place : places) {
       run_.poll ();
-      if (const double gain = gainOf (move_it); gain > best) {
+      if (const double gain = gainOf ([&] { mover_.moveTo (v, place); }); gain > best) {
         best = gain;
-        best_rank = rank;
+        best_place = &place;
       }
     }
+    if (best_place != nullptr)
+      keep ([&] { mover_.moveTo (v, *best_place); });
     mover_.dirty ().clear ();
-    if (best <= 0.0)
-      return false;
-    rank = best_rank;
-    keep (move_it);
-    return true;
+    return best_place != nullptr;
   }
 
   // What is gained by a change, in the unit of cost: above 0 if it is to be kept. The mesh stays as
@@ -172,8 +164,7 @@ private:
   double gainOf (Change&& change)
   {
     const std::size_t mark = mesh_.mark ();
-    if (!change ())
-      return 0.0;
+    change ();
     noteChanged ();
     const Flaws after = flaws ();
     mesh_.undo (mark);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace pcl
 {
@@ -60,7 +61,7 @@ VertexMover::move (Index v, std::size_t tried)
   const std::size_t without = mesh_.mark ();
   double best = -IMPROVES;
   Index best_place = NONE;
-  for (const auto& [added, t] : places (v, tried)) {
+  for (const auto& [added, t] : findPlaces (v, tried)) {
     const double total = change + added + settleAt (v, t);
     mesh_.undo (without);
     if (total < best) {
@@ -77,20 +78,26 @@ VertexMover::move (Index v, std::size_t tried)
   return best;
 }
 
-bool
-VertexMover::moveTo (Index v, std::size_t rank, double& change)
+std::vector<VertexMover::Place>
+VertexMover::placesFor (Index v, std::size_t most)
 {
   const std::size_t before = mesh_.mark ();
+  double change = 0.0;
   if (!takeOut (v, change))
-    return false;
-  places (v, rank + 1);
-  if (rank >= places_.size ()) {
-    mesh_.undo (before);
-    return false;
-  }
-  change += places_[rank].first + settleAt (v, places_[rank].second);
+    return {};
+  const std::vector<Place> places = findPlaces (v, most);
+  mesh_.undo (before);
+  return places;
+}
+
+double
+VertexMover::moveTo (Index v, const Place& place)
+{
+  double change = 0.0;
+  takeOut (v, change);
+  change += place.added + settleAt (v, place.triangle);
   markDirty (v);
-  return true;
+  return change;
 }
 
 // Appends the old and the new neighbours of a vertex that has been moved.
@@ -136,8 +143,8 @@ VertexMover::isTriangle (const Triangle& corners)
 }
 
 // The triangles whose split at the vertex costs least, at most as many as asked for.
-const std::vector<std::pair<double, Index>>&
-VertexMover::places (Index v, std::size_t most)
+const std::vector<VertexMover::Place>&
+VertexMover::findPlaces (Index v, std::size_t most)
 {
   places_.clear ();
   ++search_;
@@ -159,14 +166,17 @@ VertexMover::offer (Index t, Index v, std::size_t most)
     return;
   offered_[t] = search_;
   const double limit =
-      places_.size () < most ? std::numeric_limits<double>::infinity () : places_.back ().first;
-  const std::pair<double, Index> place (splitCost (mesh_, cost_, t, v, limit), t);
+      places_.size () < most ? std::numeric_limits<double>::infinity () : places_.back ().added;
+  const Place place{splitCost (mesh_, cost_, t, v, limit), t};
+  const auto isCheaper = [] (const Place& a, const Place& b) {
+    return std::tie (a.added, a.triangle) < std::tie (b.added, b.triangle);
+  };
   if (places_.size () == most) {
-    if (!(place < places_.back ()))
+    if (!isCheaper (place, places_.back ()))
       return;
     places_.pop_back ();
   }
-  places_.insert (std::upper_bound (places_.begin (), places_.end (), place), place);
+  places_.insert (std::upper_bound (places_.begin (), places_.end (), place, isCheaper), place);
 }
 
 } // namespace floater

@@ -5,7 +5,6 @@
 #include "mesh/flips.h"
 #include "mesh/polygon_filling.h"
 
-#include <utility>
 #include <vector>
 
 namespace pcl
@@ -40,11 +39,21 @@ public:
   /// \return change of the cost of the mesh: below 0, or 0 if the vertex stays
   double move (Index v, std::size_t tried);
 
-  /// Moves a vertex to the place of some rank, whatever it costs.
-  /// \param rank   from 0 for the place where the split itself costs least
-  /// \param change out: of the cost of the mesh
-  /// \return false if there is no such place or the vertex cannot be taken out; it then stays
-  bool moveTo (Index v, std::size_t rank, double& change);
+  /// A triangle that a vertex can be put into.
+  struct Place
+  {
+    double added; ///< cost of its split at the vertex
+    Index triangle;
+  };
+
+  /// Where a vertex can be put, the cheapest first. The mesh stays as it is.
+  /// \param most number of places that are asked for
+  /// \return empty if the vertex cannot be taken out
+  std::vector<Place> placesFor (Index v, std::size_t most);
+
+  /// Moves a vertex to a place that was found for it in this state of the mesh.
+  /// \return change of the cost of the mesh
+  double moveTo (Index v, const Place& place);
 
   CachedCost& cost () { return cost_; }
 
@@ -63,7 +72,7 @@ private:
   void markDirty (Index v);
   double settleAt (Index v, Index t);
   bool isTriangle (const Triangle& corners);
-  const std::vector<std::pair<double, Index>>& places (Index v, std::size_t most);
+  const std::vector<Place>& findPlaces (Index v, std::size_t most);
   void offer (Index t, Index v, std::size_t most);
 
   TriangleMesh& mesh_;
@@ -75,8 +84,8 @@ private:
   std::vector<Triangle> filled_; // the filling of the hole that a vertex has left
   std::vector<Index> slots_;     // the triangles of that hole; the last two are not in use
   std::vector<Index> fan_, polygon_, dirty_;
-  std::vector<std::pair<double, Index>> places_; // (cost of the split, triangle), cheapest first
-  std::vector<std::uint32_t> offered_;           // per triangle: the last search that looked at it
+  std::vector<Place> places_;          // cheapest first
+  std::vector<std::uint32_t> offered_; // per triangle: the last search that looked at it
   std::uint32_t search_ = 0;
 };
 
