@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -38,30 +39,17 @@ PatchEvidence
 examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
               const Viewpoint& viewpoint, double near_ratio, bool with_rows)
 {
-  std::vector<Eigen::Vector3d> rays;
-  rays.reserve (patch.size ());
-  for (const Index p : patch)
-    rays.push_back (rayTo (positions[p], viewpoint).direction);
+  PatchRays rays (positions, patch, viewpoint);
   PatchEvidence evidence;
   std::vector<double> between_rays, between_rows, between_points;
   for (std::size_t i = 0; i < patch.size () / 2; ++i) {
-    double nearest = std::numeric_limits<double>::infinity (), second = nearest;
-    std::size_t at = i;
-    for (std::size_t j = 0; j < patch.size (); ++j) {
-      const double distance = j == i ? second : (rays[j] - rays[i]).squaredNorm ();
-      if (distance < nearest) {
-        second = std::exchange (nearest, distance);
-        at = j;
-      }
-      else
-        second = std::min (second, distance);
-    }
+    const PatchRays::Neighbors found = rays.neighborsOf (i, with_rows);
     ++evidence.judged;
-    evidence.near += nearest < near_ratio * near_ratio * second ? 1 : 0;
-    between_rays.push_back (std::sqrt (nearest));
+    evidence.near += found.nearest_distance < near_ratio * found.second_distance ? 1 : 0;
+    between_rays.push_back (found.nearest_distance);
     if (with_rows)
-      between_rows.push_back ((rays[nearestRayAcross (rays, i, at)] - rays[i]).norm ());
-    between_points.push_back ((positions[patch[at]] - positions[patch[i]]).norm ());
+      between_rows.push_back (found.across_distance);
+    between_points.push_back ((positions[patch[found.nearest]] - positions[patch[i]]).norm ());
   }
   evidence.ray_spread = spreadOf (between_rays);
   evidence.row_spread = spreadOf (between_rows);
@@ -71,38 +59,6 @@ examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& pat
 
 } // namespace
 
-std::size_t
-nearestRay (const std::vector<Eigen::Vector3d>& rays, std::size_t from)
-{
-  double least = std::numeric_limits<double>::infinity ();
-  std::size_t nearest = from;
-  for (std::size_t i = 0; i < rays.size (); ++i) {
-    const double sqr_distance = (rays[i] - rays[from]).squaredNorm ();
-    if (i != from && sqr_distance < least) {
-      least = sqr_distance;
-      nearest = i;
-    }
-  }
-  return nearest;
-}
-
-std::size_t
-nearestRayAcross (const std::vector<Eigen::Vector3d>& rays, std::size_t from, std::size_t along)
-{
-  const Eigen::Vector3d direction = (rays[along] - rays[from]).normalized ();
-  double least = std::numeric_limits<double>::infinity ();
-  std::size_t nearest = from;
-  for (std::size_t i = 0; i < rays.size (); ++i) {
-    const Eigen::Vector3d offset = rays[i] - rays[from];
-    const double sqr_distance = offset.squaredNorm (), part = offset.dot (direction);
-    if (sqr_distance > 0.0 && 2.0 * part * part < sqr_distance && sqr_distance < least) {
-      least = sqr_distance;
-      nearest = i;
-    }
-  }
-  return nearest;
-}
-
 std::vector<RayPatch>
 findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run)
@@ -110,14 +66,17 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
   const std::size_t n = positions.size ();
   std::vector<RayPatch> patches (std::min (limits.patches, n));
   const std::size_t size = std::min (limits.patch_points, n);
-  std::vector<Eigen::Vector3f> rays (n); // 1e-7 of a right angle is enough to tell what is near
+  std::vector<float> x (n), y (n), z (n); // 1e-7 of a right angle is enough to tell what is near
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      rays[p] = rayTo (positions[p], viewpoint).direction.cast<float> ();
+    for (std::size_t p = first; p < last; ++p) {
+      const Eigen::Vector3f ray = rayTo (positions[p], viewpoint).direction.cast<float> ();
+      x[p] = ray.x ();
+      y[p] = ray.y ();
+      z[p] = ray.z ();
+    }
   });
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
     const auto seed = (2 * k + 1) * n / (2 * patches.size ());
-    const Eigen::Vector3f ray = rays[seed];
     // The smallest distances so far, in twice the room, so that sorting costs O(1) each.
     std::vector<std::pair<float, Index>> nearest;
     float limit = std::numeric_limits<float>::infinity ();
@@ -129,13 +88,25 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
       nearest.resize (size);
       limit = nearest.back ().first;
     };
-    for (Index p = 0; p < n; ++p) {
-      const float distance = (rays[p] - ray).squaredNorm ();
-      if (distance > limit)
-        continue;
-      nearest.emplace_back (distance, p);
-      if (nearest.size () == 2 * size)
-        keepSmallest ();
+    // Few rays are that near: whole chunks are passed over.
+    constexpr std::size_t CHUNK = 64;
+    std::array<float, CHUNK> distance{};
+    for (std::size_t first = 0; first < n; first += CHUNK) {
+      const std::size_t count = std::min (CHUNK, n - first);
+      bool is_any_near = false;
+      for (std::size_t i = 0; i < count; ++i) {
+        const float dx = x[first + i] - x[seed], dy = y[first + i] - y[seed],
+                    dz = z[first + i] - z[seed];
+        distance[i] = dx * dx + dy * dy + dz * dz;
+        is_any_near |= distance[i] <= limit;
+      }
+      for (std::size_t i = 0; is_any_near && i < count; ++i) {
+        if (distance[i] > limit)
+          continue;
+        nearest.emplace_back (distance[i], static_cast<Index> (first + i));
+        if (nearest.size () == 2 * size)
+          keepSmallest ();
+      }
     }
     keepSmallest ();
     std::sort (nearest.begin (), nearest.end ());

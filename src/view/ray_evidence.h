@@ -3,7 +3,9 @@
 // point.
 #pragma once
 
-#include "view/rays.h"
+#include "view/patch_rays.h"
+
+#include <vector>
 
 namespace pcl
 {
@@ -35,18 +37,6 @@ struct RayEvidence
                            ///< the nearest: to the next row of a scanner
   double point_spread = 0.0; ///< the same of the distances in space between their points
 };
-
-/// The nearest ray to another one, by their directions; that one itself if there is no other.
-std::size_t
-nearestRay (const std::vector<Eigen::Vector3d>& rays, std::size_t from);
-
-/// The nearest ray that lies across the direction to another: by more than 45 degrees. The ray
-/// itself if there is none.
-std::size_t
-nearestRayAcross (const std::vector<Eigen::Vector3d>& rays, std::size_t from, std::size_t along);
-
-/// Points at nearby rays: the nearest rays to that of a point, nearest first.
-using RayPatch = std::vector<Index>;
 
 /// Patches around points that are spread evenly over the order of the points. O(patches * n).
 std::vector<RayPatch>

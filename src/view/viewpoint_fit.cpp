@@ -43,16 +43,13 @@ findPairs (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayP
   std::vector<PairGroup> groups (2 * patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
     const RayPatch& patch = patches[k];
-    std::vector<Eigen::Vector3d> rays;
-    for (const Index p : patch)
-      rays.push_back (rayTo (positions[p], viewpoint).direction);
+    PatchRays rays (positions, patch, viewpoint);
     for (std::size_t i = 0; i < patch.size () / 2; ++i) {
-      const std::size_t nearest = nearestRay (rays, i);
-      const std::size_t across = nearestRayAcross (rays, i, nearest);
-      if (nearest != i)
-        groups[2 * k].push_back ({patch[i], patch[nearest]});
-      if (across != i)
-        groups[2 * k + 1].push_back ({patch[i], patch[across]});
+      const PatchRays::Neighbors found = rays.neighborsOf (i);
+      if (found.nearest != i)
+        groups[2 * k].push_back ({patch[i], patch[found.nearest]});
+      if (found.across != i)
+        groups[2 * k + 1].push_back ({patch[i], patch[found.across]});
     }
   });
   return groups;
@@ -126,16 +123,16 @@ moved (const Viewpoint& from, const Eigen::Vector3d& by)
 
 Viewpoint
 fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
-              const Viewpoint& start, const RunContext& run)
+              const Viewpoint& start, bool is_coarse, const RunContext& run)
 {
   constexpr std::size_t MOST_STEPS = 20;
   constexpr double DIFFERENCE = 1e-7; // for derivatives; positions are in a box of diagonal 1
-  constexpr double SMALLEST_STEP = 1e-9;
+  constexpr double SMALLEST_STEP = 1e-7; // a tenth of what the search asks for
   constexpr double MOST_DAMPING = 1e6;
   const Eigen::Index unknowns = start.is_far ? 2 : 3;
   Viewpoint viewpoint = start;
   double damping = 1e-3;
-  double least_scale = 0.5; // all pairs take part at first, in the end those that are alike
+  double least_scale = is_coarse ? 0.5 : 0.0; // all pairs take part at first, then those alike
   for (std::size_t step = 0; step < MOST_STEPS && damping < MOST_DAMPING; ++step) {
     const std::vector<PairGroup> groups = findPairs (positions, patches, viewpoint, run);
     const ViewpointFit fit (positions, groups);

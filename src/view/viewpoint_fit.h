@@ -16,10 +16,12 @@ namespace floater
 /// the method of Levenberg and Marquardt, with the weights of Cauchy's distribution, so that ends
 /// of rows and outlines do not matter. O(patches * points of a patch squared) for each of at most
 /// twenty steps.
-/// \param patches found at a viewpoint nearby
+/// \param patches   found at a viewpoint nearby
+/// \param is_coarse the start is not the result of a fit: all pairs take part in the first steps,
+///                  and not only those that are alike
 Viewpoint
 fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
-              const Viewpoint& start, const RunContext& run);
+              const Viewpoint& start, bool is_coarse, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

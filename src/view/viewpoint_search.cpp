@@ -246,11 +246,21 @@ private:
     return refine (viewpoint);
   }
 
-  bool isHopeless (const RayEvidence& evidence, const Viewpoint& viewpoint) const
+  // How many times more a place may show than what is enough in the end, and lead there.
+  struct Excess
   {
-    constexpr double REGULARITY = 2.0, NEAR = 5.0; // of what is enough in the end
-    return evidence.ray_spread > REGULARITY * evidence_.regularity * evidence.point_spread ||
-           (viewpoint.is_far && evidence.near_share > NEAR * evidence_.near_share);
+    double regularity, near;
+  };
+
+  // Before a fit; near a place, outlines may hide each other, so that all rays may be near.
+  static constexpr Excess AFTER_DESCENT{2.0, 100.0}, AFTER_DESCENT_FROM_FAR{2.0, 5.0};
+  // After the first fit, and after the next ones, which hardly change it any more.
+  static constexpr Excess AFTER_FIRST_FIT{2.0, 5.0}, AFTER_FIT{1.4, 2.0};
+
+  bool isHopeless (const RayEvidence& evidence, const Excess& excess) const
+  {
+    return evidence.ray_spread > excess.regularity * evidence_.regularity * evidence.point_spread ||
+           evidence.near_share > excess.near * evidence_.near_share;
   }
 
   // Rows tell the place of a spinning lidar along its axis, but may mislead among other rasters.
@@ -271,18 +281,24 @@ private:
                       .viewpoint;
       step *= 0.3;
       // Where the first, coarse steps lead to no more evidence than this, finer ones hardly do.
-      if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_), viewpoint))
+      if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_),
+                      viewpoint.is_far ? AFTER_DESCENT_FROM_FAR : AFTER_DESCENT))
         return {};
     }
     // The patches of a better place lead to a better one yet.
+    std::vector<RayPatch> patches;
     for (std::size_t round = 0; round < limits_.fits; ++round) {
+      const EvidenceLimits& limits = round == 0 ? coarse_ : evidence_;
+      patches = findRayPatches (positions_, viewpoint, limits, run_);
       const Eigen::Vector3d before = viewpoint.place;
-      viewpoint = fitViewpoint (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
-                                viewpoint, run_);
-      if ((viewpoint.place - before).norm () < PRECISION)
+      viewpoint = fitViewpoint (positions_, patches, viewpoint, round == 0, run_);
+      const double moved = (viewpoint.place - before).norm ();
+      if (isHopeless (findRayEvidence (positions_, patches, viewpoint, limits, run_),
+                      round == 0 ? AFTER_FIRST_FIT : AFTER_FIT))
+        return {};
+      if (round > 0 && moved < PRECISION)
         break;
     }
-    const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
     const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     if (!isSeenFromThere (evidence, evidence_))
       return {};
