@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
+#include "blas_threads.h"
 #include "check_paths.h"
 #include "cloud_reader.h"
 #include "command_line.h"
@@ -352,6 +353,8 @@ main (int argc, char** argv)
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
   const bool may_lack_memory = isAddressSpaceLimited ();
+  if (!may_lack_memory)
+    pcl::floater::endBlasThreads ();
   int code = pcl::floater::EXIT_INTERNAL;
   try {
     code = pcl::floater::runTool (argc, argv);

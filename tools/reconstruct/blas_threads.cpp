@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "blas_threads.h"
+
+#include <dlfcn.h>
+
+namespace pcl
+{
+namespace floater
+{
+void
+endBlasThreads ()
+{
+  // What OpenBLAS itself calls before a fork.
+  using Shutdown = int (*) ();
+  const auto shutdown = reinterpret_cast<Shutdown> (dlsym (RTLD_DEFAULT, "blas_thread_shutdown_"));
+  if (shutdown != nullptr)
+    shutdown ();
+}
+
+} // namespace floater
+} // namespace pcl
