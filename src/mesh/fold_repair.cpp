@@ -20,15 +20,15 @@ class FoldRepair
 public:
   FoldRepair (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
               const RepairLimits& limits, const RunContext& run)
-      : mesh_ (mesh), limits_ (limits), run_ (run),
+      : mesh_ (mesh), neighbors_ (neighbors), limits_ (limits), run_ (run),
         mover_ (mesh, neighbors, cost, limits.largest_fan, run)
   {
   }
 
-  // Moves vertices, and then again those at folds that something was moved at.
-  std::size_t moveAll (std::vector<Index> vertices)
+  std::size_t moveAll ()
   {
     std::size_t moves = 0;
+    std::vector<Index> vertices = findVerticesToMove ();
     for (int pass = 0; pass < limits_.passes && !vertices.empty (); ++pass) {
       mover_.dirty ().clear ();
       ProgressLoop progress (run_, vertices.size ());
@@ -40,7 +40,7 @@ public:
       vertices.swap (mover_.dirty ());
       sortUnique (vertices);
       vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
-                                      [this] (Index v) { return !isAtFold (v); }),
+                                      [this] (Index v) { return !isToMove (v); }),
                       vertices.end ());
     }
     return moves;
@@ -77,6 +77,53 @@ public:
 
 private:
   static constexpr std::uint8_t NO_PLACE = 255; // all were tried in vain
+
+  // True if a triangle is turned, or more than 90 degrees from a neighbouring triangle.
+  bool isBad (Index t)
+  {
+    if (cost_.plain ().isTurned (mesh_.triangles[t]))
+      return true;
+    const Eigen::Vector3d normal = cost_ (mesh_.triangles[t]).unit_normal;
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (normal.dot (normalAcross (mesh_, cost_, {t, side})) < 0.0)
+        return true;
+    return false;
+  }
+
+  // The corners of bad triangles; but where most points around are corners of bad triangles, only
+  // those at folds.
+  std::vector<Index> findVerticesToMove ()
+  {
+    std::vector<std::uint8_t> is_bad (mesh_.triangle_of.size (), 0);
+    ProgressLoop progress (run_);
+    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+      progress.next ();
+      if (isBad (t))
+        for (const Index v : mesh_.triangles[t])
+          is_bad[v] = 1;
+    }
+    is_scattered_.assign (is_bad.size (), 0);
+    std::vector<Index> vertices;
+    for (Index v = 0; v < is_bad.size (); ++v) {
+      if (is_bad[v] == 0)
+        continue;
+      const Row around = neighbors_.row (v);
+      const auto bad =
+          std::count_if (around.begin (), around.end (), [&] (Index q) { return is_bad[q] != 0; });
+      is_scattered_[v] = 2 * static_cast<std::size_t> (bad) > around.size () ? 1 : 0;
+      if (is_scattered_[v] == 0 || isAtFold (v))
+        vertices.push_back (v);
+    }
+    return vertices;
+  }
+
+  bool isToMove (Index v)
+  {
+    if (isAtFold (v))
+      return true;
+    return is_scattered_[v] == 0 &&
+           std::any_of (fan_.begin (), fan_.end (), [this] (Index t) { return isBad (t); });
+  }
 
   // True if an edge of a triangle around a vertex is folded.
   bool isAtFold (Index v)
@@ -163,10 +210,12 @@ private:
   }
 
   TriangleMesh& mesh_;
+  const CsrLists& neighbors_;
   RepairLimits limits_;
   RunContext run_;
   VertexMover mover_;
   CachedCost& cost_ = mover_.cost ();
+  std::vector<std::uint8_t> is_scattered_; // per point: most points around are at bad triangles
   std::vector<std::uint8_t> next_rank_; // per point: rank of the place to which it is kicked next
   std::size_t kicks_left_ = 0;
   std::vector<std::vector<Index>> rings_; // neighbours at the places tried so far
@@ -214,7 +263,7 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost&
               const RunContext& run)
 {
   FoldRepair repair (mesh, neighbors, cost, limits, run);
-  const std::size_t moves = repair.moveAll (verticesAt (findFolds (mesh, positions, run), mesh));
+  const std::size_t moves = repair.moveAll ();
   return moves + repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
 }
 

@@ -147,6 +147,8 @@ const std::vector<VertexMover::Place>&
 VertexMover::findPlaces (Index v, std::size_t most)
 {
   places_.clear ();
+  if (most == 0)
+    return places_;
   ++search_;
   for (std::size_t i = 0; i + 2 < slots_.size (); ++i)
     offer (slots_[i], v, most);

@@ -88,19 +88,22 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
       nearest.resize (size);
       limit = nearest.back ().first;
     };
-    // Few rays are that near: whole chunks are passed over.
+    // Few rays are that near: whole chunks are passed over. Loops that become vector instructions.
     constexpr std::size_t CHUNK = 64;
     std::array<float, CHUNK> distance{};
+    const float seed_x = x[seed], seed_y = y[seed], seed_z = z[seed];
     for (std::size_t first = 0; first < n; first += CHUNK) {
       const std::size_t count = std::min (CHUNK, n - first);
-      bool is_any_near = false;
       for (std::size_t i = 0; i < count; ++i) {
-        const float dx = x[first + i] - x[seed], dy = y[first + i] - y[seed],
-                    dz = z[first + i] - z[seed];
+        const float dx = x[first + i] - seed_x, dy = y[first + i] - seed_y,
+                    dz = z[first + i] - seed_z;
         distance[i] = dx * dx + dy * dy + dz * dz;
-        is_any_near |= distance[i] <= limit;
       }
-      for (std::size_t i = 0; is_any_near && i < count; ++i) {
+      const float longest = limit;
+      int near = 0;
+      for (const float d : distance)
+        near += d <= longest ? 1 : 0;
+      for (std::size_t i = 0; near > 0 && i < count; ++i) {
         if (distance[i] > limit)
           continue;
         nearest.emplace_back (distance[i], static_cast<Index> (first + i));

@@ -132,7 +132,7 @@ fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<R
   const Eigen::Index unknowns = start.is_far ? 2 : 3;
   Viewpoint viewpoint = start;
   double damping = 1e-3;
-  double least_scale = is_coarse ? 0.5 : 0.0; // all pairs take part at first, then those alike
+  double least_scale = is_coarse ? 0.5 : 0.1; // all pairs take part at first, then those alike
   for (std::size_t step = 0; step < MOST_STEPS && damping < MOST_DAMPING; ++step) {
     const std::vector<PairGroup> groups = findPairs (positions, patches, viewpoint, run);
     const ViewpointFit fit (positions, groups);
