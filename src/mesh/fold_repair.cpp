@@ -172,7 +172,7 @@ private:
       mover_.dirty ().clear ();
       sortUnique (around_);
       for (Index w : around_) {
-        if (!isAtFold (w))
+        if (!isToMove (w))
           continue;
         change += mover_.move (w, limits_.places_after_kick);
         if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)

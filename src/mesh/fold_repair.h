@@ -32,10 +32,11 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// order or where they were connected to another sheet. No single flip lowers the cost there.
 /// Vertices are taken out and put back elsewhere (see VertexMover), in two steps:
 ///
-/// Moves: all corners of the triangles at folds are moved to where they cost least. Each further
-/// pass looks at the old and new neighbours of the vertices that were moved. Triangles that are
-/// turned away from their normals without a fold are left alone: moves there took 70 % of the time
-/// of scattered clouds, and made the meshes of clean ones no better.
+/// Moves: all corners of triangles that are turned away from their normals, or more than 90 degrees
+/// from a neighbouring triangle, are moved to where they cost least. Where most points around are
+/// such corners, as in leaves or grass, there is no surface that tells where a vertex belongs: only
+/// those at folds are moved there. Each further pass looks at the old and new neighbours of the
+/// vertices that were moved.
 ///
 /// Kicks: a vertex at a fold that is left is moved to a place where the cost is higher, and the
 /// vertices around it are moved after it. This is kept if the cost of the mesh is lower in the end,
@@ -45,8 +46,8 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// vertex gets an equal share of them. A vertex that was kicked to all its places in vain is kicked
 /// again only after a triangle around it has changed.
 ///
-/// Every step that is kept lowers the cost of the mesh. The boundary stays. O(n) at worst, O(folds)
-/// where there are few. One thread.
+/// Every step that is kept lowers the cost of the mesh. The boundary stays. O(n) at worst, O(bad
+/// vertices) where few are bad. One thread.
 /// \param neighbors nearest neighbours of each point, where places for it are searched
 /// \return number of moves and kicks that were kept
 std::size_t

@@ -57,8 +57,7 @@ PatchRays::neighborsOf (std::size_t ray, bool with_across)
                 along_z = z_[found.nearest] - z;
     const float half = 0.5F * found.nearest_distance; // squared cosine of 45 degrees
     for (std::size_t i = 0; i < size; ++i) {
-      const float part =
-          (x_[i] - x) * along_x + (y_[i] - y) * along_y + (z_[i] - z) * along_z;
+      const float part = (x_[i] - x) * along_x + (y_[i] - y) * along_y + (z_[i] - z) * along_z;
       const bool is_across = part * part <= half * sqr_distance[i] && sqr_distance[i] > 0.0F;
       sqr_distance[i] = is_across ? sqr_distance[i] : NONE_YET;
     }

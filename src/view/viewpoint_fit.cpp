@@ -126,7 +126,7 @@ fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<R
               const Viewpoint& start, bool is_coarse, const RunContext& run)
 {
   constexpr std::size_t MOST_STEPS = 20;
-  constexpr double DIFFERENCE = 1e-7; // for derivatives; positions are in a box of diagonal 1
+  constexpr double DIFFERENCE = 1e-7;    // for derivatives; positions are in a box of diagonal 1
   constexpr double SMALLEST_STEP = 1e-7; // a tenth of what the search asks for
   constexpr double MOST_DAMPING = 1e6;
   const Eigen::Index unknowns = start.is_far ? 2 : 3;

@@ -5,10 +5,10 @@ namespace pcl
 {
 namespace floater
 {
-/// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a tenth
-/// of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS would
-/// start them again if it were asked to use several threads. It is looked up at run time; with any
-/// other BLAS this does nothing.
+/// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a
+/// tenth of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS
+/// would start them again if it were asked to use several threads. It is looked up at run time;
+/// with any other BLAS this does nothing.
 ///
 /// To be called before any other thread is started, and not where the address space is limited: a
 /// worker that finds no memory never ends.
