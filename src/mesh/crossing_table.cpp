@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/crossing_table.h"
 
+#include "mesh/triangle_order.h"
+
 #include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace pcl
 {
@@ -15,21 +15,6 @@ bool
 contains (const std::vector<Index>& ascending, Index t)
 {
   return std::binary_search (ascending.begin (), ascending.end (), t);
-}
-
-// Triangles in the order of their smallest points, which are near each other in space.
-std::vector<Index>
-orderByPoints (const std::vector<Triangle>& triangles)
-{
-  std::vector<Index> order (triangles.size ());
-  std::iota (order.begin (), order.end (), Index{0});
-  const auto smallest = [&triangles] (Index t) {
-    return std::min ({triangles[t][0], triangles[t][1], triangles[t][2]});
-  };
-  std::sort (order.begin (), order.end (), [&smallest] (Index t, Index u) {
-    return std::make_pair (smallest (t), t) < std::make_pair (smallest (u), u);
-  });
-  return order;
 }
 
 std::vector<Index>
@@ -54,8 +39,8 @@ countPairs (Index t, const std::vector<Index>& partners, const std::vector<Index
 CrossingTable::CrossingTable (const TriangleMesh& mesh,
                               const std::vector<Eigen::Vector3d>& positions,
                               const std::vector<CrossingPair>& pairs, const RunContext& run)
-    : mesh_ (mesh), positions_ (positions), order_ (orderByPoints (mesh.triangles)),
-      place_ (inverseOf (order_)),
+    : mesh_ (mesh), positions_ (positions),
+      order_ (orderByPoints (mesh.triangles, positions.size ())), place_ (inverseOf (order_)),
       tree_ (
           order_.size (),
           [this] (std::size_t i) { return boxOf (mesh_.triangles[order_[i]], positions_); }, run),

@@ -202,14 +202,12 @@ private:
     return judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY;
   }
 
-  // Whether one object may lie within another. Windows may have cut off where the outer one
-  // protruded.
+  // Whether one object may lie within another.
   bool mayLieIn (Index o, Index other) const
   {
-    constexpr double MARGIN = 0.1; // of the size of the outer box
     const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
     Eigen::AlignedBox3d box = outer.box;
-    const Eigen::Vector3d margin = MARGIN * box.sizes ();
+    const Eigen::Vector3d margin = limits_.nesting_margin * box.sizes ();
     box.min () -= margin;
     box.max () += margin;
     return inner.area < outer.area && box.contains (inner.box);
@@ -218,8 +216,7 @@ private:
   // Bodies that may lie within other bodies. Where one does, it is the wall of a hollow, unless its
   // front is seen from outside and its back is not, or hardly: then it is a body of its own, seen
   // through the windows of the other one. Of the wall of a hollow, the windows show the back; its
-  // front is seen at their rims only. In generated hollow bodies with windows, up to three times as
-  // many lines are free there, but for some by chance.
+  // front is seen at their edges only.
   void judgeNested ()
   {
     std::vector<Index> bodies, inner;
@@ -240,8 +237,9 @@ private:
     for (const Index o : inner) {
       const std::size_t outside = isTurned (o) ? free[o].back : free[o].front;
       const std::size_t inside = isTurned (o) ? free[o].front : free[o].back;
-      const bool is_own =
-          objects_.sums[o].is_closed ? outside > 0 : outside > OWN_BODY * (inside + CHANCE_SIGHTS);
+      const bool is_own = objects_.sums[o].is_closed
+                              ? outside > 0
+                              : outside > limits_.own_body_ratio * (inside + limits_.chance_lines);
       if (!is_own)
         decide (o, FacingRule::HOLLOW, !isTurned (o), 1.0);
     }
@@ -254,7 +252,7 @@ private:
     if (around.empty ())
       return 0;
     std::vector<SightLine> lines = linesThrough ({o});
-    lines.resize (std::min (lines.size (), NESTING_LINES));
+    lines.resize (std::min (lines.size (), limits_.nesting_lines));
     std::size_t count = 0;
     for (const Index other : around) {
       std::size_t odd = 0;
@@ -270,8 +268,6 @@ private:
     }
     return count;
   }
-
-  static constexpr std::size_t OWN_BODY = 8, CHANCE_SIGHTS = 2, NESTING_LINES = 15;
 
   const TriangleMesh& mesh_;
   const Positions& positions_;

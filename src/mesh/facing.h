@@ -38,6 +38,17 @@ struct FacingLimits
   /// hand.
   double equal_axes = 0.9;
 
+  /// How much an object may stick out of another one, as a share of its box, and still lie in it:
+  /// windows may have cut off where the outer one protruded. Chosen by hand.
+  double nesting_margin = 0.1;
+  std::size_t nesting_lines = 15; ///< by whose majority an object lies in another one or not
+
+  /// An open body within another one is a body of its own, and not the wall of a hollow, if more
+  /// lines are free of its front than of its back: so many times as many, beyond a few by chance.
+  /// At the walls of generated hollow bodies with windows, up to 3 times as many are.
+  std::size_t own_body_ratio = 8;
+  std::size_t chance_lines = 2;
+
   ContinuationLimits continuations;
 };
 

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "mesh/box_tree.h"
+#include "mesh/triangle_order.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -195,7 +196,8 @@ class PairFinder
 public:
   PairFinder (const std::vector<Triangle>& triangles, const Positions& positions,
               const RunContext& run)
-      : triangles_ (triangles), positions_ (positions), run_ (run), is_plain_ (positions.size ())
+      : triangles_ (triangles), positions_ (positions), run_ (run),
+        order_ (orderByPoints (triangles, positions.size ())), is_plain_ (positions.size ())
   {
     const CsrLists around = makeCsrLists (positions.size (), [&] (const auto& emit) {
       for (Index t = 0; t < triangles.size (); ++t)
@@ -207,7 +209,9 @@ public:
       for (auto p = static_cast<Index> (first); p < last; ++p)
         is_plain_[p] = around.row (p).size () > 0 && fans.isPlain (p, around.row (p)) ? 1 : 0;
     });
-    sortByPoints (around);
+    sorted_.reserve (order_.size ());
+    for (const Index t : order_)
+      sorted_.push_back (triangles[t]);
   }
 
   std::vector<CrossingPair> find () const
@@ -234,21 +238,6 @@ public:
   }
 
 private:
-  // Triangles in the order of their smallest points: those near in memory are near in space.
-  void sortByPoints (const CsrLists& around)
-  {
-    order_.reserve (triangles_.size ());
-    sorted_.reserve (triangles_.size ());
-    for (Index p = 0; p < around.rows (); ++p)
-      for (const Index t : around.row (p)) {
-        const Triangle& c = triangles_[t];
-        if (p == std::min ({c[0], c[1], c[2]})) {
-          order_.push_back (t);
-          sorted_.push_back (c);
-        }
-      }
-  }
-
   bool isCrossing (const Triangle& one, const Triangle& other) const
   {
     for (const Index p : one)
@@ -260,8 +249,8 @@ private:
   const std::vector<Triangle>& triangles_;
   const Positions& positions_;
   RunContext run_;
+  std::vector<Index> order_;           // see orderByPoints
   std::vector<std::uint8_t> is_plain_; // per point, see PlainFans
-  std::vector<Index> order_;           // the triangles, by their smallest points
   std::vector<Triangle> sorted_;       // their corners in this order
 };
 

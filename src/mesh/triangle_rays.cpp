@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/triangle_rays.h"
 
-#include "core/csr_lists.h"
 #include "core/geometry.h"
+#include "mesh/triangle_order.h"
 
 namespace pcl
 {
 namespace floater
 {
-namespace
-{
-// Triangles in the order of their smallest points: those near in memory are near in space.
-std::vector<Index>
-sortByPoints (const std::vector<Triangle>& triangles, std::size_t points)
-{
-  return makeCsrLists (points,
-                       [&] (const auto& emit) {
-                         for (Index t = 0; t < triangles.size (); ++t) {
-                           const Triangle& c = triangles[t];
-                           emit (std::min ({c[0], c[1], c[2]}), t);
-                         }
-                       })
-      .ids;
-}
-} // namespace
-
 TriangleRays::TriangleRays (const std::vector<Triangle>& triangles,
                             const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
     : triangles_ (triangles), positions_ (positions),
-      order_ (sortByPoints (triangles, positions.size ())),
+      order_ (orderByPoints (triangles, positions.size ())),
       tree_ ((order_.size () + GROUP - 1) / GROUP,
              [this] (std::size_t group) { return boxOf (group); }, run)
 {

@@ -246,21 +246,10 @@ private:
     return refine (viewpoint);
   }
 
-  // How many times more a place may show than what is enough in the end, and lead there.
-  struct Excess
-  {
-    double regularity, near;
-  };
-
-  // Before a fit; near a place, outlines may hide each other, so that all rays may be near.
-  static constexpr Excess AFTER_DESCENT{2.0, 100.0}, AFTER_DESCENT_FROM_FAR{2.0, 5.0};
-  // After the first fit, and after the next ones, which hardly change it any more.
-  static constexpr Excess AFTER_FIRST_FIT{2.0, 5.0}, AFTER_FIT{1.4, 2.0};
-
-  bool isHopeless (const RayEvidence& evidence, const Excess& excess) const
+  bool isHopeless (const RayEvidence& evidence, const EvidenceExcess& excess) const
   {
     return evidence.ray_spread > excess.regularity * evidence_.regularity * evidence.point_spread ||
-           evidence.near_share > excess.near * evidence_.near_share;
+           evidence.near_share > excess.near_share * evidence_.near_share;
   }
 
   // Rows tell the place of a spinning lidar along its axis, but may mislead among other rasters.
@@ -282,24 +271,22 @@ private:
       step *= 0.3;
       // Where the first, coarse steps lead to no more evidence than this, finer ones hardly do.
       if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_),
-                      viewpoint.is_far ? AFTER_DESCENT_FROM_FAR : AFTER_DESCENT))
+                      viewpoint.is_far ? limits_.after_round_from_far : limits_.after_round))
         return {};
     }
     // The patches of a better place lead to a better one yet.
-    std::vector<RayPatch> patches;
+    RayEvidence evidence;
     for (std::size_t round = 0; round < limits_.fits; ++round) {
       const EvidenceLimits& limits = round == 0 ? coarse_ : evidence_;
-      patches = findRayPatches (positions_, viewpoint, limits, run_);
+      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
       const Eigen::Vector3d before = viewpoint.place;
       viewpoint = fitViewpoint (positions_, patches, viewpoint, round == 0, run_);
-      const double moved = (viewpoint.place - before).norm ();
-      if (isHopeless (findRayEvidence (positions_, patches, viewpoint, limits, run_),
-                      round == 0 ? AFTER_FIRST_FIT : AFTER_FIT))
+      evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
+      if (isHopeless (evidence, round == 0 ? limits_.after_first_fit : limits_.after_fit))
         return {};
-      if (round > 0 && moved < PRECISION)
+      if (round > 0 && (viewpoint.place - before).norm () < PRECISION)
         break;
     }
-    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     if (!isSeenFromThere (evidence, evidence_))
       return {};
     return viewpoint;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The order of triangles in which those next to each other are near in space.
+#pragma once
+
+#include "core/csr_lists.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Triangles in the order of their smallest points, which lie along a space-filling curve. Of one
+/// point, in their own order. O(n).
+/// \param points number of points; corners are below
+inline std::vector<Index>
+orderByPoints (const std::vector<Triangle>& triangles, std::size_t points)
+{
+  return makeCsrLists (points,
+                       [&] (const auto& emit) {
+                         for (Index t = 0; t < triangles.size (); ++t) {
+                           const Triangle& corners = triangles[t];
+                           emit (*std::min_element (corners.begin (), corners.end ()), t);
+                         }
+                       })
+      .ids;
+}
+
+} // namespace floater
+} // namespace pcl
