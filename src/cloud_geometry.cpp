@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_geometry.h"
 
-#include "local/star_agreement.h"
 #include "points/outliers.h"
 #include "report_cloud.h"
 
@@ -15,20 +14,6 @@ namespace floater
 {
 namespace
 {
-StarSettings
-starSettings (const Options& options, const Limits& limits)
-{
-  StarSettings settings;
-  settings.filter_sheets = options.filter_sheets;
-  settings.with_offsets = asksForDisc (options);
-  const Neighborhood kind = options.neighbors.kind;
-  settings.reach_beyond =
-      !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
-  settings.limits = limits.sheets;
-  settings.reach = limits.reach;
-  return settings;
-}
-
 // Cloud indices of the points that stand for those of a given loop: of equal points, one stands for
 // all. Ascending.
 std::vector<Index>
@@ -71,38 +56,51 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
   neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
 }
 
-LocalGeometry
-makeGeometry (const Points& points, CsrLists neighbors, const std::optional<KdTree>& tree,
-              const Request& request, Noise& noise)
+StarSettings
+starSettings (const Request& request)
+{
+  const Options& options = request.options;
+  StarSettings settings;
+  settings.filter_sheets = options.filter_sheets;
+  settings.with_offsets = asksForDisc (options);
+  const Neighborhood kind = options.neighbors.kind;
+  settings.reach_beyond =
+      !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
+  settings.limits = request.limits.sheets;
+  settings.reach = request.limits.reach;
+  return settings;
+}
+
+LocalPlanes
+makePlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> tree,
+            const Request& request, Noise& noise)
 {
   const Limits& limits = request.limits;
   const RunContext& run = request.run;
   if (request.options.denoise)
     noise = measureNoise (points.positions, neighbors, limits.noise, run);
   run.beginStage (Stage::STARS);
-  LocalGeometry geometry =
-      makeLocalGeometry (points, std::move (neighbors), starSettings (request.options, limits), run,
-                         limits.planes, tree ? &*tree : nullptr);
-  noise.is_strong =
-      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
-  return geometry;
+  return fitLocalPlanes (points, std::move (neighbors), std::move (tree), starSettings (request),
+                         run, limits.planes);
 }
 
 LocalGeometry
-projectNoise (Points& points, LocalGeometry geometry, const Noise& noise,
+projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
               const NeighborSettings& settings, const Request& request)
 {
   const Limits& limits = request.limits;
   const RunContext& run = request.run;
-  points.projected =
-      projectNoisyPoints (points.positions, geometry.neighbors, noise, limits.noise, run);
-  geometry = {};
+  points.projected = projectNoisyPoints (points.positions, neighbors, noise, limits.noise, run);
+  neighbors = {};
   run.beginStage (Stage::NEIGHBORS);
   std::optional<KdTree> tree;
-  CsrLists neighbors = findNeighbors (points, settings, run, &tree);
+  neighbors = findNeighbors (points, settings, run, &tree);
   run.beginStage (Stage::STARS);
-  return makeLocalGeometry (points, std::move (neighbors), starSettings (request.options, limits),
-                            run, limits.planes, tree ? &*tree : nullptr);
+  const StarSettings stars = starSettings (request);
+  return makeLocalGeometry (
+      points,
+      fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes),
+      stars, run);
 }
 
 } // namespace floater

@@ -23,17 +23,22 @@ void
 removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
                 const Request& request, Report& report);
 
-/// The geometry around each point as it lies, and the noise, if it may be projected away.
+/// How the stars of the points are made.
+StarSettings
+starSettings (const Request& request);
+
+/// The planes of the points as they lie, and the noise, if it may be projected away.
 /// \param tree kd-tree of all points, if there is one already
-LocalGeometry
-makeGeometry (const Points& points, CsrLists neighbors, const std::optional<KdTree>& tree,
-              const Request& request, Noise& noise);
+LocalPlanes
+makePlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> tree,
+            const Request& request, Noise& noise);
 
 /// Beyond TW 385: projects noisy points on the planes of the points around, by which they are
 /// connected. The mesh is triangles only, so the user's points stay where they are.
+/// \param neighbors of the points as they lie
 /// \return the geometry around each projected point
 LocalGeometry
-projectNoise (Points& points, LocalGeometry geometry, const Noise& noise,
+projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
               const NeighborSettings& settings, const Request& request);
 
 } // namespace floater

@@ -9,6 +9,7 @@
 #include "cloud_geometry.h"
 #include "finished_mesh.h"
 #include "input_cleaning.h"
+#include "local/star_agreement.h"
 #include "mesh/mesh_spacing.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
@@ -245,17 +246,32 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = checkPoints (points))
     return problem;
   Noise noise;
-  LocalGeometry geometry = makeGeometry (points, std::move (neighbors), tree, request, noise);
-  tree.reset ();
+  LocalPlanes planes = makePlanes (points, std::move (neighbors), std::move (tree), request, noise);
   reportNoise (noise, false, report);
-  if (may_be_seen)
-    if (const std::optional<Viewpoint> viewpoint = findViewpoint (
-            points, geometry, noise.is_strong, limits.view.search, limits.view.evidence, run))
-      if (const std::optional<Problem> problem =
-              reconstructView (points, *viewpoint, request, result))
+  const StarSettings stars = starSettings (request);
+  const SearchLimits& search = limits.view.search;
+  std::vector<AreaSample> samples;
+  const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
+    return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
+  };
+  if (may_be_seen) {
+    samples = takeAreaSamples (points, planes, stars, search.samples, run);
+    if (const std::optional<Problem> problem = reconstructFrom (
+            findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
+      return *problem;
+  }
+  LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
+  noise.is_strong =
+      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
+  if (noise.is_strong) {
+    if (may_be_seen)
+      if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
+              points, geometry.neighbors, samples, search, limits.view.evidence, run)))
         return *problem;
-  if (noise.is_strong)
-    geometry = projectNoise (points, std::move (geometry), noise, settings, request);
+    CsrLists around = std::move (geometry.neighbors);
+    geometry = {};
+    geometry = projectNoise (points, std::move (around), noise, settings, request);
+  }
   reportNoise (noise, noise.is_strong, report);
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 

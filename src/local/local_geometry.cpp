@@ -11,37 +11,81 @@ namespace pcl
 {
 namespace floater
 {
+namespace
+{
+// Calls make (beyond) with what stars need to reach beyond the neighbours, or nullptr.
+template <typename Make>
+Stars
+makeReaching (const LocalPlanes& planes, const StarSettings& settings, Make&& make)
+{
+  if (!settings.reach_beyond)
+    return make (nullptr);
+  const BeyondNeighbors beyond{*planes.tree, planes.spacing, planes.beside, settings.reach};
+  return make (&beyond);
+}
+} // namespace
+
+LocalPlanes
+fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
+                const StarSettings& settings, const RunContext& run, const PlaneLimits& limits)
+{
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  LocalPlanes planes;
+  planes.neighbors = std::move (neighbors);
+  planes.spacing = localSpacing (positions, planes.neighbors, run);
+  if (settings.reach_beyond) {
+    if (known)
+      planes.tree.emplace (std::move (*known));
+    else
+      planes.tree.emplace (positions, run);
+    planes.beside = findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
+                                     limits.least_aspect, settings.reach, run);
+    appendRows (planes.beside.neighbors, planes.neighbors);
+  }
+  planes.normals = fitTangentPlanes (positions, planes.neighbors, run, limits);
+  return planes;
+}
+
+Stars
+makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
+             const StarSettings& settings, const RunContext& run)
+{
+  return makeReaching (planes, settings, [&] (const BeyondNeighbors* beyond) {
+    return makeStarsOf (centres, points.workingPositions (), planes.neighbors, planes.normals,
+                        settings, run, beyond);
+  });
+}
+
 LocalGeometry
-makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run, const PlaneLimits& planes, const KdTree* known)
+makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
+                   const RunContext& run)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   LocalGeometry geometry;
-  geometry.neighbors = std::move (neighbors);
-  geometry.spacing = localSpacing (positions, geometry.neighbors, run);
   if (!points.projected.empty ())
-    geometry.own_spacing = localSpacing (points.positions, geometry.neighbors, run);
-  if (!settings.reach_beyond) {
-    geometry.stars =
-        makeStars (positions, geometry.neighbors,
-                   fitTangentPlanes (positions, geometry.neighbors, run, planes), settings, run);
+    geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
+  geometry.stars = makeReaching (planes, settings, [&] (const BeyondNeighbors* beyond) {
+    return makeStars (positions, planes.neighbors, planes.normals, settings, run, beyond);
+  });
+  geometry.neighbors = std::move (planes.neighbors);
+  geometry.spacing = std::move (planes.spacing);
+  if (!settings.reach_beyond)
     return geometry;
-  }
-  std::optional<KdTree> own_tree;
-  const KdTree& tree = known != nullptr ? *known : own_tree.emplace (positions, run);
-  const BesideLines beside = findBesideLines (positions, geometry.neighbors, geometry.spacing, tree,
-                                              planes.least_aspect, settings.reach, run);
-  appendRows (beside.neighbors, geometry.neighbors);
-  const BeyondNeighbors beyond{tree, geometry.spacing, beside, settings.reach};
-  geometry.stars = makeStars (positions, geometry.neighbors,
-                              fitTangentPlanes (positions, geometry.neighbors, run, planes),
-                              settings, run, &beyond);
   appendRows (geometry.stars.far_neighbors, geometry.neighbors);
   geometry.stars.far_neighbors = {};
   for (std::size_t p = 0; p < positions.size (); ++p)
     geometry.spacing[p] =
         std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;
+}
+
+LocalGeometry
+makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
+                   const RunContext& run)
+{
+  return makeLocalGeometry (
+      points, fitLocalPlanes (points, std::move (neighbors), std::nullopt, settings, run), settings,
+      run);
 }
 
 } // namespace floater

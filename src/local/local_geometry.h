@@ -4,8 +4,10 @@
 
 #include "local/stars.h"
 #include "local/tangent_planes.h"
+#include "points/kd_tree.h"
 #include "points/points.h"
 
+#include <optional>
 #include <vector>
 
 namespace pcl
@@ -28,13 +30,38 @@ struct LocalGeometry
   }
 };
 
-/// Tangent planes, spacing and stars by the working positions of the points. O(n k log k).
+/// What stars are made of.
+struct LocalPlanes
+{
+  CsrLists neighbors;                   ///< nearest first; beyond them, those beside rows
+  std::vector<float> spacing;           ///< of the working positions: see localSpacing
+  std::vector<Eigen::Vector3f> normals; ///< of the tangent planes: unit length, of arbitrary sign
+  std::optional<KdTree> tree;           ///< of the working positions, if stars reach beyond
+  BesideLines beside;                   ///< the same
+};
+
+/// Tangent planes and spacing by the working positions of the points. O(n k).
 /// \param neighbors of each point, nearest first
-/// \param known     kd-tree of the working positions; nullptr: one is built if it is needed
+/// \param known     kd-tree of the working positions; none: one is built if it is needed
+LocalPlanes
+fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
+                const StarSettings& settings, const RunContext& run,
+                const PlaneLimits& limits = {});
+
+/// The stars of some points only; see makeStarsOf.
+Stars
+makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
+             const StarSettings& settings, const RunContext& run);
+
+/// Stars and spacing by the working positions of the points. O(n k log k).
+LocalGeometry
+makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
+                   const RunContext& run);
+
+/// Planes and stars at once.
 LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run, const PlaneLimits& planes = {},
-                   const KdTree* known = nullptr);
+                   const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -237,6 +237,22 @@ packFar (std::size_t points, const std::vector<Range>& ranges)
   });
 }
 
+// Joins the stars of all ranges, whose lengths are in the offsets. Empties the ranges.
+void
+pack (std::vector<Range>& ranges, bool with_offsets, Stars& stars)
+{
+  sumRowLengths (stars.neighbors.offsets);
+  const std::size_t entries = stars.neighbors.offsets.back ();
+  stars.neighbors.ids.reserve (entries);
+  stars.offsets_in_plane.reserve (with_offsets ? entries : 0);
+  for (Range& range : ranges) {
+    stars.neighbors.ids.insert (stars.neighbors.ids.end (), range.ids.begin (), range.ids.end ());
+    stars.offsets_in_plane.insert (stars.offsets_in_plane.end (), range.offsets.begin (),
+                                   range.offsets.end ());
+    range = {};
+  }
+}
+
 } // namespace
 
 Stars
@@ -280,15 +296,30 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
     });
     stars.far_neighbors = packFar (n, ranges);
   }
-  sumRowLengths (stars.neighbors.offsets);
-  stars.neighbors.ids.reserve (stars.neighbors.offsets[n]);
-  stars.offsets_in_plane.reserve (settings.with_offsets ? stars.neighbors.offsets[n] : 0);
-  for (Range& range : ranges) {
-    stars.neighbors.ids.insert (stars.neighbors.ids.end (), range.ids.begin (), range.ids.end ());
-    stars.offsets_in_plane.insert (stars.offsets_in_plane.end (), range.offsets.begin (),
-                                   range.offsets.end ());
-    range = {};
-  }
+  pack (ranges, settings.with_offsets, stars);
+  return stars;
+}
+
+Stars
+makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
+             const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
+             const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
+{
+  const std::size_t n = centres.size ();
+  Stars stars;
+  stars.open.resize (n);
+  stars.normals.resize (n);
+  stars.neighbors.offsets.assign (n + 1, 0);
+  std::vector<Range> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    StarMaker maker (positions, neighbors, normals, settings, beyond);
+    for (std::size_t i = first; i < last; ++i) {
+      stars.open[i] = maker.make (centres[i], stars.normals[i]) ? 1 : 0;
+      stars.neighbors.offsets[i + 1] = static_cast<Index> (maker.star ().size ());
+      ranges[first / RANGE_LENGTH].append (maker.star (), settings.with_offsets);
+    }
+  });
+  pack (ranges, settings.with_offsets, stars);
   return stars;
 }
 

@@ -74,5 +74,13 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
            const RunContext& run, const BeyondNeighbors* beyond = nullptr);
 
+/// Stars of some points only; those of the i-th of them are in row i. Far neighbours across a hole
+/// are not left out.
+Stars
+makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
+             const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
+             const StarSettings& settings, const RunContext& run,
+             const BeyondNeighbors* beyond = nullptr);
+
 } // namespace floater
 } // namespace pcl

@@ -13,24 +13,29 @@ namespace pcl
 namespace floater
 {
 std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalGeometry& geometry, std::size_t count)
+takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+                 std::size_t count, const RunContext& run)
 {
   const std::vector<Eigen::Vector3d>& positions = points.positions;
-  const Stars& stars = geometry.stars;
-  std::vector<AreaSample> samples;
   // Every second place is spare: open stars have no area.
   const std::size_t step = std::max<std::size_t> (1, positions.size () / (2 * count));
-  for (std::size_t p = step / 2; p < positions.size () && samples.size () < 2 * count; p += step) {
-    if (stars.open[p] != 0)
+  std::vector<Index> centres;
+  for (std::size_t p = step / 2; p < positions.size () && centres.size () < 2 * count; p += step)
+    centres.push_back (static_cast<Index> (p));
+  const Stars stars = makeStarsOf (centres, points, planes, settings, run);
+  std::vector<AreaSample> samples;
+  for (std::size_t k = 0; k < centres.size (); ++k) {
+    if (stars.open[k] != 0)
       continue;
-    const Row star = stars.neighbors.row (p);
+    const Eigen::Vector3d& centre = positions[centres[k]];
+    const Row star = stars.neighbors.row (static_cast<Index> (k));
     double area = 0.0;
     for (std::size_t i = 0; i < star.size (); ++i)
-      area += (positions[star[i]] - positions[p])
-                  .cross (positions[star[(i + 1) % star.size ()]] - positions[p])
+      area += (positions[star[i]] - centre)
+                  .cross (positions[star[(i + 1) % star.size ()]] - centre)
                   .norm ();
     if (area > 0.0)
-      samples.push_back ({positions[p], stars.normals[p].cast<double> (), area});
+      samples.push_back ({centre, stars.normals[k].cast<double> (), area});
   }
   return samples;
 }

@@ -21,8 +21,10 @@ struct AreaSample
 
 /// Points that are spread evenly over the order of the points, at most `2 * count`; those with an
 /// open star are left out. O(count).
+/// \param settings of the stars
 std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalGeometry& geometry, std::size_t count);
+takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+                 std::size_t count, const RunContext& run);
 
 /// Logarithm of the ratio of the upper to the lower quartile.
 /// \param[in,out] values at least one, all positive; their order changes

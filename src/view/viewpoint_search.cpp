@@ -22,11 +22,11 @@ namespace
 class ViewpointSearch
 {
 public:
-  ViewpointSearch (const Points& points, const LocalGeometry& geometry, const SearchLimits& limits,
+  ViewpointSearch (const Points& points, const CsrLists& neighbors,
+                   const std::vector<AreaSample>& samples, const SearchLimits& limits,
                    const EvidenceLimits& evidence, const RunContext& run)
-      : positions_ (points.positions), neighbors_ (geometry.neighbors), limits_ (limits),
-        evidence_ (evidence), run_ (run),
-        samples_ (takeAreaSamples (points, geometry, limits.samples))
+      : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
+        evidence_ (evidence), run_ (run), samples_ (samples)
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
@@ -298,29 +298,53 @@ private:
   EvidenceLimits evidence_;
   EvidenceLimits coarse_; // fewer patches, while a place is searched
   RunContext run_;
-  std::vector<AreaSample> samples_, few_samples_; // the latter to compare many places
+  const std::vector<AreaSample>& samples_;
+  std::vector<AreaSample> few_samples_; // to compare many places
   Eigen::AlignedBox3d box_;
   std::vector<double> angles_; // room for costByAreas
 };
 
+// The limits for a cloud that fills fewer patches; nothing if they are too few.
+std::optional<EvidenceLimits>
+limitToCloud (EvidenceLimits limits, std::size_t points)
+{
+  constexpr std::size_t FEWEST_PATCHES = 16;
+  limits.patches = std::min (limits.patches, points / limits.patch_points);
+  if (limits.patches < FEWEST_PATCHES)
+    return {};
+  return limits;
+}
+
 } // namespace
 
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const LocalGeometry& geometry, bool is_noisy,
-               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
+findViewpoint (const Points& points, const CsrLists& neighbors,
+               const std::vector<AreaSample>& samples, const SearchLimits& limits,
+               const EvidenceLimits& evidence, const RunContext& run)
 {
-  constexpr std::size_t FEWEST_PATCHES = 16;
-  if (points.size () < FEWEST_PATCHES * evidence.patch_points)
+  const std::optional<EvidenceLimits> filled = limitToCloud (evidence, points.size ());
+  if (!filled)
     return {};
-  EvidenceLimits filled = evidence;
-  filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
-  ViewpointSearch search (points, geometry, limits, filled, run);
-  const RowEvidence rows = findRows (points, geometry.neighbors, limits.samples);
+  ViewpointSearch search (points, neighbors, samples, limits, *filled, run);
+  const RowEvidence rows = findRows (points, neighbors, limits.samples);
   if (rows.share > limits.rows && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;
-  if (filled.patches < evidence.patches || !search.hasSamples () ||
-      (!is_noisy && search.spreadOfAreas () <= limits.even))
+  if (filled->patches < evidence.patches || !search.hasSamples () ||
+      search.spreadOfAreas () <= limits.even)
+    return {};
+  return search.find ();
+}
+
+std::optional<Viewpoint>
+findViewpointOfEven (const Points& points, const CsrLists& neighbors,
+                     const std::vector<AreaSample>& samples, const SearchLimits& limits,
+                     const EvidenceLimits& evidence, const RunContext& run)
+{
+  if (points.size () < evidence.patches * evidence.patch_points)
+    return {};
+  ViewpointSearch search (points, neighbors, samples, limits, evidence, run);
+  if (!search.hasSamples () || search.spreadOfAreas () > limits.even)
     return {};
   return search.find ();
 }

@@ -2,11 +2,12 @@
 // Finds the place from which a cloud was seen, where nobody tells.
 #pragma once
 
-#include "local/local_geometry.h"
 #include "points/points.h"
+#include "view/area_evidence.h"
 #include "view/ray_evidence.h"
 
 #include <optional>
+#include <vector>
 
 namespace pcl
 {
@@ -67,12 +68,20 @@ struct SearchLimits
 ///
 /// Clouds that fill fewer patches (EvidenceLimits) have no evidence.
 ///
-/// \param geometry with the stars of the points and their normals
-/// \param is_noisy whether the cloud needs a view even if it is sampled evenly
+/// \param neighbors nearest first
+/// \param samples   SearchLimits::samples of the points, see takeAreaSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const LocalGeometry& geometry, bool is_noisy,
-               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run);
+findViewpoint (const Points& points, const CsrLists& neighbors,
+               const std::vector<AreaSample>& samples, const SearchLimits& limits,
+               const EvidenceLimits& evidence, const RunContext& run);
+
+/// The same of a cloud that is sampled evenly, which findViewpoint leaves out. It needs a view only
+/// if it is noisy.
+std::optional<Viewpoint>
+findViewpointOfEven (const Points& points, const CsrLists& neighbors,
+                     const std::vector<AreaSample>& samples, const SearchLimits& limits,
+                     const EvidenceLimits& evidence, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -74,12 +74,15 @@ TEST_P (RastersAndSeeds, TheViewpointIsFound)
   const bool is_hard = raster == Raster::RINGS || raster == Raster::PARALLEL;
   const Scan made = scan ({is_hard ? 0.001 : 0.01, 0.0});
   const Points points = pointsOf (made.points);
-  const LocalGeometry geometry = [&points] {
-    StarSettings settings;
-    settings.reach_beyond = true;
-    return makeLocalGeometry (points, findNeighbors (points, {}, 2), settings, 2);
-  }();
-  const std::optional<Viewpoint> found = findViewpoint (points, geometry, true, {}, {}, 2);
+  StarSettings settings;
+  settings.reach_beyond = true;
+  const LocalPlanes planes =
+      fitLocalPlanes (points, findNeighbors (points, {}, 2), std::nullopt, settings, 2);
+  const std::vector<AreaSample> samples =
+      takeAreaSamples (points, planes, settings, SearchLimits{}.samples, 2);
+  std::optional<Viewpoint> found = findViewpoint (points, planes.neighbors, samples, {}, {}, 2);
+  if (!found)
+    found = findViewpointOfEven (points, planes.neighbors, samples, {}, {}, 2);
   ASSERT_TRUE (found);
   if (found->is_far)
     EXPECT_GT (std::abs (found->place.dot (made.viewpoint)), 0.999);
