@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace pcl
@@ -68,6 +69,35 @@ TEST_F (ViewpointOfTheClass, TheSensorOriginOfTheCloudIsTried)
   EXPECT_NEAR (report.viewpoint[0], 3.0, 1e-9);
   EXPECT_NEAR (report.viewpoint[1], -2.0, 1e-9);
   EXPECT_NEAR (report.viewpoint[2], 5.0, 1e-9);
+}
+
+TEST_F (ViewpointOfTheClass, ASheetFacesTheSensorOfItsCloud)
+{
+  // Points at random, so that their rays are not those of one view.
+  const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>> ();
+  RandomStream random (2);
+  for (int i = 0; i < 3000; ++i) {
+    const double x = random.uniform (), y = random.uniform ();
+    cloud->emplace_back (static_cast<float> (x), static_cast<float> (y),
+                         static_cast<float> (0.05 * std::sin (5.0 * x)));
+  }
+  floater_.setInputCloud (cloud);
+  for (const float height : {4.0F, -4.0F}) {
+    cloud->sensor_origin_ = {0.5F, 0.5F, height, 0.0F};
+    pcl::PolygonMesh mesh;
+    floater_.reconstruct (mesh);
+    ASSERT_EQ (floater_.getStatus (), Status::OK) << floater_.getMessage ();
+    EXPECT_FALSE (floater_.getReport ().is_view);
+    EXPECT_EQ (floater_.getReport ().facing_certainty, 1.0);
+    ASSERT_FALSE (mesh.polygons.empty ());
+    for (const pcl::Vertices& polygon : mesh.polygons) {
+      std::array<Eigen::Vector3f, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = (*cloud)[static_cast<std::size_t> (polygon.vertices[i])].getVector3fMap ();
+      const float z = (corners[1] - corners[0]).cross (corners[2] - corners[0]).z ();
+      ASSERT_GT (z * height, 0.0F);
+    }
+  }
 }
 
 TEST_F (ViewpointOfTheClass, AViewPointIsTakenAsItIs)

@@ -16,6 +16,17 @@ namespace
 {
 namespace floater = pcl::floater;
 
+// Which clouds are reconstructed, and how.
+struct Settings
+{
+  std::filesystem::path folder;
+  std::string only; // limits whose name holds this text
+  std::size_t most_points = 150'000;
+  bool with_sensors = false;
+  bool as_discs = false; // by the disc method; clouds whose true mesh is a disc
+  int threads = 0;
+};
+
 struct Verdict
 {
   std::vector<floater::Triangle> triangles;
@@ -23,10 +34,12 @@ struct Verdict
 };
 
 std::vector<floater::Triangle>
-reconstruct (const floater::Truth& truth, const floater::Limits& limits, int threads)
+reconstruct (const floater::Truth& truth, const floater::Limits& limits, const Settings& settings)
 {
   floater::Options options;
-  options.threads = threads;
+  options.threads = settings.threads;
+  if (settings.as_discs)
+    options.topology = floater::Topology::DISC;
   return floater::reconstruct (
              {truth.points.positions, truth.points.cloud_index, truth.points.size (), nullptr},
              options, limits)
@@ -34,38 +47,38 @@ reconstruct (const floater::Truth& truth, const floater::Limits& limits, int thr
 }
 
 std::vector<floater::Truth>
-readCases (const std::filesystem::path& folder, std::size_t most_points, bool with_sensors)
+readCases (const Settings& settings)
 {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator (folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator (settings.folder)) {
     const std::string name = entry.path ().filename ().string ();
     if (name.size () > 7 && name.substr (name.size () - 7) == ".gt.ply" &&
-        (with_sensors || name.rfind ("sensor_", 0) != 0))
+        (settings.with_sensors || name.rfind ("sensor_", 0) != 0))
       files.push_back (entry.path ());
   }
   std::sort (files.begin (), files.end ());
   std::vector<floater::Truth> cases;
   for (const std::filesystem::path& file : files) {
     floater::Truth truth = floater::readTruth (file);
-    if (truth.points.size () <= most_points)
+    if (truth.points.size () <= settings.most_points &&
+        (!settings.as_discs || truth.found.isDisc ()))
       cases.push_back (std::move (truth));
   }
   return cases;
 }
 
 void
-run (const std::filesystem::path& folder, const std::string& only, std::size_t most_points,
-     bool with_sensors, int threads)
+run (const Settings& settings)
 {
-  const std::vector<floater::Truth> cases = readCases (folder, most_points, with_sensors);
+  const std::vector<floater::Truth> cases = readCases (settings);
   if (cases.empty ())
-    throw std::runtime_error (folder.string () +
-                              " has no clouds with a ground truth (NAME.gt.ply)");
+    throw std::runtime_error (settings.folder.string () +
+                              " has no such clouds with a ground truth (NAME.gt.ply)");
   std::map<std::string, Verdict> by_default;
   std::size_t clean = 0;
   for (const floater::Truth& truth : cases) {
     Verdict& verdict = by_default[truth.name];
-    verdict.triangles = reconstruct (truth, {}, threads);
+    verdict.triangles = reconstruct (truth, {}, settings);
     verdict.flaws = floater::flawsOf (verdict.triangles, truth);
     clean += verdict.flaws.empty () ? 1 : 0;
     if (!verdict.flaws.empty ())
@@ -77,7 +90,7 @@ run (const std::filesystem::path& folder, const std::string& only, std::size_t m
             << "|---|---:|---:|---:|---:|---:|---|\n";
   for (const floater::NamedLimit& limit : floater::allLimits ())
     for (const double factor : {0.8, 1.2}) {
-      if (limit.name.find (only) == std::string::npos)
+      if (limit.name.find (settings.only) == std::string::npos)
         continue;
       floater::Limits limits;
       limit.scale (limits, factor);
@@ -85,7 +98,7 @@ run (const std::filesystem::path& folder, const std::string& only, std::size_t m
       std::string which;
       for (const floater::Truth& truth : cases) {
         const Verdict& before = by_default.at (truth.name);
-        const std::vector<floater::Triangle> triangles = reconstruct (truth, limits, threads);
+        const std::vector<floater::Triangle> triangles = reconstruct (truth, limits, settings);
         if (triangles == before.triangles)
           continue;
         ++changed;
@@ -110,21 +123,20 @@ main (int argc, char** argv)
   CLI::App app ("Reconstructs all clouds of a folder that have a ground truth, NAME.gt.ply, by "
                 "default limits "
                 "and with each limit at 80 % and at 120 %; prints what changes.");
-  std::filesystem::path folder;
-  std::string only;
-  std::size_t most_points = 150'000;
-  bool with_sensors = false;
-  int threads = 0;
-  app.add_option ("folder", folder, "folder with NAME.gt.ply")
+  Settings settings;
+  app.add_option ("folder", settings.folder, "folder with NAME.gt.ply")
       ->required ()
       ->check (CLI::ExistingDirectory);
-  app.add_option ("--only", only, "limits whose name holds this text");
-  app.add_option ("--most-points", most_points, "largest cloud")->capture_default_str ();
-  app.add_flag ("--sensors", with_sensors, "also clouds whose name begins with sensor_");
-  app.add_option ("-j,--threads", threads, "threads; 0: all cores")->capture_default_str ();
+  app.add_option ("--only", settings.only, "limits whose name holds this text");
+  app.add_option ("--most-points", settings.most_points, "largest cloud")->capture_default_str ();
+  app.add_flag ("--sensors", settings.with_sensors, "also clouds whose name begins with sensor_");
+  app.add_flag ("--discs", settings.as_discs,
+                "by the disc method, and only clouds whose true mesh is a disc");
+  app.add_option ("-j,--threads", settings.threads, "threads; 0: all cores")
+      ->capture_default_str ();
   CLI11_PARSE (app, argc, argv);
   try {
-    run (folder, only, most_points, with_sensors, threads);
+    run (settings);
   }
   catch (const std::exception& error) {
     std::cerr << "pcl_floater_limits: " << error.what () << '\n';

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace pcl
@@ -369,23 +370,50 @@ TEST (Facing, TheSensorOfACloudIsFacedByBothMethods)
       }
 }
 
+// The report on a cap of a sphere. \param share of its area
+Report
+reportOfCap (double share)
+{
+  const samples::Sheet sheet = samples::disc (0.05, 3);
+  const double end = std::acos (1.0 - 2.0 * share);
+  Positions points;
+  for (const Eigen::Vector3d& p : sheet.positions) {
+    const double angle = end * p.norm (), radius = std::max (1e-9, p.norm ());
+    points.emplace_back (p.x () / radius * std::sin (angle), p.y () / radius * std::sin (angle),
+                         -std::cos (angle));
+  }
+  return reconstruct (samples::asInput (points), {}).report;
+}
+
+bool
+warnsOfAGuess (const Report& report)
+{
+  return std::any_of (report.warnings.begin (), report.warnings.end (), [] (const auto& warning) {
+    return warning.find ("is a guess") != std::string::npos;
+  });
+}
+
+TEST (Facing, AGuessIsWarnedOf)
+{
+  // Between a valley and a bowl. Of 80 shares, some lie where neither is likelier.
+  std::size_t warned = 0;
+  for (int i = 0; i < 80; ++i) {
+    const Report report = reportOfCap (0.22 + 0.001 * i);
+    ASSERT_EQ (warnsOfAGuess (report), report.facing_certainty < 0.6) << report.facing_certainty;
+    warned += warnsOfAGuess (report) ? 1 : 0;
+  }
+  EXPECT_GT (warned, 2U);
+  EXPECT_LT (warned, 60U);
+  EXPECT_FALSE (warnsOfAGuess (reportOfCap (0.1)));
+  EXPECT_FALSE (warnsOfAGuess (reportOfCap (0.6)));
+}
+
 TEST (Facing, TheReportTellsWhatIsNotSure)
 {
-  const auto reportOf = [] (double share) {
-    const samples::Sheet sheet = samples::disc (0.05, 3);
-    const double end = std::acos (1.0 - 2.0 * share);
-    Positions points;
-    for (const Eigen::Vector3d& p : sheet.positions) {
-      const double angle = end * p.norm (), radius = std::max (1e-9, p.norm ());
-      points.emplace_back (p.x () / radius * std::sin (angle), p.y () / radius * std::sin (angle),
-                           -std::cos (angle));
-    }
-    return reconstruct (samples::asInput (points), {}).report;
-  };
-  const Report sure = reportOf (0.6);
+  const Report sure = reportOfCap (0.6);
   EXPECT_GT (sure.facing_certainty, 0.9);
   EXPECT_TRUE (sure.facing_decisions.empty ());
-  const Report unsure = reportOf (0.3);
+  const Report unsure = reportOfCap (0.3);
   ASSERT_EQ (unsure.facing_decisions.size (), 1U);
   EXPECT_EQ (unsure.facing_decisions.front ().rule, FacingRule::BODY);
   EXPECT_EQ (unsure.facing_decisions.front ().certainty, unsure.facing_certainty);
