@@ -71,19 +71,6 @@ starSettings (const Request& request)
   return settings;
 }
 
-LocalPlanes
-makePlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> tree,
-            const Request& request, Noise& noise)
-{
-  const Limits& limits = request.limits;
-  const RunContext& run = request.run;
-  if (request.options.denoise)
-    noise = measureNoise (points.positions, neighbors, limits.noise, run);
-  run.beginStage (Stage::STARS);
-  return fitLocalPlanes (points, std::move (neighbors), std::move (tree), starSettings (request),
-                         run, limits.planes);
-}
-
 LocalGeometry
 projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
               const NeighborSettings& settings, const Request& request)

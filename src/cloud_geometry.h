@@ -27,12 +27,6 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
 StarSettings
 starSettings (const Request& request);
 
-/// The planes of the points as they lie, and the noise, if it may be projected away.
-/// \param tree kd-tree of all points, if there is one already
-LocalPlanes
-makePlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> tree,
-            const Request& request, Noise& noise);
-
 /// Beyond TW 385: projects noisy points on the planes of the points around, by which they are
 /// connected. The mesh is triangles only, so the user's points stay where they are.
 /// \param neighbors of the points as they lie

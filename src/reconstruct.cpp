@@ -11,6 +11,7 @@
 #include "input_cleaning.h"
 #include "local/star_agreement.h"
 #include "mesh/mesh_spacing.h"
+#include "problem_of_exception.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
 #include "request.h"
@@ -21,7 +22,6 @@
 #include <new>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -146,6 +146,13 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
                   result);
 }
 
+// Whether the cloud may be connected as its sensor saw it.
+bool
+mayBeSeen (const Options& options)
+{
+  return !asksForDisc (options) && options.view.use != ViewUse::NEVER;
+}
+
 // The viewpoint that is given, or the origin of the sensor if the cloud was seen from there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
@@ -199,6 +206,64 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                   request, result);
 }
 
+// A cloud of which nobody tells where it was seen from, or that is no scan.
+Problem
+reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request& request,
+                        Result& result)
+{
+  const Options& options = request.options;
+  const Limits& limits = request.limits;
+  const RunContext& run = request.run;
+  Report& report = result.report;
+  const bool as_disc = asksForDisc (options), may_be_seen = mayBeSeen (options);
+  run.beginStage (Stage::NEIGHBORS);
+  const NeighborSettings settings = neighborSettings (options, searcher);
+  std::optional<KdTree> tree; // searched again for the stars of a surface
+  CsrLists neighbors = findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
+  const std::size_t searched = points.size ();
+  if (options.remove_outliers)
+    removeOutliers (points, neighbors, settings, request, report);
+  if (points.size () != searched)
+    tree.reset ();
+  if (Problem problem = checkPoints (points))
+    return problem;
+  run.beginStage (Stage::STARS);
+  const StarSettings stars = starSettings (request);
+  LocalPlanes planes =
+      fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes);
+  const SearchLimits& search = limits.view.search;
+  std::vector<AreaSample> samples;
+  const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
+    return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
+  };
+  if (may_be_seen) {
+    samples = takeAreaSamples (points, planes, stars, search.samples, run);
+    if (const std::optional<Problem> problem = reconstructFrom (
+            findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
+      return *problem;
+  }
+  Noise noise;
+  if (options.denoise)
+    noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+  LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
+  noise.is_strong =
+      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
+  if (noise.is_strong) {
+    if (may_be_seen)
+      if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
+              points, geometry.neighbors, samples, search, limits.view.evidence, run)))
+        return *problem;
+    CsrLists around = std::move (geometry.neighbors);
+    geometry = {};
+    geometry = projectNoise (points, std::move (around), noise, settings, request);
+  }
+  reportNoise (noise, noise.is_strong, report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
+
+  return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
+                 : reconstructSurface (points, std::move (geometry), request, result);
+}
+
 Problem
 reconstructAny (Input& input, const Request& request, Result& result)
 {
@@ -226,88 +291,13 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = checkPoints (points))
     return problem;
 
-  const bool may_be_seen = !as_disc && options.view.use != ViewUse::NEVER;
-  if (may_be_seen)
+  if (mayBeSeen (options))
     if (const std::optional<Viewpoint> viewpoint =
             knownViewpoint (points, input.sensor_origin, request))
       if (const std::optional<Problem> problem =
               reconstructView (points, *viewpoint, request, result))
         return *problem;
-
-  run.beginStage (Stage::NEIGHBORS);
-  const NeighborSettings settings = neighborSettings (options, input.search);
-  std::optional<KdTree> tree; // searched again for the stars of a surface
-  CsrLists neighbors = findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
-  const std::size_t searched = points.size ();
-  if (options.remove_outliers)
-    removeOutliers (points, neighbors, settings, request, report);
-  if (points.size () != searched)
-    tree.reset ();
-  if (Problem problem = checkPoints (points))
-    return problem;
-  Noise noise;
-  LocalPlanes planes = makePlanes (points, std::move (neighbors), std::move (tree), request, noise);
-  reportNoise (noise, false, report);
-  const StarSettings stars = starSettings (request);
-  const SearchLimits& search = limits.view.search;
-  std::vector<AreaSample> samples;
-  const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
-    return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
-  };
-  if (may_be_seen) {
-    samples = takeAreaSamples (points, planes, stars, search.samples, run);
-    if (const std::optional<Problem> problem = reconstructFrom (
-            findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
-      return *problem;
-  }
-  LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-  noise.is_strong =
-      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
-  if (noise.is_strong) {
-    if (may_be_seen)
-      if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
-              points, geometry.neighbors, samples, search, limits.view.evidence, run)))
-        return *problem;
-    CsrLists around = std::move (geometry.neighbors);
-    geometry = {};
-    geometry = projectNoise (points, std::move (around), noise, settings, request);
-  }
-  reportNoise (noise, noise.is_strong, report);
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
-
-  return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
-                 : reconstructSurface (points, std::move (geometry), request, result);
-}
-
-// A message so short that a string takes no memory for it.
-constexpr const char* NO_MEMORY = "out of memory";
-
-// What the exception that is being handled means. \throws std::bad_alloc if there is no memory for
-// the message
-Problem
-problemOfException ()
-{
-  try {
-    throw;
-  }
-  catch (const Cancelled&) {
-    return {Status::CANCELLED, "the run was cancelled by its caller"};
-  }
-  catch (const std::bad_alloc&) {
-    return {Status::OUT_OF_MEMORY, "not enough memory: use fewer points, or a machine with more"};
-  }
-  catch (const IndexLimitReached& limit) {
-    return {Status::OUT_OF_MEMORY, limit.what ()};
-  }
-  catch (const std::length_error&) {
-    return {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
-  }
-  catch (const std::exception& error) {
-    return {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
-  }
-  catch (...) {
-    return {Status::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
-  }
+  return reconstructByNeighbors (points, input.search, request, result);
 }
 
 } // namespace

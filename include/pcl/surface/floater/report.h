@@ -127,7 +127,7 @@ struct Statistics
   std::size_t working_points = 0;    ///< distinct finite points that are no outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
-                      ///< surface, in local spacings; points below 0.15 count as 0
+                      ///< surface, in local spacings; below 0.15 it counts as 0. Not of a view
   double noise_quantile_90 = 0.0;   ///< 90 % of the points have at most that noise
   double largest_noise = 0.0;       ///< of all points
   std::size_t projected_points = 0; ///< noisy points that were projected on the planes of the

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problem_of_exception.h"
+
+#include "core/index_limit.h"
+#include "core/run_context.h"
+
+#include <new>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+Problem
+problemOfException ()
+{
+  try {
+    throw;
+  }
+  catch (const Cancelled&) {
+    return {Status::CANCELLED, "the run was cancelled by its caller"};
+  }
+  catch (const std::bad_alloc&) {
+    return {Status::OUT_OF_MEMORY, "not enough memory: use fewer points, or a machine with more"};
+  }
+  catch (const IndexLimitReached& limit) {
+    return {Status::OUT_OF_MEMORY, limit.what ()};
+  }
+  catch (const std::length_error&) {
+    return {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
+  }
+  catch (const std::exception& error) {
+    return {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
+  }
+  catch (...) {
+    return {Status::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
+  }
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an exception means to the user.
+#pragma once
+
+#include "core/problem.h"
+
+namespace pcl
+{
+namespace floater
+{
+/// A message so short that a string takes no memory for it.
+constexpr const char* NO_MEMORY = "out of memory";
+
+/// What the exception that is being handled means. To be called in a handler.
+/// \throws std::bad_alloc if there is no memory for the message
+Problem
+problemOfException ();
+
+} // namespace floater
+} // namespace pcl
