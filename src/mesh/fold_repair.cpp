@@ -20,7 +20,7 @@ class FoldRepair
 public:
   FoldRepair (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
               const RepairLimits& limits, const RunContext& run)
-      : mesh_ (mesh), neighbors_ (neighbors), limits_ (limits), run_ (run),
+      : mesh_ (mesh), limits_ (limits), run_ (run),
         mover_ (mesh, neighbors, cost, limits.largest_fan, run)
   {
   }
@@ -90,8 +90,8 @@ private:
     return false;
   }
 
-  // The corners of bad triangles; but where most points around are corners of bad triangles, only
-  // those at folds.
+  // The corners of bad triangles; but where most points of the patch around are corners of bad
+  // triangles, only those at folds.
   std::vector<Index> findVerticesToMove ()
   {
     std::vector<std::uint8_t> is_bad (mesh_.triangle_of.size (), 0);
@@ -102,15 +102,20 @@ private:
         for (const Index v : mesh_.triangles[t])
           is_bad[v] = 1;
     }
+    // How many of the points before each one are bad.
+    std::vector<Index> bad_before (is_bad.size () + 1, 0);
+    for (std::size_t v = 0; v < is_bad.size (); ++v)
+      bad_before[v + 1] = bad_before[v] + is_bad[v];
     is_scattered_.assign (is_bad.size (), 0);
     std::vector<Index> vertices;
     for (Index v = 0; v < is_bad.size (); ++v) {
       if (is_bad[v] == 0)
         continue;
-      const Row around = neighbors_.row (v);
-      const auto bad =
-          std::count_if (around.begin (), around.end (), [&] (Index q) { return is_bad[q] != 0; });
-      is_scattered_[v] = 2 * static_cast<std::size_t> (bad) > around.size () ? 1 : 0;
+      const std::size_t half = limits_.patch_points / 2;
+      const std::size_t first = v > half ? v - half : 0;
+      const std::size_t last = std::min (first + limits_.patch_points, is_bad.size ());
+      const std::size_t bad = bad_before[last] - bad_before[first];
+      is_scattered_[v] = 2 * bad > last - first ? 1 : 0;
       if (is_scattered_[v] == 0 || isAtFold (v))
         vertices.push_back (v);
     }
@@ -210,12 +215,12 @@ private:
   }
 
   TriangleMesh& mesh_;
-  const CsrLists& neighbors_;
   RepairLimits limits_;
   RunContext run_;
   VertexMover mover_;
   CachedCost& cost_ = mover_.cost ();
-  std::vector<std::uint8_t> is_scattered_; // per point: most points around are at bad triangles
+  std::vector<std::uint8_t>
+      is_scattered_; // per point: most points of the patch around are at bad triangles
   std::vector<std::uint8_t> next_rank_; // per point: rank of the place to which it is kicked next
   std::size_t kicks_left_ = 0;
   std::vector<std::vector<Index>> rings_; // neighbours at the places tried so far

@@ -14,10 +14,12 @@ namespace floater
 /// folds. They were chosen by hand; no measurement is recorded.
 struct RepairLimits
 {
-  std::size_t largest_fan = 16;      ///< triangles around a vertex that is moved
-  int passes = 12;                   ///< over the vertices to move; few are left after five
-  std::size_t places = 4;            ///< cheapest triangles in which a vertex to move is tried
-  std::size_t kicks = 16;            ///< places to which a vertex of a fold is kicked; at most 255
+  std::size_t largest_fan = 16;   ///< triangles around a vertex that is moved
+  std::size_t patch_points = 512; ///< along the space-filling curve, the patch around a vertex. It
+                                  ///< is to be larger than what is wrong in a surface
+  int passes = 12;                ///< over the vertices to move; few are left after five
+  std::size_t places = 4;         ///< cheapest triangles in which a vertex to move is tried
+  std::size_t kicks = 16;         ///< places to which a vertex of a fold is kicked; at most 255
   std::size_t points_per_kick = 16;  ///< points of the mesh for each kick
   int passes_after_kick = 2;         ///< moves of the vertices around
   std::size_t places_after_kick = 3; ///< the same as `places`, in these moves
@@ -33,10 +35,10 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// Vertices are taken out and put back elsewhere (see VertexMover), in two steps:
 ///
 /// Moves: all corners of triangles that are turned away from their normals, or more than 90 degrees
-/// from a neighbouring triangle, are moved to where they cost least. Where most points around are
-/// such corners, as in leaves or grass, there is no surface that tells where a vertex belongs: only
-/// those at folds are moved there. Each further pass looks at the old and new neighbours of the
-/// vertices that were moved.
+/// from a neighbouring triangle, are moved to where they cost least. Where most points of a patch
+/// are such corners, as in leaves or grass, there is no surface that tells where a vertex belongs:
+/// only those at folds are moved there. Each further pass looks at the old and new neighbours of
+/// the vertices that were moved.
 ///
 /// Kicks: a vertex at a fold that is left is moved to a place where the cost is higher, and the
 /// vertices around it are moved after it. This is kept if the cost of the mesh is lower in the end,

@@ -95,6 +95,7 @@ allLimits ()
       PCL_FLOATER_LIMIT (surface.finish.repair.largest_fan),
       PCL_FLOATER_LIMIT (surface.finish.repair.passes),
       PCL_FLOATER_LIMIT (surface.finish.repair.places),
+      PCL_FLOATER_LIMIT (surface.finish.repair.patch_points),
       PCL_FLOATER_LIMIT (surface.finish.repair.kicks),
       PCL_FLOATER_LIMIT (surface.finish.repair.points_per_kick),
       PCL_FLOATER_LIMIT (surface.finish.repair.passes_after_kick),

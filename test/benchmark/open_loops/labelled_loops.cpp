@@ -45,9 +45,11 @@ findLoops (const Points& points)
   const Options options;
   const Limits limits;
   const Request request{options, limits, run};
-  Noise noise;
-  LocalGeometry geometry = makeGeometry (
-      points, findNeighbors (points, neighborSettings (options, nullptr), run), {}, request, noise);
+  const StarSettings stars = starSettings (request);
+  LocalPlanes planes =
+      fitLocalPlanes (points, findNeighbors (points, neighborSettings (options, nullptr), run),
+                      std::nullopt, stars, run, limits.planes);
+  LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
   const ConsensusMesh consensus =
       makeConsensusMesh (points.positions, geometry.neighbors, std::move (geometry.stars),
                          geometry.spacing, limits.surface.consensus, run);
