@@ -48,7 +48,7 @@ struct Noise
                                ///< positions; 0 at points that are not noisy
   std::size_t noisy_points = 0;
   double median = 0.0, quantile_90 = 0.0, largest = 0.0; ///< over all points, in local spacings
-  bool is_strong = false;                                ///< see isStrong; set by makeGeometry
+  bool is_strong = false;                                ///< see isStrong; set by the caller
 };
 
 /// Measures noise at every eighth point, at three scales: its 20 nearest of all points, of every
