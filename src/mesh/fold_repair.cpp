@@ -122,9 +122,10 @@ private:
     return vertices;
   }
 
+  // True of a vertex at a fold, and where there is a surface, of one at a bad triangle.
   bool isToMove (Index v)
   {
-    if (isAtFold (v))
+    if (isAtFold (v)) // sets fan_
       return true;
     return is_scattered_[v] == 0 &&
            std::any_of (fan_.begin (), fan_.end (), [this] (Index t) { return isBad (t); });

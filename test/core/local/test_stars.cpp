@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace pcl
 {
 namespace floater
@@ -260,6 +262,32 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
   }
   EXPECT_NEAR (makeNeighborhoods ({{0, 0, 0}, {1, 0, 0}}).geometry.spacing[0], 1.0, 1e-6);
   EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).geometry.spacing[0], 0.0F);
+}
+
+TEST (Stars, OfSomePointsAreThoseOfAll)
+{
+  const Positions positions = twoSheets (3.0);
+  for (const bool with_offsets : {true, false}) {
+    const Points points = makePoints (positions, samples::indices (positions.size ()), 1);
+    StarSettings settings;
+    settings.with_offsets = with_offsets;
+    const CsrLists neighbors = findNeighbors (points, {}, 1);
+    const LocalPlanes planes = fitLocalPlanes (points, neighbors, std::nullopt, settings, 1);
+    const Stars all = makeLocalGeometry (points, neighbors, settings, 1).stars;
+    std::vector<Index> centres;
+    for (Index p = static_cast<Index> (points.size ()); p-- > 0;)
+      if (p % 3 != 1)
+        centres.push_back (p); // in another order
+    const Stars some = makeStarsOf (centres, points, planes, settings, 2);
+    ASSERT_EQ (some.neighbors.rows (), centres.size ());
+    for (Index i = 0; i < centres.size (); ++i) {
+      const Row row = some.neighbors.row (i), same = all.neighbors.row (centres[i]);
+      ASSERT_TRUE (std::equal (row.begin (), row.end (), same.begin (), same.end ())) << i;
+      ASSERT_EQ (some.open[i], all.open[centres[i]]) << i;
+      ASSERT_EQ (some.normals[i], all.normals[centres[i]]) << i;
+    }
+    EXPECT_EQ (some.offsets_in_plane.size (), with_offsets ? some.neighbors.ids.size () : 0U);
+  }
 }
 
 } // namespace
