@@ -36,10 +36,7 @@ public:
     for (Index q : neighbors_.row (p)) {
       const Eigen::Vector3d offset = positions_[q] - positions_[p];
       const Eigen::Vector3d other = normals_[q].cast<double> ();
-      const double limit = limits_.sheet_sine * offset.norm ();
-      if (!same_sheet ||
-          (std::abs (normal.dot (offset)) <= limit && std::abs (other.dot (offset)) <= limit &&
-           std::abs (normal.dot (other)) >= limits_.sheet_cosine))
+      if (!same_sheet || onSameSheet (normal, other, offset, limits_.sheet))
         planar_.push_back ({frame.project (offset), q});
     }
     star_.order (planar_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/csr_lists.h"
+#include "local/sheet.h"
 #include "mesh/boundary_loops.h"
 
 #include <vector>
@@ -14,11 +15,9 @@ namespace floater
 /// When a point counts as one that sees no other point beyond the surface.
 struct EmptySectorLimits
 {
-  double angle = 130.0;      ///< degrees; a larger sector without neighbours counts as empty.
-                             ///< Theory: 180 less the bend of a hole that is 6 spacings wide
-  double sheet_sine = 0.75;  ///< between a neighbour and a tangent plane; above: another sheet.
-                             ///< As for the stars
-  double sheet_cosine = 0.3; ///< between two normals; below: another sheet. As for the stars
+  double angle = 130.0; ///< degrees; a larger sector without neighbours counts as empty.
+                        ///< Theory: 180 less the bend of a hole that is 6 spacings wide
+  SheetLimits sheet;    ///< which neighbours lie on another sheet, as for the stars
 };
 
 /// What tells a boundary of the surface from a gap of the sampling. No size has a unit.
