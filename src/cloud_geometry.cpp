@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_geometry.h"
 
+#include "points/noise_projection.h"
 #include "points/outliers.h"
 #include "report_cloud.h"
 
@@ -29,6 +30,18 @@ pointsOfLoop (const Points& points, std::vector<Index> loop)
   return loop;
 }
 
+// Points without those that the user's loop names.
+std::vector<Index>
+exceptLoop (std::vector<Index> found, const Points& points, const std::vector<Index>& loop)
+{
+  const std::vector<Index> given = pointsOfLoop (points, loop);
+  const auto is_given = [&] (Index p) {
+    return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
+  };
+  found.erase (std::remove_if (found.begin (), found.end (), is_given), found.end ());
+  return found;
+}
+
 } // namespace
 
 NeighborSettings
@@ -42,18 +55,45 @@ void
 removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
                 const Request& request, Report& report)
 {
-  const std::vector<Index> given = pointsOfLoop (points, request.options.boundary.loop);
-  std::vector<Index> outliers =
-      findOutliers (points.positions, neighbors, request.run, request.limits.outliers);
-  const auto is_given = [&] (Index p) {
-    return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
-  };
-  outliers.erase (std::remove_if (outliers.begin (), outliers.end (), is_given), outliers.end ());
+  const std::vector<Index> outliers =
+      exceptLoop (findOutliers (points.positions, neighbors, request.run, request.limits.outliers),
+                  points, request.options.boundary.loop);
   if (outliers.empty ())
     return;
   const std::vector<Index> cloud_indices = removePoints (points, outliers);
   reportOutliers (cloud_indices, points.size (), report);
   neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
+}
+
+Noise
+measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSettings& settings,
+                        const Request& request, Report& report)
+{
+  const Options& options = request.options;
+  const Limits& limits = request.limits;
+  const RunContext& run = request.run;
+  const bool drops_scatter = options.scatter == ScatterPolicy::DROP;
+  if (!options.denoise && !drops_scatter)
+    return {};
+  Noise noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+  std::vector<Index> scatter = std::move (noise.scatter);
+  if (drops_scatter)
+    scatter = exceptLoop (std::move (scatter), points, options.boundary.loop);
+  reportScatter (points, scatter, report);
+  if (drops_scatter && !scatter.empty ()) {
+    removePoints (points, scatter);
+    report.statistics.working_points = points.size ();
+    if (checkPoints (points))
+      return {}; // the caller tells
+    std::optional<KdTree> tree;
+    CsrLists neighbors =
+        findNeighbors (points, settings, run, asksForDisc (options) ? nullptr : &tree);
+    planes = fitLocalPlanes (points, std::move (neighbors), std::move (tree),
+                             starSettings (request), run, limits.planes);
+    if (options.denoise)
+      noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+  }
+  return options.denoise ? noise : Noise{};
 }
 
 StarSettings

@@ -23,6 +23,14 @@ void
 removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
                 const Request& request, Report& report);
 
+/// Measures noise and looks for scatter, which has no surface at any scale; it is taken out if that
+/// is asked for, but for points that the user's loop names.
+/// \param planes of the points; made anew where points are taken out
+/// \return nothing noisy if noise is not to be projected away
+Noise
+measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSettings& settings,
+                        const Request& request, Report& report);
+
 /// How the stars of the points are made.
 StarSettings
 starSettings (const Request& request);

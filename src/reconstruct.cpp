@@ -242,9 +242,13 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
             findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
       return *problem;
   }
-  Noise noise;
-  if (options.denoise)
-    noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+  const std::size_t with_scatter = points.size ();
+  Noise noise = measureNoiseAndScatter (points, planes, settings, request, report);
+  if (Problem problem = checkPoints (points)) {
+    problem.message = "without the " + std::to_string (with_scatter - points.size ()) +
+                      " points of no surface: " + problem.message + "; keep the scatter";
+    return problem;
+  }
   LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
   noise.is_strong =
       noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);

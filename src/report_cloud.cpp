@@ -83,6 +83,16 @@ reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, 
 }
 
 void
+reportScatter (const Points& points, const std::vector<Index>& scatter, Report& report)
+{
+  report.scatter.clear ();
+  for (const Index p : scatter)
+    report.scatter.push_back (points.cloud_index[p]);
+  std::sort (report.scatter.begin (), report.scatter.end ());
+  report.statistics.scatter_points = scatter.size ();
+}
+
+void
 reportNoise (const Noise& noise, bool denoised, Report& report)
 {
   report.statistics.noise = noise.median;

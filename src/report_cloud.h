@@ -35,6 +35,11 @@ reportGrossOutliers (const std::vector<Index>& outliers, Report& report);
 void
 reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report);
 
+/// Points around which no scale is flat.
+/// \param scatter ascending
+void
+reportScatter (const Points& points, const std::vector<Index>& scatter, Report& report);
+
 /// The noise, and a warning if points are connected as they lie in their local planes.
 void
 reportNoise (const Noise& noise, bool denoised, Report& report);

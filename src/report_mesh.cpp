@@ -322,6 +322,7 @@ reportTrimming (const Points& points, const Trimming& trimming, std::size_t tria
 {
   Statistics& statistics = report.statistics;
   statistics.trimmed_triangles = trimming.triangles;
+  statistics.opened_triangles = trimming.crossing;
   statistics.trimmed_components = trimming.components;
   statistics.trimmed_points = trimming.points.size ();
   statistics.used_points -= trimming.points.size ();
@@ -330,9 +331,10 @@ reportTrimming (const Points& points, const Trimming& trimming, std::size_t tria
   std::sort (report.unused.begin (), report.unused.end ());
   if (triangles_left > 0 || trimming.triangles == 0)
     return {};
-  return {Status::INVALID_OPTION,
-          "no triangle is left: every edge is longer than the maximum, or every component smaller "
-          "than the minimum"};
+  return {
+      Status::INVALID_OPTION,
+      "no triangle is left: every edge is longer than the maximum, every component smaller than "
+      "the minimum, or every triangle crosses another one"};
 }
 
 } // namespace floater

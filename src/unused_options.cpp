@@ -132,8 +132,13 @@ addNeighbors (const Options& options, const Report& report, Sentences& sentences
   const Change kind{"the neighbourhood", neighbors.kind != usual.kind};
   const Change k{"k", neighbors.k != usual.k};
   const Change radius{"the ball radius", neighbors.ball_radius != usual.ball_radius};
+  const ScatterPolicy usual_scatter = defaults.scatter;
   if (report.is_view) {
-    sentences.add ({kind, k, radius, {"the filter of sheets", !options.filter_sheets}},
+    sentences.add ({kind,
+                    k,
+                    radius,
+                    {"the filter of sheets", !options.filter_sheets},
+                    {"the policy for scatter", options.scatter != usual_scatter}},
                    "a scan is connected as its sensor saw it, without neighbours");
     return;
   }

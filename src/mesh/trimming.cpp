@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/trimming.h"
 
+#include "mesh/self_intersections.h"
 #include "mesh/triangle_removal.h"
 
+#include <algorithm>
+#include <set>
+#include <unordered_map>
 #include <utility>
 
 namespace pcl
@@ -41,13 +45,58 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
   removeTriangles (mesh, std::move (is_removed), run);
 }
 
+// A set of triangles that has one of each pair.
+std::vector<std::uint8_t>
+coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
+{
+  std::unordered_map<Index, std::vector<Index>> partners;
+  for (const CrossingPair& pair : pairs) {
+    partners[pair.first].push_back (pair.second);
+    partners[pair.second].push_back (pair.first);
+  }
+  // The most partners first, then the smallest triangle.
+  std::set<std::pair<std::size_t, Index>> order;
+  const auto key = [&] (Index t) {
+    return std::make_pair (pairs.size () - partners[t].size (), t);
+  };
+  for (const auto& [t, others] : partners)
+    order.insert ({pairs.size () - others.size (), t});
+  std::vector<std::uint8_t> is_in (triangles, 0);
+  while (!order.empty ()) {
+    const Index t = order.begin ()->second;
+    order.erase (order.begin ());
+    if (partners[t].empty ())
+      break; // those that follow have none, either
+    is_in[t] = 1;
+    for (const Index u : partners[t]) {
+      order.erase (key (u));
+      std::vector<Index>& others = partners[u];
+      others.erase (std::find (others.begin (), others.end (), t));
+      order.insert (key (u));
+    }
+    partners[t].clear ();
+  }
+  return is_in;
+}
+
+// \return number of triangles that were cut off
+std::size_t
+cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
+{
+  const std::size_t before = mesh.triangles.size ();
+  const std::vector<CrossingPair> pairs =
+      findSelfIntersections (mesh.triangles, points.positions, run);
+  removeTriangles (mesh, coverPairs (before, pairs), run);
+  return before - mesh.triangles.size ();
+}
+
 } // namespace
 
 bool
 asksForTrimming (const TrimmingOptions& options)
 {
   return options.maximum_edge_length > 0.0 || options.maximum_edge_ratio > 0.0 ||
-         options.minimum_component_size > 0;
+         options.open_self_intersections || options.minimum_component_size > 0;
 }
 
 Trimming
@@ -58,6 +107,8 @@ trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& sp
   const std::size_t triangles = mesh.triangles.size ();
   const std::vector<Index> before = mesh.triangle_of;
   cutLongEdges (mesh, points, spacing, options, run);
+  if (options.open_self_intersections)
+    done.crossing = cutCrossing (mesh, points, run);
   if (options.minimum_component_size > 0)
     done.components = removeSmallComponents (
         mesh, static_cast<std::size_t> (options.minimum_component_size), run);

@@ -5,13 +5,14 @@
 #include "core/parallel.h"
 #include "core/plane_fit.h"
 #include "core/tangent_frame.h"
-#include "points/kd_tree.h"
+#include "points/point_sample.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace pcl
 {
@@ -19,50 +20,15 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t LOOKED_AT = 20; // points at each scale
 constexpr std::size_t FEWEST = 10;    // of them, so that a residual says something
 constexpr std::size_t SPACING_OF = 6; // nearest points whose mean distance is the local spacing
 constexpr std::size_t CENTRES = 8;    // noise is measured at every such point
 constexpr std::size_t AROUND = 10;    // centres around a point
 constexpr std::size_t PROBES = 8;     // every such centre is measured first
-// Share of the centres. With fewer, NoiseLimits::disturbed_share cannot be reached unless noise
-// triples where it is smoothed, and all neighbours there disagree.
-constexpr double FEW_NOISY = 0.01;
-constexpr std::size_t SCALES = 3;
-constexpr std::array<std::size_t, SCALES> STRIDES{1, 4, 16}; // of the points of each scale
-
-// Every so many points one. They are in the order of a space-filling curve, so that these are
-// evenly spread.
-class Sample
-{
-public:
-  Sample (const std::vector<Eigen::Vector3d>& positions, std::size_t stride, const RunContext& run)
-      : stride_ (stride), tree_ (every (positions, stride), run)
-  {
-  }
-
-  // Index among all points.
-  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
-  {
-    tree_.nearest (query, k, found);
-    for (Neighbor& neighbor : found)
-      neighbor.point *= static_cast<Index> (stride_);
-  }
-
-private:
-  static std::vector<Eigen::Vector3d> every (const std::vector<Eigen::Vector3d>& positions,
-                                             std::size_t stride)
-  {
-    std::vector<Eigen::Vector3d> kept;
-    kept.reserve (positions.size () / stride + 1);
-    for (std::size_t p = 0; p < positions.size (); p += stride)
-      kept.push_back (positions[p]);
-    return kept;
-  }
-
-  std::size_t stride_;
-  KdTree tree_;
-};
+// Share of the centres. With fewer noisy ones, NoiseLimits::disturbed_share cannot be reached
+// unless noise triples where it is smoothed, and all neighbours there disagree.
+constexpr double FEW = 0.01;
+constexpr float NO_SURFACE = std::numeric_limits<float>::max (); // points on lines at all scales
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -102,13 +68,20 @@ class NoiseMeter
 {
 public:
   NoiseMeter (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const std::array<const Sample*, SCALES>& samples, const NoiseLimits& limits)
+              const std::array<const PointSample*, SCALES>& samples, const NoiseLimits& limits)
       : positions_ (positions), neighbors_ (neighbors), samples_ (samples), limits_ (limits)
   {
   }
 
-  float measure (Index p)
+  struct Place
   {
+    float noise = 0.0F;
+    float unevenness = 0.0F; // residual in spacings at the flattest scale; below 0: unknown
+  };
+
+  Place measure (Index p)
+  {
+    std::size_t lines = 0;
     std::array<double, SCALES> residual{}, relative{};
     const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
@@ -120,8 +93,11 @@ public:
       for (std::size_t i = 1; i <= SPACING_OF; ++i)
         spacing += offsets_[i].norm () / static_cast<double> (SPACING_OF);
       const PrincipalAxes axes = axesOfOffsets ();
-      if (axes.spread[1] * axes.spread[1] < limits_.least_aspect * axes.spread[2] * axes.spread[2])
+      if (axes.spread[1] * axes.spread[1] <
+          limits_.least_aspect * axes.spread[2] * axes.spread[2]) {
+        ++lines;
         continue;
+      }
       residual[scale] = quadricResidual (offsets_, axes);
       if (residual[scale] >= limits_.strong * spacing && keepOwnSheet (axes, nearest_spacing)) {
         if (offsets_.size () < FEWEST)
@@ -136,10 +112,20 @@ public:
         if (relative[scale] >= limits_.strong && relative[larger] >= 0.0 &&
             relative[larger] < limits_.falls_to * relative[scale])
           noise = std::max (noise, residual[scale]);
-    return static_cast<float> (noise);
+    return {static_cast<float> (noise),
+            lines == SCALES ? NO_SURFACE : static_cast<float> (smallestKnown (relative))};
   }
 
 private:
+  static double smallestKnown (const std::array<double, SCALES>& relative)
+  {
+    double smallest = -1.0;
+    for (const double value : relative)
+      if (value >= 0.0 && (smallest < 0.0 || value < smallest))
+        smallest = value;
+    return smallest;
+  }
+
   PrincipalAxes axesOfOffsets () const
   {
     PlaneFit fit;
@@ -208,7 +194,7 @@ private:
 
   const std::vector<Eigen::Vector3d>& positions_;
   const CsrLists& neighbors_;
-  std::array<const Sample*, SCALES> samples_;
+  std::array<const PointSample*, SCALES> samples_;
   NoiseLimits limits_;
   std::vector<Neighbor> found_;
   std::vector<Eigen::Vector3d> offsets_;
@@ -219,7 +205,7 @@ private:
 // The noise around each centre: a quantile of those measured near it.
 std::vector<float>
 smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
-          const Sample& centres, double quantile, const RunContext& run)
+          const PointSample& centres, double quantile, const RunContext& run)
 {
   std::vector<float> result (at_centre.size ());
   parallelRanges (run, at_centre.size (), [&] (std::size_t first, std::size_t last) {
@@ -235,6 +221,68 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
     }
   });
   return result;
+}
+
+// What was measured at each centre.
+struct Places
+{
+  std::vector<float> noise, unevenness;
+  bool are_noisy = true, are_scatter = true; // so many of them that it is no chance
+};
+
+Places
+measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+               const NoiseLimits& limits, const RunContext& run)
+{
+  const PointSample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
+  const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
+  Places places;
+  places.noise.resize (centres);
+  places.unevenness.resize (centres);
+  for (const std::size_t stride : {PROBES, std::size_t{1}}) {
+    const std::size_t count = (centres + stride - 1) / stride;
+    parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
+      NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
+      for (std::size_t i = first; i < last; ++i) {
+        const NoiseMeter::Place place = meter.measure (static_cast<Index> (i * stride * CENTRES));
+        places.noise[i * stride] = place.noise;
+        places.unevenness[i * stride] = place.unevenness;
+      }
+    });
+    const auto are_many = [&] (const std::vector<float>& values, auto is_one) {
+      const auto ones = std::count_if (values.begin (), values.end (), is_one);
+      return static_cast<double> (ones) >= FEW * static_cast<double> (count);
+    };
+    places.are_noisy =
+        places.are_noisy && are_many (places.noise, [] (float x) { return x > 0.0F; });
+    places.are_scatter = places.are_scatter && are_many (places.unevenness, [&] (float x) {
+                           return static_cast<double> (x) >= limits.scatter;
+                         });
+    if (!places.are_noisy && !places.are_scatter)
+      break;
+  }
+  return places;
+}
+
+// Points around which no scale is flat.
+std::vector<Index>
+findScatter (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& unevenness,
+             const PointSample& centres, double limit, const RunContext& run)
+{
+  const std::vector<float> around = smoothed (positions, unevenness, centres, 0.5, run);
+  std::vector<std::uint8_t> is_scatter (positions.size ());
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    for (std::size_t p = first; p < last; ++p) {
+      centres.nearest (positions[p], 1, found);
+      is_scatter[p] = static_cast<double> (around[found.front ().point / CENTRES]) >= limit ? 1 : 0;
+    }
+  });
+  std::vector<Index> scatter;
+  for (Index p = 0; p < positions.size (); ++p)
+    if (is_scatter[p] != 0)
+      scatter.push_back (p);
+  return scatter;
 }
 
 void
@@ -258,23 +306,16 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   noise.at_point.assign (n, 0.0F);
   if (n < STRIDES.back () * LOOKED_AT)
     return noise;
-  const Sample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
-  std::vector<float> at_centre ((n + CENTRES - 1) / CENTRES);
-  const auto measureEvery = [&] (std::size_t stride) {
-    const std::size_t count = (at_centre.size () + stride - 1) / stride;
-    parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
-      NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
-      for (std::size_t i = first; i < last; ++i)
-        at_centre[i * stride] = meter.measure (static_cast<Index> (i * stride * CENTRES));
-    });
-    const auto noisy =
-        std::count_if (at_centre.begin (), at_centre.end (), [] (float x) { return x > 0.0F; });
-    return static_cast<double> (noisy) >= FEW_NOISY * static_cast<double> (count);
-  };
-  if (!measureEvery (PROBES) || !measureEvery (1))
+  const Places places = measurePlaces (positions, neighbors, limits, run);
+  if (!places.are_noisy && !places.are_scatter)
     return noise;
-  const Sample centres (positions, CENTRES, run);
-  const std::vector<float> around = smoothed (positions, at_centre, centres, limits.quantile, run);
+  const PointSample centres (positions, CENTRES, run);
+  if (places.are_scatter)
+    noise.scatter = findScatter (positions, places.unevenness, centres, limits.scatter, run);
+  if (!places.are_noisy)
+    return noise;
+  const std::vector<float> around =
+      smoothed (positions, places.noise, centres, limits.quantile, run);
   std::vector<float> relative (n, 0.0F);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
@@ -304,58 +345,6 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLi
     if (noise.at_point[p] > 0.0F)
       disturbed += 1.0 - static_cast<double> (agreement[p]);
   return disturbed >= limits.disturbed_share * points;
-}
-
-std::vector<Eigen::Vector3d>
-projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                    const Noise& noise, const NoiseLimits& limits, const RunContext& run)
-{
-  constexpr std::size_t MOST = 60; // points of a plane
-  constexpr double NARROWNESS = 4.0;
-  constexpr double OUTSIDE = 4.5; // standard deviations at which the weight vanishes
-  constexpr int PASSES = 2;
-  const Sample all (positions, 1, run), quarter (positions, STRIDES[1], run),
-      sixteenth (positions, STRIDES[2], run);
-  const std::array<const Sample*, SCALES> samples{&all, &quarter, &sixteenth};
-  std::vector<Eigen::Vector3d> projected = positions;
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    for (std::size_t p = first; p < last; ++p) {
-      const auto deviation = static_cast<double> (noise.at_point[p]);
-      if (deviation <= 0.0)
-        continue;
-      const Row row = neighbors.first (p, LOOKED_AT);
-      const double known = (positions[row[row.size () - 1]] - positions[p]).squaredNorm ();
-      const double radius = limits.radius * deviation;
-      const double wanted = std::max (static_cast<double> (LOOKED_AT),
-                                      static_cast<double> (row.size ()) * radius * radius / known);
-      std::size_t scale = 0;
-      while (scale + 1 < SCALES && wanted > static_cast<double> (MOST * STRIDES[scale]))
-        ++scale;
-      const auto count = static_cast<std::size_t> (
-          std::min (static_cast<double> (MOST), wanted / static_cast<double> (STRIDES[scale])));
-      samples[scale]->nearest (positions[p], count, found);
-      const double sqr_reach = found.back ().sqr_distance;
-      Plane plane;
-      for (int pass = 0; pass < PASSES; ++pass) {
-        PlaneFit fit;
-        for (const Neighbor& neighbor : found) {
-          const Eigen::Vector3d offset = positions[neighbor.point] - positions[p];
-          double weight = std::exp (-NARROWNESS * neighbor.sqr_distance / sqr_reach);
-          if (pass > 0) {
-            const double share = plane.height (offset) / (OUTSIDE * deviation);
-            weight *= std::abs (share) < 1.0 ? (1.0 - share * share) * (1.0 - share * share) : 0.0;
-          }
-          fit.add (offset, weight);
-        }
-        if (fit.weight () < 1.0)
-          break;
-        plane = fit.plane ();
-      }
-      projected[p] = positions[p] - plane.normal * plane.height (Eigen::Vector3d::Zero ());
-    }
-  });
-  return projected;
 }
 
 } // namespace floater

@@ -21,6 +21,8 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getMaximumEdgeRatio (), defaults.trimming.maximum_edge_ratio);
   EXPECT_EQ (floater.getMinimumComponentSize (), defaults.trimming.minimum_component_size);
   EXPECT_EQ (floater.getRemoveOutliers (), defaults.remove_outliers);
+  EXPECT_EQ (floater.getScatterPolicy (), defaults.scatter);
+  EXPECT_EQ (floater.getOpenSelfIntersections (), defaults.trimming.open_self_intersections);
   EXPECT_EQ (floater.getDenoise (), defaults.denoise);
   EXPECT_EQ (floater.getKNearest (), defaults.neighbors.k);
   EXPECT_EQ (floater.getOpeningAngle (), defaults.boundary.opening_angle);
@@ -69,6 +71,8 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (MaximumEdgeRatio, 100.0),
       CHOICE (MinimumComponentSize, 10),
       CHOICE (RemoveOutliers, false),
+      CHOICE (ScatterPolicy, ScatterPolicy::DROP),
+      CHOICE (OpenSelfIntersections, true),
       CHOICE (Denoise, false),
       CHOICE (BoundaryMethod, BoundaryMethod::CONSENSUS),
       CHOICE (KNearest, 12),

@@ -378,6 +378,10 @@ decodeOptions (ByteSource& bytes, std::size_t points)
   options.filter_sheets = (switches & 4U) == 0;
   options.flip_edges = (switches & 8U) == 0;
   options.remove_self_intersections = (switches & 16U) == 0;
+  if ((switches & 128U) != 0) {
+    options.scatter = ScatterPolicy::DROP;
+    options.trimming.open_self_intersections = true;
+  }
   options.blocks = (switches & 32U) == 0 ? 0 : static_cast<int> (bytes.below (9));
   if ((switches & 64U) != 0) {
     options.neighbors.kind = decodeEnum (bytes, Neighborhood::BALL);

@@ -67,6 +67,8 @@ public:
                     : "point " + std::to_string (index) + " is " + fate + " and " + before->second;
   }
 
+  bool isGiven (std::uint32_t index) const { return fate_.count (index) != 0; }
+
   std::string findForgotten () const
   {
     for (const auto& [index, unused] : position_)
@@ -94,6 +96,9 @@ findFaultOfPoints (const Input& input, const Result& result, const std::set<std:
   giveAll (used, "in the mesh");
   giveAll (report.unused, "unused");
   giveAll (report.outliers, "an outlier");
+  // Scatter is connected like all else, or left out as a whole.
+  if (!report.scatter.empty () && !fates.isGiven (report.scatter.front ()))
+    giveAll (report.scatter, "scatter");
   giveAll (report.non_finite, "not finite");
   const double equality = fates.equality ();
   for (const auto& [point, equal] : report.duplicates) {
@@ -109,13 +114,14 @@ findFaultOfPoints (const Input& input, const Result& result, const std::set<std:
   for (const std::uint32_t index : used)
     if (fault.empty () && !fates.position (index).allFinite ())
       fault = "point " + std::to_string (index) + " of the mesh is not finite";
-  for (const auto* list : {&report.unused, &report.outliers, &report.non_finite})
+  for (const auto* list : {&report.unused, &report.outliers, &report.scatter, &report.non_finite})
     if (fault.empty () && !std::is_sorted (list->begin (), list->end ()))
       fault = "a list of points is not ascending";
   const Statistics& counts = report.statistics;
   if (fault.empty () &&
       (counts.selected_points != input.positions.size () || counts.used_points != used.size () ||
        counts.outlier_points != report.outliers.size () ||
+       counts.scatter_points != report.scatter.size () ||
        counts.non_finite_points != report.non_finite.size () ||
        counts.duplicate_points != report.duplicates.size ()))
     fault = "the counts of points are not those of the lists";

@@ -222,6 +222,7 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--largest-hole", "5.5", "largest_hole", 5.5},
       {"--largest-hole-length", "0.25", "largest_hole_length", 0.25},
       {"--remove-outliers", "off", "remove_outliers", false},
+      {"--scatter", "drop", "scatter", "drop"},
       {"--denoise", "off", "denoise", false},
       {"--viewpoint", "none", "viewpoint", "none"},
       {"--viewpoint", "0,-1,20.5", "viewpoint", {0.0, -1.0, 20.5}},
@@ -246,6 +247,7 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--ordering", "metis", "ordering", "metis"},
       {"--flips", "off", "flips", false},
       {"--uncross", "off", "uncross", false},
+      {"--open-crossings", "on", "open_crossings", true},
       {"--threads", "2", "threads", 2},
       {"--blocks", "3", "blocks", 3}};
   for (const auto& [option, value, key, expected] : cases) {

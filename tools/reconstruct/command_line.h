@@ -67,6 +67,8 @@ constexpr Choices<HolePolicy, 5> HOLE_CHOICES{{{"auto", HolePolicy::AUTO},
                                                {"keep-largest", HolePolicy::KEEP_LARGEST},
                                                {"keep-count", HolePolicy::KEEP_COUNT},
                                                {"by-size", HolePolicy::BY_SIZE}}};
+constexpr Choices<ScatterPolicy, 2> SCATTER_CHOICES{
+    {{"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
 constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{
     {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
      {"consensus", BoundaryMethod::CONSENSUS},

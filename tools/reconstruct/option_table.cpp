@@ -141,6 +141,8 @@ addTopology (CLI::App& app, Options& options)
              "cut off components of fewer points", surface);
   addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
              "leave points that lie off any surface out of\nthe mesh", surface);
+  addChoice (app, "--scatter", options.scatter, SCATTER_CHOICES,
+             "points of no surface at any scale, such as leaves", surface);
   addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
              "where noise is strong, connect points as they lie\nwhen projected on local planes",
              surface);
@@ -148,6 +150,8 @@ addTopology (CLI::App& app, Options& options)
              "flip edges in space and repair folds at the end", surface);
   addChoice (app, "--uncross", options.remove_self_intersections, SWITCH_CHOICES,
              "change the mesh where its triangles cross each other", surface);
+  addChoice (app, "--open-crossings", options.trimming.open_self_intersections, SWITCH_CHOICES,
+             "take triangles out until no two cross each other", surface);
 }
 
 void

@@ -30,6 +30,7 @@ optionsJson (const Options& options)
                         : options.view.use == ViewUse::AUTO ? Json ("auto")
                                                             : Json ("none")},
           {"remove_outliers", options.remove_outliers},
+          {"scatter", choiceName (SCATTER_CHOICES, options.scatter)},
           {"denoise", options.denoise},
           {"neighbors", options.neighbors.k},
           {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighbors.kind)},
@@ -52,6 +53,7 @@ optionsJson (const Options& options)
           {"ilut_drop", options.solver.ilut_drop},
           {"flips", options.flip_edges},
           {"uncross", options.remove_self_intersections},
+          {"open_crossings", options.trimming.open_self_intersections},
           {"threads", options.threads},
           {"blocks", options.blocks}};
 }
@@ -74,12 +76,14 @@ statisticsJson (const Statistics& statistics)
           {"duplicate_points", statistics.duplicate_points},
           {"working_points", statistics.working_points},
           {"outlier_points", statistics.outlier_points},
+          {"scatter_points", statistics.scatter_points},
           {"noise", statistics.noise},
           {"noise_quantile_90", statistics.noise_quantile_90},
           {"largest_noise", statistics.largest_noise},
           {"projected_points", statistics.projected_points},
           {"coordinate_step", statistics.coordinate_step},
           {"trimmed_triangles", statistics.trimmed_triangles},
+          {"opened_triangles", statistics.opened_triangles},
           {"trimmed_components", statistics.trimmed_components},
           {"trimmed_points", statistics.trimmed_points},
           {"view_steps", statistics.view_steps},
@@ -254,6 +258,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"loop", report.loop},
                     {"unused", report.unused},
                     {"outliers", report.outliers},
+                    {"scatter", report.scatter},
                     {"non_finite", report.non_finite},
                     {"duplicates", report.duplicates}};
   std::string text;

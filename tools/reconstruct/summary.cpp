@@ -90,13 +90,21 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
       run.input_points, statistics.used_points, statistics.duplicate_points,
       statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
       report.unused.size ());
+  if (!report.scatter.empty ())
+    std::printf ("scatter    %s where the cloud is flat at no scale, as in leaves or in parts of "
+                 "few points: "
+                 "%s\n",
+                 counted (report.scatter.size (), "point").c_str (),
+                 line.options.scatter == ScatterPolicy::DROP ? "left out"
+                                                             : "connected like the others");
   std::printf ("triangles  %zu\n", statistics.triangles);
   printShape (report);
   printLoopDecisions (report);
   printFacingDecisions (report);
   if (statistics.trimmed_triangles > 0)
-    std::printf ("cut off    %s, %s, %s\n",
+    std::printf ("cut off    %s (%zu to open crossings), %s, %s\n",
                  counted (statistics.trimmed_triangles, "triangle").c_str (),
+                 statistics.opened_triangles,
                  counted (statistics.trimmed_components, "component").c_str (),
                  counted (statistics.trimmed_points, "point").c_str ());
   if (!run.shift.isZero (0.0))

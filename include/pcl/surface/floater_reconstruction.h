@@ -166,8 +166,15 @@ public:
   /** \brief Length that no edge of the mesh exceeds, in local spacings; 0: no limit. */
   double getMaximumEdgeRatio () const { return options_.trimming.maximum_edge_ratio; }
 
+  /** \brief Whether triangles are taken out until no two cross each other; default false. It is the
+   * last resort after setRemoveSelfIntersections(), for those who simulate, print or trace rays: at
+   * such places the mesh gets holes, mostly of a few triangles. getStatistics() counts them. */
+  void setOpenSelfIntersections (bool open) { options_.trimming.open_self_intersections = open; }
+  /** \brief Whether triangles are taken out until no two cross each other. */
+  bool getOpenSelfIntersections () const { return options_.trimming.open_self_intersections; }
+
   /** \brief Components of the mesh with fewer points are left out, 0 or more; default 0: none.
-   * Components are counted after long edges were cut off. */
+   * Components are counted after long edges and crossing triangles were cut off. */
   void setMinimumComponentSize (int points) { options_.trimming.minimum_component_size = points; }
   /** \brief Components of the mesh with fewer points are left out. */
   int getMinimumComponentSize () const { return options_.trimming.minimum_component_size; }
@@ -177,6 +184,12 @@ public:
   void setRemoveOutliers (bool remove_outliers) { options_.remove_outliers = remove_outliers; }
   /** \brief Whether points that lie off any surface are left out of the mesh. */
   bool getRemoveOutliers () const { return options_.remove_outliers; }
+
+  /** \brief What becomes of points around which the cloud is flat at no scale, such as leaves and
+   * grass; default KEEP. getScatterIndices() has them. */
+  void setScatterPolicy (floater::ScatterPolicy policy) { options_.scatter = policy; }
+  /** \brief What becomes of points around which the cloud is flat at no scale. */
+  floater::ScatterPolicy getScatterPolicy () const { return options_.scatter; }
 
   /** \brief Whether points are connected as they lie when projected on local planes, where noise is
    * strong; default true. The vertices of the mesh are not moved. */
@@ -396,6 +409,10 @@ public:
 
   /** \brief Points left out of the mesh because they lie off any surface; ascending. */
   pcl::Indices getOutlierIndices () const;
+
+  /** \brief Points around which the cloud is flat at no scale, such as leaves; ascending. With
+   * ScatterPolicy::DROP they are left out of the mesh. */
+  pcl::Indices getScatterIndices () const;
 
   /** \brief Points with a NaN or infinite coordinate; ascending. */
   pcl::Indices getNonFiniteIndices () const;

@@ -51,6 +51,7 @@ allLimits ()
       PCL_FLOATER_LIMIT (noise.sheet_gap),
       PCL_FLOATER_LIMIT (noise.radius),
       PCL_FLOATER_LIMIT (noise.disturbed_share),
+      PCL_FLOATER_LIMIT (noise.scatter),
       PCL_FLOATER_LIMIT (planes.least_aspect),
       PCL_FLOATER_LIMIT (planes.core_points),
       PCL_FLOATER_LIMIT (planes.sheet_sine),

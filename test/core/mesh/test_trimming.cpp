@@ -2,6 +2,7 @@
 #include "mesh/trimming.h"
 
 #include "mesh/known_meshes.h"
+#include "mesh/self_intersections.h"
 #include "samples.h"
 #include "surfaces.h"
 
@@ -126,6 +127,31 @@ TEST (Trimming, AGapBecomesABoundary)
     EXPECT_EQ (topology.loops.size (), 2U);
     EXPECT_EQ (topology.vertices, 121U);
   }
+}
+
+TEST (Trimming, TrianglesThatCrossAreOpened)
+{
+  TrimmingOptions options;
+  options.open_self_intersections = true;
+  EXPECT_TRUE (asksForTrimming (options));
+  Mesh mesh = sheet (10);
+  EXPECT_EQ (trim (mesh, options).triangles, 0U);
+  // Another sheet stands upright in it.
+  const Mesh upright = sheet (10);
+  for (const Eigen::Vector3d& p : upright.positions)
+    mesh.positions.emplace_back (p.x () + 0.013, 0.47, p.y () - 0.52);
+  for (const Triangle& t : upright.triangles)
+    mesh.triangles.push_back ({t[0] + 121, t[1] + 121, t[2] + 121});
+  const std::size_t triangles = mesh.triangles.size ();
+  const std::vector<CrossingPair> pairs = findSelfIntersections (mesh.triangles, mesh.positions, 1);
+  ASSERT_GT (pairs.size (), 3U);
+  const Trimming trimming = trim (mesh, options);
+  EXPECT_EQ (trimming.crossing, trimming.triangles);
+  EXPECT_GT (trimming.triangles, 0U);
+  EXPECT_LT (trimming.triangles, 2 * pairs.size ());
+  EXPECT_EQ (mesh.triangles.size (), triangles - trimming.triangles);
+  EXPECT_TRUE (findSelfIntersections (mesh.triangles, mesh.positions, 1).empty ());
+  EXPECT_TRUE (samples::topologyOf (mesh.triangles).manifold);
 }
 
 TEST (Trimming, OfTwoFansOneStays)

@@ -2,6 +2,7 @@
 #include "points/noise.h"
 
 #include "points/nearest_neighbors.h"
+#include "points/noise_projection.h"
 #include "samples.h"
 #include "surfaces.h"
 
@@ -245,6 +246,124 @@ TEST (Projection, AnotherSheetDoesNotPull)
     const double z = (cloud.points.centre + cloud.points.scale * projected).z ();
     EXPECT_LT (std::min (std::abs (z), std::abs (z - 8.0)), 1.2);
   }
+}
+
+// Points of the kinds of scatter: in a box, in a ball with the most in the middle, in clumps.
+Positions
+strewn (int kind, std::size_t count, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  const auto normal = [&] {
+    return Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
+  };
+  Positions positions = samples::randomPoints (count, seed);
+  if (kind == 0)
+    return positions;
+  Positions centres = samples::randomPoints (count / 100, seed + 1);
+  for (std::size_t i = 0; i < count; ++i)
+    positions[i] =
+        kind == 1 ? normal () : Eigen::Vector3d (centres[i % centres.size ()] + 0.05 * normal ());
+  return positions;
+}
+
+double
+scatterShare (const Positions& positions)
+{
+  const Cloud cloud (positions);
+  return static_cast<double> (cloud.noise ().scatter.size ()) /
+         static_cast<double> (positions.size ());
+}
+
+TEST (Scatter, IsWhatHasNoSurfaceAtAnyScale)
+{
+  for (const int kind : {0, 1, 2})
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      SCOPED_TRACE (kind);
+      EXPECT_GT (scatterShare (strewn (kind, 20000, seed)), 0.95);
+    }
+}
+
+TEST (Scatter, SurfacesHaveNoneHoweverNoisy)
+{
+  for (const SurfaceKind kind : surfaceKinds ())
+    for (const double noise : {0.0, 0.3, 1.0}) {
+      if (kind == SurfaceKind::FOLDED_SHEET && noise == 1.0)
+        continue; // its sheets are 2 spacings apart: they fill all between them
+      SCOPED_TRACE (std::string (surfaceName (kind)) + " with noise of " + std::to_string (noise));
+      EXPECT_LT (scatterShare (surface (kind, 8000, noise)), 0.01);
+    }
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Positions plane = samples::randomPoints (8000, seed);
+    RandomStream random (seed);
+    for (Eigen::Vector3d& p : plane)
+      p.z () = 1.5 / std::sqrt (8000.0) * random.normal ();
+    EXPECT_LT (scatterShare (plane), 0.01);
+  }
+}
+
+TEST (Scatter, AWireIsScatterAndATreeOnTheGroundIsFound)
+{
+  // A wire, far above a plane; and a tree on it.
+  Positions positions = samples::randomPoints (6000, 1);
+  RandomStream random (2);
+  for (std::size_t i = 0; i < positions.size (); ++i) {
+    Eigen::Vector3d& p = positions[i];
+    if (i < 1000)
+      p = {0.001 * static_cast<double> (i), 0.5, 0.5};
+    else if (i < 2500)
+      p = Eigen::Vector3d (0.7, 0.2, 0.1) + 0.1 * (p - Eigen::Vector3d (0.5, 0.5, 0.5));
+    else
+      p.z () = 0.0;
+  }
+  const Cloud cloud (positions);
+  std::array<double, 3> share{};
+  for (const Index p : cloud.noise ().scatter) {
+    const Index index = cloud.points.cloud_index[p];
+    share[index < 1000 ? 0 : index < 2500 ? 1 : 2] += 1.0;
+  }
+  EXPECT_GT (share[0] / 1000.0, 0.9);
+  EXPECT_GT (share[1] / 1500.0, 0.8);
+  EXPECT_LT (share[2] / 3500.0, 0.02);
+}
+
+TEST (Scatter, IsKeptOrDroppedAndTold)
+{
+  Positions positions = surface (SurfaceKind::SPHERE, 6000, 0.0);
+  const Positions bush = strewn (0, 1500, 4);
+  for (const Eigen::Vector3d& p : bush)
+    positions.emplace_back (0.3 * p + Eigen::Vector3d (2.0, 0.0, 0.0));
+  Options options;
+  options.threads = 1;
+  const Result kept = reconstruct (positions, options);
+  ASSERT_EQ (kept.report.status, Status::OK) << kept.report.message;
+  const std::vector<std::uint32_t>& scatter = kept.report.scatter;
+  EXPECT_EQ (kept.report.statistics.scatter_points, scatter.size ());
+  EXPECT_GT (scatter.size (), 1200U);
+  EXPECT_GE (scatter.front (), 6000U);
+  EXPECT_GT (kept.report.statistics.used_points, 7000U);
+
+  options.scatter = ScatterPolicy::DROP;
+  const Result dropped = reconstruct (positions, options);
+  ASSERT_EQ (dropped.report.status, Status::OK) << dropped.report.message;
+  EXPECT_EQ (dropped.report.scatter, scatter);
+  for (const Triangle& t : dropped.triangles)
+    for (const Index p : t)
+      EXPECT_FALSE (std::binary_search (scatter.begin (), scatter.end (), p));
+  EXPECT_EQ (dropped.report.statistics.working_points + scatter.size () +
+                 dropped.report.outliers.size (),
+             positions.size ());
+
+  // If nothing is left, the message tells why.
+  std::size_t empty = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Result none = reconstruct (strewn (0, 400, seed), options);
+    if (none.report.scatter.size () != 400)
+      continue;
+    ++empty;
+    EXPECT_EQ (none.report.status, Status::TOO_FEW_POINTS);
+    EXPECT_NE (none.report.message.find ("400 points of no surface"), std::string::npos);
+  }
+  EXPECT_GT (empty, 0U);
 }
 
 TEST (Noise, SurfaceOfNoisyPoints)

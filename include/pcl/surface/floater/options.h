@@ -37,6 +37,14 @@ enum class HolePolicy
   BY_SIZE       ///< those wider than HoleOptions::largest_hole or largest_hole_length
 };
 
+/// What becomes of scatter: points around which the cloud is flat at no scale, such as leaves and
+/// grass. It is not looked for in scans that are connected as their sensor saw them.
+enum class ScatterPolicy
+{
+  KEEP, ///< it is connected like all other points, though that makes no meaningful surface
+  DROP  ///< it is left out of the mesh
+};
+
 /// How the boundary loop of a disc is found.
 enum class BoundaryMethod
 {
@@ -166,7 +174,8 @@ struct TrimmingOptions
                                     ///< more; 0: no limit
   double maximum_edge_ratio = 0.0;  ///< the same in local spacings, the mean of those of the two
                                     ///< ends; 0 or more; 0: no limit
-  int minimum_component_size = 0;   ///< components of fewer points are taken out, 0 or more
+  bool open_self_intersections = false; ///< triangles are taken out until no two cross each other
+  int minimum_component_size = 0;       ///< components of fewer points are taken out, 0 or more
 };
 
 /// Scans, of which every point is visible from one place.
@@ -224,14 +233,16 @@ struct Options
   DomainOptions domain;
   Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point of a disc
   SolverOptions solver;
-  bool remove_outliers = true; ///< leave out points that lie off any surface
-  bool denoise = true;         ///< where noise is strong, connect the points as they lie when
-                               ///< projected on local planes; the vertices are not moved
-  bool filter_sheets = true;   ///< drop neighbours that lie on another sheet of the surface
-  bool flip_edges = true;      ///< flip edges in space towards Delaunay, and repair folds
+  bool remove_outliers = true;                 ///< leave out points that lie off any surface
+  ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points of no surface, such as leaves
+  bool denoise = true;       ///< where noise is strong, connect the points as they lie when
+                             ///< projected on local planes; the vertices are not moved
+  bool filter_sheets = true; ///< drop neighbours that lie on another sheet of the surface
+  bool flip_edges = true;    ///< flip edges in space towards Delaunay, and repair folds
   bool remove_self_intersections = true; ///< change the mesh where its triangles cross each other;
                                          ///< only with flip_edges, and not for scans that are
-                                         ///< connected as their sensor saw them
+                                         ///< connected as their sensor saw them, nor where noisy
+                                         ///< points were projected to connect them
   int blocks = 0;  ///< blocks in which the nearest neighbours are searched, 0 or more; 0: chosen by
                    ///< the number of points. Does not change the result
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result

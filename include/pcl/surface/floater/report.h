@@ -126,6 +126,9 @@ struct Statistics
   std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
   std::size_t working_points = 0;    ///< distinct finite points that are no outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
+  std::size_t scatter_points = 0;    ///< points around which the cloud is flat at no scale, such as
+                                     ///< leaves. Not looked for in a view, without denoising unless
+                                  ///< scatter is to be dropped, and in clouds of under 320 points
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
                       ///< surface, in local spacings; below 0.15 it counts as 0. Not of a view
   double noise_quantile_90 = 0.0;   ///< 90 % of the points have at most that noise
@@ -135,6 +138,7 @@ struct Statistics
   double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, along the axis
                                 ///< where it is widest, in local spacings; 0: none is seen
   std::size_t trimmed_triangles = 0;  ///< triangles cut off as TrimmingOptions ask for
+  std::size_t opened_triangles = 0;   ///< those of them that crossed others
   std::size_t trimmed_components = 0; ///< components among them that were too small
   std::size_t trimmed_points = 0;     ///< points that are in no triangle any more for that reason
   std::size_t view_steps = 0;   ///< of a scan: triangles between neighbouring rays that would lead
@@ -191,6 +195,8 @@ struct Report
   std::vector<Eigen::Vector2d> parameters;
   std::vector<std::uint32_t> unused;   ///< finite points, neither duplicates nor outliers, that are
                                        ///< in no triangle, also where it was cut off; ascending
+  std::vector<std::uint32_t> scatter;  ///< points of no surface (see Statistics::scatter_points);
+                                       ///< left out of the mesh if that is asked for; ascending
   std::vector<std::uint32_t> outliers; ///< points left out of the mesh as outliers; ascending
   std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate; ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),

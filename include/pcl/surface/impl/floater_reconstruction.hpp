@@ -252,6 +252,13 @@ FloaterReconstruction<PointT>::getOutlierIndices () const
 
 template <typename PointT>
 pcl::Indices
+FloaterReconstruction<PointT>::getScatterIndices () const
+{
+  return pcl::Indices (report_.scatter.begin (), report_.scatter.end ());
+}
+
+template <typename PointT>
+pcl::Indices
 FloaterReconstruction<PointT>::getNonFiniteIndices () const
 {
   return pcl::Indices (report_.non_finite.begin (), report_.non_finite.end ());
