@@ -33,6 +33,19 @@ struct Verdict
   std::string flaws;
 };
 
+bool
+isScan (const std::string& name)
+{
+  return name.rfind ("sensor_", 0) == 0;
+}
+
+std::string
+judge (const std::vector<floater::Triangle>& triangles, const floater::Truth& truth)
+{
+  return isScan (truth.name) ? floater::flawsOfScan (triangles, truth)
+                             : floater::flawsOf (triangles, truth);
+}
+
 std::vector<floater::Triangle>
 reconstruct (const floater::Truth& truth, const floater::Limits& limits, const Settings& settings)
 {
@@ -53,7 +66,7 @@ readCases (const Settings& settings)
   for (const auto& entry : std::filesystem::directory_iterator (settings.folder)) {
     const std::string name = entry.path ().filename ().string ();
     if (name.size () > 7 && name.substr (name.size () - 7) == ".gt.ply" &&
-        (settings.with_sensors || name.rfind ("sensor_", 0) != 0))
+        (settings.with_sensors || !isScan (name)))
       files.push_back (entry.path ());
   }
   std::sort (files.begin (), files.end ());
@@ -79,7 +92,7 @@ run (const Settings& settings)
   for (const floater::Truth& truth : cases) {
     Verdict& verdict = by_default[truth.name];
     verdict.triangles = reconstruct (truth, {}, settings);
-    verdict.flaws = floater::flawsOf (verdict.triangles, truth);
+    verdict.flaws = judge (verdict.triangles, truth);
     clean += verdict.flaws.empty () ? 1 : 0;
     if (!verdict.flaws.empty ())
       std::cout << truth.name << ": " << verdict.flaws << '\n';
@@ -102,7 +115,7 @@ run (const Settings& settings)
         if (triangles == before.triangles)
           continue;
         ++changed;
-        const std::string flaws = floater::flawsOf (triangles, truth);
+        const std::string flaws = judge (triangles, truth);
         if (flaws.empty () == before.flaws.empty ())
           continue;
         ++(flaws.empty () ? better : worse);
@@ -129,7 +142,8 @@ main (int argc, char** argv)
       ->check (CLI::ExistingDirectory);
   app.add_option ("--only", settings.only, "limits whose name holds this text");
   app.add_option ("--most-points", settings.most_points, "largest cloud")->capture_default_str ();
-  app.add_flag ("--sensors", settings.with_sensors, "also clouds whose name begins with sensor_");
+  app.add_flag ("--sensors", settings.with_sensors,
+                "also clouds whose name begins with sensor_: of\nthem, clean means usable");
   app.add_flag ("--discs", settings.as_discs,
                 "by the disc method, and only clouds whose true mesh is a disc");
   app.add_option ("-j,--threads", settings.threads, "threads; 0: all cores")

@@ -137,38 +137,112 @@ readTruth (const std::filesystem::path& file)
   return truth;
 }
 
+namespace
+{
+// Collects flaws in a few words each.
+class Flaws
+{
+public:
+  void note (bool is_flaw, const std::string& name)
+  {
+    if (is_flaw)
+      text_ += (text_.empty () ? "" : ", ") + name;
+  }
+
+  std::string text () const { return text_; }
+
+private:
+  std::string text_;
+};
+
+std::string
+counted (const char* name, std::int64_t have, std::int64_t want)
+{
+  return std::string (name) + " " + std::to_string (have) + " for " + std::to_string (want);
+}
+
+MeshExamination
+examine (const std::vector<Triangle>& triangles, const Truth& truth)
+{
+  const std::vector<float> spacing (truth.points.size (), 1.0F);
+  return checkMesh (triangles, truth.points, spacing, 1);
+}
+
+// \param share of the points that may be lost
+bool
+hasLostPoints (const MeshExamination& found, const Truth& truth, double share)
+{
+  const double unused =
+      static_cast<double> (found.unused.size ()) - static_cast<double> (truth.found.unused.size ());
+  return unused > share * static_cast<double> (truth.points.size ());
+}
+
+// \param share by which the area may differ
+bool
+hasOtherArea (const std::vector<Triangle>& triangles, const Truth& truth, double share)
+{
+  return std::abs (areaOf (triangles, truth.points.positions) / truth.area - 1.0) > share;
+}
+
+std::size_t
+boundaryEdges (const MeshCheck& check)
+{
+  std::size_t edges = 0;
+  for (const LoopSummary& loop : check.loops)
+    edges += loop.points;
+  return edges;
+}
+
+} // namespace
+
 std::string
 flawsOf (const std::vector<Triangle>& triangles, const Truth& truth)
 {
   if (triangles.empty ())
     return "no mesh";
-  constexpr double POINTS = 0.001, AREA = 0.01; // shares that may be lost, or differ
-  const std::vector<float> spacing (truth.points.size (), 1.0F);
-  const MeshExamination found = checkMesh (triangles, truth.points, spacing, 1);
-  std::string flaws;
-  const auto note = [&flaws] (bool is_flaw, const std::string& name) {
-    if (is_flaw)
-      flaws += (flaws.empty () ? "" : ", ") + name;
-  };
+  const MeshExamination found = examine (triangles, truth);
   const MeshCheck &is = found.check, &should_be = truth.found.check;
-  const double unused =
-      static_cast<double> (found.unused.size ()) - static_cast<double> (truth.found.unused.size ());
   const auto [spurious, closed] = countUnmatched (found.loops, truth);
-  const auto counted = [] (const char* name, auto have, auto want) {
-    return std::string (name) + " " + std::to_string (have) + " for " + std::to_string (want);
-  };
-  note (unused > POINTS * static_cast<double> (truth.points.size ()), "unused points");
-  note (!found.isManifold (), "not manifold");
-  note (spurious > 0, std::to_string (spurious) + " spurious loops");
-  note (closed > 0, std::to_string (closed) + " true loops closed");
-  note (is.components != should_be.components,
-        counted ("components", is.components, should_be.components));
-  note (is.euler_characteristic != should_be.euler_characteristic,
-        counted ("Euler characteristic", is.euler_characteristic, should_be.euler_characteristic));
-  note (is.folds > should_be.folds, counted ("folds", is.folds, should_be.folds));
-  note (countInsideOut (triangles, truth) > 0, "inside out");
-  note (std::abs (areaOf (triangles, truth.points.positions) / truth.area - 1.0) > AREA, "area");
-  return flaws;
+  Flaws flaws;
+  flaws.note (hasLostPoints (found, truth, 0.001), "unused points");
+  flaws.note (!found.isManifold (), "not manifold");
+  flaws.note (spurious > 0, std::to_string (spurious) + " spurious loops");
+  flaws.note (closed > 0, std::to_string (closed) + " true loops closed");
+  flaws.note (is.components != should_be.components,
+              counted ("components", static_cast<std::int64_t> (is.components),
+                       static_cast<std::int64_t> (should_be.components)));
+  flaws.note (
+      is.euler_characteristic != should_be.euler_characteristic,
+      counted ("Euler characteristic", is.euler_characteristic, should_be.euler_characteristic));
+  flaws.note (is.folds > should_be.folds, counted ("folds", static_cast<std::int64_t> (is.folds),
+                                                   static_cast<std::int64_t> (should_be.folds)));
+  flaws.note (countInsideOut (triangles, truth) > 0, "inside out");
+  flaws.note (hasOtherArea (triangles, truth, 0.01), "area");
+  return flaws.text ();
+}
+
+std::string
+flawsOfScan (const std::vector<Triangle>& triangles, const Truth& truth)
+{
+  if (triangles.empty ())
+    return "no mesh";
+  const MeshExamination found = examine (triangles, truth);
+  const MeshCheck &is = found.check, &should_be = truth.found.check;
+  const std::size_t edges = boundaryEdges (is), true_edges = boundaryEdges (should_be);
+  Flaws flaws;
+  flaws.note (hasLostPoints (found, truth, 0.01), "unused points");
+  flaws.note (!found.isManifold (), "not manifold");
+  flaws.note (is.components > 2 * should_be.components + 10,
+              counted ("components", static_cast<std::int64_t> (is.components),
+                       static_cast<std::int64_t> (should_be.components)));
+  flaws.note (2 * edges > 3 * true_edges,
+              counted ("boundary edges", static_cast<std::int64_t> (edges),
+                       static_cast<std::int64_t> (true_edges)));
+  flaws.note (is.folds > std::max (should_be.folds, triangles.size () / 2000),
+              counted ("folds", static_cast<std::int64_t> (is.folds),
+                       static_cast<std::int64_t> (should_be.folds)));
+  flaws.note (hasOtherArea (triangles, truth, 0.05), "area");
+  return flaws.text ();
 }
 
 } // namespace floater

@@ -35,5 +35,12 @@ readTruth (const std::filesystem::path& file);
 std::string
 flawsOf (const std::vector<Triangle>& triangles, const Truth& truth);
 
+/// What keeps the reconstruction of a scan from being usable, whose truth is the raster of its
+/// sensor; empty if nothing does: at least 99 % of the points used, manifold, at most twice the
+/// components and 10 more, at most 1.5 times the boundary edges, no more folds or at most one for
+/// 2000 triangles, and the area within 5 %.
+std::string
+flawsOfScan (const std::vector<Triangle>& triangles, const Truth& truth);
+
 } // namespace floater
 } // namespace pcl
