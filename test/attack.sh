@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The long versions of the attacks: random clouds, memory that runs out, and all fuzz targets.
+# The long versions of the attacks: random clouds, memory that runs out, runs that are killed or whose
+# input shrinks, cancellation, and all fuzz targets.
 set -euo pipefail
 
 usage () {
@@ -8,8 +9,11 @@ usage () {
 Usage: attack.sh [MINUTES [SEED]]
 Attacks the library and the tool for about so many minutes (default: 60) after the builds:
 a third of the time random clouds from SEED on (default: the date), up to a sixth memory that runs
-out on clouds of 5000 points, the rest fuzz targets, each from its corpus and what earlier runs have
-found. One process at a time, at the lowest priority. Needs clang for the fuzz targets.
+out on clouds of 5000 points, then runs of the tool that are killed, and others whose input shrinks,
+at 200 moments each, a cancellation at 200 moments, and for the rest fuzz targets, each from its
+corpus and what earlier runs have found. From 60 minutes on, 30 million points with a limit on the
+memory come first; they take about 10 GB on the disk. One process at a time, at the lowest priority.
+Needs clang for the fuzz targets.
 What is found is left in build/attack. The exit code is 1 if there is anything.
 END
 }
@@ -29,13 +33,70 @@ cd "$root"
 work=$root/build/attack
 mkdir -p "$work"
 cmake --preset dev >"$work/configure.log"
-cmake --build --preset dev --target sweep_clouds test_memory_faults
+cmake --build --preset dev --target sweep_clouds test_memory_faults test_concurrency \
+  pcl_floater_generate pcl_floater_reconstruct
 cmake --preset fuzz >>"$work/configure.log"
 cmake --build --preset fuzz
 
 result=0
 seconds=$((60 * minutes))
 tests=build/dev/test/fuzz
+tool=build/dev/tools/reconstruct/pcl_floater_reconstruct
+generate=build/dev/tools/generate/pcl_floater_generate
+
+# Runs the tool 200 times, and does something to it or to its input at 200 moments that are spread over
+# a run: $1, with the id of the process and the input as arguments. The old mesh or the new one must be
+# there, whole; $2 tells which exit codes may be.
+at_200_moments () {
+  local act=$1 codes=$2 run=$work/moments start end i process code bad=0 new=0
+  rm -rf "$run"
+  mkdir -p "$run"
+  "$generate" height-field "$run/cloud.ply" --points 60000 >/dev/null
+  start=$(date +%s%N)
+  "$tool" "$run/cloud.ply" "$run/new.ply" >/dev/null
+  end=$(date +%s%N)
+  "$generate" height-field "$run/old.ply" --points 1000 >/dev/null
+  for ((i = 0; i < 200; ++i)); do
+    cp "$run/cloud.ply" "$run/in.ply"
+    cp "$run/old.ply" "$run/out.ply"
+    "$tool" "$run/in.ply" "$run/out.ply" >/dev/null 2>"$run/errors.txt" &
+    process=$!
+    sleep "$(printf '%d.%09d' $(((end - start) * i / 200 / 1000000000)) \
+      $(((end - start) * i / 200 % 1000000000)))"
+    "$act" "$process" "$run/in.ply"
+    code=0
+    wait "$process" 2>/dev/null || code=$?
+    if cmp -s "$run/out.ply" "$run/new.ply"; then
+      new=$((new + 1))
+    elif ! cmp -s "$run/out.ply" "$run/old.ply"; then
+      echo "a part of a mesh after moment $i"
+      bad=1
+    fi
+    if [[ " $codes " != *" $code "* ]]; then
+      echo "exit code $code at moment $i: $(cat "$run/errors.txt")"
+      bad=1
+    fi
+    if ((code != 137)) && compgen -G "$run/.pcl_floater.*" >/dev/null; then
+      echo "a temporary file is left after moment $i"
+      bad=1
+    fi
+    rm -f "$run"/.pcl_floater.*
+  done
+  echo "$act: 200 runs, $new of them ended with the new mesh"
+  return $bad
+}
+# shellcheck disable=SC2317 # called by at_200_moments
+kill_it () { kill -KILL "$1" 2>/dev/null || true; }
+# shellcheck disable=SC2317
+shrink_it () { truncate -s 1000 "$2"; }
+
+if ((minutes >= 60)); then
+  "$generate" torus "$work/large.ply" --points 30000000
+  nice -n 19 "$tool" "$work/large.ply" "$work/large_mesh.ply" --max-memory 3G >"$work/large.txt" 2>&1 ||
+    result=1
+  grep -E "^(points|triangles|topology|seconds|warning|pcl_floater)" "$work/large.txt" || true
+  rm -f "$work/large.ply" "$work/large_mesh.ply"
+fi
 clouds=$((seconds / 9))
 for points in 30 400 3000; do
   nice -n 19 "$tests/sweep_clouds" "${seed}000" "$clouds" "$points" | tee "$work/clouds_$points.txt" || result=1
@@ -51,6 +112,11 @@ if ((memory != 0)); then
   cat "$work/memory.txt"
   result=1
 fi
+
+at_200_moments kill_it "0 137" || result=1
+at_200_moments shrink_it "0 2 3" || result=1
+PCL_FLOATER_MOMENTS=200 nice -n 19 "$tests/test_concurrency" --gtest_brief=1 \
+  --gtest_filter='*CancelledFromAnotherThread' || result=1
 
 declare -A share=([pcd]=1 [ply]=1 [obj]=1 [command_line]=1 [reconstruct]=4)
 for target in pcd ply obj command_line reconstruct; do
