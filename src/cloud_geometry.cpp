@@ -76,12 +76,11 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSetti
   if (!options.denoise && !drops_scatter)
     return {};
   Noise noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
-  std::vector<Index> scatter = std::move (noise.scatter);
   if (drops_scatter)
-    scatter = exceptLoop (std::move (scatter), points, options.boundary.loop);
-  reportScatter (points, scatter, report);
-  if (drops_scatter && !scatter.empty ()) {
-    removePoints (points, scatter);
+    noise.scatter = exceptLoop (std::move (noise.scatter), points, options.boundary.loop);
+  reportScatter (points, noise.scatter, report);
+  if (drops_scatter && !noise.scatter.empty ()) {
+    removePoints (points, noise.scatter);
     report.statistics.working_points = points.size ();
     if (checkPoints (points))
       return {}; // the caller tells
@@ -92,6 +91,7 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSetti
                              starSettings (request), run, limits.planes);
     if (options.denoise)
       noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+    noise.scatter.clear (); // all of it has been taken out
   }
   return options.denoise ? noise : Noise{};
 }

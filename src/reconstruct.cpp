@@ -261,6 +261,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     geometry = {};
     geometry = projectNoise (points, std::move (around), noise, settings, request);
   }
+  geometry.scatter = std::move (noise.scatter);
   reportNoise (noise, noise.is_strong, report);
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 

@@ -22,6 +22,7 @@ struct LocalGeometry
                               ///< of the reach of the star if that is more
   std::vector<float> own_spacing; ///< of the positions themselves if these are others; else empty
   Stars stars;                    ///< with the normals of the points
+  std::vector<Index> scatter;     ///< points around which the cloud is flat at no scale, ascending
 
   /// Spacing on the mesh, whose vertices are the positions themselves.
   const std::vector<float>& meshSpacing () const

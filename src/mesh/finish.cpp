@@ -34,7 +34,8 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
     // Flips have turned some triangles, so that some normals may have the wrong sign.
     orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, geometry.neighbors, cost, positions, settings.limits.repair, run);
+    moveVertices (mesh, geometry.neighbors, geometry.scatter, cost, positions,
+                  settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);

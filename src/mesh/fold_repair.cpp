@@ -15,13 +15,38 @@ namespace floater
 {
 namespace
 {
+// Counts marked points in patches, each of so many points along the space-filling curve.
+class PatchCounter
+{
+public:
+  PatchCounter (const std::vector<std::uint8_t>& is_marked, std::size_t patch_points)
+      : patch_points_ (patch_points), before_ (is_marked.size () + 1, 0)
+  {
+    for (std::size_t v = 0; v < is_marked.size (); ++v)
+      before_[v + 1] = before_[v] + is_marked[v];
+  }
+
+  // Whether most points of the patch around a point are marked.
+  bool areMost (Index v) const
+  {
+    const std::size_t half = patch_points_ / 2;
+    const std::size_t first = v > half ? v - half : 0;
+    const std::size_t last = std::min (first + patch_points_, before_.size () - 1);
+    return 2 * (before_[last] - before_[first]) > last - first;
+  }
+
+private:
+  std::size_t patch_points_;
+  std::vector<Index> before_; // how many of the points before each one are marked
+};
+
 class FoldRepair
 {
 public:
-  FoldRepair (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-              const RepairLimits& limits, const RunContext& run)
+  FoldRepair (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<Index>& scatter,
+              const TriangleCost& cost, const RepairLimits& limits, const RunContext& run)
       : mesh_ (mesh), limits_ (limits), run_ (run),
-        mover_ (mesh, neighbors, cost, limits.largest_fan, run)
+        mover_ (mesh, neighbors, cost, limits.largest_fan, run), is_left_ (patchesOf (scatter))
   {
   }
 
@@ -58,7 +83,7 @@ public:
       std::vector<Index> again;
       for (Index v : vertices) {
         progress.reach (kicks - kicks_left_);
-        if (!isAtFold (v))
+        if (is_left_[v] != 0 || !isAtFold (v))
           continue;
         if (kick (v, share)) {
           ++kept;
@@ -77,6 +102,20 @@ public:
 
 private:
   static constexpr std::uint8_t NO_PLACE = 255; // all were tried in vain
+
+  // The points of patches most of which are scatter.
+  std::vector<std::uint8_t> patchesOf (const std::vector<Index>& scatter) const
+  {
+    std::vector<std::uint8_t> is_in (mesh_.triangle_of.size (), 0);
+    if (scatter.empty ())
+      return is_in;
+    for (const Index v : scatter)
+      is_in[v] = 1;
+    const PatchCounter count (is_in, limits_.patch_points);
+    for (Index v = 0; v < is_in.size (); ++v)
+      is_in[v] = count.areMost (v) ? 1 : 0;
+    return is_in;
+  }
 
   // True if a triangle is turned, or more than 90 degrees from a neighbouring triangle.
   bool isBad (Index t)
@@ -102,20 +141,13 @@ private:
         for (const Index v : mesh_.triangles[t])
           is_bad[v] = 1;
     }
-    // How many of the points before each one are bad.
-    std::vector<Index> bad_before (is_bad.size () + 1, 0);
-    for (std::size_t v = 0; v < is_bad.size (); ++v)
-      bad_before[v + 1] = bad_before[v] + is_bad[v];
+    const PatchCounter count (is_bad, limits_.patch_points);
     is_scattered_.assign (is_bad.size (), 0);
     std::vector<Index> vertices;
     for (Index v = 0; v < is_bad.size (); ++v) {
-      if (is_bad[v] == 0)
+      if (is_bad[v] == 0 || is_left_[v] != 0)
         continue;
-      const std::size_t half = limits_.patch_points / 2;
-      const std::size_t first = v > half ? v - half : 0;
-      const std::size_t last = std::min (first + limits_.patch_points, is_bad.size ());
-      const std::size_t bad = bad_before[last] - bad_before[first];
-      is_scattered_[v] = 2 * bad > last - first ? 1 : 0;
+      is_scattered_[v] = count.areMost (v) ? 1 : 0;
       if (is_scattered_[v] == 0 || isAtFold (v))
         vertices.push_back (v);
     }
@@ -125,6 +157,8 @@ private:
   // True of a vertex at a fold, and where there is a surface, of one at a bad triangle.
   bool isToMove (Index v)
   {
+    if (is_left_[v] != 0)
+      return false;
     if (isAtFold (v)) // sets fan_
       return true;
     return is_scattered_[v] == 0 &&
@@ -220,6 +254,7 @@ private:
   RunContext run_;
   VertexMover mover_;
   CachedCost& cost_ = mover_.cost ();
+  std::vector<std::uint8_t> is_left_; // per point: most points of the patch around are scatter
   std::vector<std::uint8_t>
       is_scattered_; // per point: most points of the patch around are at bad triangles
   std::vector<std::uint8_t> next_rank_; // per point: rank of the place to which it is kicked next
@@ -264,11 +299,11 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 }
 
 std::size_t
-moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-              const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
-              const RunContext& run)
+moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<Index>& scatter,
+              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
+              const RepairLimits& limits, const RunContext& run)
 {
-  FoldRepair repair (mesh, neighbors, cost, limits, run);
+  FoldRepair repair (mesh, neighbors, scatter, cost, limits, run);
   const std::size_t moves = repair.moveAll ();
   return moves + repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
 }

@@ -37,7 +37,8 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// Moves: all corners of triangles that are turned away from their normals, or more than 90 degrees
 /// from a neighbouring triangle, are moved to where they cost least. Where most points of a patch
 /// are such corners, as in leaves or grass, there is no surface that tells where a vertex belongs:
-/// only those at folds are moved there. Each further pass looks at the old and new neighbours of
+/// only those at folds are moved there. Where most of them are scatter, nothing is moved, since no
+/// place is better than another. Each further pass looks at the old and new neighbours of
 /// the vertices that were moved.
 ///
 /// Kicks: a vertex at a fold that is left is moved to a place where the cost is higher, and the
@@ -51,11 +52,12 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// Every step that is kept lowers the cost of the mesh. The boundary stays. O(n) at worst, O(bad
 /// vertices) where few are bad. One thread.
 /// \param neighbors nearest neighbours of each point, where places for it are searched
+/// \param scatter   points around which the cloud is flat at no scale, ascending
 /// \return number of moves and kicks that were kept
 std::size_t
-moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-              const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
-              const RunContext& run);
+moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<Index>& scatter,
+              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
+              const RepairLimits& limits, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -225,7 +225,7 @@ TEST (FoldRepair, AVertexOfTheWrongSheetGoesBack)
   sheets.mesh.split (sheets.mesh.triangle_of[4 * SIDE + 4], p, fan[4], fan[5]);
   ASSERT_FALSE (sheets.areApart ());
   const TriangleCost cost (sheets.positions, sheets.normals);
-  EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, cost, sheets.positions, {}, 1), 0U);
+  EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, {}, cost, sheets.positions, {}, 1), 0U);
   EXPECT_TRUE (sheets.areApart ());
   EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions, 1).empty ());
   expectConsistent (sheets.mesh, sheets.positions.size ());
@@ -247,11 +247,32 @@ TEST (FoldRepair, KicksRemoveFoldsThatNoSingleMoveRemoves)
     moveWhileItHelps (sheets, cost);
     EXPECT_EQ (findFolds (sheets.mesh, sheets.positions, 1).size (), 1U);
     const double before = totalCost (sheets.mesh, cost);
-    EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, cost, sheets.positions, {}, 1), 0U);
+    EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, {}, cost, sheets.positions, {}, 1), 0U);
     EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions, 1).empty ());
     EXPECT_LT (totalCost (sheets.mesh, cost), before);
     expectConsistent (sheets.mesh, sheets.positions.size ());
   }
+}
+
+TEST (FoldRepair, NothingIsMovedInScatter)
+{
+  Sheets sheets (0.8, 47);
+  sheets.mixUp (2, 37);
+  const TriangleCost cost (sheets.positions, sheets.normals);
+  flipEdges (sheets.mesh, cost, 1);
+  const std::vector<Triangle> before = sheets.mesh.triangles;
+  ASSERT_GT (findFolds (sheets.mesh, sheets.positions, 1).size (), 0U);
+  std::vector<Index> scatter;
+  for (Index p = 0; p < sheets.positions.size (); ++p)
+    if (p % 3 > 0)
+      scatter.push_back (p);
+  const auto repair = [&] {
+    return moveVertices (sheets.mesh, sheets.neighbors, scatter, cost, sheets.positions, {}, 1);
+  };
+  EXPECT_EQ (repair (), 0U);
+  EXPECT_EQ (sheets.mesh.triangles, before);
+  scatter.resize (scatter.size () / 2); // not most points any more
+  EXPECT_GT (repair (), 0U);
 }
 
 TEST (FoldRepair, CachedCostsAreTheCosts)
