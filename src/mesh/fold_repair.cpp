@@ -32,7 +32,7 @@ public:
     const std::size_t half = patch_points_ / 2;
     const std::size_t first = v > half ? v - half : 0;
     const std::size_t last = std::min (first + patch_points_, before_.size () - 1);
-    return 2 * (before_[last] - before_[first]) > last - first;
+    return std::size_t{2} * (before_[last] - before_[first]) > last - first;
   }
 
 private:
