@@ -50,7 +50,7 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
     warnings.push_back (
         counted (found.long_edges, "edge inside the surface is", "edges inside the surface are") +
         " much longer than the local spacing, the longest one of " +
-        std::to_string (static_cast<int> (found.longest_inside)) + " spacings from " +
+        rounded (found.longest_inside) + " spacings from " +
         place (points, found.longest_inside_at.first) + " to " +
         place (points, found.longest_inside_at.second) + ": a hole may be bridged there");
   if (check.degenerate_triangles > 0)

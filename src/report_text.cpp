@@ -19,6 +19,15 @@ place (const Points& points, Index p)
 }
 
 std::string
+rounded (double value)
+{
+  std::ostringstream text;
+  text.precision (3);
+  text << value;
+  return text.str ();
+}
+
+std::string
 counted (std::size_t count, const char* one, const char* several)
 {
   return std::to_string (count) + " " + (count == 1 ? one : several);

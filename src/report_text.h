@@ -15,6 +15,10 @@ namespace floater
 std::string
 place (const Points& points, Index p);
 
+/// A number with three significant digits: "15.6", "2.44e+13".
+std::string
+rounded (double value);
+
 /// "1 edge is", "2 edges are".
 std::string
 counted (std::size_t count, const char* one, const char* several);

@@ -57,7 +57,7 @@ TEST (CheckReport, WarningsNameThePlace)
   Mesh with_long_edge = sheet (4);
   with_long_edge.positions[24] = {1.4, 1.4, 0.0};
   expectWarning (warningsOf (with_long_edge), "1 edge inside the surface is much longer",
-                 "15 spacings from point 55 (103, -17, 3) to point 73");
+                 "15.6 spacings from point 55 (103, -17, 3) to point 73");
 
   expectWarning (warningsOf (beside (sheet (40), sheet (1))), "the mesh has 2 components",
                  "of 4 points at point 5044 (150");
@@ -66,6 +66,16 @@ TEST (CheckReport, WarningsNameThePlace)
   const Mesh line{{{0, 0, 0}, {0.05, 0, 0}, {0.1, 0, 0}, {0.05, 0.1, 0}},
                   {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
   expectWarning (warningsOf (line), "1 triangle has no area", "point 1 (100, -20, 3)");
+}
+
+TEST (CheckReport, TellsOfEdgesAnyNumberOfSpacingsLong)
+{
+  const Mesh mesh = sheet (4);
+  Report report;
+  EXPECT_FALSE (reportCheck (pointsAt (mesh.positions), check (mesh, 1e-14F), {}, report));
+  ASSERT_EQ (report.warnings.size (), 1U);
+  EXPECT_NE (report.warnings.front ().find ("1.41e+13 spacings"), std::string::npos)
+      << report.warnings.front ();
 }
 
 TEST (CheckReport, WarnsOfSmallHolesIfNoOptionAsksForThem)
