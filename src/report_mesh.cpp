@@ -67,7 +67,7 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
 }
 
 // The user who chose how many holes stay, or which, gets what was asked for; and so does the one
-// who had long edges cut off, which opens holes.
+// who had long edges or crossing triangles cut off, which opens holes.
 void
 warnOfHoles (const Points& points, const MeshExamination& found, const Options& options,
              Report& report)
@@ -75,7 +75,8 @@ warnOfHoles (const Points& points, const MeshExamination& found, const Options& 
   const bool close_all = options.holes.policy == HolePolicy::CLOSE_ALL;
   if (options.topology == Topology::DISC ||
       (!close_all && options.holes.policy != HolePolicy::AUTO) ||
-      options.trimming.maximum_edge_length > 0.0 || options.trimming.maximum_edge_ratio > 0.0)
+      options.trimming.maximum_edge_length > 0.0 || options.trimming.maximum_edge_ratio > 0.0 ||
+      options.trimming.open_self_intersections)
     return;
   std::size_t holes = 0, largest = 0;
   for (std::size_t i = found.loops.size (); i-- > 0;)

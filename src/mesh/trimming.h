@@ -24,13 +24,15 @@ struct Trimming
 bool
 asksForTrimming (const TrimmingOptions& options);
 
-/// Takes out triangles with too long an edge; then, of those that cross each other, so many that no
-/// two are left: again and again that which crosses most others, the first of equal ones. Where
-/// that leaves a point with several fans of triangles, only the largest fan stays, and of equal
-/// ones the first; triangles of the others are taken out as well, until no point has several fans.
-/// Then components of too few points are taken out. The mesh stays an oriented manifold, and may
-/// become empty. O(n), one thread: 0.2 microseconds per point; crossing triangles are searched as
-/// in findSelfIntersections. \param spacing local spacing of each point
+/// Takes out triangles with too long an edge. Of those that cross each other, takes out so many
+/// that no two are left: again and again the one that crosses most others, the first of equal ones.
+/// Where that leaves a point with several fans of triangles, only the largest fan stays, and of
+/// equal ones the first; triangles of the others are taken out as well, until no point has several
+/// fans. Then components of too few points are taken out. The mesh stays an oriented manifold, and
+/// may become empty. One thread: 0.2 microseconds per point, and for the search for crossing
+/// triangles the time of findSelfIntersections.
+///
+/// \param spacing local spacing of each point
 Trimming
 trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
           const TrimmingOptions& options, const RunContext& run);

@@ -2,7 +2,9 @@
 // What the parameters of FloaterReconstruction do to a run.
 #include "mesh_check.h"
 
+#include <algorithm>
 #include <limits>
+#include <random>
 
 namespace pcl
 {
@@ -57,6 +59,34 @@ TEST_F (FloaterClass, AGrossOutlierDoesNotHarmBalls)
   ASSERT_EQ (mesh.polygons.size (), expected.polygons.size ());
   for (std::size_t t = 0; t < mesh.polygons.size (); ++t)
     EXPECT_EQ (mesh.polygons[t].vertices, expected.polygons[t].vertices);
+}
+
+// A sheet, and beside it a bush: points strewn into a box.
+TEST_F (FloaterClass, ScatterIsToldAndDropped)
+{
+  std::mt19937 random (1);
+  const auto coordinate = [&random] { return static_cast<float> (random ()) / 4294967296.0F; };
+  const Cloud::Ptr cloud (new Cloud);
+  for (int i = 0; i < 4500; ++i) {
+    const float x = coordinate (), y = coordinate (), z = coordinate ();
+    const bool is_bush = i >= 3000;
+    cloud->push_back (is_bush ? pcl::PointXYZ (1.5F + 0.2F * x, 0.2F * y, 0.2F * z)
+                              : pcl::PointXYZ (x, y, 0.0F));
+  }
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setInputCloud (cloud);
+  pcl::PolygonMesh mesh;
+  floater.reconstruct (mesh);
+  const pcl::Indices scatter = floater.getScatterIndices ();
+  ASSERT_GT (scatter.size (), 1200U);
+  EXPECT_GE (scatter.front (), 3000);
+  floater.setScatterPolicy (ScatterPolicy::DROP);
+  floater.reconstruct (mesh);
+  EXPECT_EQ (floater.getScatterIndices (), scatter);
+  ASSERT_FALSE (mesh.polygons.empty ());
+  for (const pcl::Vertices& triangle : mesh.polygons)
+    for (const pcl::index_t p : triangle.vertices)
+      EXPECT_FALSE (std::binary_search (scatter.begin (), scatter.end (), p));
 }
 
 TEST_F (FloaterClass, ParametersChangeTheRun)

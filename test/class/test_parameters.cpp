@@ -56,6 +56,7 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
   EXPECT_TRUE (floater.getParameters ().empty ());
   EXPECT_TRUE (floater.getOutlierIndices ().empty ());
+  EXPECT_TRUE (floater.getScatterIndices ().empty ());
   EXPECT_FALSE (floater.getMeshCheck ().done);
   EXPECT_EQ (floater.getStatistics ().cloud_points, 0U);
 }

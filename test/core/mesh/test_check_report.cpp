@@ -92,6 +92,9 @@ TEST (CheckReport, WarnsOfSmallHolesIfNoOptionAsksForThem)
     options.holes.policy = policy;
     EXPECT_TRUE (warningsOf (holed, options).empty ());
   }
+  options = {};
+  options.trimming.open_self_intersections = true;
+  EXPECT_TRUE (warningsOf (holed, options).empty ());
 }
 
 TEST (LoopReport, TellsDoubtfulDecisionsAndWarnsOfHolesTooDeepToBeFilled)
