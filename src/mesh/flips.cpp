@@ -2,8 +2,11 @@
 #include "mesh/flips.h"
 
 #include "core/geometry.h"
+#include "core/parallel.h"
+#include "mesh/mesh_blocks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace pcl
@@ -93,7 +96,7 @@ double
 EdgeFlipper::changeByFlip (MeshEdge e) const
 {
   const MeshEdge m = mesh_.mate (e);
-  if (m.triangle == NONE)
+  if (m.triangle == NONE || !mesh_.isFree (e.triangle) || !mesh_.isFree (m.triangle))
     return 0.0;
   const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
   const TriangleCost::Value now_cab = cost_ (c, a, b), now_dba = cost_ (d, b, a);
@@ -126,17 +129,49 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
   return total_then - total;
 }
 
+namespace
+{
+// Flips the edges that `is_chosen` names, and others after them.
+template <typename IsChosen>
 std::size_t
-flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
+flipChosen (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run,
+            const IsChosen& is_chosen)
 {
   CachedCost cached (cost);
   EdgeFlipper flipper (mesh, cached, run);
   for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] != NONE && t < mesh.neighbors[t][side])
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index u = mesh.neighbors[t][side];
+      if (u != NONE && t < u && is_chosen (t, u))
         flipper.push ({t, side});
+    }
   flipper.run ();
   return flipper.flips ();
+}
+} // namespace
+
+std::size_t
+flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
+{
+  const MeshBlocks blocks (mesh, run);
+  if (blocks.count () <= 1)
+    return flipChosen (mesh, cost, run, [] (Index, Index) { return true; });
+  // Triangles of one block, away from its ends.
+  std::vector<std::uint8_t> is_free (mesh.triangles.size ());
+  parallelRanges (run, is_free.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      is_free[t] = blocks.isFree (mesh, static_cast<Index> (t)) ? 1 : 0;
+  });
+  std::atomic<std::size_t> flips{0};
+  parallelTasks (run, blocks.count (), [&] (std::size_t b) {
+    MeshBlock block = blocks.cutOut (mesh, b);
+    flips += flipChosen (block.mesh, cost.countedFrom (block.first), run.withThreads (1),
+                         [] (Index, Index) { return true; });
+    blocks.putBack (block, b, mesh);
+  });
+  // Free triangles have changed, but they are the same ones.
+  return flips + flipChosen (mesh, cost, run,
+                             [&] (Index t, Index u) { return is_free[t] == 0 || is_free[u] == 0; });
 }
 
 } // namespace floater

@@ -62,7 +62,8 @@ private:
   std::size_t flips_ = 0;
 };
 
-/// Flips edges of the whole mesh (see EdgeFlipper). Boundary edges are kept. O(n) in practice.
+/// Flips edges of the whole mesh (see EdgeFlipper): first within blocks, on all threads, then what
+/// is left between them. Boundary edges are kept. O(n) in practice.
 /// \return number of flips
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);

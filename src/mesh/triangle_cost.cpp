@@ -37,7 +37,7 @@ TriangleCost::value (Index a, Index b, Index c) const
   if (double_area > 0.0)
     result.unit_normal /= double_area;
   if (spacing_ != nullptr) {
-    const double spacing = ((*spacing_)[a] + (*spacing_)[b] + (*spacing_)[c]) / 3.0;
+    const double spacing = (spacing_[a] + spacing_[b] + spacing_[c]) / 3.0;
     result.cost +=
         limits_.large_cost * std::max (0.0, double_area / (spacing * spacing) - limits_.large_area);
   }

@@ -37,8 +37,20 @@ public:
   TriangleCost (const std::vector<Eigen::Vector3d>& positions,
                 const std::vector<Eigen::Vector3f>& normals,
                 const std::vector<float>* spacing = nullptr, const CostLimits& limits = {})
-      : positions_ (positions), normals_ (normals), spacing_ (spacing), limits_ (limits)
+      : positions_ (positions.data ()), normals_ (normals.data ()),
+        spacing_ (spacing != nullptr ? spacing->data () : nullptr), limits_ (limits)
   {
+  }
+
+  /// The same cost for points that are counted from `first` on.
+  TriangleCost countedFrom (Index first) const
+  {
+    TriangleCost cost = *this;
+    cost.positions_ += first;
+    cost.normals_ += first;
+    if (spacing_ != nullptr)
+      cost.spacing_ += first;
+    return cost;
   }
 
   struct Value
@@ -71,9 +83,9 @@ private:
   double agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector,
                     double double_area) const;
 
-  const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<Eigen::Vector3f>& normals_;
-  const std::vector<float>* spacing_;
+  const Eigen::Vector3d* positions_;
+  const Eigen::Vector3f* normals_;
+  const float* spacing_; // nullptr: there is none
   CostLimits limits_;
 };
 

@@ -79,14 +79,19 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 }
 
 // Both fans are walked in step, so that the smaller one decides when the walk ends: one of the ends
-// may be the hub of a fan as large as the mesh.
+// may be the hub of a fan as large as the mesh. A fan of which triangles are missing decides
+// nothing.
 bool
 TriangleMesh::hasEdge (Index p, Index q) const
 {
-  FanWalk around_p (*this, p), around_q (*this, q);
+  const bool is_p_partial = isPartial (p), is_q_partial = isPartial (q);
+  if (is_p_partial && is_q_partial)
+    return true;
+  FanWalk around_p (*this, is_p_partial ? q : p), around_q (*this, is_q_partial ? p : q);
+  const Index other_of_p = is_p_partial ? p : q, other_of_q = is_q_partial ? q : p;
   while (around_p.triangle () != NONE && around_q.triangle () != NONE) {
-    if (isCorner (triangles[around_p.triangle ()], q) ||
-        isCorner (triangles[around_q.triangle ()], p))
+    if (isCorner (triangles[around_p.triangle ()], other_of_p) ||
+        isCorner (triangles[around_q.triangle ()], other_of_q))
       return true;
     around_p.advance ();
     around_q.advance ();

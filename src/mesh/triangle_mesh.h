@@ -52,6 +52,16 @@ struct TriangleMesh
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
   MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
+  /// Of a part of a larger mesh (see MeshBlock); both are empty if nothing is missing.
+  std::vector<std::uint8_t> is_fixed;   ///< per triangle: it may not be changed
+  std::vector<std::uint8_t> is_partial; ///< per point: triangles around it are missing
+
+  /// Whether a triangle may be changed.
+  bool isFree (Index t) const { return is_fixed.empty () || is_fixed[t] == 0; }
+
+  /// Whether triangles around a point are missing.
+  bool isPartial (Index p) const { return !is_partial.empty () && is_partial[p] != 0; }
+
   static std::uint8_t next (std::uint8_t side)
   {
     return static_cast<std::uint8_t> (side == 2 ? 0 : side + 1);
@@ -84,7 +94,8 @@ struct TriangleMesh
   /// boundary edge to the other. Empty if p is not a vertex. O(triangles around p).
   void fan (Index p, std::vector<Index>& fan_triangles) const;
 
-  /// True if an edge joins p, which must be a vertex, and q. O(triangles around p).
+  /// True if an edge joins p, which must be a vertex, and q; also if around both of them triangles
+  /// are missing, so that nobody knows. O(triangles around p).
   bool hasEdge (Index p, Index q) const;
 
   /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,

@@ -36,6 +36,8 @@ VertexMover::takeOut (Index v, double& change)
   const Index last = fan_.back ();
   if (mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, v))] != fan_.front ())
     return false; // at the boundary
+  if (!std::all_of (fan_.begin (), fan_.end (), [this] (Index t) { return mesh_.isFree (t); }))
+    return false;
   polygon_.clear ();
   for (Index t : fan_)
     polygon_.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
@@ -129,16 +131,20 @@ VertexMover::settleAt (Index v, Index t)
 }
 
 // True if the mesh has a triangle with these corners, the other way round: the fourth triangle of a
-// tetrahedron.
+// tetrahedron. Also if triangles around all corners are missing, so that nobody knows.
 bool
 VertexMover::isTriangle (const Triangle& corners)
 {
+  const auto* const whole = std::find_if (corners.begin (), corners.end (),
+                                          [this] (Index p) { return !mesh_.isPartial (p); });
+  if (whole == corners.end ())
+    return true;
   std::vector<Index> around;
-  mesh_.fan (corners[0], around);
+  mesh_.fan (*whole, around);
   return std::any_of (around.begin (), around.end (), [&] (Index t) {
     const Triangle& c = mesh_.triangles[t];
-    return std::find (c.begin (), c.end (), corners[1]) != c.end () &&
-           std::find (c.begin (), c.end (), corners[2]) != c.end ();
+    return std::all_of (corners.begin (), corners.end (),
+                        [&c] (Index p) { return std::find (c.begin (), c.end (), p) != c.end (); });
   });
 }
 
@@ -164,7 +170,7 @@ VertexMover::findPlaces (Index v, std::size_t most)
 void
 VertexMover::offer (Index t, Index v, std::size_t most)
 {
-  if (offered_[t] == search_)
+  if (offered_[t] == search_ || !mesh_.isFree (t))
     return;
   offered_[t] = search_;
   const double limit =

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which vertices of a mesh are to be moved, and which are better left alone.
+#pragma once
+
+#include "core/run_context.h"
+#include "mesh/triangle_cost.h"
+#include "mesh/triangle_mesh.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// What the repair of folds knows of each point beforehand.
+enum class RepairTarget : std::uint8_t
+{
+  NOTHING,   ///< there is nothing to repair
+  BAD,       ///< a corner of a bad triangle: a turned one (see CostLimits), or one more than
+             ///< 90 degrees from a neighbouring triangle
+  SCATTERED, ///< most points of the patch around are corners of bad triangles: there is no surface
+             ///< that tells where a vertex belongs, and only those at folds are moved
+  LEFT       ///< most points of the patch around are scatter: no place is better than another
+};
+
+/// Of each point. A patch is a run of points along the space-filling curve. O(n).
+/// \param scatter      points around which the cloud is flat at no scale, ascending
+/// \param patch_points length of a patch
+std::vector<RepairTarget>
+findRepairTargets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                   const std::vector<Index>& scatter, const TriangleCost& cost,
+                   std::size_t patch_points, const RunContext& run);
+
+/// Whether a triangle is bad (see RepairTarget::BAD). `normal_of` gives a normal of a triangle, of
+/// any length.
+template <typename NormalOf>
+bool
+isBad (const TriangleMesh& mesh, const TriangleCost& cost, Index t, NormalOf&& normal_of)
+{
+  if (cost.isTurned (mesh.triangles[t]))
+    return true;
+  const Eigen::Vector3d normal = normal_of (t);
+  for (const Index u : mesh.neighbors[t])
+    if (u != NONE && normal.dot (normal_of (u)) < 0.0)
+      return true;
+  return false;
+}
+
+} // namespace floater
+} // namespace pcl
