@@ -140,8 +140,10 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<I
       moveInBlocks (mesh, neighbors, targets, cost, limits, run, bad);
   VertexRepair repair (mesh, neighbors, targets, cost, limits, run);
   const std::size_t moves = repair.moveAll (std::move (bad));
-  return moves_in_blocks + moves +
-         repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
+  const std::size_t kicks = repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
+  const std::size_t rebuilds =
+      repair.rebuildAll (verticesAt (findFolds (mesh, positions, run), mesh));
+  return moves_in_blocks + moves + kicks + rebuilds;
 }
 
 } // namespace floater

@@ -5,6 +5,7 @@
 #include "core/order_statistics.h"
 #include "mesh/crossing_table.h"
 #include "mesh/vertex_mover.h"
+#include "mesh/vertex_patch.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,6 +18,7 @@ namespace floater
 namespace
 {
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
+constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // that take as long; measured
 
 class CrossingRepair
 {
@@ -37,10 +39,12 @@ public:
   {
     for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0 && !isSpent ();
          ++pass) {
-      const std::size_t before = done_.flips + done_.moves;
+      const std::uint32_t before = step_;
       flipAll ();
       moveAll ();
-      if (done_.flips + done_.moves == before)
+      if (step_ == before)
+        rebuildAll ();
+      if (step_ == before)
         break;
     }
     done_.pairs_left = table_.pairs ();
@@ -48,7 +52,10 @@ public:
   }
 
 private:
-  bool isSpent () const { return table_.tests () >= most_tests_; }
+  bool isSpent () const
+  {
+    return table_.tests () + TESTS_PER_REBUILT_VERTEX * rebuilt_vertices_ >= most_tests_;
+  }
 
   // Flips single edges as long as that helps.
   void flipAll ()
@@ -111,6 +118,66 @@ private:
       if (move (v))
         ++done_.moves;
     }
+  }
+
+  // Rebuilds patches around the triangles that cross others, those that cross the fewest first:
+  // there it is the most likely to help.
+  void rebuildAll ()
+  {
+    std::vector<Index> triangles = table_.crossing ();
+    std::stable_sort (triangles.begin (), triangles.end (), [this] (Index t, Index u) {
+      return table_.partnersOf (t)->size () < table_.partnersOf (u)->size ();
+    });
+    std::size_t tries = 0, successes = 0;
+    ProgressLoop progress (run_, triangles.size ());
+    for (const Index t : triangles) {
+      progress.next ();
+      if (!table_.isCrossing (t) || rebuild_tried_in_[t] >= lastChangeAround (t))
+        continue;
+      if (isSpent () || tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
+        return;
+      rebuild_tried_in_[t] = step_;
+      if (rebuildAround (t))
+        ++successes;
+    }
+  }
+
+  // Rebuilds a patch around a triangle if that helps: a small one, or else a wider one.
+  bool rebuildAround (Index t)
+  {
+    std::vector<Index> patch (mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+    for (const Index u : *table_.partnersOf (t))
+      patch.insert (patch.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
+    sortUnique (patch);
+    for (std::size_t ring = 0; ring < limits_.rebuilt_rings; ++ring) {
+      if (ring > 0)
+        addRing (mesh_, patch);
+      if (patch.size () > limits_.largest_patch)
+        return false;
+      if (rebuild (patch))
+        return true;
+    }
+    return false;
+  }
+
+  // Takes the vertices of a patch out and puts them back, in an order that helps, if there is one.
+  bool rebuild (const std::vector<Index>& patch)
+  {
+    return tryOrders (patch, limits_.rebuilt_orders, [&] (const std::vector<Index>& vertices) {
+      run_.poll ();
+      bool is_possible = true;
+      double change_of_cost = 0.0; // gainOf knows better
+      const auto change = [&] {
+        is_possible = mover_.rebuild (vertices, change_of_cost) && is_possible;
+      };
+      mover_.start ();
+      rebuilt_vertices_ += 2 * vertices.size ();
+      if (!(gainOf (change) > 0.0) || !is_possible)
+        return false;
+      keep (change);
+      ++done_.rebuilds;
+      return true;
+    });
   }
 
   // Whether a triangle of a vertex crosses another one, and something has changed there since the
@@ -234,7 +301,9 @@ private:
   std::uint32_t step_ = 1;                // counts the changes that were kept, from 1 on
   std::vector<std::uint32_t> changed_in_; // of each triangle: the last step that changed it
   std::vector<std::uint32_t> tried_in_;   // of each vertex: the step after which it was tried
-  std::unordered_map<Index, std::uint32_t> flips_tried_in_; // the same of crossing triangles
+  // The same of crossing triangles: of flips, and of patches around them.
+  std::unordered_map<Index, std::uint32_t> flips_tried_in_, rebuild_tried_in_;
+  std::size_t rebuilt_vertices_ = 0; // taken out and put back in all trials
   Uncrossing done_;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending

@@ -102,6 +102,29 @@ VertexMover::moveTo (Index v, const Place& place)
   return change;
 }
 
+bool
+VertexMover::rebuild (const std::vector<Index>& vertices, double& change)
+{
+  std::vector<Index> out, unused; // vertices, and triangles: two for each of them
+  change = 0.0;
+  for (const Index v : vertices) {
+    double change_by_one = 0.0;
+    if (!takeOut (v, change_by_one))
+      continue;
+    change += change_by_one;
+    out.push_back (v);
+    unused.insert (unused.end (), slots_.end () - 2, slots_.end ());
+  }
+  for (; !out.empty (); out.pop_back (), unused.resize (unused.size () - 2)) {
+    slots_.assign (unused.end () - 2, unused.end ());
+    if (findPlaces (out.back (), 1).empty ())
+      return false;
+    const Place place = places_.front ();
+    change += place.added + settleAt (out.back (), place.triangle);
+  }
+  return true;
+}
+
 // Appends the old and the new neighbours of a vertex that has been moved.
 void
 VertexMover::markDirty (Index v)

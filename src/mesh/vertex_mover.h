@@ -55,6 +55,13 @@ public:
   /// \return change of the cost of the mesh
   double moveTo (Index v, const Place& place);
 
+  /// Takes vertices out, all that can be, and puts them back one by one, each where that costs
+  /// least then.
+  /// \param vertices each once; the last one is put back first
+  /// \param change   set to the change of the cost of the mesh
+  /// \return false if one of them has no place left; then the caller has to undo
+  bool rebuild (const std::vector<Index>& vertices, double& change);
+
   CachedCost& cost () { return cost_; }
 
   /// The journal has the changes since the last call of start, and undo undoes them.

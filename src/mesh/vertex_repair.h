@@ -24,6 +24,12 @@ struct RepairLimits
   std::size_t points_per_kick = 16;  ///< points of the mesh for each kick
   int passes_after_kick = 2;         ///< moves of the vertices around
   std::size_t places_after_kick = 3; ///< the same as `places`, in these moves
+
+  std::size_t rebuilt_rings = 2;  ///< sizes of the patches that are taken out and put back
+  std::size_t rebuilt_orders = 4; ///< in which their vertices are put back
+  std::size_t vain_rebuilds = 16; ///< vertices at folds around which that is tried in vain before
+                                  ///< it is given up
+  std::size_t rebuilds_per_success = 8; ///< how many more for each that was not in vain
 };
 
 /// Changes a mesh, or a block of one, where it is bad (see moveVertices for what is done, and why).
@@ -50,6 +56,11 @@ public:
   /// \return number of kicks that were kept
   std::size_t kickAll (std::vector<Index> vertices);
 
+  /// Takes patches around those of these vertices that are at folds out, and puts them back in an
+  /// order for which the cost is lower, if there is one.
+  /// \return number of patches that were changed
+  std::size_t rebuildAll (const std::vector<Index>& vertices);
+
 private:
   bool isBadTriangle (Index t);
   void keepThoseToMove (std::vector<Index>& vertices);
@@ -59,6 +70,7 @@ private:
   double moveAfterKick (double change_by_kick);
   bool noteRing (Index v);
   void allowKicksAround (std::vector<Index>& again);
+  bool rebuildAround (Index v);
 
   TriangleMesh& mesh_;
   const RepairLimits& limits_;

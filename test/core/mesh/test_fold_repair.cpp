@@ -198,6 +198,37 @@ TEST (FoldRepair, UndoneChangesLeaveNoTrace)
   EXPECT_GT (changed, 50U);
 }
 
+TEST (FoldRepair, PatchesAreTakenOutAndPutBack)
+{
+  Sheets sheets (1.0, 8);
+  const TriangleCost cost (sheets.positions, sheets.normals);
+  TriangleMesh& mesh = sheets.mesh;
+  const TriangleMesh before = mesh;
+  VertexMover mover (mesh, sheets.neighbors, cost, LARGEST_FAN, 1);
+  std::size_t rebuilt = 0;
+  for (Index first = 0; first + 3 * SIDE < SIDE * SIDE; first += 5) {
+    mover.start ();
+    const std::vector<Index> patch{first,
+                                   first + 1,
+                                   first + SIDE,
+                                   first + SIDE + 1,
+                                   first + SIDE + 2,
+                                   first + 2 * SIDE,
+                                   first + SIDE * SIDE};
+    double change = 0.0;
+    if (mover.rebuild (patch, change)) {
+      ++rebuilt;
+      EXPECT_NEAR (totalCost (mesh, cost) - totalCost (before, cost), change, 1e-6);
+      expectConsistent (mesh, sheets.positions.size ());
+    }
+    mover.undo ();
+    ASSERT_EQ (mesh.triangles, before.triangles);
+    ASSERT_EQ (mesh.neighbors, before.neighbors);
+    ASSERT_EQ (mesh.triangle_of, before.triangle_of);
+  }
+  EXPECT_GT (rebuilt, 5U);
+}
+
 TEST (FoldRepair, TheBoundaryStays)
 {
   Sheets sheets (5.0, 5);

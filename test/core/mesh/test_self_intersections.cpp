@@ -193,6 +193,34 @@ TEST (SelfIntersections, AreRemovedByMovesAndNothingElseChanges)
   EXPECT_EQ (topology.loops, before.loops);
 }
 
+// Where flips and moves of single points no longer help, patches are taken out and put back.
+TEST (SelfIntersections, AreRemovedByPatchesWhereMovesDoNotHelp)
+{
+  UncrossingLimits moves_only;
+  moves_only.rebuilt_orders = 0;
+  std::size_t left_by_moves = 0, left = 0, rebuilds = 0;
+  RandomStream random (12);
+  for (int round = 0; round < 6; ++round) {
+    std::vector<Index> swapped;
+    for (Index p = 0; p < 81; ++p)
+      if (random.uniform () < 0.2)
+        swapped.push_back (p);
+    left_by_moves += Swapped (8, swapped).remove (moves_only).pairs_left;
+    Swapped sheets (8, swapped);
+    const Uncrossing done = sheets.remove ();
+    left += done.pairs_left;
+    rebuilds += done.rebuilds;
+    const Mesh after{sheets.mesh.positions, sheets.connected.triangles};
+    EXPECT_EQ (crossingOf (after).size (), done.pairs_left);
+    const samples::Topology topology = samples::topologyOf (after.triangles);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.vertices, 162U);
+    EXPECT_EQ (topology.euler, 2);
+  }
+  EXPECT_GT (rebuilds, 0U);
+  EXPECT_LT (left, left_by_moves);
+}
+
 // What has been done when the tests are used up stays, and is told.
 TEST (SelfIntersections, FewTestsEndTheRemovalEarly)
 {
