@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the Debian 12 packages that this project needs. Calls apt only if a package is missing.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # From a fresh checkout to a mesh: installs missing packages, builds the tools and reconstructs a
 # cloud.
