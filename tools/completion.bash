@@ -44,8 +44,8 @@ _pcl_floater () {
   fi
   case "${takes:-none}" in
     choice\ *) mapfile -t COMPREPLY < <(compgen -W "${takes#choice }" -- "$word"); return 0 ;;
-    file) compopt -o default 2>/dev/null; return 0 ;;
-    folder) compopt -o dirnames 2>/dev/null; return 0 ;;
+    file) compopt -o default 2>/dev/null || true; return 0 ;;
+    folder) compopt -o dirnames 2>/dev/null || true; return 0 ;;
     value) return 0 ;;
   esac
 
@@ -62,7 +62,7 @@ _pcl_floater () {
       return 0
     fi
   fi
-  compopt -o default 2>/dev/null
+  compopt -o default 2>/dev/null || true
   return 0
 }
 
