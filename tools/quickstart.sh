@@ -35,7 +35,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
 result=$PWD/floater_result
 
-bash "$root/tools/install_packages.sh"
+# On another system than Debian, CMake tells what is missing.
+if command -v apt-get >/dev/null; then
+  bash "$root/tools/install_packages.sh"
+fi
 
 echo "Building (the first time takes minutes) ..."
 mkdir -p "$build"
