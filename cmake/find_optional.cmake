@@ -6,8 +6,8 @@
 # it is used if it is there; OFF: it is not looked for.
 macro (find_optional name package)
   if (PCL_FLOATER_WITH_${name} STREQUAL "AUTO")
-    find_package (${package} QUIET ${ARGN})
+    find_package (${package} ${ARGN} QUIET)
   elseif (PCL_FLOATER_WITH_${name})
-    find_package (${package} REQUIRED ${ARGN})
+    find_package (${package} ${ARGN} REQUIRED)
   endif ()
 endmacro ()
