@@ -4,6 +4,9 @@
 # documentation. Headers go below include/pcl_floater, so that an overlay never shadows PCL's.
 include (CMakePackageConfigHelpers)
 set (package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pcl_floater")
+if (PCL_FLOATER_PACKAGES)
+  set (CMAKE_INSTALL_DOCDIR "${CMAKE_INSTALL_DATADIR}/doc/pcl-floater-doc")
+endif ()
 set (headers_dir "${CMAKE_INSTALL_INCLUDEDIR}/pcl_floater")
 
 install (TARGETS pcl_floater EXPORT pcl_floater_targets
@@ -58,7 +61,7 @@ install (FILES "${PROJECT_BINARY_DIR}/pcl_floater.pc" DESTINATION "${CMAKE_INSTA
 
 install (FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/pcl_floater"
          COMPONENT development)
-install (FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+install (FILES "${PROJECT_SOURCE_DIR}/README.md"
          DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 # README.md shows these.
 foreach (picture tools/picture/example.png test/benchmark/figures/figure6_mesh_bunny.png
@@ -67,7 +70,8 @@ foreach (picture tools/picture/example.png test/benchmark/figures/figure6_mesh_b
   install (FILES "${PROJECT_SOURCE_DIR}/${picture}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}"
            COMPONENT documentation)
 endforeach ()
-# A Debian package names the licence in its file "copyright".
+# A Debian package has names of its own for these.
 if (NOT PCL_FLOATER_PACKAGES)
+  install (FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
   install (FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT library)
 endif ()

@@ -13,6 +13,8 @@ if (NOT AWK_PROGRAM OR (CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULAT
   message (STATUS "The man pages are not made: they need awk, and tools that run here without a sanitizer")
 endif ()
 
+set (makes_man_pages ${makes_man_pages} PARENT_SCOPE)
+
 # pcl_floater_document_tool (<tool> SUMMARY <text> EXAMPLE <command|command...> [COLUMN <width>])
 # COLUMN: width of the column of names in its --help.
 function (pcl_floater_document_tool tool)

@@ -6,11 +6,12 @@ set -euo pipefail
 
 usage () {
   cat <<'END'
-Usage: install_packages.sh [--tests] [--benchmarks] [--lint]
+Usage: install_packages.sh [--tests] [--benchmarks] [--lint] [--packages]
 Installs the Debian packages for the library and its tools.
   --tests       also those for the tests
   --benchmarks  also those for the benchmarks
   --lint        also those for checking the source code
+  --packages    also those for making and testing Debian packages
 END
 }
 
@@ -25,6 +26,7 @@ for argument in "$@"; do
     --tests) packages+=(libgtest-dev libgmock-dev pcl-tools python3) ;;
     --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
+    --packages) packages+=(dpkg-dev lintian debootstrap) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac
