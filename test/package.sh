@@ -138,7 +138,7 @@ step "Removing the packages" '
   test "$(wc -l <only_owned)" -gt 20
   apt-get -qq -y purge $packages'
 left=$(inside 'xargs -d "\n" ls -d 2>/dev/null <only_owned || true
-  find / -xdev \( -path /proc -o -path /test -o -path /var/cache/apt/archives \) -prune -o \
+  find / -xdev \( -path /proc -o -path /test -o -path /var/cache/apt -o -path /var/cache/man \) -prune -o \
     -iname "*pcl[-_]floater*" -print
   dpkg-query -W -f "\${Package} \${db:Status-Status}\n" | grep -E "^(lib)?pcl-floater" || true')
 [[ -z $left ]] || fail "after the packages were removed, this is left: $left"
