@@ -23,7 +23,7 @@ packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitespa
           libgl1-mesa-dri xvfb)
 for argument in "$@"; do
   case "$argument" in
-    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools python3) ;;
+    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools pkg-config python3) ;;
     --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     --packages) packages+=(dpkg-dev lintian debootstrap) ;;
