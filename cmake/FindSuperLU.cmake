@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Finds the sequential SuperLU (Debian 12 ships pkg-config data only) and makes the target
 # SuperLU::SuperLU.
 find_package (PkgConfig QUIET)

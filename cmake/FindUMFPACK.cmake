@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Finds SuiteSparse's UMFPACK with the orderings that come with it, AMD and CHOLMOD's METIS (Debian 12
 # ships no CMake config for them), and makes the targets SuiteSparse::UMFPACK, SuiteSparse::AMD and
 # SuiteSparse::CHOLMOD.

@@ -1,6 +1,11 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Flags that every target of this project shares. Never -march=native or AVX: the alignment of Eigen
 # objects would differ from that in Debian's PCL libraries.
-set (CMAKE_CXX_STANDARD 17)
+# C++17 is the least; another project may ask for a later standard.
+if (NOT CMAKE_CXX_STANDARD OR CMAKE_CXX_STANDARD LESS 17 OR CMAKE_CXX_STANDARD EQUAL 98)
+  set (CMAKE_CXX_STANDARD 17)
+endif ()
 set (CMAKE_CXX_STANDARD_REQUIRED ON)
 set (CMAKE_CXX_EXTENSIONS OFF)
 set (CMAKE_CXX_VISIBILITY_PRESET hidden)
@@ -8,9 +13,12 @@ set (CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set (CMAKE_POSITION_INDEPENDENT_CODE ON)
 set (CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-find_program (CCACHE_PROGRAM ccache)
-if (CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set (CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+if (PCL_FLOATER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program (CCACHE_PROGRAM ccache)
+  mark_as_advanced (CCACHE_PROGRAM)
+  if (CCACHE_PROGRAM)
+    set (CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  endif ()
 endif ()
 
 add_library (pcl_floater_warnings INTERFACE)

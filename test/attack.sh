@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The long versions of the attacks: random clouds, memory that runs out, runs that are killed or whose
 # input shrinks, cancellation, and all fuzz targets.

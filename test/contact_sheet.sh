@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs missing packages, builds, reconstructs clouds with the default options, and draws all
 # meshes into one picture.

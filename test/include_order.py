@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks the order of the folders in src/: a file includes only from its own folder and from those
 before it, and no chain of includes leads back to where it began. Also checks that each folder of

@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the Debian 12 packages that this project needs. Calls apt only if a package is missing.
 set -euo pipefail
 
 usage () {
   cat <<'END'
-Usage: install_packages.sh [--tests] [--benchmarks] [--lint]
+Usage: install_packages.sh [--tests] [--benchmarks] [--lint] [--packages]
 Installs the Debian packages for the library and its tools.
   --tests       also those for the tests
   --benchmarks  also those for the benchmarks
   --lint        also those for checking the source code
+  --packages    also those for making and testing Debian packages
 END
 }
 
@@ -21,9 +23,10 @@ packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitespa
           libgl1-mesa-dri xvfb)
 for argument in "$@"; do
   case "$argument" in
-    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools python3) ;;
+    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools pkg-config python3) ;;
     --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
+    --packages) packages+=(dpkg-dev lintian debootstrap) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # From a fresh checkout to a mesh: installs missing packages, builds the tools and reconstructs a
 # cloud.
@@ -34,7 +35,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
 result=$PWD/floater_result
 
-bash "$root/tools/install_packages.sh"
+# On another system than Debian, CMake tells what is missing.
+if command -v apt-get >/dev/null; then
+  bash "$root/tools/install_packages.sh"
+fi
 
 echo "Building (the first time takes minutes) ..."
 mkdir -p "$build"
@@ -62,15 +66,21 @@ if "$reconstruct" --quiet --parameterization "$result/parameterization.ply" "$cl
   "$result/disc.ply" 2>/dev/null; then
   flat=("$result/parameterization.ply")
 fi
-"$root/tools/picture/on_virtual_display.sh" "$build/tools/picture/pcl_floater_picture" \
-  "$result/mesh.vtk" "${flat[@]}" "$result/picture.png"
+# The tool for pictures is not built without VTK and X11.
+rm -f "$result/picture.png"
+picture=
+if [[ -x $build/tools/picture/pcl_floater_picture ]] && command -v Xvfb >/dev/null; then
+  picture=yes
+  "$root/tools/picture/on_virtual_display.sh" "$build/tools/picture/pcl_floater_picture" \
+    "$result/mesh.vtk" "${flat[@]}" "$result/picture.png"
+fi
 
 cat <<END
 Done. In $result:
   mesh.vtk, mesh.ply    the mesh; its vertices are the points of the cloud
   report.json           the report on the run
-  picture.png           a picture of the mesh${flat:+ and its parameterization}
-${flat:+  parameterization.ply  the surface laid out in the plane; disc.ply has these triangles in space
+${picture:+  picture.png           a picture of the mesh${flat:+ and its parameterization}
+}${flat:+  parameterization.ply  the surface laid out in the plane; disc.ply has these triangles in space
 }To view the mesh (key r: reset the view, w: edges, q: quit):
   pcl_viewer '$result/mesh.vtk'
 END

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs missing packages, builds the benchmark, and reproduces the tables and figures of TW 385.
 set -euo pipefail

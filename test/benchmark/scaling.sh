@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs missing packages, builds, and measures how the time and memory of pcl_floater, of
 # pcl::GreedyProjectionTriangulation and of CGAL's advancing front grow with the number of points. The

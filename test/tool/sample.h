@@ -38,6 +38,21 @@ enum class PcdKind
   COMPRESSED
 };
 
+/// The kinds that the tool reads: those that are compressed only where it was built with liblzf.
+#ifdef PCL_FLOATER_HAS_LZF
+constexpr bool READS_COMPRESSED = true;
+#else
+constexpr bool READS_COMPRESSED = false;
+#endif
+inline std::vector<PcdKind>
+readPcdKinds ()
+{
+  std::vector<PcdKind> kinds{PcdKind::ASCII, PcdKind::BINARY};
+  if (READS_COMPRESSED)
+    kinds.push_back (PcdKind::COMPRESSED);
+  return kinds;
+}
+
 /// Writes a PCD file with PCL's own writer: x y z, rgb, normals, intensity.
 void
 writePcd (const std::string& path, const Sample& sample, PcdKind kind);

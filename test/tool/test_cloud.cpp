@@ -81,7 +81,7 @@ TEST_F (MappedCloud, BinaryFieldsStayInTheFile)
 
 TEST_F (MappedCloud, FieldsOutliveTheCloud)
 {
-  for (const PcdKind kind : {PcdKind::BINARY, PcdKind::COMPRESSED, PcdKind::ASCII}) {
+  for (const PcdKind kind : readPcdKinds ()) {
     writePcd (path ("in.pcd"), SAMPLE, kind);
     const Field x = readCloud (path ("in.pcd")).coordinates[0];
     std::filesystem::remove (path ("in.pcd"));

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Opens a reconstructed mesh in pcl_viewer, on a virtual display, and looks for it on the screen.
 

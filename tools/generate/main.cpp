@@ -70,7 +70,8 @@ main (int argc, char** argv)
       "Writes points on a known surface, in random order, as a sample cloud (.pcd or .ply, "
       "binary).\n"
       "The unit of length is the mean spacing of the points: one point per unit of area.\n"
-      "Exit codes: 0 success, 1 usage, 4 the output cannot be written."};
+      "Exit codes: 0 success, 1 usage, 4 the output cannot be written.",
+      "pcl_floater_generate"};
   std::string name, path;
   pcl::floater::SurfaceSpec spec;
   std::vector<std::string> names;

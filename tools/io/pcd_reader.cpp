@@ -4,7 +4,9 @@
 #include "plural.h"
 #include "text_scanner.h"
 
+#ifdef PCL_FLOATER_HAS_LZF
 #include <lzf.h>
+#endif
 
 #include <limits>
 #include <optional>
@@ -224,6 +226,23 @@ readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
   return rest.find_first_not_of ('\0') != std::string_view::npos;
 }
 
+/// \throws ReadError if the bytes are no LZF data of the expected size, or nothing here can tell
+void
+decompress (std::string_view bytes, char* values, std::size_t expected)
+{
+#ifdef PCL_FLOATER_HAS_LZF
+  if (lzf_decompress (bytes.data (), static_cast<unsigned int> (bytes.size ()), values,
+                      static_cast<unsigned int> (expected)) != expected)
+    throw ReadError ("the compressed data are damaged");
+#else
+  static_cast<void> (bytes);
+  static_cast<void> (values);
+  static_cast<void> (expected);
+  throw ReadError ("its data are compressed, and this program was built without liblzf, which "
+                   "decompresses them; save it as ascii or binary");
+#endif
+}
+
 /// Two 32-bit numbers, the compressed and the uncompressed size, then all values field by field,
 /// compressed with LZF.
 void
@@ -246,8 +265,7 @@ readCompressed (std::string_view bytes, PcdHeader& header)
   if (header.points * point_bytes != expected || expected / MOST_PER_BYTE > compressed)
     throw ReadError ("the size of the compressed data does not fit the number of points");
   const std::shared_ptr<char> values (new char[expected], std::default_delete<char[]> ());
-  if (lzf_decompress (bytes.data (), compressed, values.get (), expected) != expected)
-    throw ReadError ("the compressed data are damaged");
+  decompress (bytes.substr (0, compressed), values.get (), expected);
   std::size_t offset = 0;
   for (Field* field : fieldsToKeep (header)) {
     field->first = {values, values.get () + offset};

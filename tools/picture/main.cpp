@@ -37,7 +37,8 @@ main (int argc, char** argv)
       "Draws a triangle mesh, and beside it its parameterization, into a PNG file.\n"
       "Front sides are blue, back sides orange, boundary edges red.\n"
       "Exit codes: 0 success, 1 usage, 2 an input cannot be read, 3 the picture cannot be\n"
-      "drawn, 4 the output cannot be written."};
+      "drawn, 4 the output cannot be written.",
+      "pcl_floater_picture"};
   std::vector<std::string> files;
   int height = 700;
   app.add_option ("files", files, "meshes as .vtk or .ply, and the picture to write")

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs a command on a virtual X display and exits with its exit code. (xvfb-run of Debian 12
 # sometimes exits with 5 instead.)

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Debian packages by CPack, one for each component of the installation. tools/package.sh makes them.
+set (maintainer "The pcl_floater authors <pcl-floater@users.noreply.github.com>")
+set (debian_revision 1)
+set (debian_version "${PROJECT_VERSION}-${debian_revision}")
+set (so_version "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+math (EXPR next_pcl_minor "${PCL_VERSION_MINOR} + 1")
+
+# The package of a shared library is named by its soname, so that two of them can be installed.
+set (library_package "libpcl-floater${so_version}")
+set (development_package "libpcl-floater-dev")
+set (tools_package "pcl-floater-tools")
+set (documentation_package "pcl-floater-doc")
+
+find_program (GZIP_PROGRAM gzip)
+mark_as_advanced (GZIP_PROGRAM)
+if (NOT GZIP_PROGRAM OR NOT BUILD_SHARED_LIBS OR NOT PCL_FLOATER_BUILD_TOOLS OR NOT TARGET pcl_floater_picture
+    OR NOT makes_man_pages)
+  message (FATAL_ERROR "The packages have the shared library, all tools and their man pages, and need gzip")
+endif ()
+
+# Policy wants a copyright file and a change log in every package.
+string (TIMESTAMP debian_date "%a, %d %b %Y %H:%M:%S +0000" UTC) # that of SOURCE_DATE_EPOCH, if it is set
+set (debian_folder "${PROJECT_BINARY_DIR}/debian")
+configure_file ("${PROJECT_SOURCE_DIR}/cmake/debian_changelog.in" "${debian_folder}/changelog.Debian" @ONLY)
+configure_file ("${PROJECT_SOURCE_DIR}/cmake/debian_copyright.in" "${debian_folder}/copyright" @ONLY)
+configure_file ("${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${debian_folder}/changelog" COPYONLY)
+execute_process (COMMAND "${GZIP_PROGRAM}" -9 -n -f -k "${debian_folder}/changelog.Debian" "${debian_folder}/changelog"
+                 RESULT_VARIABLE result)
+if (NOT result EQUAL 0)
+  message (FATAL_ERROR "gzip failed on ${debian_folder}/changelog.Debian")
+endif ()
+foreach (component library development tools documentation)
+  install (FILES "${debian_folder}/changelog.Debian.gz" "${debian_folder}/copyright"
+           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}" COMPONENT ${component})
+endforeach ()
+install (FILES "${debian_folder}/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
+foreach (tool reconstruct generate picture)
+  set (page "${PROJECT_BINARY_DIR}/tools/${tool}/pcl_floater_${tool}.1")
+  add_custom_command (OUTPUT "${page}.gz"
+    COMMAND "${GZIP_PROGRAM}" -9 -n -f -k "${page}" DEPENDS pcl_floater_${tool}_man_page "${page}" VERBATIM)
+  add_custom_target (pcl_floater_${tool}_man_page_gz ALL DEPENDS "${page}.gz")
+  install (FILES "${page}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+endforeach ()
+
+set (CPACK_GENERATOR DEB)
+set (CPACK_PACKAGE_NAME pcl-floater)
+set (CPACK_PACKAGE_CONTACT "${maintainer}")
+set (CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
+set (CPACK_PACKAGING_INSTALL_PREFIX "/usr")
+set (CPACK_STRIP_FILES ON)
+set (CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set (CPACK_COMPONENTS_ALL library development tools documentation)
+set (CPACK_COMPONENTS_GROUPING IGNORE)
+set (CPACK_DEB_COMPONENT_INSTALL ON)
+set (CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set (CPACK_DEBIAN_PACKAGE_RELEASE ${debian_revision})
+set (CPACK_DEBIAN_PACKAGE_SOURCE pcl-floater)
+set (CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set (CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set (CPACK_DEBIAN_COMPRESSION_TYPE xz)
+
+set (what_it_is
+"It turns an unorganized point cloud into a triangle mesh whose vertices are
+the points of the cloud. The surface may be open or closed, with holes, handles
+or several components, or a single scan. It needs no normals and no tuning.")
+set (CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
+set (CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set (CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set (CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set (CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+file (WRITE "${debian_folder}/triggers" "activate-noawait ldconfig\n")
+set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${debian_folder}/triggers")
+# The linear systems of discs are solved 2.5 times as fast with it as with the reference BLAS.
+set (CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libopenblas0-pthread)
+set (CPACK_DEBIAN_LIBRARY_DESCRIPTION
+"surface reconstruction for the Point Cloud Library
+${what_it_is}
+.
+This package has the shared library.")
+
+set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
+set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set (pcl_version "${PCL_VERSION_MAJOR}.${PCL_VERSION_MINOR}")
+set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+     "${library_package} (= ${debian_version}), libpcl-dev (>= ${pcl_version})"
+     "libpcl-dev (<< ${PCL_VERSION_MAJOR}.${next_pcl_minor}~), libeigen3-dev (>= 3.4)")
+list (JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
+set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS ${documentation_package})
+set (CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+"surface reconstruction for the Point Cloud Library - headers
+${what_it_is}
+.
+This package has the headers, and what CMake and pkg-config need.")
+
+set (CPACK_DEBIAN_TOOLS_PACKAGE_NAME ${tools_package})
+set (CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
+set (CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+set (CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS libopenblas0-pthread)
+set (CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "pcl-tools, xvfb")
+set (CPACK_DEBIAN_TOOLS_DESCRIPTION
+"surface reconstruction from point clouds - tools
+${what_it_is}
+.
+This package has the tools: pcl_floater_reconstruct makes a mesh of a cloud,
+pcl_floater_picture draws it, and pcl_floater_generate writes sample clouds.")
+
+set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME ${documentation_package})
+set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set (CPACK_DEBIAN_DOCUMENTATION_DESCRIPTION
+"surface reconstruction for the Point Cloud Library - documentation
+${what_it_is}
+.
+This package has the documentation.")
+include (CPack)
