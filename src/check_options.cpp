@@ -15,7 +15,7 @@ namespace
 Problem
 checkTopology (const Options& options)
 {
-  const auto refused = [] (const char* why) { return Problem{Status::INVALID_OPTION, why}; };
+  const auto refused = [] (const char* why) { return Problem{RunStatus::INVALID_OPTION, why}; };
   if (options.holes.kept_loops < 0)
     return refused ("the number of kept loops must be 0 or more");
   if (!(options.holes.largest_hole >= 0.0 && std::isfinite (options.holes.largest_hole)))
@@ -38,7 +38,7 @@ checkTopology (const Options& options)
 Problem
 checkTrimming (const TrimmingOptions& options)
 {
-  const auto refused = [] (const char* why) { return Problem{Status::INVALID_OPTION, why}; };
+  const auto refused = [] (const char* why) { return Problem{RunStatus::INVALID_OPTION, why}; };
   if (!(options.maximum_edge_length >= 0.0 && std::isfinite (options.maximum_edge_length)))
     return refused ("the maximum edge length must be 0 (no limit) or more");
   if (!(options.maximum_edge_ratio >= 0.0 && std::isfinite (options.maximum_edge_ratio)))
@@ -55,9 +55,9 @@ checkView (const Options& options)
     return {};
   for (const double coordinate : options.view.viewpoint)
     if (!std::isfinite (coordinate))
-      return {Status::INVALID_OPTION, "the viewpoint must have finite coordinates"};
+      return {RunStatus::INVALID_OPTION, "the viewpoint must have finite coordinates"};
   if (options.topology == Topology::DISC || !options.boundary.loop.empty ())
-    return {Status::INVALID_OPTION,
+    return {RunStatus::INVALID_OPTION,
             "a viewpoint is of no use for a disc, which is laid out without it"};
   return {};
 }
@@ -74,7 +74,7 @@ checkOptions (const Options& options)
   if (Problem problem = checkView (options))
     return problem;
   const auto out_of_range = [] (const char* name, const char* range) {
-    return Problem{Status::INVALID_OPTION, std::string (name) + " must be " + range};
+    return Problem{RunStatus::INVALID_OPTION, std::string (name) + " must be " + range};
   };
   if (options.neighbors.k < 6 || options.neighbors.k > 200)
     return out_of_range ("k", "from 6 to 200");
@@ -103,7 +103,7 @@ checkOptions (const Options& options)
   if (options.blocks < 0)
     return out_of_range ("the number of blocks", "0 (chosen by the points) or more");
   if (!options.boundary.loop.empty () && options.boundary.loop.size () < 3)
-    return {Status::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
+    return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
   return {};
 }
 

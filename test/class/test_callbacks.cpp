@@ -24,10 +24,10 @@ TEST_F (FloaterClass, CallsBackForEachStage)
   EXPECT_EQ (stages, all);
 
   floater.setStageCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
-  expectFailure (floater, Status::INTERNAL_ERROR);
+  expectFailure (floater, RunStatus::INTERNAL_ERROR);
   EXPECT_NE (floater.getMessage ().find ("enough of this"), std::string::npos);
   floater.setStageCallback ([] (Stage) { throw 1; });
-  expectFailure (floater, Status::INTERNAL_ERROR);
+  expectFailure (floater, RunStatus::INTERNAL_ERROR);
   floater.setStageCallback (nullptr);
   runWell (floater);
 }
@@ -45,7 +45,7 @@ TEST_F (FloaterClass, ReportsProgressAndCanBeCancelled)
   floater.setCancelledCallback ([&done] { return done > 0.1; });
   ASSERT_TRUE (floater.getCancelledCallback ());
   done = 0.0;
-  expectFailure (floater, Status::CANCELLED);
+  expectFailure (floater, RunStatus::CANCELLED);
   EXPECT_GT (done, 0.0);
   EXPECT_LT (done, 1.0);
   EXPECT_NE (floater.getMessage ().find ("cancelled"), std::string::npos);

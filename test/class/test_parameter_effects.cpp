@@ -23,7 +23,7 @@ TEST_F (FloaterClass, LongEdgesAreCutOff)
     floater.reconstruct (whole);
     floater.setMaximumEdgeLength (1.5);
     floater.reconstruct (mesh);
-    ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+    ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
     EXPECT_GT (floater.getStatistics ().trimmed_triangles, 0U);
     EXPECT_EQ (mesh.polygons.size () + floater.getStatistics ().trimmed_triangles,
                whole.polygons.size ());
@@ -36,7 +36,7 @@ TEST_F (FloaterClass, LongEdgesAreCutOff)
       }
     floater.setMaximumEdgeRatio (-1.0);
     floater.reconstruct (mesh);
-    EXPECT_EQ (floater.getStatus (), Status::INVALID_OPTION);
+    EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
     EXPECT_TRUE (mesh.polygons.empty ());
   }
 }
@@ -54,7 +54,7 @@ TEST_F (FloaterClass, AGrossOutlierDoesNotHarmBalls)
   with_outlier->push_back (pcl::PointXYZ (std::numeric_limits<float>::max (), 0.0F, 0.0F));
   floater.setInputCloud (with_outlier);
   floater.reconstruct (mesh);
-  ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
   EXPECT_EQ (floater.getOutlierIndices (), pcl::Indices (1, 500));
   ASSERT_EQ (mesh.polygons.size (), expected.polygons.size ());
   for (std::size_t t = 0; t < mesh.polygons.size (); ++t)
@@ -161,7 +161,7 @@ TEST_F (FloaterClass, ThreadsDoNotChangeTheResult)
   Polygons polygons;
   floater.setNumberOfThreads (1);
   floater.reconstruct (points, polygons);
-  ASSERT_EQ (floater.getStatus (), Status::OK);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS);
   const std::vector<Eigen::Vector2d> parameters = floater.getParameters ();
   const pcl::Indices loop = floater.getBoundaryLoop ();
   for (const int threads : {2, 5, 0}) {

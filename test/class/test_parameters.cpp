@@ -51,8 +51,8 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_FALSE (floater.getProgressCallback ());
   EXPECT_FALSE (floater.getCancelledCallback ());
 
-  EXPECT_EQ (floater.getStatus (), Status::NOT_RUN);
-  EXPECT_EQ (floater.getReport ().status, Status::NOT_RUN);
+  EXPECT_EQ (floater.getStatus (), RunStatus::NOT_RUN);
+  EXPECT_EQ (floater.getReport ().status, RunStatus::NOT_RUN);
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
   EXPECT_TRUE (floater.getParameters ().empty ());
   EXPECT_TRUE (floater.getOutlierIndices ().empty ());
@@ -159,11 +159,11 @@ TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
   floater.setInputCloud (cloud);
   floater.setTopology (Topology::AUTO);
   floater.setHolePolicy (HolePolicy::BY_SIZE); // without a size
-  expectFailure (floater, Status::INVALID_OPTION);
+  expectFailure (floater, RunStatus::INVALID_OPTION);
   floater.setHolePolicy (HolePolicy::AUTO);
   floater.setTopology (Topology::SURFACE);
   floater.setPrescribedLoop ({0, 1, 2});
-  expectFailure (floater, Status::INVALID_OPTION);
+  expectFailure (floater, RunStatus::INVALID_OPTION);
 }
 
 } // namespace

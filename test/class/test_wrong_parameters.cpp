@@ -49,7 +49,7 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
     Floater floater;
     floater.setInputCloud (cloud);
     choice.set (floater);
-    expectFailure (floater, Status::INVALID_OPTION);
+    expectFailure (floater, RunStatus::INVALID_OPTION);
     EXPECT_TRUE (choice.is_set (floater)); // refused, not replaced
   }
 }
@@ -72,7 +72,7 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
   for (const pcl::Indices& loop_given : wrong) {
     SCOPED_TRACE (loop_given.back ());
     floater.setPrescribedLoop (loop_given);
-    expectFailure (floater, Status::INVALID_LOOP);
+    expectFailure (floater, RunStatus::INVALID_LOOP);
   }
   // A point of the loop that is not selected.
   pcl::IndicesPtr indices (new pcl::Indices);
@@ -81,7 +81,7 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
       indices->push_back (i);
   floater.setIndices (indices);
   floater.setPrescribedLoop (loop);
-  expectFailure (floater, Status::INVALID_LOOP);
+  expectFailure (floater, RunStatus::INVALID_LOOP);
 }
 
 TEST_F (FloaterClass, ReportsASolverThatGaveUp)
@@ -90,7 +90,7 @@ TEST_F (FloaterClass, ReportsASolverThatGaveUp)
   floater.setInputCloud (heightField ());
   floater.setSolver (Solver::GAUSS_SEIDEL);
   floater.setMaxIterations (20);
-  expectFailure (floater, Status::NOT_CONVERGED);
+  expectFailure (floater, RunStatus::NOT_CONVERGED);
   EXPECT_EQ (floater.getStatistics ().iterations_u, 20U);
   floater.setSolver (Solver::BICGSTAB_ILUT);
   runWell (floater);

@@ -30,7 +30,7 @@ expectRange (Group Options::*group, Value Group::*option, std::initializer_list<
   for (const Value value : bad) {
     options.*group.*option = value;
     const Problem problem = checkOptions (options);
-    EXPECT_EQ (problem.status, Status::INVALID_OPTION) << value;
+    EXPECT_EQ (problem.status, RunStatus::INVALID_OPTION) << value;
     EXPECT_FALSE (problem.message.empty ());
   }
 }
@@ -46,7 +46,7 @@ expectRange (int Options::*option, std::initializer_list<int> good, std::initial
   }
   for (const int value : bad) {
     options.*option = value;
-    EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION) << value;
+    EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION) << value;
   }
 }
 
@@ -94,13 +94,16 @@ TEST (CheckOptions, PoliciesFitTheTopology)
       options.holes.largest_hole = 3.0;
       const bool fits = topology != Topology::DISC || holes == HolePolicy::AUTO ||
                         holes == HolePolicy::KEEP_LARGEST;
-      EXPECT_EQ (checkOptions (options).status, fits ? Status::OK : Status::INVALID_OPTION);
+      EXPECT_EQ (checkOptions (options).status,
+                 fits ? RunStatus::SUCCESS : RunStatus::INVALID_OPTION);
       // Only one policy needs a size, in either unit.
       options.holes.largest_hole = 0.0;
       const bool fits_still = fits && holes != HolePolicy::BY_SIZE;
-      EXPECT_EQ (checkOptions (options).status, fits_still ? Status::OK : Status::INVALID_OPTION);
+      EXPECT_EQ (checkOptions (options).status,
+                 fits_still ? RunStatus::SUCCESS : RunStatus::INVALID_OPTION);
       options.holes.largest_hole_length = 0.1;
-      EXPECT_EQ (checkOptions (options).status, fits ? Status::OK : Status::INVALID_OPTION);
+      EXPECT_EQ (checkOptions (options).status,
+                 fits ? RunStatus::SUCCESS : RunStatus::INVALID_OPTION);
     }
 }
 
@@ -110,13 +113,13 @@ TEST (CheckOptions, AViewpointIsFiniteAndNotOfADisc)
   options.view.viewpoint = {0.0, NOT_A_NUMBER, 0.0};
   EXPECT_FALSE (checkOptions (options)); // not used
   options.view.use = ViewUse::GIVEN;
-  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+  EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION);
   options.view.viewpoint = {0.0, INF, 0.0};
-  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+  EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION);
   options.view.viewpoint = {};
   EXPECT_FALSE (checkOptions (options));
   options.topology = Topology::DISC;
-  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+  EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION);
 }
 
 TEST (CheckOptions, AGivenLoopIsOfADisc)
@@ -127,7 +130,7 @@ TEST (CheckOptions, AGivenLoopIsOfADisc)
   options.topology = Topology::DISC;
   EXPECT_FALSE (checkOptions (options));
   options.topology = Topology::SURFACE;
-  EXPECT_EQ (checkOptions (options).status, Status::INVALID_OPTION);
+  EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION);
 }
 
 TEST (CheckOptions, ALoopHasThreePoints)
@@ -135,7 +138,7 @@ TEST (CheckOptions, ALoopHasThreePoints)
   Options options;
   for (const std::vector<Index>& loop : {std::vector<Index>{1}, std::vector<Index>{1, 2}}) {
     options.boundary.loop = loop;
-    EXPECT_EQ (checkOptions (options).status, Status::INVALID_LOOP);
+    EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_LOOP);
   }
   options.boundary.loop = {1, 2, 3};
   EXPECT_FALSE (checkOptions (options));

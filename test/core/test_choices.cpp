@@ -97,7 +97,7 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
   options.threads = 1;
   options.boundary.loop = border ();
   const Result expected = reconstruct (input, options);
-  ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
+  ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
   ASSERT_EQ (expected.triangles.size (), 2 * input.positions.size () - 2 - BORDER);
   for (const Neighborhood neighborhood : ALL_NEIGHBORHOODS)
     for (const Weighting weighting : ALL_WEIGHTINGS)
@@ -108,7 +108,7 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
         options.weighting = weighting;
         options.domain.curve = domain;
         const Result result = reconstruct (input, options);
-        ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+        ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
         EXPECT_EQ (unordered (result), unordered (expected));
       }
 }
@@ -127,7 +127,7 @@ TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
       options.neighbors.kind = neighborhood;
       options.weighting = weighting;
       const Result result = reconstruct (input, options);
-      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
       // A loop may be laid out in either direction and from any point on: compare distances.
       const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
       double worst = 0.0;
@@ -154,7 +154,7 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
       options.weighting = weighting;
       options.solver.max_iterations = 100000;
       const Result expected = reconstruct (input, options);
-      ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
+      ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
       for (const Solver solver : ALL_SOLVERS)
         for (const Ordering ordering : ALL_ORDERINGS) {
           if (checkSolver (solver, ordering))
@@ -166,7 +166,7 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
           options.solver.method = solver;
           options.solver.ordering = ordering;
           const Result result = reconstruct (input, options);
-          ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+          ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
           EXPECT_LT (farthest (result, expected), SAME);
           EXPECT_EQ (result.triangles, expected.triangles);
           EXPECT_EQ (result.report.statistics.nnz_matrix, expected.report.statistics.nnz_matrix);
@@ -201,7 +201,7 @@ TEST (Choices, OfALimitThatIsTooLowAreReported)
   options.solver.method = Solver::GAUSS_SEIDEL;
   options.solver.max_iterations = 10;
   const Result result = reconstruct (sheet (0.7), options);
-  EXPECT_EQ (result.report.status, Status::NOT_CONVERGED);
+  EXPECT_EQ (result.report.status, RunStatus::NOT_CONVERGED);
   EXPECT_TRUE (result.triangles.empty ());
   EXPECT_NE (result.report.message.find ("Gauss-Seidel"), std::string::npos);
   EXPECT_EQ (result.report.statistics.iterations_u, 10U);
@@ -218,14 +218,15 @@ TEST (Choices, ThatCannotBeAreRefused)
     return reconstruct (sheet (0.0), options).report.status;
   };
   EXPECT_EQ (status ([] (Options& o) { o.solver.ordering = Ordering::COLAMD; }),
-             Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.neighbors.ball_radius = 0.9; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.tolerance = 0.0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.max_iterations = 0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_fill = 0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_drop = -1.0; }), Status::INVALID_OPTION);
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.neighbors.ball_radius = 0.9; }),
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.tolerance = 0.0; }), RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.max_iterations = 0; }), RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_fill = 0; }), RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_drop = -1.0; }), RunStatus::INVALID_OPTION);
   EXPECT_EQ (status ([] (Options& o) { o.solver.method = Solver::SUPERLU; }),
-             isAvailable (Solver::SUPERLU) ? Status::OK : Status::SOLVER_UNAVAILABLE);
+             isAvailable (Solver::SUPERLU) ? RunStatus::SUCCESS : RunStatus::SOLVER_UNAVAILABLE);
 }
 
 } // namespace

@@ -33,7 +33,7 @@ void
 expectDisc (const Result& result, std::size_t points)
 {
   const Report& report = result.report;
-  ASSERT_EQ (report.status, Status::OK) << report.message;
+  ASSERT_EQ (report.status, RunStatus::SUCCESS) << report.message;
   EXPECT_TRUE (report.message.empty ());
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
@@ -124,14 +124,14 @@ TEST (Reconstruct, PointsInDoublePrecision)
   for (Eigen::Vector3d& p : cloud)
     p = Eigen::Vector3d (5e5, 5.5e6, 300.0) + 0.02 * p;
   const Result result = reconstruct (cloud);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_TRUE (result.report.warnings.empty ()) << result.report.warnings.front ();
   EXPECT_EQ (result.triangles, reconstruct (asInput (cloud), {}).triangles);
   EXPECT_EQ (result.report.statistics.cloud_points, 2000U);
   EXPECT_EQ (result.report.statistics.used_points, 2000U);
   Options options;
   options.trimming.maximum_edge_length = 1e-9;
-  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, Status::INVALID_OPTION);
+  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, RunStatus::INVALID_OPTION);
 }
 
 TEST (Reconstruct, TheReportsLoopMakesADisc)
@@ -269,7 +269,7 @@ TEST (Reconstruct, ASelectionOfALargerCloud)
   for (Index& p : input.cloud_index)
     p = 3 * p + 1;
   Result result = reconstruct (input, discOptions ());
-  ASSERT_EQ (result.report.status, Status::OK);
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
   EXPECT_EQ (result.report.statistics.cloud_points, input.cloud_size);
   EXPECT_EQ (result.report.statistics.selected_points, cloud.size ());
   ASSERT_EQ (result.report.parameters.size (), input.cloud_size);
@@ -301,7 +301,7 @@ TEST (Reconstruct, ManyCoincidingPointsAreToldOf)
     positions.insert (positions.end (), distinct.begin (),
                       distinct.begin () + static_cast<std::ptrdiff_t> (repeated));
     const Result result = reconstruct (asInput (positions), {});
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     const bool is_told = std::any_of (
         result.report.warnings.begin (), result.report.warnings.end (), [] (const std::string& w) {
           return w.find ("20 points coincide with another one") != std::string::npos;
@@ -326,7 +326,7 @@ TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
   options.boundary.loop = samples::indices (sheet.border);
   options.boundary.loop.push_back (second);
   const Result result = reconstruct (asInput (positions), options);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_TRUE (result.report.outliers.empty ());
   EXPECT_EQ (result.report.loop.size (), options.boundary.loop.size ());
 }

@@ -23,7 +23,7 @@ Report
 madeAs (Topology topology)
 {
   Report report;
-  report.status = Status::OK;
+  report.status = RunStatus::SUCCESS;
   report.topology = topology;
   return report;
 }
@@ -137,7 +137,7 @@ TEST (UnusedOptions, AreWarningsOfARun)
   const Positions points = generateSurface (spec);
   const auto warnsOf = [&points] (const Options& options, const char* name) {
     const Result result = reconstruct (asInput (points), options);
-    EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     for (const std::string& warning : result.report.warnings)
       if (warning.find (std::string ("no effect: ") + name) != std::string::npos)
         return true;

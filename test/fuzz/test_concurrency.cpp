@@ -135,13 +135,13 @@ TEST (Concurrency, CancelledFromAnotherThread)
     });
     const std::vector<pcl::Indices> polygons = polygonsOf (floater, cloud);
     canceller.join ();
-    const Status status = floater.getReport ().status;
-    if (status == Status::CANCELLED) {
+    const RunStatus status = floater.getReport ().status;
+    if (status == RunStatus::CANCELLED) {
       ++cancelled;
       EXPECT_TRUE (polygons.empty ());
     }
     else {
-      EXPECT_EQ (status, Status::OK);
+      EXPECT_EQ (status, RunStatus::SUCCESS);
       EXPECT_EQ (polygons, expected);
     }
     // The object is as good as new.

@@ -223,7 +223,7 @@ outcomeName (const Report& report, const RunFigures& run)
 std::string
 reportText (const CommandLine& line, const Report& report, const RunFigures& run)
 {
-  const bool is_ok = report.status == Status::OK && !run.is_refused;
+  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
   const Json all = {{"tool", "pcl_floater_reconstruct"},
                     {"version", PCL_FLOATER_VERSION},
                     {"input",
@@ -270,7 +270,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
 std::string
 summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
 {
-  const bool is_ok = report.status == Status::OK && !run.is_refused;
+  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
   return dump ({{"status", outcomeName (report, run)},
                 {"message", report.message},
                 {"points", run.input_points},

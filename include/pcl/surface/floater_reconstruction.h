@@ -24,7 +24,7 @@ namespace pcl
  * floater.setInputCloud (cloud);
  * pcl::PolygonMesh mesh;
  * floater.reconstruct (mesh);
- * if (floater.getStatus () != pcl::floater::Status::OK)
+ * if (floater.getStatus () != pcl::floater::RunStatus::SUCCESS)
  *   std::cerr << floater.getMessage () << '\n';
  * \endcode
  *
@@ -98,7 +98,7 @@ public:
   void reconstruct (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
 
   /** \brief The kind of surface that the points are taken for; default AUTO. With DISC, a run ends
-   * with Status::NO_BOUNDARY, NOT_A_DISC or UNREACHABLE if the surface is not a disc. */
+   * with RunStatus::NO_BOUNDARY, NOT_A_DISC or UNREACHABLE if the surface is not a disc. */
   void setTopology (floater::Topology topology) { options_.topology = topology; }
   /** \brief The kind of surface asked for; getReport() has the one that was made. */
   floater::Topology getTopology () const { return options_.topology; }
@@ -154,7 +154,7 @@ public:
    * is a boundary, also of a disc. The mesh stays a manifold: at a point where only a corner holds
    * parts of it together, the one with most triangles stays. getStatistics() counts what is cut
    * off, getUnusedIndices() has points that lose all their triangles. If nothing is left, the run
-   * ends with Status::INVALID_OPTION. */
+   * ends with RunStatus::INVALID_OPTION. */
   void setMaximumEdgeLength (double length) { options_.trimming.maximum_edge_length = length; }
   /** \brief Length that no edge of the mesh exceeds, in units of the cloud; 0: no limit. */
   double getMaximumEdgeLength () const { return options_.trimming.maximum_edge_length; }
@@ -273,7 +273,7 @@ public:
   floater::Weighting getWeighting () const { return options_.weighting; }
 
   /** \brief Solver of the linear system; default UMFPACK (TW 385, section 4.2). A run ends with
-   * Status::SOLVER_UNAVAILABLE if the library was built without it. */
+   * RunStatus::SOLVER_UNAVAILABLE if the library was built without it. */
   void setSolver (floater::Solver solver) { options_.solver.method = solver; }
   /** \brief Solver of the linear system. */
   floater::Solver getSolver () const { return options_.solver.method; }
@@ -290,7 +290,7 @@ public:
   double getTolerance () const { return options_.solver.tolerance; }
 
   /** \brief Iterations of an iterative solver, 1 or more, after which a run ends with
-   * Status::NOT_CONVERGED; default 1000. */
+   * RunStatus::NOT_CONVERGED; default 1000. */
   void setMaxIterations (int iterations) { options_.solver.max_iterations = iterations; }
   /** \brief Iterations after which an iterative solver gives up. */
   int getMaxIterations () const { return options_.solver.max_iterations; }
@@ -341,7 +341,7 @@ public:
   int getNumberOfBlocks () const { return options_.blocks; }
 
   /** \brief Called when a stage of a run begins, by the thread that called reconstruct(); default
-   * none. An exception from it ends the run with Status::INTERNAL_ERROR. */
+   * none. An exception from it ends the run with RunStatus::INTERNAL_ERROR. */
   void setStageCallback (std::function<void (floater::Stage)> callback)
   {
     options_.stage_callback = std::move (callback);
@@ -367,10 +367,10 @@ public:
   }
 
   /** \brief Asked whether the run is to be cancelled, as often as the progress callback is called;
-   * default none. If it returns true, the run ends with Status::CANCELLED and an empty mesh, mostly
-   * within a tenth of a second; direct solvers, CGAL's triangulation and a search method of PCL are
-   * waited for. It may read an atomic variable that another thread sets. Thread and exceptions are
-   * as for setStageCallback(). */
+   * default none. If it returns true, the run ends with RunStatus::CANCELLED and an empty mesh,
+   * mostly within a tenth of a second; direct solvers, CGAL's triangulation and a search method of
+   * PCL are waited for. It may read an atomic variable that another thread sets. Thread and
+   * exceptions are as for setStageCallback(). */
   void setCancelledCallback (std::function<bool ()> callback)
   {
     options_.cancelled_callback = std::move (callback);
@@ -382,9 +382,9 @@ public:
   }
 
   /** \brief Outcome of the last run; NOT_RUN before the first. */
-  floater::Status getStatus () const { return report_.status; }
+  floater::RunStatus getStatus () const { return report_.status; }
 
-  /** \brief Cause of a failure and what to do, in one sentence; empty if the status is OK. */
+  /** \brief Cause of a failure and what to do, in one sentence; empty after SUCCESS. */
   const std::string& getMessage () const { return report_.message; }
 
   /** \brief The whole report on the last run. */
@@ -439,7 +439,7 @@ private:
   bool guarded (const std::function<void ()>& reconstruction);
 
   /// Records a failure. \return false
-  bool fail (floater::Status status, const std::string& message);
+  bool fail (floater::RunStatus status, const std::string& message);
 
   /// Makes points and options for the core.
   /// \return false, with the failure recorded, if the input cannot be used

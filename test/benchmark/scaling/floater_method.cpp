@@ -33,7 +33,7 @@ public:
   void run () override
   {
     floater_.reconstruct (mesh_);
-    if (floater_.getStatus () != Status::OK)
+    if (floater_.getStatus () != RunStatus::SUCCESS)
       throw std::runtime_error (floater_.getMessage ());
   }
 

@@ -156,7 +156,7 @@ TEST (Finish, ATorusLaidOutAsADiscIsRefused)
     options.boundary.loop.push_back (static_cast<Index> (place));
   options.topology = Topology::DISC;
   const Result result = reconstruct (samples::asInput (positions), options);
-  EXPECT_EQ (result.report.status, Status::NOT_A_DISC);
+  EXPECT_EQ (result.report.status, RunStatus::NOT_A_DISC);
   EXPECT_NE (result.report.message.find ("folded"), std::string::npos) << result.report.message;
   EXPECT_TRUE (result.triangles.empty ());
 }

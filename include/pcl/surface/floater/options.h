@@ -257,7 +257,7 @@ struct Options
   std::function<void (double)> progress_callback;
 
   /// Asked as often as progress_callback is called, by the same thread. If it returns true, the run
-  /// ends with Status::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
+  /// ends with RunStatus::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
   /// solvers, CGAL's triangulation and a search of the caller's are not interrupted; the run ends
   /// when they return.
   std::function<bool ()> cancelled_callback;

@@ -70,7 +70,7 @@ private:
 
 template <typename PointT>
 bool
-FloaterReconstruction<PointT>::fail (floater::Status status, const std::string& message)
+FloaterReconstruction<PointT>::fail (floater::RunStatus status, const std::string& message)
 {
   report_.status = status;
   report_.message = message;
@@ -85,23 +85,23 @@ FloaterReconstruction<PointT>::guarded (const std::function<void ()>& reconstruc
   try {
     // Checked here: the base class dereferences a null pointer, and accepts an empty cloud.
     if (!input_)
-      fail (floater::Status::NO_INPUT, "no input cloud: call setInputCloud () first");
+      fail (floater::RunStatus::NO_INPUT, "no input cloud: call setInputCloud () first");
     else if (input_->empty ())
-      fail (floater::Status::NO_INPUT, "the input cloud is empty");
+      fail (floater::RunStatus::NO_INPUT, "the input cloud is empty");
     else
       reconstruction ();
   }
   catch (const std::bad_alloc&) {
-    report_.status = floater::Status::OUT_OF_MEMORY;
+    report_.status = floater::RunStatus::OUT_OF_MEMORY;
     report_.message = "out of memory"; // so short that the string takes no memory
   }
   catch (const std::exception& error) {
-    fail (floater::Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ());
+    fail (floater::RunStatus::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ());
   }
   catch (...) {
-    fail (floater::Status::INTERNAL_ERROR, "unexpected error of unknown type");
+    fail (floater::RunStatus::INTERNAL_ERROR, "unexpected error of unknown type");
   }
-  const bool has_mesh = report_.status == floater::Status::OK;
+  const bool has_mesh = report_.status == floater::RunStatus::SUCCESS;
   try {
     if (!has_mesh)
       PCL_ERROR ("[pcl::%s::performReconstruction] %s: %s\n", getClassName ().c_str (),
@@ -165,9 +165,9 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
   const std::string outside_the_cloud =
       " is outside the cloud of " + std::to_string (size) + (size == 1 ? " point" : " points");
   if (size > MAX_POINTS)
-    return fail (floater::Status::OUT_OF_MEMORY, "the cloud has more than " +
-                                                     std::to_string (MAX_POINTS) +
-                                                     " points; reconstruct parts of it");
+    return fail (floater::RunStatus::OUT_OF_MEMORY, "the cloud has more than " +
+                                                        std::to_string (MAX_POINTS) +
+                                                        " points; reconstruct parts of it");
   // If memory runs out, PCLBase continues with fewer indices than there are points.
   if (fake_indices_ && indices_->size () != size)
     throw std::bad_alloc ();
@@ -178,14 +178,14 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
   };
   const auto outside = std::find_if (indices_->begin (), indices_->end (), is_outside);
   if (outside != indices_->end ())
-    return fail (floater::Status::INVALID_INDICES,
+    return fail (floater::RunStatus::INVALID_INDICES,
                  "index " + std::to_string (*outside) + outside_the_cloud);
   const auto outside_in_loop =
       std::find_if (prescribed_loop_.begin (), prescribed_loop_.end (), is_outside);
   if (outside_in_loop != prescribed_loop_.end ())
-    return fail (floater::Status::INVALID_LOOP, "point " + std::to_string (*outside_in_loop) +
-                                                    " of the given boundary loop" +
-                                                    outside_the_cloud);
+    return fail (floater::RunStatus::INVALID_LOOP, "point " + std::to_string (*outside_in_loop) +
+                                                       " of the given boundary loop" +
+                                                       outside_the_cloud);
 
   input.cloud_size = size;
   for (std::size_t axis = 0; axis < 3; ++axis)
