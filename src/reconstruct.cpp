@@ -50,7 +50,7 @@ discSettings (const Points& points, const Request& request)
   settings.neighborhood = options.neighbors.kind;
   settings.stars.filter_sheets = options.filter_sheets;
   settings.stars.limits = limits.sheets;
-  settings.parameterization = {options.weighting, options.domain, options.solver};
+  settings.parameterization = {options.disc.weighting, options.disc.domain, options.disc.solver};
   settings.flip_edges = options.flip_edges;
   settings.facing = facingHints (points, request);
   settings.limits = limits.disc;
@@ -62,7 +62,7 @@ discSettings (const Points& points, const Request& request)
 Boundary
 findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  const BoundaryOptions& options = request.options.boundary;
+  const BoundaryOptions& options = request.options.disc.boundary;
   const Limits& limits = request.limits;
   request.run.beginStage (Stage::BOUNDARY);
   const bool is_given = !options.loop.empty ();

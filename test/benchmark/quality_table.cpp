@@ -80,7 +80,7 @@ public:
         Options options;
         options.topology = Topology::DISC;
         options.neighbors.kind = neighborhood.choice;
-        options.weighting = weighting.choice;
+        options.disc.weighting = weighting.choice;
         options.threads = settings_.threads;
         options.flip_edges = false;
         const Result plain = run (sample.cloud, options);

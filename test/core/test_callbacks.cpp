@@ -45,7 +45,7 @@ allWays ()
   Options balls;
   balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
   Options iterative = discOptions ();
-  iterative.solver.method = Solver::BICGSTAB_ILUT;
+  iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
   return {{"surface", SurfaceKind::TORUS, {}},
           {"balls", SurfaceKind::TORUS, balls},
           {"disc", SurfaceKind::HEIGHT_FIELD, discOptions ()},
@@ -161,7 +161,7 @@ TEST (Cancellation, IsSeenWithinTheStagesOfADisc)
 {
   const Positions points = surface (SurfaceKind::HEIGHT_FIELD, 5000);
   Options options = discOptions ();
-  options.solver.method = Solver::BICGSTAB_ILUT;
+  options.disc.solver.method = Solver::BICGSTAB_ILUT;
   // All but DELAUNAY, which is a single call of CGAL.
   for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::BOUNDARY,
                             Stage::WEIGHTS, Stage::SOLVE, Stage::FLIPS, Stage::CHECK})
@@ -174,7 +174,7 @@ TEST (Cancellation, IsSeenByEveryBoundaryMethod)
   Options options = discOptions ();
   for (const BoundaryMethod method :
        {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
-    options.boundary.method = method;
+    options.disc.boundary.method = method;
     EXPECT_TRUE (isCancelledWithin (Stage::BOUNDARY, points, options))
         << "method " << static_cast<int> (method);
   }

@@ -234,7 +234,7 @@ TEST (RealClouds, HaveTheirBoundaryOnALoopOfTheConsensus)
     if (!std::ifstream (base + ".pcd"))
       GTEST_SKIP () << "no " << cloud.name << ".pcd in " << dataFolder ();
     Options options = samples::discOptions ();
-    options.boundary.method = BoundaryMethod::CONSENSUS;
+    options.disc.boundary.method = BoundaryMethod::CONSENSUS;
     const Result result = reconstruct (samples::asInput (readPcd (base + ".pcd")), options);
     ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     const std::vector<Index> truth = samples::topologyOf (readPly (base + ".gt.ply")).loops.at (0);

@@ -116,11 +116,11 @@ TEST (RunStatus, InvalidLoop)
 {
   const Positions cloud = samples::disc (0.1, 3).positions;
   Options options = discOptions ();
-  options.boundary.loop = {0, 10};
+  options.disc.boundary.loop = {0, 10};
   expectFailure (reconstruct (asInput (cloud), options), RunStatus::INVALID_LOOP, "fewer than 3");
-  options.boundary.loop = {0, 10, 20, 10};
+  options.disc.boundary.loop = {0, 10, 20, 10};
   expectFailure (reconstruct (asInput (cloud), options), RunStatus::INVALID_LOOP, "point 10");
-  options.boundary.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
+  options.disc.boundary.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
   expectFailure (reconstruct (asInput (cloud), options), RunStatus::INVALID_LOOP,
                  std::to_string (cloud.size ()));
 }

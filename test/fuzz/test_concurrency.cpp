@@ -62,13 +62,13 @@ struct Task
 {
   SurfaceKind kind;
   Topology topology;
-  int threads;
+  unsigned int threads;
 };
 
 TEST (Concurrency, EightObjectsInEightThreads)
 {
   std::vector<Task> tasks;
-  for (const int threads : {1, 2})
+  for (const unsigned int threads : {1U, 2U})
     for (const auto& [kind, topology] : {std::pair{SurfaceKind::HEIGHT_FIELD, Topology::DISC},
                                          std::pair{SurfaceKind::FINGER, Topology::DISC},
                                          std::pair{SurfaceKind::TORUS, Topology::SURFACE},

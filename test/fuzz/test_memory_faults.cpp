@@ -55,13 +55,13 @@ allWays (std::size_t points)
 {
   Options disc = samples::discOptions (), iterative = disc, unsymmetric = disc, balls, surface,
           view;
-  iterative.solver.method = Solver::BICGSTAB_ILUT;
-  iterative.boundary.method = BoundaryMethod::TWO_SEGMENTS;
-  iterative.boundary.cluster_tolerance = 0.3;
+  iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
+  iterative.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+  iterative.disc.boundary.cluster_tolerance = 0.3;
   // SuperLU itself ends the program when it finds no memory, and Eigen's sparse LU decomposition
   // frees twice what it could not enlarge.
-  unsymmetric.solver.method = Solver::UMFPACK_UNSYMMETRIC;
-  unsymmetric.boundary.method = BoundaryMethod::CONSENSUS;
+  unsymmetric.disc.solver.method = Solver::UMFPACK_UNSYMMETRIC;
+  unsymmetric.disc.boundary.method = BoundaryMethod::CONSENSUS;
   balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
   balls.trimming.minimum_component_size = 5;
   surface.holes.policy = HolePolicy::CLOSE_ALL;

@@ -260,7 +260,7 @@ run (CommandLine line)
   progress.show ("reading");
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
-    line.options.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
+    line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   const bool all_digits = line.auto_shift || line.shift;
   Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, all_digits); });
   checkMemory (line, cloud.size ());

@@ -116,18 +116,19 @@ public:
   /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open. */
   int getKeptLoops () const { return options_.holes.kept_loops; }
 
-  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in local spacings, 0 or
-   * more; default 0: no limit. This or setLargestHoleLength() must be above 0. If both are, a hole
-   * is filled if it exceeds neither. */
-  void setLargestHole (double spacings) { options_.holes.largest_hole = spacings; }
-  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in local spacings. */
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, above 0. It has no
+   * default that would do: without a size, a run with this policy ends with
+   * RunStatus::INVALID_OPTION. \param size in the unit; other policies do not read it \param unit
+   * local spacings, or units of the cloud */
+  void setLargestHole (double size, floater::LengthUnit unit = floater::LengthUnit::SPACINGS)
+  {
+    options_.holes.largest_hole = size;
+    options_.holes.unit = unit;
+  }
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled; 0 if none was set. */
   double getLargestHole () const { return options_.holes.largest_hole; }
-
-  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in units of the cloud, 0
-   * or more; default 0: no limit. */
-  void setLargestHoleLength (double length) { options_.holes.largest_hole_length = length; }
-  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, in units of the cloud. */
-  double getLargestHoleLength () const { return options_.holes.largest_hole_length; }
+  /** \brief HolePolicy::BY_SIZE: the unit of getLargestHole(). */
+  floater::LengthUnit getLargestHoleUnit () const { return options_.holes.unit; }
 
   /** \brief The place of the sensor, for a cloud that is one scan, in the frame of the cloud. The
    * points are connected as they were seen from there, and the mesh faces the sensor; every point
@@ -198,9 +199,9 @@ public:
   bool getDenoise () const { return options_.denoise; }
 
   /** \brief Number of nearest neighbours of each point, 6 to 200; default 20. Not for balls. */
-  void setKNearest (int k) { options_.neighbors.k = k; }
+  void setKSearch (int k) { options_.neighbors.k = k; }
   /** \brief Number of nearest neighbours of each point. */
-  int getKNearest () const { return options_.neighbors.k; }
+  int getKSearch () const { return options_.neighbors.k; }
 
   /** \brief Which points a point of a disc is a convex combination of; default NEAREST_DELAUNAY. A
    * surface takes Delaunay stars in any case. With BALL and BALL_DELAUNAY, the points in a ball
@@ -218,94 +219,29 @@ public:
   /** \brief Radius of balls, in mean distances of a point to its 6 nearest. */
   double getBallRadius () const { return options_.neighbors.ball_radius; }
 
-  /** \brief BoundaryMethod::TWO_SEGMENTS: opening angle in degrees, above 0 and below 360; default
-   * 160. A boundary point has a wider sector without neighbours (TW 385, section 3.1). */
-  void setOpeningAngle (double degrees) { options_.boundary.opening_angle = degrees; }
-  /** \brief BoundaryMethod::TWO_SEGMENTS: opening angle in degrees. */
-  double getOpeningAngle () const { return options_.boundary.opening_angle; }
-
-  /** \brief How the boundary loop of a disc is found; default SPANNING_TREE. */
-  void setBoundaryMethod (floater::BoundaryMethod method) { options_.boundary.method = method; }
-  /** \brief How the boundary loop of a disc is found. */
-  floater::BoundaryMethod getBoundaryMethod () const { return options_.boundary.method; }
-
-  /** \brief BoundaryMethod::TWO_SEGMENTS: distance over which clusters of boundary points grow, as
-   * a fraction of the bounding box diagonal, above 0, at most 1; default 0.05 (TW 385,
-   * section 3.2).
-   */
-  void setClusterTolerance (double fraction) { options_.boundary.cluster_tolerance = fraction; }
-  /** \brief BoundaryMethod::TWO_SEGMENTS: distance over which clusters grow, as a fraction of the
-   * bounding box diagonal. */
-  double getClusterTolerance () const { return options_.boundary.cluster_tolerance; }
-
-  /** \brief BoundaryMethod::TWO_SEGMENTS: nearest boundary points that a cluster takes in at a
-   * time, 1 or more; default 10 (TW 385, section 3.2). */
-  void setClusterK (int k) { options_.boundary.cluster_k = k; }
-  /** \brief BoundaryMethod::TWO_SEGMENTS: boundary points that a cluster takes in at a time. */
-  int getClusterK () const { return options_.boundary.cluster_k; }
+  /** \brief All that only a disc takes: how its boundary loop is found, or the loop itself; the
+   * curve on which it is laid; weights and solver of the linear system. Another surface does not
+   * read them. They replace all that were set before, a loop of setPrescribedLoop() as well: to
+   * keep what was set, change a copy of getDiscOptions(). */
+  void setDiscOptions (const floater::DiscOptions& options)
+  {
+    options_.disc = options;
+    prescribed_loop_.assign (options.boundary.loop.begin (), options.boundary.loop.end ());
+  }
+  /** \brief All that only a disc takes, the given boundary loop among them. */
+  const floater::DiscOptions& getDiscOptions () const { return options_.disc; }
 
   /** \brief Gives the boundary loop: cloud indices in order, either way round, each once, 3 or
    * more. The surface is then made as a disc. Default empty: the loop is found. Not with
-   * Topology::SURFACE. */
-  void setPrescribedLoop (const pcl::Indices& loop) { prescribed_loop_ = loop; }
+   * Topology::SURFACE. It is BoundaryOptions::loop of getDiscOptions() in the type of PCL's
+   * indices: the later call of the two setters counts. */
+  void setPrescribedLoop (const pcl::Indices& loop)
+  {
+    prescribed_loop_ = loop;
+    options_.disc.boundary.loop.assign (loop.begin (), loop.end ());
+  }
   /** \brief The given boundary loop; empty: the loop is found. */
   const pcl::Indices& getPrescribedLoop () const { return prescribed_loop_; }
-
-  /** \brief Convex curve on which the boundary loop is laid; default CIRCLE (TW 385, section 2.1).
-   */
-  void setDomain (floater::Domain domain) { options_.domain.curve = domain; }
-  /** \brief Convex curve on which the boundary loop is laid. */
-  floater::Domain getDomain () const { return options_.domain.curve; }
-
-  /** \brief Sides of Domain::POLYGON, 3 or more; default 6. */
-  void setPolygonSides (int sides) { options_.domain.polygon_sides = sides; }
-  /** \brief Sides of Domain::POLYGON. */
-  int getPolygonSides () const { return options_.domain.polygon_sides; }
-
-  /** \brief How the points of the loop are spaced along that curve; default CHORD_LENGTH. */
-  void setLoopSpacing (floater::LoopSpacing spacing) { options_.domain.loop_spacing = spacing; }
-  /** \brief How the points of the loop are spaced along that curve. */
-  floater::LoopSpacing getLoopSpacing () const { return options_.domain.loop_spacing; }
-
-  /** \brief Weights of a point's neighbours; default MEAN_VALUE (Floater 2003; TW 385, eq. 2). */
-  void setWeighting (floater::Weighting weighting) { options_.weighting = weighting; }
-  /** \brief Weights of a point's neighbours. */
-  floater::Weighting getWeighting () const { return options_.weighting; }
-
-  /** \brief Solver of the linear system; default UMFPACK (TW 385, section 4.2). A run ends with
-   * RunStatus::SOLVER_UNAVAILABLE if the library was built without it. */
-  void setSolver (floater::Solver solver) { options_.solver.method = solver; }
-  /** \brief Solver of the linear system. */
-  floater::Solver getSolver () const { return options_.solver.method; }
-
-  /** \brief Order of the unknowns; default AUTOMATIC. */
-  void setOrdering (floater::Ordering ordering) { options_.solver.ordering = ordering; }
-  /** \brief Order of the unknowns. */
-  floater::Ordering getOrdering () const { return options_.solver.ordering; }
-
-  /** \brief Relative residual |b - A u| / |b| at which iterative solvers stop, above 0 and below 1;
-   * default 1e-15. A residual at the limit of rounding is accepted as well. */
-  void setTolerance (double tolerance) { options_.solver.tolerance = tolerance; }
-  /** \brief Relative residual at which iterative solvers stop. */
-  double getTolerance () const { return options_.solver.tolerance; }
-
-  /** \brief Iterations of an iterative solver, 1 or more, after which a run ends with
-   * RunStatus::NOT_CONVERGED; default 1000. */
-  void setMaxIterations (int iterations) { options_.solver.max_iterations = iterations; }
-  /** \brief Iterations after which an iterative solver gives up. */
-  int getMaxIterations () const { return options_.solver.max_iterations; }
-
-  /** \brief Solver::BICGSTAB_ILUT: entries kept in a row of each factor, 1 to 10,000; default 15.
-   */
-  void setIlutFill (int entries) { options_.solver.ilut_fill = entries; }
-  /** \brief Solver::BICGSTAB_ILUT: entries kept in a row of each factor. */
-  int getIlutFill () const { return options_.solver.ilut_fill; }
-
-  /** \brief Solver::BICGSTAB_ILUT: entries of the factors below this fraction of their row are
-   * dropped, 0 to 1; default 1e-2. */
-  void setIlutDropTolerance (double fraction) { options_.solver.ilut_drop = fraction; }
-  /** \brief Solver::BICGSTAB_ILUT: fraction of its row below which an entry is dropped. */
-  double getIlutDropTolerance () const { return options_.solver.ilut_drop; }
 
   /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
   void setFilterSheets (bool filter_sheets) { options_.filter_sheets = filter_sheets; }
@@ -327,10 +263,13 @@ public:
   /** \brief Whether the mesh is changed where its triangles cross each other. */
   bool getRemoveSelfIntersections () const { return options_.remove_self_intersections; }
 
-  /** \brief Number of threads, 0 or more; default 0: one for each core. The result is the same. */
-  void setNumberOfThreads (int threads = 0) { options_.threads = threads; }
+  /** \brief Number of threads; default 0: one for each core. The result is the same. */
+  void setNumberOfThreads (unsigned int nr_threads = 0)
+  {
+    options_.threads = static_cast<int> (nr_threads);
+  }
   /** \brief Number of threads; 0: one for each core. */
-  int getNumberOfThreads () const { return options_.threads; }
+  unsigned int getNumberOfThreads () const { return static_cast<unsigned int> (options_.threads); }
 
   /** \brief Number of blocks in which the nearest neighbours are searched, 0 or more; default 0:
    * one block up to 262,144 points, above that blocks of at most 131,072 points. It changes the
@@ -441,15 +380,15 @@ private:
   /// Records a failure. \return false
   bool fail (floater::RunStatus status, const std::string& message);
 
-  /// Makes points and options for the core.
+  /// Makes points for the core.
   /// \return false, with the failure recorded, if the input cannot be used
-  bool makeInput (floater::Input& input, floater::Options& options);
+  bool makeInput (floater::Input& input);
 
   /// Makes the triangles, or none and a report that says why.
   void triangulate (std::vector<pcl::Vertices>& polygons);
 
-  floater::Options options_;     // without the loop
-  pcl::Indices prescribed_loop_; // may hold indices that the core's type cannot
+  floater::Options options_;
+  pcl::Indices prescribed_loop_; // as given: may hold indices that the core's type cannot
   floater::Report report_;
 };
 

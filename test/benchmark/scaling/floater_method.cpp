@@ -22,7 +22,7 @@ public:
   FloaterMethod (Topology topology, int threads)
   {
     floater_.setTopology (topology);
-    floater_.setNumberOfThreads (threads);
+    floater_.setNumberOfThreads (static_cast<unsigned int> (threads));
   }
 
   void prepare (const std::vector<Eigen::Vector3d>& points) override

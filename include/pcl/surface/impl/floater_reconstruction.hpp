@@ -157,7 +157,7 @@ FloaterReconstruction<PointT>::performReconstruction (PointCloud& points,
 
 template <typename PointT>
 bool
-FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Options& options)
+FloaterReconstruction<PointT>::makeInput (floater::Input& input)
 {
   constexpr std::size_t MAX_POINTS = std::numeric_limits<std::uint32_t>::max ();
   const std::size_t size = input_->size ();
@@ -203,9 +203,6 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
     input.positions.emplace_back (point.x, point.y, point.z);
     input.cloud_index.push_back (static_cast<std::uint32_t> (row));
   }
-
-  options = options_;
-  options.boundary.loop.assign (prescribed_loop_.begin (), prescribed_loop_.end ());
   return true;
 }
 
@@ -215,14 +212,13 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
 {
   polygons.clear ();
   floater::Input input;
-  floater::Options options;
-  if (!makeInput (input, options))
+  if (!makeInput (input))
     return;
   floater::SearchMethod<PointT> search (tree_, input_);
   if (tree_)
     input.search = &search;
 
-  floater::Result result = floater::reconstruct (std::move (input), options);
+  floater::Result result = floater::reconstruct (std::move (input), options_);
   report_ = std::move (result.report);
   polygons.resize (result.triangles.size ());
   for (std::size_t t = 0; t < polygons.size (); ++t)
