@@ -2,6 +2,8 @@
 // Callbacks of FloaterReconstruction: stages, progress, cancellation.
 #include "mesh_check.h"
 
+#include <pcl/console/print.h>
+
 #include <stdexcept>
 
 namespace pcl
@@ -49,6 +51,24 @@ TEST_F (FloaterClass, ReportsProgressAndCanBeCancelled)
   EXPECT_GT (done, 0.0);
   EXPECT_LT (done, 1.0);
   EXPECT_NE (floater.getMessage ().find ("cancelled"), std::string::npos);
+
+  // That is no error: who wants to see errors only sees nothing.
+  const auto printed = [&floater] {
+    pcl::PolygonMesh mesh;
+    testing::internal::CaptureStderr ();
+    floater.reconstruct (mesh);
+    return testing::internal::GetCapturedStderr ();
+  };
+  const pcl::console::VERBOSITY_LEVEL level = pcl::console::getVerbosityLevel ();
+  pcl::console::setVerbosityLevel (pcl::console::L_ERROR);
+  done = 0.0;
+  EXPECT_EQ (printed (), "");
+  EXPECT_EQ (floater.getStatus (), RunStatus::CANCELLED);
+  floater.setNumberOfBlocks (-1);
+  EXPECT_NE (printed (), "");
+  floater.setNumberOfBlocks (0);
+  pcl::console::setVerbosityLevel (level);
+
   floater.setCancelledCallback (nullptr);
   runWell (floater);
 }

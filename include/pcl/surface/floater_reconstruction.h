@@ -65,8 +65,8 @@ namespace pcl
  *   with setIndices(). The result does not depend on the order of the points or on the number of
  *   threads.
  * - \b Failure: the output is empty, the cause is in getStatus() and getMessage(), and one line is
- *   printed by PCL_ERROR. Warnings about a mesh are in getReport().warnings and are printed by
- *   PCL_WARN. reconstruct() does not throw.
+ *   printed by PCL_ERROR. A run that is cancelled prints its line by PCL_WARN. Warnings about a
+ * mesh are in getReport().warnings and are printed by PCL_WARN. reconstruct() does not throw.
  * - \b Search: a kd-tree of its own, in parallel. A method given to
  *   setSearchMethod() is used instead, in one thread; each run sets its input cloud.
  * - \b Results (getStatus() and below) are those of the last call of reconstruct(), also after

@@ -103,7 +103,10 @@ FloaterReconstruction<PointT>::guarded (const std::function<void ()>& reconstruc
   }
   const bool has_mesh = report_.status == floater::RunStatus::SUCCESS;
   try {
-    if (!has_mesh)
+    if (report_.status == floater::RunStatus::CANCELLED) // as asked for: no error
+      PCL_WARN ("[pcl::%s::performReconstruction] %s: %s\n", getClassName ().c_str (),
+                floater::statusName (report_.status), report_.message.c_str ());
+    else if (!has_mesh)
       PCL_ERROR ("[pcl::%s::performReconstruction] %s: %s\n", getClassName ().c_str (),
                  floater::statusName (report_.status), report_.message.c_str ());
     else
