@@ -153,6 +153,20 @@ TEST (UnusedOptions, AreWarningsOfARun)
   EXPECT_FALSE (warnsOf (disc, "the weights"));
 }
 
+TEST (UnusedOptions, OfTheNeighborsWhereAScanIsConnectedAsItsSensorSawIt)
+{
+  Report view = madeAs (Topology::SURFACE);
+  view.is_view = true;
+  Options options;
+  EXPECT_TRUE (describeUnusedOptions (options, view).empty ());
+  options.scatter = ScatterPolicy::DROP;
+  options.neighbors.k = 30;
+  EXPECT_EQ (
+      describeUnusedOptions (options, view),
+      std::vector<std::string>{"options have no effect: k, the policy for scatter; a scan is "
+                               "connected as its sensor saw it, without neighbours"});
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

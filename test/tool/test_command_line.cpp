@@ -267,6 +267,28 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
   EXPECT_EQ (report ({"--flips", "off"}).at ("statistics").at ("flips"), 0);
 }
 
+TEST_F (CommandLineTest, TheMethodOfTheReport)
+{
+  const Json made = report ({"--method", "tw385"});
+  const Json& options = made["options"];
+  EXPECT_EQ (options["method"], "tw385");
+  EXPECT_EQ (options["topology"], "disc");
+  EXPECT_EQ (options["boundary"], "two-segments");
+  EXPECT_EQ (options["ordering"], "amd");
+  EXPECT_EQ (options["weights"], "mean-value");
+  for (const char* const name : {"flips", "sheet_filter", "denoise", "remove_outliers", "uncross"})
+    EXPECT_EQ (options[name], false) << name;
+  // What is given stays.
+  const Json other = report ({"--method", "tw385", "--weights", "uniform", "--boundary",
+                              "spanning-tree", "--ordering", "natural"});
+  EXPECT_EQ (other["options"]["weights"], "uniform");
+  EXPECT_EQ (other["options"]["boundary"], "spanning-tree");
+  EXPECT_EQ (other["options"]["ordering"], "natural");
+  const Outcome refused = run ({"in.pcd", "out.ply", "--method", "tw385", "--topology", "surface"});
+  EXPECT_EQ (refused.code, USAGE);
+  EXPECT_NE (refused.err.find ("TW 385"), std::string::npos) << refused.err;
+}
+
 TEST_F (CommandLineTest, LoopFromFile)
 {
   const Json loop = report ({}).at ("loop");

@@ -58,7 +58,7 @@ struct Input
   /// Empty, or one for each point of the whole cloud: normals of the tangent planes, of any length
   /// and sign, in place of those that would be fitted. Where one is zero or not finite, the plane
   /// is fitted.
-  std::vector<Eigen::Vector3f> normals;
+  std::vector<Eigen::Vector3f> normals{};
 };
 
 /// A mesh and the report on the run that made it.

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Normals of the input, and the method of TW 385 with PCL's own parts.
+#include "mesh_check.h"
+
+#include <pcl/search/kdtree.h>
+
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
+
+TEST_F (FloaterClass, TakesTheNormalsOfPoints)
+{
+  const NormalCloud::Ptr cloud = makeCloud<pcl::PointNormal> (SurfaceKind::HEIGHT_FIELD, 2000);
+  const auto triangles = [&cloud] (bool use) {
+    pcl::FloaterReconstruction<pcl::PointNormal> floater;
+    EXPECT_FALSE (floater.getUseInputNormals ());
+    floater.setUseInputNormals (use);
+    EXPECT_EQ (floater.getUseInputNormals (), use);
+    floater.setInputCloud (cloud);
+    Polygons polygons;
+    floater.reconstruct (polygons);
+    EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+    return trianglesOf (polygons);
+  };
+  const Triangles expected = triangles (false);
+  // The normals of such points are zero until they are set: then planes are fitted.
+  EXPECT_EQ (triangles (true), expected);
+  for (pcl::PointNormal& point : *cloud)
+    point.normal_x = 1.0F;
+  EXPECT_EQ (triangles (false), expected);
+  EXPECT_NE (triangles (true), expected);
+}
+
+TEST_F (FloaterClass, PointsWithoutNormalsHaveNoneToUse)
+{
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setUseInputNormals (true);
+  floater.setInputCloud (heightField ());
+  Polygons polygons;
+  floater.reconstruct (polygons);
+  EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
+  EXPECT_NE (floater.getMessage ().find ("no normals"), std::string::npos);
+  EXPECT_TRUE (polygons.empty ());
+}
+
+// The neighbours and planes of PCL give the mesh that the core's own give, but for ties.
+TEST_F (FloaterClass, TheMethodOfTheReportTakesPclsOwnParts)
+{
+  const Cloud::Ptr cloud = heightField (3000);
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setDiscOptions (DiscOptions::tw385 ());
+  floater.setInputCloud (cloud);
+  Polygons polygons;
+  floater.reconstruct (polygons);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+  const Triangles by_pcl = trianglesOf (polygons);
+
+  std::vector<Eigen::Vector3d> positions;
+  for (const pcl::PointXYZ& point : *cloud)
+    positions.emplace_back (point.x, point.y, point.z);
+  Options options;
+  options.disc = DiscOptions::tw385 ();
+  const Result own = reconstruct (positions, options);
+  ASSERT_EQ (own.report.status, RunStatus::SUCCESS) << own.report.message;
+  std::size_t same = 0;
+  for (const auto& t : own.triangles) {
+    pcl::Indices corners (t.begin (), t.end ());
+    std::rotate (corners.begin (), std::min_element (corners.begin (), corners.end ()),
+                 corners.end ());
+    same += by_pcl.count ({corners[0], corners[1], corners[2]});
+  }
+  EXPECT_EQ (own.triangles.size (), by_pcl.size ());
+  EXPECT_GE (same * 100, by_pcl.size () * 99);
+}
+
+// Selected points only, a point that is not finite, and a search method of the user's.
+TEST_F (FloaterClass, TheMethodOfTheReportTakesIndicesAndASearchMethod)
+{
+  const Cloud::Ptr cloud = heightField (3000);
+  pcl::IndicesPtr indices (new pcl::Indices);
+  for (pcl::index_t i = 0; i < static_cast<pcl::index_t> (cloud->size ()); ++i)
+    if ((*cloud)[i].x < 40.0F)
+      indices->push_back (i);
+  (*cloud)[(*indices)[10]].z = std::numeric_limits<float>::infinity ();
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setDiscOptions (DiscOptions::tw385 ());
+  floater.setInputCloud (cloud);
+  floater.setIndices (indices);
+  Polygons by_default, by_tree;
+  floater.reconstruct (by_default);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+  EXPECT_EQ (floater.getNonFiniteIndices (), pcl::Indices{(*indices)[10]});
+  floater.setSearchMethod (
+      pcl::search::Search<pcl::PointXYZ>::Ptr (new pcl::search::KdTree<pcl::PointXYZ>));
+  floater.reconstruct (by_tree);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+  EXPECT_EQ (by_tree.size (), by_default.size ());
+  for (const pcl::Vertices& polygon : by_default)
+    for (const pcl::index_t corner : polygon.vertices)
+      EXPECT_TRUE (std::binary_search (indices->begin (), indices->end (), corner));
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
