@@ -15,7 +15,7 @@ checkInput (const Input& input)
 {
   const std::vector<Index>& indices = input.cloud_index;
   const auto refused = [] (const std::string& why) {
-    return Problem{Status::INVALID_INDICES, why};
+    return Problem{RunStatus::INVALID_INDICES, why};
   };
   if (indices.size () != input.positions.size ())
     return refused ("there are " + std::to_string (input.positions.size ()) + " positions but " +

@@ -57,7 +57,7 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
 {
   const std::vector<Index> outliers =
       exceptLoop (findOutliers (points.positions, neighbors, request.run, request.limits.outliers),
-                  points, request.options.boundary.loop);
+                  points, request.options.disc.boundary.loop);
   if (outliers.empty ())
     return;
   const std::vector<Index> cloud_indices = removePoints (points, outliers);
@@ -77,7 +77,7 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSetti
     return {};
   Noise noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
   if (drops_scatter)
-    noise.scatter = exceptLoop (std::move (noise.scatter), points, options.boundary.loop);
+    noise.scatter = exceptLoop (std::move (noise.scatter), points, options.disc.boundary.loop);
   reportScatter (points, noise.scatter, report);
   if (drops_scatter && !noise.scatter.empty ()) {
     removePoints (points, noise.scatter);

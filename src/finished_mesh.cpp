@@ -68,7 +68,7 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
 {
   Report& report = result.report;
   if (mesh.triangles.empty ())
-    return {Status::DEGENERATE,
+    return {RunStatus::DEGENERATE,
             "no three points make a triangle of a surface: they lie along lines or curves, or each "
             "on its own; a surface needs points side by side"};
   Trimming trimming;

@@ -42,7 +42,7 @@ cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limi
   const GrossOutliers found = findGrossOutliers (input.positions, run, limits);
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};
-  std::vector<Index> given = options.boundary.loop;
+  std::vector<Index> given = options.disc.boundary.loop;
   std::sort (given.begin (), given.end ());
   const auto mayGo = [&] (Index row) {
     return options.remove_outliers &&

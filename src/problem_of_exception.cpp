@@ -18,22 +18,23 @@ problemOfException ()
     throw;
   }
   catch (const Cancelled&) {
-    return {Status::CANCELLED, "the run was cancelled by its caller"};
+    return {RunStatus::CANCELLED, "the run was cancelled by its caller"};
   }
   catch (const std::bad_alloc&) {
-    return {Status::OUT_OF_MEMORY, "not enough memory: use fewer points, or a machine with more"};
+    return {RunStatus::OUT_OF_MEMORY,
+            "not enough memory: use fewer points, or a machine with more"};
   }
   catch (const IndexLimitReached& limit) {
-    return {Status::OUT_OF_MEMORY, limit.what ()};
+    return {RunStatus::OUT_OF_MEMORY, limit.what ()};
   }
   catch (const std::length_error&) {
-    return {Status::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
+    return {RunStatus::OUT_OF_MEMORY, "an array would be too long: use fewer points"};
   }
   catch (const std::exception& error) {
-    return {Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
+    return {RunStatus::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ()};
   }
   catch (...) {
-    return {Status::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
+    return {RunStatus::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
   }
 }
 

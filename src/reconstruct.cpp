@@ -50,7 +50,7 @@ discSettings (const Points& points, const Request& request)
   settings.neighborhood = options.neighbors.kind;
   settings.stars.filter_sheets = options.filter_sheets;
   settings.stars.limits = limits.sheets;
-  settings.parameterization = {options.weighting, options.domain, options.solver};
+  settings.parameterization = {options.disc.weighting, options.disc.domain, options.disc.solver};
   settings.flip_edges = options.flip_edges;
   settings.facing = facingHints (points, request);
   settings.limits = limits.disc;
@@ -62,7 +62,7 @@ discSettings (const Points& points, const Request& request)
 Boundary
 findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  const BoundaryOptions& options = request.options.boundary;
+  const BoundaryOptions& options = request.options.disc.boundary;
   const Limits& limits = request.limits;
   request.run.beginStage (Stage::BOUNDARY);
   const bool is_given = !options.loop.empty ();
@@ -103,7 +103,7 @@ checkDisc (const MeshExamination& found, std::vector<Index> loop)
     is_right = found.loops.front ().points == loop;
   }
   return is_right ? Problem{}
-                  : Problem{Status::INTERNAL_ERROR,
+                  : Problem{RunStatus::INTERNAL_ERROR,
                             "the result is not one manifold disc within the boundary loop; "
                             "please report this with the cloud"};
 }
@@ -189,7 +189,7 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   if (is_doubtful && options.view.use != ViewUse::GIVEN)
     return {};
   if (surface.mesh.triangles.empty ())
-    return Problem{Status::INVALID_OPTION,
+    return Problem{RunStatus::INVALID_OPTION,
                    "no triangle is left of the view from the given viewpoint: the points hide each "
                    "other, or lie on one line as seen from there; give the place of the sensor, or "
                    "none"};
@@ -316,7 +316,7 @@ reconstruct (Input input, const Options& options)
 Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
 {
-  const auto failed = [] (Status status, const char* message) {
+  const auto failed = [] (RunStatus status, const char* message) {
     Result result;
     result.report.status = status;
     try {
@@ -328,16 +328,16 @@ reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
     return result;
   };
   if (positions.empty ())
-    return failed (Status::NO_INPUT, "the input cloud is empty");
+    return failed (RunStatus::NO_INPUT, "the input cloud is empty");
   if (positions.size () > std::numeric_limits<Index>::max ())
-    return failed (Status::OUT_OF_MEMORY,
+    return failed (RunStatus::OUT_OF_MEMORY,
                    "the cloud has more than 4294967295 points; reconstruct parts of it");
   Input input;
   try {
     input.cloud_index.resize (positions.size ());
   }
   catch (const std::bad_alloc&) {
-    return failed (Status::OUT_OF_MEMORY, "not enough memory for the indices of the points");
+    return failed (RunStatus::OUT_OF_MEMORY, "not enough memory for the indices of the points");
   }
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
   input.cloud_size = positions.size ();
@@ -367,10 +367,10 @@ reconstruct (Input input, const Options& options, const Limits& limits)
       problem = problemOfException ();
     }
     catch (...) {
-      problem = {Status::OUT_OF_MEMORY, NO_MEMORY};
+      problem = {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
     }
   }
-  if (problem.status == Status::CANCELLED) {
+  if (problem.status == RunStatus::CANCELLED) {
     Report cancelled;
     cancelled.statistics = result.report.statistics;
     result.report = std::move (cancelled); // nothing that takes memory

@@ -62,7 +62,7 @@ tooFarAway (Index cloud_index, const Eigen::Vector3d& position)
        << position.z ()
        << ") is so far away that double precision cannot hold it together with the others: take "
           "such points out of the cloud, or have outliers left out";
-  return {Status::DEGENERATE, text.str ()};
+  return {RunStatus::DEGENERATE, text.str ()};
 }
 
 void

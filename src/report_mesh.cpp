@@ -298,7 +298,7 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
         (report.is_view ? ", seen from one place" : "");
   report.statistics.folds = found.check.folds;
   if (!found.isManifold ())
-    return {Status::INTERNAL_ERROR,
+    return {RunStatus::INTERNAL_ERROR,
             "the result is not an oriented manifold: " +
                 std::to_string (found.check.nonmanifold_edges) + " edges and " +
                 std::to_string (found.check.nonmanifold_vertices) + " points are not manifold, " +
@@ -333,7 +333,7 @@ reportTrimming (const Points& points, const Trimming& trimming, std::size_t tria
   if (triangles_left > 0 || trimming.triangles == 0)
     return {};
   return {
-      Status::INVALID_OPTION,
+      RunStatus::INVALID_OPTION,
       "no triangle is left: every edge is longer than the maximum, every component smaller than "
       "the minimum, or every triangle crosses another one"};
 }

@@ -23,7 +23,7 @@ struct Request
 inline bool
 asksForDisc (const Options& options)
 {
-  return options.topology == Topology::DISC || !options.boundary.loop.empty ();
+  return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
 }
 
 } // namespace floater

@@ -50,9 +50,9 @@ areInBalls (Neighborhood kind)
 }
 
 void
-addBoundaryAndDomain (const Options& options, Sentences& sentences)
+addBoundaryAndDomain (const DiscOptions& options, Sentences& sentences)
 {
-  const Options defaults;
+  const DiscOptions defaults;
   const BoundaryOptions &boundary = options.boundary, &usual = defaults.boundary;
   const Change method{"the boundary method", boundary.method != usual.method};
   const Change angle{"the opening angle", boundary.opening_angle != usual.opening_angle};
@@ -86,9 +86,9 @@ addSolver (const SolverOptions& options, Sentences& sentences)
 
 // All that only the disc method reads.
 void
-addDisc (const Options& options, Sentences& sentences)
+addDisc (const DiscOptions& options, Sentences& sentences)
 {
-  const Options defaults;
+  const DiscOptions defaults;
   const BoundaryOptions& boundary = options.boundary;
   const DomainOptions& domain = options.domain;
   const SolverOptions& solver = options.solver;
@@ -119,8 +119,7 @@ addHoles (const HoleOptions& options, Sentences& sentences)
                    "only the hole policy KEEP_COUNT takes it");
   if (options.policy != HolePolicy::BY_SIZE)
     sentences.add ({{"the largest hole", options.largest_hole != defaults.largest_hole},
-                    {"the length of the largest hole",
-                     options.largest_hole_length != defaults.largest_hole_length}},
+                    {"the unit of the largest hole", options.unit != defaults.unit}},
                    "only the hole policy BY_SIZE takes it");
 }
 
@@ -159,11 +158,11 @@ describeUnusedOptions (const Options& options, const Report& report)
   Sentences sentences;
   addNeighbors (options, report, sentences);
   if (report.topology == Topology::DISC) {
-    addBoundaryAndDomain (options, sentences);
-    addSolver (options.solver, sentences);
+    addBoundaryAndDomain (options.disc, sentences);
+    addSolver (options.disc.solver, sentences);
   }
   else
-    addDisc (options, sentences);
+    addDisc (options.disc, sentences);
   addHoles (options.holes, sentences);
   return sentences.take ();
 }

@@ -12,7 +12,7 @@ namespace pcl
 namespace floater
 {
 /// A table would have more entries than its indices can count. The message says which one, and what
-/// to do. A run that meets it ends with Status::OUT_OF_MEMORY.
+/// to do. A run that meets it ends with RunStatus::OUT_OF_MEMORY.
 class IndexLimitReached : public std::length_error
 {
 public:

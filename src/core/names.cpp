@@ -38,42 +38,42 @@ stageName (Stage stage)
 }
 
 const char*
-statusName (Status status)
+statusName (RunStatus status)
 {
   switch (status) {
-  case Status::NOT_RUN:
+  case RunStatus::NOT_RUN:
     return "NOT_RUN";
-  case Status::OK:
-    return "OK";
-  case Status::NO_INPUT:
+  case RunStatus::SUCCESS:
+    return "SUCCESS";
+  case RunStatus::NO_INPUT:
     return "NO_INPUT";
-  case Status::INVALID_OPTION:
+  case RunStatus::INVALID_OPTION:
     return "INVALID_OPTION";
-  case Status::INVALID_INDICES:
+  case RunStatus::INVALID_INDICES:
     return "INVALID_INDICES";
-  case Status::TOO_FEW_POINTS:
+  case RunStatus::TOO_FEW_POINTS:
     return "TOO_FEW_POINTS";
-  case Status::DEGENERATE:
+  case RunStatus::DEGENERATE:
     return "DEGENERATE";
-  case Status::NO_BOUNDARY:
+  case RunStatus::NO_BOUNDARY:
     return "NO_BOUNDARY";
-  case Status::INVALID_LOOP:
+  case RunStatus::INVALID_LOOP:
     return "INVALID_LOOP";
-  case Status::UNREACHABLE:
+  case RunStatus::UNREACHABLE:
     return "UNREACHABLE";
-  case Status::NOT_A_DISC:
+  case RunStatus::NOT_A_DISC:
     return "NOT_A_DISC";
-  case Status::SINGULAR:
+  case RunStatus::SINGULAR:
     return "SINGULAR";
-  case Status::NOT_CONVERGED:
+  case RunStatus::NOT_CONVERGED:
     return "NOT_CONVERGED";
-  case Status::SOLVER_UNAVAILABLE:
+  case RunStatus::SOLVER_UNAVAILABLE:
     return "SOLVER_UNAVAILABLE";
-  case Status::CANCELLED:
+  case RunStatus::CANCELLED:
     return "CANCELLED";
-  case Status::OUT_OF_MEMORY:
+  case RunStatus::OUT_OF_MEMORY:
     return "OUT_OF_MEMORY";
-  case Status::INTERNAL_ERROR:
+  case RunStatus::INTERNAL_ERROR:
     return "INTERNAL_ERROR";
   }
   return "UNKNOWN";

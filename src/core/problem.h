@@ -10,13 +10,13 @@ namespace pcl
 {
 namespace floater
 {
-/// Status and one sentence for the user; Status::OK means that there is no problem.
+/// Status and one sentence for the user; RunStatus::SUCCESS means that there is no problem.
 struct Problem
 {
-  Status status = Status::OK;
+  RunStatus status = RunStatus::SUCCESS;
   std::string message;
 
-  explicit operator bool () const { return status != Status::OK; }
+  explicit operator bool () const { return status != RunStatus::SUCCESS; }
 };
 
 } // namespace floater

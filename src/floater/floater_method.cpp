@@ -16,7 +16,7 @@ namespace
 Problem
 describeFolds (const Disc& disc)
 {
-  return {Status::NOT_A_DISC,
+  return {RunStatus::NOT_A_DISC,
           std::to_string (disc.finish.folds) + " of " +
               std::to_string (disc.mesh.triangles.size () * 3 / 2) +
               " edges are folded: the surface is not one disc with one boundary (it may be closed, "

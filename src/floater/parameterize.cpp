@@ -49,20 +49,21 @@ describeOutcome (const Solution& solution)
   case Solution::Outcome::OK:
     return {};
   case Solution::Outcome::SINGULAR:
-    return {Status::SINGULAR,
+    return {RunStatus::SINGULAR,
             "the linear system is singular (" + solution.message + "); use a larger k"};
   case Solution::Outcome::NOT_CONVERGED:
-    return {Status::NOT_CONVERGED,
+    return {RunStatus::NOT_CONVERGED,
             solution.message + "; allow more iterations, or use a direct solver"};
   case Solution::Outcome::UNAVAILABLE:
-    return {Status::SOLVER_UNAVAILABLE, solution.message};
+    return {RunStatus::SOLVER_UNAVAILABLE, solution.message};
   case Solution::Outcome::OUT_OF_MEMORY:
-    return {Status::OUT_OF_MEMORY, "not enough memory for the factorization (" + solution.message +
-                                       "): use fewer points, or a machine with more memory"};
+    return {RunStatus::OUT_OF_MEMORY, "not enough memory for the factorization (" +
+                                          solution.message +
+                                          "): use fewer points, or a machine with more memory"};
   case Solution::Outcome::FAILED:
     break;
   }
-  return {Status::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
+  return {RunStatus::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
 }
 
 } // namespace
@@ -86,7 +87,7 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   const double reached = static_cast<double> (positions.size () - result.unreachable);
   if (reached < limits.least_reached_share * static_cast<double> (positions.size ())) {
     result.problem = {
-        Status::UNREACHABLE,
+        RunStatus::UNREACHABLE,
         std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
             " points do not connect to the boundary loop: the cloud has several components, or "
             "gaps much wider than its spacing; reconstruct its components one by one, or use a "

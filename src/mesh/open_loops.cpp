@@ -110,8 +110,7 @@ chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgeme
   case HolePolicy::BY_SIZE:
     for (BoundaryLoop& loop : loops)
       loop.keep_open =
-          (holes.largest_hole > 0.0 && loop.width > holes.largest_hole * loop.spacing) ||
-          (holes.largest_hole_length > 0.0 && loop.width > holes.largest_hole_length * unit);
+          loop.width > holes.largest_hole * (holes.unit == LengthUnit::CLOUD ? unit : loop.spacing);
     return;
   case HolePolicy::AUTO:
     for (std::size_t i = 0; i < loops.size (); ++i)

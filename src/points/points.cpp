@@ -212,16 +212,16 @@ checkPoints (const Points& points)
   constexpr std::size_t FEWEST = 4;
   const std::size_t n = points.positions.size ();
   if (n < FEWEST)
-    return {Status::TOO_FEW_POINTS, "only " + std::to_string (n) +
-                                        " distinct finite points; at least " +
-                                        std::to_string (FEWEST) + " are needed"};
+    return {RunStatus::TOO_FEW_POINTS, "only " + std::to_string (n) +
+                                           " distinct finite points; at least " +
+                                           std::to_string (FEWEST) + " are needed"};
   PlaneFit fit;
   for (const Eigen::Vector3d& position : points.positions)
     fit.add (position - points.positions.front ());
   const Eigen::Vector3d spread = fit.principalAxes ().spread;
   // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
   if (spread[1] < 1e-6 * spread[2] && isLineSeenFromWithin (points.positions))
-    return {Status::DEGENERATE,
+    return {RunStatus::DEGENERATE,
             "all points lie on one line; a surface needs points in two directions"};
   return {};
 }

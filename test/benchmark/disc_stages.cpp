@@ -36,13 +36,13 @@ runStages (const std::string& name, const Cloud& cloud, const Options& options)
   star_settings.filter_sheets = options.filter_sheets;
   disc.geometry = makeLocalGeometry (disc.points, std::move (neighbors), star_settings, run);
   run.beginStage (Stage::BOUNDARY);
-  disc.boundary = findBoundary (disc.points, disc.geometry, options.boundary, run);
+  disc.boundary = findBoundary (disc.points, disc.geometry, options.disc.boundary, run);
   checkBoundary (disc.points, disc.geometry.spacing, false, disc.boundary);
   if (disc.boundary.problem)
     throw std::runtime_error (name + ": " + disc.boundary.problem.message);
   run.beginStage (Stage::WEIGHTS);
   const Stars stars = std::move (disc.geometry.stars);
-  const std::vector<double> weights = computeWeights (stars, options.weighting, run);
+  const std::vector<double> weights = computeWeights (stars, options.disc.weighting, run);
   // Points that the library would link back to the loop are left out here: with no candidates for
   // links, reachable is what the stars themselves reach.
   CsrLists no_links;
@@ -52,7 +52,7 @@ runStages (const std::string& name, const Cloud& cloud, const Options& options)
       reachLoop (stars.neighbors, no_links, disc.points.positions, loop, run);
   disc.left_out = static_cast<std::size_t> (
       std::count (reach.reachable.begin (), reach.reachable.end (), std::uint8_t{0}));
-  disc.loop_uv = layLoop (disc.points.positions, loop, options.domain);
+  disc.loop_uv = layLoop (disc.points.positions, loop, options.disc.domain);
   disc.system = assembleSystem (stars.neighbors, weights, loop, disc.loop_uv, reach.reachable, run);
   monitor.stopClock ();
   disc.geometry.stars = {};

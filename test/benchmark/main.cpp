@@ -78,7 +78,8 @@ makeSample (const std::filesystem::path& path, const Settings& settings)
   options.topology = Topology::DISC;
   options.threads = settings.threads;
   sample.disc = runStages (path.stem ().string (), sample.cloud, options);
-  const Solution solution = solve (sample.disc.system, options.solver, nullptr, options.threads);
+  const Solution solution =
+      solve (sample.disc.system, options.disc.solver, nullptr, options.threads);
   if (solution.outcome != Solution::Outcome::OK)
     throw std::runtime_error (sample.disc.name + ": " + solution.message);
   sample.direct = parametersOf (sample.disc, solution.uv);

@@ -80,7 +80,7 @@ public:
         Options options;
         options.topology = Topology::DISC;
         options.neighbors.kind = neighborhood.choice;
-        options.weighting = weighting.choice;
+        options.disc.weighting = weighting.choice;
         options.threads = settings_.threads;
         options.flip_edges = false;
         const Result plain = run (sample.cloud, options);
@@ -88,7 +88,8 @@ public:
         const Result flipped = run (sample.cloud, options);
         std::vector<std::string> row{first ? sample.disc.name : "", neighborhood.name,
                                      weighting.name};
-        if (plain.report.status == Status::OK && flipped.report.status == Status::OK)
+        if (plain.report.status == RunStatus::SUCCESS &&
+            flipped.report.status == RunStatus::SUCCESS)
           row.insert (row.end (),
                       {recall (plain), recall (flipped), turned (plain), turned (flipped),
                        scientific (smallestDistance (plain.report.parameters))});

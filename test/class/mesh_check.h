@@ -156,7 +156,7 @@ runWell (pcl::FloaterReconstruction<PointT>& floater)
       << printed;
   for (const std::string& warning : warnings)
     EXPECT_NE (printed.find (LINE_START + warning + '\n'), std::string::npos) << printed;
-  EXPECT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
   EXPECT_EQ (floater.getMessage (), "");
   return trianglesOf (polygons);
 }
@@ -175,7 +175,7 @@ runDisc (pcl::FloaterReconstruction<PointT>& floater, const std::set<pcl::index_
 /// mesh, and one line of error on the console.
 template <typename PointT>
 void
-expectFailure (pcl::FloaterReconstruction<PointT>& floater, Status status)
+expectFailure (pcl::FloaterReconstruction<PointT>& floater, RunStatus status)
 {
   const auto expect_error = [&] {
     const std::string error = testing::internal::GetCapturedStderr ();

@@ -26,5 +26,18 @@ struct Choice
         [] (const Floater& floater) { return floater.get##parameter () == (value); }   \
   }
 
+/// The same for a field of the options that only a disc takes.
+#define DISC_CHOICE(field, new_value)                                                              \
+  Choice                                                                                           \
+  {                                                                                                \
+    "disc " #field " " #new_value,                                                                 \
+        [] (Floater& floater) {                                                                    \
+          DiscOptions options = floater.getDiscOptions ();                                         \
+          options.field = new_value;                                                               \
+          floater.setDiscOptions (options);                                                        \
+        },                                                                                         \
+        [] (const Floater& floater) { return floater.getDiscOptions ().field == new_value; }       \
+  }
+
 } // namespace floater
 } // namespace pcl

@@ -2,6 +2,8 @@
 // Callbacks of FloaterReconstruction: stages, progress, cancellation.
 #include "mesh_check.h"
 
+#include <pcl/console/print.h>
+
 #include <stdexcept>
 
 namespace pcl
@@ -24,10 +26,10 @@ TEST_F (FloaterClass, CallsBackForEachStage)
   EXPECT_EQ (stages, all);
 
   floater.setStageCallback ([] (Stage) { throw std::runtime_error ("enough of this"); });
-  expectFailure (floater, Status::INTERNAL_ERROR);
+  expectFailure (floater, RunStatus::INTERNAL_ERROR);
   EXPECT_NE (floater.getMessage ().find ("enough of this"), std::string::npos);
   floater.setStageCallback ([] (Stage) { throw 1; });
-  expectFailure (floater, Status::INTERNAL_ERROR);
+  expectFailure (floater, RunStatus::INTERNAL_ERROR);
   floater.setStageCallback (nullptr);
   runWell (floater);
 }
@@ -45,10 +47,28 @@ TEST_F (FloaterClass, ReportsProgressAndCanBeCancelled)
   floater.setCancelledCallback ([&done] { return done > 0.1; });
   ASSERT_TRUE (floater.getCancelledCallback ());
   done = 0.0;
-  expectFailure (floater, Status::CANCELLED);
+  expectFailure (floater, RunStatus::CANCELLED);
   EXPECT_GT (done, 0.0);
   EXPECT_LT (done, 1.0);
   EXPECT_NE (floater.getMessage ().find ("cancelled"), std::string::npos);
+
+  // That is no error: who wants to see errors only sees nothing.
+  const auto printed = [&floater] {
+    pcl::PolygonMesh mesh;
+    testing::internal::CaptureStderr ();
+    floater.reconstruct (mesh);
+    return testing::internal::GetCapturedStderr ();
+  };
+  const pcl::console::VERBOSITY_LEVEL level = pcl::console::getVerbosityLevel ();
+  pcl::console::setVerbosityLevel (pcl::console::L_ERROR);
+  done = 0.0;
+  EXPECT_EQ (printed (), "");
+  EXPECT_EQ (floater.getStatus (), RunStatus::CANCELLED);
+  floater.setNumberOfBlocks (-1);
+  EXPECT_NE (printed (), "");
+  floater.setNumberOfBlocks (0);
+  pcl::console::setVerbosityLevel (level);
+
   floater.setCancelledCallback (nullptr);
   runWell (floater);
 }

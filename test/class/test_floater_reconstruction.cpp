@@ -120,7 +120,7 @@ TEST_F (FloaterClass, KeepsAllFields)
   floater.setInputCloud (cloud);
   pcl::PolygonMesh mesh;
   floater.reconstruct (mesh);
-  ASSERT_EQ (floater.getStatus (), Status::OK);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS);
   expectDisc (trianglesOf (mesh.polygons), allOf (cloud->size ()), floater.getBoundaryLoop ());
   pcl::PointCloud<pcl::PointXYZRGBNormal> points;
   pcl::fromPCLPointCloud2 (mesh.cloud, points);
@@ -160,7 +160,7 @@ TEST_F (FloaterClass, IndicesSelectAndPolygonsCountInTheWholeCloud)
   Cloud points;
   Polygons polygons;
   floater.reconstruct (points, polygons);
-  ASSERT_EQ (floater.getStatus (), Status::OK);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS);
   EXPECT_EQ (points.size (), cloud->size ());
   const Triangles triangles = trianglesOf (polygons);
   EXPECT_TRUE (triangles == expected || turnedOver (triangles) == expected);
@@ -191,11 +191,11 @@ TEST_F (FloaterClass, RefusesIndicesOutsideTheCloud)
     std::iota (indices->begin (), indices->end (), 0);
     indices->push_back (outside);
     floater.setIndices (indices);
-    expectFailure (floater, Status::INVALID_INDICES);
+    expectFailure (floater, RunStatus::INVALID_INDICES);
     EXPECT_NE (floater.getMessage ().find (std::to_string (outside)), std::string::npos);
   }
   floater.setIndices (pcl::IndicesPtr (new pcl::Indices));
-  expectFailure (floater, Status::TOO_FEW_POINTS);
+  expectFailure (floater, RunStatus::TOO_FEW_POINTS);
   floater.setIndices (pcl::IndicesPtr ());
   runDisc (floater, allOf (100));
 }
@@ -227,14 +227,14 @@ TEST_F (FloaterClass, LeavesOutNonFiniteAndDuplicatePoints)
 TEST_F (FloaterClass, RefusesNoInput)
 {
   Floater floater;
-  expectFailure (floater, Status::NO_INPUT);
+  expectFailure (floater, RunStatus::NO_INPUT);
   EXPECT_EQ (floater.getSearchMethod (), nullptr);
   floater.setInputCloud (Cloud::Ptr (new Cloud));
-  expectFailure (floater, Status::NO_INPUT);
+  expectFailure (floater, RunStatus::NO_INPUT);
   floater.setInputCloud (heightField (100));
   runWell (floater);
   floater.setInputCloud (nullptr);
-  expectFailure (floater, Status::NO_INPUT);
+  expectFailure (floater, RunStatus::NO_INPUT);
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
 }
 
@@ -242,19 +242,19 @@ TEST_F (FloaterClass, RefusesWhatIsNoDisc)
 {
   Floater floater;
   floater.setInputCloud (makeCloud<pcl::PointXYZ> (SurfaceKind::SPHERE, 500));
-  expectFailure (floater, Status::NO_BOUNDARY);
+  expectFailure (floater, RunStatus::NO_BOUNDARY);
 
   const Cloud::Ptr line (new Cloud);
   for (int i = 0; i < 50; ++i)
     line->push_back (pcl::PointXYZ (static_cast<float> (i), 0.0F, 0.0F));
   floater.setInputCloud (line);
-  expectFailure (floater, Status::DEGENERATE);
+  expectFailure (floater, RunStatus::DEGENERATE);
 
   line->resize (3);
-  expectFailure (floater, Status::TOO_FEW_POINTS);
+  expectFailure (floater, RunStatus::TOO_FEW_POINTS);
   const Cloud::Ptr nothing (new Cloud (10, 10, pcl::PointXYZ (NOWHERE, NOWHERE, NOWHERE)));
   floater.setInputCloud (nothing);
-  expectFailure (floater, Status::TOO_FEW_POINTS);
+  expectFailure (floater, RunStatus::TOO_FEW_POINTS);
 }
 
 TEST_F (FloaterClass, WarnsOfPointsApart)
@@ -288,7 +288,7 @@ TEST_F (FloaterClass, AcceptsOrganizedClouds)
   Cloud points;
   Polygons polygons;
   floater.reconstruct (points, polygons);
-  ASSERT_EQ (floater.getStatus (), Status::OK);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS);
   EXPECT_EQ (points.width, 30U);
   EXPECT_EQ (points.height, 20U);
   expectDisc (trianglesOf (polygons), valid, floater.getBoundaryLoop ());
@@ -307,12 +307,12 @@ TEST_F (FloaterClass, ServesOneCloudAfterAnother)
   };
   const Triangles of_large = alone (large);
   Floater floater;
-  EXPECT_EQ (floater.getStatus (), Status::NOT_RUN);
+  EXPECT_EQ (floater.getStatus (), RunStatus::NOT_RUN);
   const Cloud::Ptr line (new Cloud (10, 1, pcl::PointXYZ (1.0F, 2.0F, 3.0F)));
   for (const Cloud::Ptr& cloud : {large, small, line, organized, large, small, large}) {
     floater.setInputCloud (cloud);
     if (cloud == line)
-      expectFailure (floater, Status::TOO_FEW_POINTS);
+      expectFailure (floater, RunStatus::TOO_FEW_POINTS);
     else
       EXPECT_EQ (runWell (floater), alone (cloud));
   }

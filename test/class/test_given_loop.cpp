@@ -58,6 +58,43 @@ TEST_F (FloaterClass, TakesTheUsersLoop)
   EXPECT_EQ (runWell (floater), expected);
 }
 
+// The loop is one of the options of a disc; the later of its two setters counts.
+TEST_F (FloaterClass, AGivenLoopIsAnOptionOfADisc)
+{
+  Floater floater;
+  floater.setInputCloud (heightField ());
+  const Triangles expected = runWell (floater);
+  const pcl::Indices loop = floater.getBoundaryLoop ();
+  DiscOptions options;
+  options.boundary.loop.assign (loop.begin (), loop.end ());
+  floater.setDiscOptions (options);
+  EXPECT_EQ (floater.getPrescribedLoop (), loop);
+  floater.setTopology (Topology::AUTO);
+  EXPECT_EQ (runWell (floater), expected);
+  EXPECT_EQ (floater.getReport ().topology, Topology::DISC);
+
+  pcl::Indices shorter (loop.begin () + 1, loop.end ());
+  floater.setPrescribedLoop (shorter);
+  EXPECT_EQ (floater.getDiscOptions ().boundary.loop,
+             std::vector<std::uint32_t> (shorter.begin (), shorter.end ()));
+  options = floater.getDiscOptions ();
+  options.weighting = Weighting::UNIFORM;
+  floater.setDiscOptions (options);
+  EXPECT_EQ (floater.getPrescribedLoop (), shorter);
+  runWell (floater);
+  EXPECT_EQ (floater.getBoundaryLoop ().size (), shorter.size ());
+
+  floater.setDiscOptions ({});
+  EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
+  runWell (floater);
+  EXPECT_EQ (floater.getReport ().topology, Topology::SURFACE);
+  // An index that the type of the core has not is refused, also on its way through the options.
+  floater.setPrescribedLoop ({loop[0], loop[1], -1});
+  floater.setDiscOptions (floater.getDiscOptions ());
+  expectFailure (floater, RunStatus::INVALID_LOOP);
+  EXPECT_NE (floater.getMessage ().find ("point -1 of"), std::string::npos);
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

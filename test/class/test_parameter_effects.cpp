@@ -23,7 +23,7 @@ TEST_F (FloaterClass, LongEdgesAreCutOff)
     floater.reconstruct (whole);
     floater.setMaximumEdgeLength (1.5);
     floater.reconstruct (mesh);
-    ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+    ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
     EXPECT_GT (floater.getStatistics ().trimmed_triangles, 0U);
     EXPECT_EQ (mesh.polygons.size () + floater.getStatistics ().trimmed_triangles,
                whole.polygons.size ());
@@ -36,7 +36,7 @@ TEST_F (FloaterClass, LongEdgesAreCutOff)
       }
     floater.setMaximumEdgeRatio (-1.0);
     floater.reconstruct (mesh);
-    EXPECT_EQ (floater.getStatus (), Status::INVALID_OPTION);
+    EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
     EXPECT_TRUE (mesh.polygons.empty ());
   }
 }
@@ -54,7 +54,7 @@ TEST_F (FloaterClass, AGrossOutlierDoesNotHarmBalls)
   with_outlier->push_back (pcl::PointXYZ (std::numeric_limits<float>::max (), 0.0F, 0.0F));
   floater.setInputCloud (with_outlier);
   floater.reconstruct (mesh);
-  ASSERT_EQ (floater.getStatus (), Status::OK) << floater.getMessage ();
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
   EXPECT_EQ (floater.getOutlierIndices (), pcl::Indices (1, 500));
   ASSERT_EQ (mesh.polygons.size (), expected.polygons.size ());
   for (std::size_t t = 0; t < mesh.polygons.size (); ++t)
@@ -95,10 +95,13 @@ TEST_F (FloaterClass, ParametersChangeTheRun)
   floater.setInputCloud (heightField ());
   runWell (floater);
   const std::vector<Eigen::Vector2d> on_circle = floater.getParameters ();
-  floater.setWeighting (Weighting::UNIFORM);
+  DiscOptions options;
+  options.weighting = Weighting::UNIFORM;
+  floater.setDiscOptions (options);
   runWell (floater);
   EXPECT_NE (floater.getParameters (), on_circle);
-  floater.setWeighting (Weighting::MEAN_VALUE);
+  options.weighting = Weighting::MEAN_VALUE;
+  floater.setDiscOptions (options);
   floater.setFlipEdges (false);
   runWell (floater);
   EXPECT_EQ (floater.getParameters (), on_circle);
@@ -106,8 +109,9 @@ TEST_F (FloaterClass, ParametersChangeTheRun)
 
   // Border points lie on the domain. On a triangle they are at least half as far from the centre as
   // its corners, on the circle all equally far.
-  floater.setDomain (Domain::POLYGON);
-  floater.setPolygonSides (3);
+  options.domain.curve = Domain::POLYGON;
+  options.domain.polygon_sides = 3;
+  floater.setDiscOptions (options);
   runWell (floater);
   double nearest = 1.0;
   for (const pcl::index_t i : floater.getBoundaryLoop ())
@@ -123,19 +127,22 @@ TEST_F (FloaterClass, TwoSegmentsFollowTheClusterParameters)
   // The border of 500 points is sparse: the distance that suits a real scan is too short for it.
   Floater floater;
   floater.setInputCloud (heightField ());
-  floater.setBoundaryMethod (BoundaryMethod::TWO_SEGMENTS);
-  floater.setClusterTolerance (0.2);
+  DiscOptions options;
+  options.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+  options.boundary.cluster_tolerance = 0.2;
+  floater.setDiscOptions (options);
   runDisc (floater, allOf (500));
-  EXPECT_EQ (floater.getBoundaryMethod (), BoundaryMethod::TWO_SEGMENTS);
   const std::size_t whole = floater.getBoundaryLoop ().size ();
   EXPECT_EQ (floater.getStatistics ().boundary_candidates, whole);
 
-  floater.setOpeningAngle (140.0); // more points see a sector as wide as that
+  options.boundary.opening_angle = 140.0; // more points see a sector as wide as that
+  floater.setDiscOptions (options);
   runDisc (floater, allOf (500));
   EXPECT_GT (floater.getBoundaryLoop ().size (), whole);
 
   // A cluster that may not grow so far holds only a part of the border.
-  const auto expect_less = [&floater, whole] {
+  const auto expect_less = [&] {
+    floater.setDiscOptions (options);
     Cloud points;
     Polygons polygons;
     testing::internal::CaptureStderr ();
@@ -144,11 +151,11 @@ TEST_F (FloaterClass, TwoSegmentsFollowTheClusterParameters)
     EXPECT_LT (floater.getBoundaryLoop ().size (), whole);
     EXPECT_EQ (floater.getStatistics ().boundary_candidates, whole);
   };
-  floater.setOpeningAngle (160.0);
-  floater.setClusterTolerance (0.05);
+  options.boundary.opening_angle = 160.0;
+  options.boundary.cluster_tolerance = 0.05;
   expect_less ();
-  floater.setClusterTolerance (0.2);
-  floater.setClusterK (1);
+  options.boundary.cluster_tolerance = 0.2;
+  options.boundary.cluster_k = 1;
   expect_less ();
 }
 
@@ -161,13 +168,13 @@ TEST_F (FloaterClass, ThreadsDoNotChangeTheResult)
   Polygons polygons;
   floater.setNumberOfThreads (1);
   floater.reconstruct (points, polygons);
-  ASSERT_EQ (floater.getStatus (), Status::OK);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS);
   const std::vector<Eigen::Vector2d> parameters = floater.getParameters ();
   const pcl::Indices loop = floater.getBoundaryLoop ();
-  for (const int threads : {2, 5, 0}) {
+  for (const unsigned int threads : {2U, 5U, 0U}) {
     SCOPED_TRACE (threads);
     floater.setNumberOfThreads (threads);
-    floater.setNumberOfBlocks (threads);
+    floater.setNumberOfBlocks (static_cast<int> (threads));
     Polygons again;
     floater.reconstruct (points, again);
     ASSERT_EQ (again.size (), polygons.size ());

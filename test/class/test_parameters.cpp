@@ -16,7 +16,7 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getHolePolicy (), defaults.holes.policy);
   EXPECT_EQ (floater.getKeptLoops (), defaults.holes.kept_loops);
   EXPECT_EQ (floater.getLargestHole (), defaults.holes.largest_hole);
-  EXPECT_EQ (floater.getLargestHoleLength (), defaults.holes.largest_hole_length);
+  EXPECT_EQ (floater.getLargestHoleUnit (), defaults.holes.unit);
   EXPECT_EQ (floater.getMaximumEdgeLength (), defaults.trimming.maximum_edge_length);
   EXPECT_EQ (floater.getMaximumEdgeRatio (), defaults.trimming.maximum_edge_ratio);
   EXPECT_EQ (floater.getMinimumComponentSize (), defaults.trimming.minimum_component_size);
@@ -24,35 +24,37 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getScatterPolicy (), defaults.scatter);
   EXPECT_EQ (floater.getOpenSelfIntersections (), defaults.trimming.open_self_intersections);
   EXPECT_EQ (floater.getDenoise (), defaults.denoise);
-  EXPECT_EQ (floater.getKNearest (), defaults.neighbors.k);
-  EXPECT_EQ (floater.getOpeningAngle (), defaults.boundary.opening_angle);
-  EXPECT_EQ (floater.getClusterTolerance (), defaults.boundary.cluster_tolerance);
-  EXPECT_EQ (floater.getClusterK (), defaults.boundary.cluster_k);
-  EXPECT_EQ (floater.getBoundaryMethod (), defaults.boundary.method);
-  EXPECT_EQ (floater.getDomain (), defaults.domain.curve);
-  EXPECT_EQ (floater.getPolygonSides (), defaults.domain.polygon_sides);
-  EXPECT_EQ (floater.getWeighting (), defaults.weighting);
+  EXPECT_EQ (floater.getKSearch (), defaults.neighbors.k);
+  EXPECT_EQ (floater.getDiscOptions ().boundary.opening_angle,
+             defaults.disc.boundary.opening_angle);
+  EXPECT_EQ (floater.getDiscOptions ().boundary.cluster_tolerance,
+             defaults.disc.boundary.cluster_tolerance);
+  EXPECT_EQ (floater.getDiscOptions ().boundary.cluster_k, defaults.disc.boundary.cluster_k);
+  EXPECT_EQ (floater.getDiscOptions ().boundary.method, defaults.disc.boundary.method);
+  EXPECT_EQ (floater.getDiscOptions ().domain.curve, defaults.disc.domain.curve);
+  EXPECT_EQ (floater.getDiscOptions ().domain.polygon_sides, defaults.disc.domain.polygon_sides);
+  EXPECT_EQ (floater.getDiscOptions ().weighting, defaults.disc.weighting);
   EXPECT_EQ (floater.getNeighborhood (), defaults.neighbors.kind);
   EXPECT_EQ (floater.getBallRadius (), defaults.neighbors.ball_radius);
-  EXPECT_EQ (floater.getLoopSpacing (), defaults.domain.loop_spacing);
-  EXPECT_EQ (floater.getSolver (), defaults.solver.method);
-  EXPECT_EQ (floater.getOrdering (), defaults.solver.ordering);
-  EXPECT_EQ (floater.getTolerance (), defaults.solver.tolerance);
-  EXPECT_EQ (floater.getMaxIterations (), defaults.solver.max_iterations);
-  EXPECT_EQ (floater.getIlutFill (), defaults.solver.ilut_fill);
-  EXPECT_EQ (floater.getIlutDropTolerance (), defaults.solver.ilut_drop);
+  EXPECT_EQ (floater.getDiscOptions ().domain.loop_spacing, defaults.disc.domain.loop_spacing);
+  EXPECT_EQ (floater.getDiscOptions ().solver.method, defaults.disc.solver.method);
+  EXPECT_EQ (floater.getDiscOptions ().solver.ordering, defaults.disc.solver.ordering);
+  EXPECT_EQ (floater.getDiscOptions ().solver.tolerance, defaults.disc.solver.tolerance);
+  EXPECT_EQ (floater.getDiscOptions ().solver.max_iterations, defaults.disc.solver.max_iterations);
+  EXPECT_EQ (floater.getDiscOptions ().solver.ilut_fill, defaults.disc.solver.ilut_fill);
+  EXPECT_EQ (floater.getDiscOptions ().solver.ilut_drop, defaults.disc.solver.ilut_drop);
   EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
   EXPECT_EQ (floater.getRemoveSelfIntersections (), defaults.remove_self_intersections);
-  EXPECT_EQ (floater.getNumberOfThreads (), defaults.threads);
+  EXPECT_EQ (floater.getNumberOfThreads (), 0U);
   EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
   EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
   EXPECT_FALSE (floater.getStageCallback ());
   EXPECT_FALSE (floater.getProgressCallback ());
   EXPECT_FALSE (floater.getCancelledCallback ());
 
-  EXPECT_EQ (floater.getStatus (), Status::NOT_RUN);
-  EXPECT_EQ (floater.getReport ().status, Status::NOT_RUN);
+  EXPECT_EQ (floater.getStatus (), RunStatus::NOT_RUN);
+  EXPECT_EQ (floater.getReport ().status, RunStatus::NOT_RUN);
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
   EXPECT_TRUE (floater.getParameters ().empty ());
   EXPECT_TRUE (floater.getOutlierIndices ().empty ());
@@ -67,7 +69,12 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (HolePolicy, HolePolicy::KEEP_LARGEST),
       CHOICE (KeptLoops, 3),
       CHOICE (LargestHole, 5.0),
-      CHOICE (LargestHoleLength, 0.5),
+      {"LargestHole 0.5, CLOUD",
+       [] (Floater& floater) { floater.setLargestHole (0.5, LengthUnit::CLOUD); },
+       [] (const Floater& floater) {
+         return floater.getLargestHole () == 0.5 &&
+                floater.getLargestHoleUnit () == LengthUnit::CLOUD;
+       }},
       CHOICE (MaximumEdgeLength, 100.0),
       CHOICE (MaximumEdgeRatio, 100.0),
       CHOICE (MinimumComponentSize, 10),
@@ -75,39 +82,39 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (ScatterPolicy, ScatterPolicy::DROP),
       CHOICE (OpenSelfIntersections, true),
       CHOICE (Denoise, false),
-      CHOICE (BoundaryMethod, BoundaryMethod::CONSENSUS),
-      CHOICE (KNearest, 12),
-      CHOICE (OpeningAngle, 150.0),
-      CHOICE (ClusterTolerance, 0.07),
-      CHOICE (ClusterK, 12),
-      CHOICE (Domain, Domain::SQUARE),
-      CHOICE (Domain, Domain::POLYGON),
-      CHOICE (PolygonSides, 5),
-      CHOICE (Weighting, Weighting::UNIFORM),
-      CHOICE (Weighting, Weighting::INVERSE_DISTANCE),
-      CHOICE (Weighting, Weighting::SHAPE_PRESERVING),
-      CHOICE (Ordering, Ordering::AMD),
-      CHOICE (Ordering, Ordering::METIS),
-      CHOICE (Ordering, Ordering::REVERSE_CUTHILL_MCKEE),
-      CHOICE (Ordering, Ordering::NATURAL),
+      DISC_CHOICE (boundary.method, BoundaryMethod::CONSENSUS),
+      CHOICE (KSearch, 12),
+      DISC_CHOICE (boundary.opening_angle, 150.0),
+      DISC_CHOICE (boundary.cluster_tolerance, 0.07),
+      DISC_CHOICE (boundary.cluster_k, 12),
+      DISC_CHOICE (domain.curve, Domain::SQUARE),
+      DISC_CHOICE (domain.curve, Domain::POLYGON),
+      DISC_CHOICE (domain.polygon_sides, 5),
+      DISC_CHOICE (weighting, Weighting::UNIFORM),
+      DISC_CHOICE (weighting, Weighting::INVERSE_DISTANCE),
+      DISC_CHOICE (weighting, Weighting::SHAPE_PRESERVING),
+      DISC_CHOICE (solver.ordering, Ordering::AMD),
+      DISC_CHOICE (solver.ordering, Ordering::METIS),
+      DISC_CHOICE (solver.ordering, Ordering::REVERSE_CUTHILL_MCKEE),
+      DISC_CHOICE (solver.ordering, Ordering::NATURAL),
       CHOICE (Neighborhood, Neighborhood::NEAREST),
       CHOICE (Neighborhood, Neighborhood::BALL_DELAUNAY),
       CHOICE (Neighborhood, Neighborhood::BALL),
       CHOICE (BallRadius, 3.0),
-      CHOICE (Domain, Domain::OWN_SHAPE),
-      CHOICE (LoopSpacing, LoopSpacing::CENTRIPETAL),
-      CHOICE (LoopSpacing, LoopSpacing::UNIFORM),
-      CHOICE (Solver, Solver::UMFPACK_UNSYMMETRIC),
-      CHOICE (Solver, Solver::EIGEN_SPARSE_LU),
-      CHOICE (Solver, Solver::BICGSTAB_ILUT),
-      CHOICE (Tolerance, 1e-12),
-      CHOICE (MaxIterations, 500),
-      CHOICE (IlutFill, 10),
-      CHOICE (IlutDropTolerance, 1e-3),
+      DISC_CHOICE (domain.curve, Domain::OWN_SHAPE),
+      DISC_CHOICE (domain.loop_spacing, LoopSpacing::CENTRIPETAL),
+      DISC_CHOICE (domain.loop_spacing, LoopSpacing::UNIFORM),
+      DISC_CHOICE (solver.method, Solver::UMFPACK_UNSYMMETRIC),
+      DISC_CHOICE (solver.method, Solver::EIGEN_SPARSE_LU),
+      DISC_CHOICE (solver.method, Solver::BICGSTAB_ILUT),
+      DISC_CHOICE (solver.tolerance, 1e-12),
+      DISC_CHOICE (solver.max_iterations, 500),
+      DISC_CHOICE (solver.ilut_fill, 10),
+      DISC_CHOICE (solver.ilut_drop, 1e-3),
       CHOICE (FilterSheets, false),
       CHOICE (FlipEdges, false),
       CHOICE (RemoveSelfIntersections, false),
-      CHOICE (NumberOfThreads, 1),
+      CHOICE (NumberOfThreads, 1U),
   };
   const Cloud::Ptr cloud = heightField ();
   for (const Choice& choice : choices) {
@@ -159,11 +166,11 @@ TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
   floater.setInputCloud (cloud);
   floater.setTopology (Topology::AUTO);
   floater.setHolePolicy (HolePolicy::BY_SIZE); // without a size
-  expectFailure (floater, Status::INVALID_OPTION);
+  expectFailure (floater, RunStatus::INVALID_OPTION);
   floater.setHolePolicy (HolePolicy::AUTO);
   floater.setTopology (Topology::SURFACE);
   floater.setPrescribedLoop ({0, 1, 2});
-  expectFailure (floater, Status::INVALID_OPTION);
+  expectFailure (floater, RunStatus::INVALID_OPTION);
 }
 
 } // namespace

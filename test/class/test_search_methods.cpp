@@ -107,7 +107,7 @@ TEST_F (FloaterClass, LetsNoExceptionOut)
   Floater floater;
   floater.setInputCloud (heightField (100));
   floater.setSearchMethod (Search::Ptr (new ThrowingSearch));
-  expectFailure (floater, Status::INTERNAL_ERROR);
+  expectFailure (floater, RunStatus::INTERNAL_ERROR);
   EXPECT_NE (floater.getMessage ().find ("the disk is full"), std::string::npos);
   floater.setSearchMethod (nullptr);
   runWell (floater);

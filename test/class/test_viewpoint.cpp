@@ -43,7 +43,7 @@ protected:
   {
     pcl::PolygonMesh mesh;
     floater_.reconstruct (mesh);
-    EXPECT_EQ (floater_.getStatus (), Status::OK) << floater_.getMessage ();
+    EXPECT_EQ (floater_.getStatus (), RunStatus::SUCCESS) << floater_.getMessage ();
     return floater_.getReport ();
   }
 
@@ -86,7 +86,7 @@ TEST_F (ViewpointOfTheClass, ASheetFacesTheSensorOfItsCloud)
     cloud->sensor_origin_ = {0.5F, 0.5F, height, 0.0F};
     pcl::PolygonMesh mesh;
     floater_.reconstruct (mesh);
-    ASSERT_EQ (floater_.getStatus (), Status::OK) << floater_.getMessage ();
+    ASSERT_EQ (floater_.getStatus (), RunStatus::SUCCESS) << floater_.getMessage ();
     EXPECT_FALSE (floater_.getReport ().is_view);
     EXPECT_EQ (floater_.getReport ().facing_certainty, 1.0);
     ASSERT_FALSE (mesh.polygons.empty ());
@@ -123,7 +123,7 @@ TEST_F (ViewpointOfTheClass, ADiscHasNone)
   floater_.setTopology (Topology::DISC);
   pcl::PolygonMesh mesh;
   floater_.reconstruct (mesh);
-  EXPECT_EQ (floater_.getStatus (), Status::INVALID_OPTION);
+  EXPECT_EQ (floater_.getStatus (), RunStatus::INVALID_OPTION);
   EXPECT_TRUE (mesh.polygons.empty ());
 }
 
@@ -132,7 +132,7 @@ TEST_F (ViewpointOfTheClass, ItMustBeFinite)
   floater_.setViewPoint (0.0, std::nan (""), 0.0);
   pcl::PolygonMesh mesh;
   floater_.reconstruct (mesh);
-  EXPECT_EQ (floater_.getStatus (), Status::INVALID_OPTION);
+  EXPECT_EQ (floater_.getStatus (), RunStatus::INVALID_OPTION);
 }
 
 } // namespace

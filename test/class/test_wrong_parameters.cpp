@@ -2,6 +2,7 @@
 // Values that FloaterReconstruction refuses, and a solver that gives up.
 #include "parameter_choice.h"
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -20,28 +21,34 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
       CHOICE (HolePolicy, HolePolicy::BY_SIZE),
       CHOICE (KeptLoops, -1),
       CHOICE (LargestHole, -0.5),
-      CHOICE (LargestHoleLength, -1e-9),
-      CHOICE (KNearest, 5),
-      CHOICE (KNearest, 201),
-      CHOICE (OpeningAngle, 0.0),
-      CHOICE (OpeningAngle, 360.0),
-      {"OpeningAngle NaN", [] (Floater& floater) { floater.setOpeningAngle (NOT_A_NUMBER); },
+      {"LargestHole NaN", [] (Floater& floater) { floater.setLargestHole (NOT_A_NUMBER); },
+       [] (const Floater& floater) { return std::isnan (floater.getLargestHole ()); }},
+      CHOICE (KSearch, 5),
+      CHOICE (KSearch, 201),
+      DISC_CHOICE (boundary.opening_angle, 0.0),
+      DISC_CHOICE (boundary.opening_angle, 360.0),
+      {"opening angle NaN",
+       [] (Floater& floater) {
+         DiscOptions options;
+         options.boundary.opening_angle = NOT_A_NUMBER;
+         floater.setDiscOptions (options);
+       },
        [] (const Floater& floater) {
-         return floater.getOpeningAngle () != floater.getOpeningAngle ();
+         return std::isnan (floater.getDiscOptions ().boundary.opening_angle);
        }},
-      CHOICE (ClusterTolerance, 0.0),
-      CHOICE (ClusterTolerance, 1.5),
-      CHOICE (ClusterK, 0),
-      CHOICE (PolygonSides, 2),
-      CHOICE (NumberOfThreads, -1),
-      CHOICE (Ordering, Ordering::COLAMD), // not for the default solver
+      DISC_CHOICE (boundary.cluster_tolerance, 0.0),
+      DISC_CHOICE (boundary.cluster_tolerance, 1.5),
+      DISC_CHOICE (boundary.cluster_k, 0),
+      DISC_CHOICE (domain.polygon_sides, 2),
+      CHOICE (NumberOfThreads, static_cast<unsigned int> (-1)),
+      DISC_CHOICE (solver.ordering, Ordering::COLAMD), // not for the default solver
       CHOICE (BallRadius, 0.5),
       CHOICE (BallRadius, 11.0),
-      CHOICE (Tolerance, 0.0),
-      CHOICE (Tolerance, 1.0),
-      CHOICE (MaxIterations, 0),
-      CHOICE (IlutFill, 0),
-      CHOICE (IlutDropTolerance, 1.5),
+      DISC_CHOICE (solver.tolerance, 0.0),
+      DISC_CHOICE (solver.tolerance, 1.0),
+      DISC_CHOICE (solver.max_iterations, 0),
+      DISC_CHOICE (solver.ilut_fill, 0),
+      DISC_CHOICE (solver.ilut_drop, 1.5),
   };
   const Cloud::Ptr cloud = heightField (100);
   for (const Choice& choice : choices) {
@@ -49,7 +56,7 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
     Floater floater;
     floater.setInputCloud (cloud);
     choice.set (floater);
-    expectFailure (floater, Status::INVALID_OPTION);
+    expectFailure (floater, RunStatus::INVALID_OPTION);
     EXPECT_TRUE (choice.is_set (floater)); // refused, not replaced
   }
 }
@@ -72,7 +79,7 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
   for (const pcl::Indices& loop_given : wrong) {
     SCOPED_TRACE (loop_given.back ());
     floater.setPrescribedLoop (loop_given);
-    expectFailure (floater, Status::INVALID_LOOP);
+    expectFailure (floater, RunStatus::INVALID_LOOP);
   }
   // A point of the loop that is not selected.
   pcl::IndicesPtr indices (new pcl::Indices);
@@ -81,18 +88,21 @@ TEST_F (FloaterClass, RefusesLoopsThatAreNone)
       indices->push_back (i);
   floater.setIndices (indices);
   floater.setPrescribedLoop (loop);
-  expectFailure (floater, Status::INVALID_LOOP);
+  expectFailure (floater, RunStatus::INVALID_LOOP);
 }
 
 TEST_F (FloaterClass, ReportsASolverThatGaveUp)
 {
   Floater floater;
   floater.setInputCloud (heightField ());
-  floater.setSolver (Solver::GAUSS_SEIDEL);
-  floater.setMaxIterations (20);
-  expectFailure (floater, Status::NOT_CONVERGED);
+  DiscOptions options;
+  options.solver.method = Solver::GAUSS_SEIDEL;
+  options.solver.max_iterations = 20;
+  floater.setDiscOptions (options);
+  expectFailure (floater, RunStatus::NOT_CONVERGED);
   EXPECT_EQ (floater.getStatistics ().iterations_u, 20U);
-  floater.setSolver (Solver::BICGSTAB_ILUT);
+  options.solver.method = Solver::BICGSTAB_ILUT;
+  floater.setDiscOptions (options);
   runWell (floater);
   EXPECT_GT (floater.getStatistics ().iterations_u, 0U);
   EXPECT_LT (floater.getStatistics ().relative_residual, 1e-14);

@@ -66,7 +66,7 @@ reconstructHeightField (const pcl::PointCloud<PointT>& cloud, pcl::PolygonMesh& 
   pcl::FloaterReconstruction<PointT> floater;
   floater.setInputCloud (cloud.makeShared ());
   floater.reconstruct (mesh);
-  if (floater.getStatus () != pcl::floater::Status::OK) {
+  if (floater.getStatus () != pcl::floater::RunStatus::SUCCESS) {
     std::cerr << pcl::floater::statusName (floater.getStatus ()) << ": " << floater.getMessage ()
               << '\n';
     return 1;

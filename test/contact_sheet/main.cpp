@@ -218,7 +218,7 @@ makeCell (const std::filesystem::path& folder, const std::string& name)
   const std::string status = report.at ("status");
   Cell cell;
   cell.name = name;
-  if (status != "OK") {
+  if (status != "SUCCESS") {
     cell.lines.push_back ({counted (points, "point"), INK});
     for (const std::string& text :
          wrap (status + ": " + std::string (report.at ("message")), LINE_LENGTH, REASON_LINES))

@@ -183,7 +183,7 @@ expectSurface (const Case& one)
   SCOPED_TRACE (std::to_string (surface.points.size ()) + " points, by " +
                 (result.report.topology == Topology::DISC ? "DISC: " : "SURFACE: ") +
                 result.report.topology_reason + warningsOf (result.report));
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_EQ (warningsOf (result.report).find ("one-sided"), std::string::npos);
   EXPECT_NE (result.report.topology_reason, "");
   expectPointsUsed (result, surface);
@@ -249,7 +249,7 @@ expectRefusedOrCut (const KnownSurface& strip, Topology method)
   Options options;
   options.topology = method;
   const Result result = reconstruct (samples::asInput (strip.points), options);
-  if (result.report.status != Status::OK) {
+  if (result.report.status != RunStatus::SUCCESS) {
     EXPECT_NE (result.report.message.find ("side"), std::string::npos) << result.report.message;
     EXPECT_TRUE (result.triangles.empty ());
     return;

@@ -45,7 +45,7 @@ allWays ()
   Options balls;
   balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
   Options iterative = discOptions ();
-  iterative.solver.method = Solver::BICGSTAB_ILUT;
+  iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
   return {{"surface", SurfaceKind::TORUS, {}},
           {"balls", SurfaceKind::TORUS, balls},
           {"disc", SurfaceKind::HEIGHT_FIELD, discOptions ()},
@@ -60,7 +60,7 @@ TEST (Progress, FractionsGrowFromZeroToOne)
     std::vector<double> fractions;
     way.options.progress_callback = [&] (double fraction) { fractions.push_back (fraction); };
     const Result result = reconstruct (asInput (surface (way.kind, 4000)), way.options);
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     ASSERT_GE (fractions.size (), 7U); // when stages begin, and at the end
     EXPECT_EQ (fractions.front (), 0.0);
     EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
@@ -101,7 +101,7 @@ TEST (Cancellation, EndsTheRunWhereverItIsAskedFor)
       way.options.threads = threads;
       int questions = 0;
       way.options.cancelled_callback = [&] { return ++questions < 0; };
-      ASSERT_EQ (reconstruct (asInput (points), way.options).report.status, Status::OK);
+      ASSERT_EQ (reconstruct (asInput (points), way.options).report.status, RunStatus::SUCCESS);
       const int all = questions;
       EXPECT_GE (all, 7);
       for (int last = 1; last <= all; ++last) {
@@ -110,7 +110,7 @@ TEST (Cancellation, EndsTheRunWhereverItIsAskedFor)
         const Result result = reconstruct (asInput (points), way.options);
         if (questions < last)
           continue; // the number of questions depends on time
-        EXPECT_EQ (result.report.status, Status::CANCELLED);
+        EXPECT_EQ (result.report.status, RunStatus::CANCELLED);
         EXPECT_NE (result.report.message, "");
         EXPECT_TRUE (result.triangles.empty ());
         EXPECT_TRUE (result.report.loop.empty ());
@@ -136,10 +136,11 @@ isCancelledWithin (Stage stage, const Positions& points, Options options)
     return questions > 1;
   };
   const Result result = reconstruct (asInput (points), options);
-  EXPECT_TRUE (result.report.status == Status::CANCELLED || questions < 2) << result.report.message;
-  EXPECT_EQ (result.report.status == Status::CANCELLED, result.triangles.empty ());
+  EXPECT_TRUE (result.report.status == RunStatus::CANCELLED || questions < 2)
+      << result.report.message;
+  EXPECT_EQ (result.report.status == RunStatus::CANCELLED, result.triangles.empty ());
   EXPECT_GT (questions, 0) << "the run has not reached this stage";
-  return result.report.status == Status::CANCELLED && running == stage;
+  return result.report.status == RunStatus::CANCELLED && running == stage;
 }
 
 TEST (Cancellation, IsSeenWithinTheStagesOfASurface)
@@ -160,7 +161,7 @@ TEST (Cancellation, IsSeenWithinTheStagesOfADisc)
 {
   const Positions points = surface (SurfaceKind::HEIGHT_FIELD, 5000);
   Options options = discOptions ();
-  options.solver.method = Solver::BICGSTAB_ILUT;
+  options.disc.solver.method = Solver::BICGSTAB_ILUT;
   // All but DELAUNAY, which is a single call of CGAL.
   for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::BOUNDARY,
                             Stage::WEIGHTS, Stage::SOLVE, Stage::FLIPS, Stage::CHECK})
@@ -173,7 +174,7 @@ TEST (Cancellation, IsSeenByEveryBoundaryMethod)
   Options options = discOptions ();
   for (const BoundaryMethod method :
        {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
-    options.boundary.method = method;
+    options.disc.boundary.method = method;
     EXPECT_TRUE (isCancelledWithin (Stage::BOUNDARY, points, options))
         << "method " << static_cast<int> (method);
   }
@@ -184,7 +185,7 @@ TEST (Callbacks, ExceptionsEndTheRun)
   Options options;
   options.cancelled_callback = [] () -> bool { throw std::runtime_error ("no answer"); };
   const Result result = reconstruct (asInput (surface (SurfaceKind::TORUS, 2000)), options);
-  EXPECT_EQ (result.report.status, Status::INTERNAL_ERROR);
+  EXPECT_EQ (result.report.status, RunStatus::INTERNAL_ERROR);
   EXPECT_NE (result.report.message.find ("no answer"), std::string::npos);
 }
 
@@ -201,7 +202,7 @@ TEST (Callbacks, WhateverTheyThrowStaysInside)
   for (const Options& options : {stage, progress, cancelled}) {
     Result result;
     EXPECT_NO_THROW (result = reconstruct (asInput (points), options));
-    EXPECT_EQ (result.report.status, Status::INTERNAL_ERROR);
+    EXPECT_EQ (result.report.status, RunStatus::INTERNAL_ERROR);
     EXPECT_NE (result.report.message, "");
     EXPECT_TRUE (result.triangles.empty ());
   }
@@ -215,8 +216,8 @@ TEST (Callbacks, MayRunAnotherReconstruction)
   const Positions inner_points = surface (SurfaceKind::HEIGHT_FIELD, 400);
   const Result expected = reconstruct (asInput (points), {});
   const Result inner_expected = reconstruct (asInput (inner_points), discOptions ());
-  ASSERT_EQ (expected.report.status, Status::OK);
-  ASSERT_EQ (inner_expected.report.status, Status::OK);
+  ASSERT_EQ (expected.report.status, RunStatus::SUCCESS);
+  ASSERT_EQ (inner_expected.report.status, RunStatus::SUCCESS);
   for (const bool in_stage_callback : {true, false}) {
     std::size_t inner_runs = 0;
     const auto runAnother = [&] {
@@ -224,7 +225,7 @@ TEST (Callbacks, MayRunAnotherReconstruction)
       Options options = discOptions ();
       options.progress_callback = [&] (double fraction) { fractions.push_back (fraction); };
       const Result inner = reconstruct (asInput (inner_points), options);
-      EXPECT_EQ (inner.report.status, Status::OK) << inner.report.message;
+      EXPECT_EQ (inner.report.status, RunStatus::SUCCESS) << inner.report.message;
       EXPECT_EQ (inner.triangles, inner_expected.triangles);
       EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
       EXPECT_EQ (fractions.front (), 0.0);
@@ -245,7 +246,7 @@ TEST (Callbacks, MayRunAnotherReconstruction)
         runAnother ();
     };
     const Result result = reconstruct (asInput (points), options);
-    EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     EXPECT_EQ (result.triangles, expected.triangles);
     EXPECT_GE (inner_runs, 3U);
     EXPECT_TRUE (std::is_sorted (stages.begin (), stages.end ()));

@@ -95,9 +95,9 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
   Options options;
   options.topology = Topology::DISC;
   options.threads = 1;
-  options.boundary.loop = border ();
+  options.disc.boundary.loop = border ();
   const Result expected = reconstruct (input, options);
-  ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
+  ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
   ASSERT_EQ (expected.triangles.size (), 2 * input.positions.size () - 2 - BORDER);
   for (const Neighborhood neighborhood : ALL_NEIGHBORHOODS)
     for (const Weighting weighting : ALL_WEIGHTINGS)
@@ -105,10 +105,10 @@ TEST (Choices, MakeTheSameMeshOfAFlatSheet)
         SCOPED_TRACE (testing::Message () << "neighborhood " << static_cast<int> (neighborhood)
                                           << " weighting " << static_cast<int> (weighting));
         options.neighbors.kind = neighborhood;
-        options.weighting = weighting;
-        options.domain.curve = domain;
+        options.disc.weighting = weighting;
+        options.disc.domain.curve = domain;
         const Result result = reconstruct (input, options);
-        ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+        ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
         EXPECT_EQ (unordered (result), unordered (expected));
       }
 }
@@ -121,13 +121,13 @@ TEST (Choices, ReproduceAFlatSheetFromAnyNeighborhood)
   Options options;
   options.topology = Topology::DISC;
   options.threads = 1;
-  options.boundary.loop = border ();
+  options.disc.boundary.loop = border ();
   for (const Neighborhood neighborhood : ALL_NEIGHBORHOODS)
     for (const Weighting weighting : {Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE}) {
       options.neighbors.kind = neighborhood;
-      options.weighting = weighting;
+      options.disc.weighting = weighting;
       const Result result = reconstruct (input, options);
-      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
       // A loop may be laid out in either direction and from any point on: compare distances.
       const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
       double worst = 0.0;
@@ -151,10 +151,10 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
       options.topology = Topology::DISC;
       options.threads = 1;
       options.neighbors.kind = neighborhood;
-      options.weighting = weighting;
-      options.solver.max_iterations = 100000;
+      options.disc.weighting = weighting;
+      options.disc.solver.max_iterations = 100000;
       const Result expected = reconstruct (input, options);
-      ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
+      ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
       for (const Solver solver : ALL_SOLVERS)
         for (const Ordering ordering : ALL_ORDERINGS) {
           if (checkSolver (solver, ordering))
@@ -163,10 +163,10 @@ TEST (Choices, OfSolverAndOrderingDoNotChangeTheResult)
                         << "neighborhood " << static_cast<int> (neighborhood) << " weighting "
                         << static_cast<int> (weighting) << " solver " << static_cast<int> (solver)
                         << " ordering " << static_cast<int> (ordering));
-          options.solver.method = solver;
-          options.solver.ordering = ordering;
+          options.disc.solver.method = solver;
+          options.disc.solver.ordering = ordering;
           const Result result = reconstruct (input, options);
-          ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+          ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
           EXPECT_LT (farthest (result, expected), SAME);
           EXPECT_EQ (result.triangles, expected.triangles);
           EXPECT_EQ (result.report.statistics.nnz_matrix, expected.report.statistics.nnz_matrix);
@@ -181,7 +181,7 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
   const auto nonzeros = [&input] (Neighborhood neighborhood, double radius) {
     Options options;
     options.topology = Topology::DISC;
-    options.boundary.loop = border ();
+    options.disc.boundary.loop = border ();
     options.neighbors.kind = neighborhood;
     options.neighbors.ball_radius = radius;
     const Statistics statistics = reconstruct (input, options).report.statistics;
@@ -198,15 +198,15 @@ TEST (Choices, OfALimitThatIsTooLowAreReported)
 {
   Options options;
   options.topology = Topology::DISC;
-  options.solver.method = Solver::GAUSS_SEIDEL;
-  options.solver.max_iterations = 10;
+  options.disc.solver.method = Solver::GAUSS_SEIDEL;
+  options.disc.solver.max_iterations = 10;
   const Result result = reconstruct (sheet (0.7), options);
-  EXPECT_EQ (result.report.status, Status::NOT_CONVERGED);
+  EXPECT_EQ (result.report.status, RunStatus::NOT_CONVERGED);
   EXPECT_TRUE (result.triangles.empty ());
   EXPECT_NE (result.report.message.find ("Gauss-Seidel"), std::string::npos);
   EXPECT_EQ (result.report.statistics.iterations_u, 10U);
   EXPECT_EQ (result.report.statistics.iterations_v, 10U);
-  EXPECT_GT (result.report.statistics.relative_residual, options.solver.tolerance);
+  EXPECT_GT (result.report.statistics.relative_residual, options.disc.solver.tolerance);
 }
 
 TEST (Choices, ThatCannotBeAreRefused)
@@ -217,15 +217,19 @@ TEST (Choices, ThatCannotBeAreRefused)
     change (options);
     return reconstruct (sheet (0.0), options).report.status;
   };
-  EXPECT_EQ (status ([] (Options& o) { o.solver.ordering = Ordering::COLAMD; }),
-             Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.neighbors.ball_radius = 0.9; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.tolerance = 0.0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.max_iterations = 0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_fill = 0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.ilut_drop = -1.0; }), Status::INVALID_OPTION);
-  EXPECT_EQ (status ([] (Options& o) { o.solver.method = Solver::SUPERLU; }),
-             isAvailable (Solver::SUPERLU) ? Status::OK : Status::SOLVER_UNAVAILABLE);
+  EXPECT_EQ (status ([] (Options& o) { o.disc.solver.ordering = Ordering::COLAMD; }),
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.neighbors.ball_radius = 0.9; }),
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.disc.solver.tolerance = 0.0; }),
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.disc.solver.max_iterations = 0; }),
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.disc.solver.ilut_fill = 0; }), RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.disc.solver.ilut_drop = -1.0; }),
+             RunStatus::INVALID_OPTION);
+  EXPECT_EQ (status ([] (Options& o) { o.disc.solver.method = Solver::SUPERLU; }),
+             isAvailable (Solver::SUPERLU) ? RunStatus::SUCCESS : RunStatus::SOLVER_UNAVAILABLE);
 }
 
 } // namespace

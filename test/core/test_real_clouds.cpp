@@ -138,7 +138,7 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
   ASSERT_FALSE (truth.empty ()) << base << ".gt.ply is not what this test can read";
 
   const Result result = reconstruct (samples::asInput (cloud), samples::discOptions ());
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, cloud.size ());
@@ -194,7 +194,7 @@ TEST_P (AnyRealCloud, IsWhatItIs)
   options.holes.policy = known.holes;
   options.holes.kept_loops = known.kept_loops;
   const Result result = reconstruct (samples::asInput (cloud), options);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, cloud.size ());
@@ -234,9 +234,9 @@ TEST (RealClouds, HaveTheirBoundaryOnALoopOfTheConsensus)
     if (!std::ifstream (base + ".pcd"))
       GTEST_SKIP () << "no " << cloud.name << ".pcd in " << dataFolder ();
     Options options = samples::discOptions ();
-    options.boundary.method = BoundaryMethod::CONSENSUS;
+    options.disc.boundary.method = BoundaryMethod::CONSENSUS;
     const Result result = reconstruct (samples::asInput (readPcd (base + ".pcd")), options);
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     const std::vector<Index> truth = samples::topologyOf (readPly (base + ".gt.ply")).loops.at (0);
     const std::set<Index> wanted (truth.begin (), truth.end ());
     const std::set<Index> found (result.report.loop.begin (), result.report.loop.end ());
@@ -257,7 +257,7 @@ TEST (RealClouds, AreTheSameInAnyNumberOfBlocksAndThreads)
     options.blocks = 1;
     options.threads = 1;
     const Result whole = reconstruct (samples::asInput (cloud), options);
-    ASSERT_EQ (whole.report.status, Status::OK) << whole.report.message;
+    ASSERT_EQ (whole.report.status, RunStatus::SUCCESS) << whole.report.message;
     options.blocks = 64;
     options.threads = 2;
     const Result blocks = reconstruct (samples::asInput (cloud), options);

@@ -33,7 +33,7 @@ void
 expectDisc (const Result& result, std::size_t points)
 {
   const Report& report = result.report;
-  ASSERT_EQ (report.status, Status::OK) << report.message;
+  ASSERT_EQ (report.status, RunStatus::SUCCESS) << report.message;
   EXPECT_TRUE (report.message.empty ());
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
@@ -93,18 +93,18 @@ TEST (Reconstruct, EveryChoiceMakesADisc)
   };
   for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON}) {
     Options options = discOptions ();
-    options.domain.curve = domain;
+    options.disc.domain.curve = domain;
     expectOk (options);
   }
   for (const Weighting weighting : {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
                                     Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE}) {
     Options options = discOptions ();
-    options.weighting = weighting;
+    options.disc.weighting = weighting;
     expectOk (options);
   }
   for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS}) {
     Options options = discOptions ();
-    options.solver.ordering = ordering;
+    options.disc.solver.ordering = ordering;
     expectOk (options);
   }
   for (const int k : {8, 12, 40}) {
@@ -124,21 +124,21 @@ TEST (Reconstruct, PointsInDoublePrecision)
   for (Eigen::Vector3d& p : cloud)
     p = Eigen::Vector3d (5e5, 5.5e6, 300.0) + 0.02 * p;
   const Result result = reconstruct (cloud);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_TRUE (result.report.warnings.empty ()) << result.report.warnings.front ();
   EXPECT_EQ (result.triangles, reconstruct (asInput (cloud), {}).triangles);
   EXPECT_EQ (result.report.statistics.cloud_points, 2000U);
   EXPECT_EQ (result.report.statistics.used_points, 2000U);
   Options options;
   options.trimming.maximum_edge_length = 1e-9;
-  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, Status::INVALID_OPTION);
+  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, RunStatus::INVALID_OPTION);
 }
 
 TEST (Reconstruct, TheReportsLoopMakesADisc)
 {
   const Positions cloud = samples::disc (0.07, 4).positions;
   Options options = discOptions ();
-  options.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+  options.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
   expectDisc (reconstruct (asInput (cloud), options), cloud.size ());
 }
 
@@ -146,12 +146,12 @@ TEST (Reconstruct, TheUsersLoopIsTheBoundary)
 {
   samples::Sheet sheet = samples::disc (0.07, 5);
   Options options = discOptions ();
-  options.boundary.loop = samples::indices (sheet.border);
-  std::rotate (options.boundary.loop.begin (), options.boundary.loop.begin () + 11,
-               options.boundary.loop.end ());
+  options.disc.boundary.loop = samples::indices (sheet.border);
+  std::rotate (options.disc.boundary.loop.begin (), options.disc.boundary.loop.begin () + 11,
+               options.disc.boundary.loop.end ());
   const Result result = reconstruct (asInput (sheet.positions), options);
   expectDisc (result, sheet.positions.size ());
-  EXPECT_EQ (result.report.loop, options.boundary.loop);
+  EXPECT_EQ (result.report.loop, options.disc.boundary.loop);
 }
 
 TEST (Reconstruct, ThreadsAndRunsChangeNothing)
@@ -269,7 +269,7 @@ TEST (Reconstruct, ASelectionOfALargerCloud)
   for (Index& p : input.cloud_index)
     p = 3 * p + 1;
   Result result = reconstruct (input, discOptions ());
-  ASSERT_EQ (result.report.status, Status::OK);
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
   EXPECT_EQ (result.report.statistics.cloud_points, input.cloud_size);
   EXPECT_EQ (result.report.statistics.selected_points, cloud.size ());
   ASSERT_EQ (result.report.parameters.size (), input.cloud_size);
@@ -286,7 +286,7 @@ TEST (Reconstruct, FewestPoints)
   const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}};
   expectDisc (reconstruct (asInput (square), discOptions ()), 4);
   Options options = discOptions ();
-  options.boundary.loop = {0, 1, 2, 3};
+  options.disc.boundary.loop = {0, 1, 2, 3};
   expectDisc (reconstruct (asInput (square), options), 4);
   Positions with_middle = square;
   with_middle.emplace_back (0.4, 0.6, 0.1);
@@ -301,7 +301,7 @@ TEST (Reconstruct, ManyCoincidingPointsAreToldOf)
     positions.insert (positions.end (), distinct.begin (),
                       distinct.begin () + static_cast<std::ptrdiff_t> (repeated));
     const Result result = reconstruct (asInput (positions), {});
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     const bool is_told = std::any_of (
         result.report.warnings.begin (), result.report.warnings.end (), [] (const std::string& w) {
           return w.find ("20 points coincide with another one") != std::string::npos;
@@ -323,12 +323,12 @@ TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
   const auto second = static_cast<Index> (positions.size () - 1);
   Options options = discOptions ();
   ASSERT_EQ (reconstruct (asInput (positions), options).report.outliers.size (), 1U);
-  options.boundary.loop = samples::indices (sheet.border);
-  options.boundary.loop.push_back (second);
+  options.disc.boundary.loop = samples::indices (sheet.border);
+  options.disc.boundary.loop.push_back (second);
   const Result result = reconstruct (asInput (positions), options);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_TRUE (result.report.outliers.empty ());
-  EXPECT_EQ (result.report.loop.size (), options.boundary.loop.size ());
+  EXPECT_EQ (result.report.loop.size (), options.disc.boundary.loop.size ());
 }
 
 } // namespace

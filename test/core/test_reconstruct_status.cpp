@@ -25,7 +25,7 @@ using samples::Positions;
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
 
 void
-expectFailure (const Result& result, Status status, const std::string& why)
+expectFailure (const Result& result, RunStatus status, const std::string& why)
 {
   EXPECT_EQ (result.report.status, status) << result.report.message;
   EXPECT_NE (result.report.message.find (why), std::string::npos) << result.report.message;
@@ -41,64 +41,64 @@ discAt (const Eigen::Vector3d& place, double radius, std::uint64_t seed)
   return points;
 }
 
-TEST (Status, TooFewPoints)
+TEST (RunStatus, TooFewPoints)
 {
-  expectFailure (reconstruct (Input (), {}), Status::TOO_FEW_POINTS, "0 distinct finite points");
+  expectFailure (reconstruct (Input (), {}), RunStatus::TOO_FEW_POINTS, "0 distinct finite points");
   const Positions three = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  expectFailure (reconstruct (asInput (three), {}), Status::TOO_FEW_POINTS, "3 distinct");
+  expectFailure (reconstruct (asInput (three), {}), RunStatus::TOO_FEW_POINTS, "3 distinct");
   Positions equal (50, Eigen::Vector3d (1, 2, 3));
   const Result one = reconstruct (asInput (equal), {});
-  expectFailure (one, Status::TOO_FEW_POINTS, "1 distinct");
+  expectFailure (one, RunStatus::TOO_FEW_POINTS, "1 distinct");
   EXPECT_EQ (one.report.duplicates.size (), 49U);
   const Positions nowhere (20, Eigen::Vector3d::Constant (NOT_A_NUMBER));
   const Result none = reconstruct (asInput (nowhere), {});
-  expectFailure (none, Status::TOO_FEW_POINTS, "0 distinct");
+  expectFailure (none, RunStatus::TOO_FEW_POINTS, "0 distinct");
   EXPECT_EQ (none.report.non_finite.size (), 20U);
 }
 
-TEST (Status, NoInput)
+TEST (RunStatus, NoInput)
 {
-  expectFailure (reconstruct (Positions ()), Status::NO_INPUT, "empty");
+  expectFailure (reconstruct (Positions ()), RunStatus::NO_INPUT, "empty");
 }
 
-TEST (Status, Degenerate)
+TEST (RunStatus, Degenerate)
 {
   Positions line;
   for (int i = 0; i < 100; ++i)
     line.emplace_back (0.1F * static_cast<float> (i), 0.7F * static_cast<float> (i), 3.0);
-  expectFailure (reconstruct (asInput (line), {}), Status::DEGENERATE, "one line");
+  expectFailure (reconstruct (asInput (line), {}), RunStatus::DEGENERATE, "one line");
 }
 
-TEST (Status, NoBoundary)
+TEST (RunStatus, NoBoundary)
 {
   for (const SurfaceKind kind : {SurfaceKind::SPHERE, SurfaceKind::TORUS}) {
     SurfaceSpec spec;
     spec.kind = kind;
     spec.points = 3000;
     const Result result = reconstruct (asInput (generateSurface (spec)), discOptions ());
-    expectFailure (result, Status::NO_BOUNDARY, "closed");
+    expectFailure (result, RunStatus::NO_BOUNDARY, "closed");
     EXPECT_TRUE (result.report.loop.empty ());
   }
 }
 
-TEST (Status, Unreachable)
+TEST (RunStatus, Unreachable)
 {
   Positions three;
   for (std::uint64_t i = 0; i < 3; ++i)
     for (const Eigen::Vector3d& p : discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1))
       three.push_back (p);
-  expectFailure (reconstruct (asInput (three), discOptions ()), Status::UNREACHABLE,
+  expectFailure (reconstruct (asInput (three), discOptions ()), RunStatus::UNREACHABLE,
                  "do not connect");
 }
 
-TEST (Status, ASmallSecondComponentIsLeftOutAndNamed)
+TEST (RunStatus, ASmallSecondComponentIsLeftOutAndNamed)
 {
   Positions cloud = samples::disc (0.05, 1).positions;
   const std::size_t large = cloud.size ();
   for (const Eigen::Vector3d& p : discAt ({10, 0, 0}, 0.5, 2))
     cloud.push_back (p);
   const Result result = reconstruct (asInput (cloud), discOptions ());
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_EQ (result.report.unused.size (), cloud.size () - large);
   EXPECT_EQ (result.report.unused.front (), large);
   EXPECT_EQ (result.report.statistics.used_points, large);
@@ -112,26 +112,26 @@ TEST (Status, ASmallSecondComponentIsLeftOutAndNamed)
   EXPECT_EQ (topology.euler, 1);
 }
 
-TEST (Status, InvalidLoop)
+TEST (RunStatus, InvalidLoop)
 {
   const Positions cloud = samples::disc (0.1, 3).positions;
   Options options = discOptions ();
-  options.boundary.loop = {0, 10};
-  expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "fewer than 3");
-  options.boundary.loop = {0, 10, 20, 10};
-  expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP, "point 10");
-  options.boundary.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
-  expectFailure (reconstruct (asInput (cloud), options), Status::INVALID_LOOP,
+  options.disc.boundary.loop = {0, 10};
+  expectFailure (reconstruct (asInput (cloud), options), RunStatus::INVALID_LOOP, "fewer than 3");
+  options.disc.boundary.loop = {0, 10, 20, 10};
+  expectFailure (reconstruct (asInput (cloud), options), RunStatus::INVALID_LOOP, "point 10");
+  options.disc.boundary.loop = {0, 10, 20, static_cast<Index> (cloud.size ())};
+  expectFailure (reconstruct (asInput (cloud), options), RunStatus::INVALID_LOOP,
                  std::to_string (cloud.size ()));
 }
 
-TEST (Status, InvalidOption)
+TEST (RunStatus, InvalidOption)
 {
   const Positions cloud = samples::disc (0.1, 4).positions;
   Options options = discOptions ();
   options.neighbors.k = 5;
   const Result result = reconstruct (asInput (cloud), options);
-  expectFailure (result, Status::INVALID_OPTION, "k must be from 6 to 200");
+  expectFailure (result, RunStatus::INVALID_OPTION, "k must be from 6 to 200");
   EXPECT_EQ (options.neighbors.k, 5);
 }
 
@@ -149,7 +149,7 @@ private:
 };
 
 // Points along a curve are in no triangle: an empty mesh is no success.
-TEST (Status, PointsAlongACurveAreDegenerate)
+TEST (RunStatus, PointsAlongACurveAreDegenerate)
 {
   Positions curve;
   for (int i = 0; i < 60; ++i)
@@ -157,29 +157,30 @@ TEST (Status, PointsAlongACurveAreDegenerate)
   for (const Topology topology : {Topology::AUTO, Topology::SURFACE}) {
     Options options;
     options.topology = topology;
-    expectFailure (reconstruct (asInput (curve), options), Status::DEGENERATE, "no three points");
+    expectFailure (reconstruct (asInput (curve), options), RunStatus::DEGENERATE,
+                   "no three points");
   }
 }
 
-TEST (Status, ExceptionsBecomeStatuses)
+TEST (RunStatus, ExceptionsBecomeStatuses)
 {
   const Positions cloud = samples::disc (0.1, 5).positions;
   BrokenSearch<std::bad_alloc> no_memory{std::bad_alloc ()};
-  expectFailure (reconstruct (asInput (cloud, &no_memory), {}), Status::OUT_OF_MEMORY, "memory");
+  expectFailure (reconstruct (asInput (cloud, &no_memory), {}), RunStatus::OUT_OF_MEMORY, "memory");
   BrokenSearch<std::runtime_error> broken{std::runtime_error ("the tree fell over")};
-  expectFailure (reconstruct (asInput (cloud, &broken), {}), Status::INTERNAL_ERROR,
+  expectFailure (reconstruct (asInput (cloud, &broken), {}), RunStatus::INTERNAL_ERROR,
                  "the tree fell over");
 }
 
 // Arrays that would make the run write outside of its own.
-TEST (Status, InvalidInput)
+TEST (RunStatus, InvalidInput)
 {
   const Input good = asInput (samples::disc (0.1, 7).positions);
   const auto expectRefusal = [&good] (const auto& change, const std::string& why) {
     Input wrong = good;
     change (wrong);
     for (const Options& options : {Options (), discOptions ()})
-      expectFailure (reconstruct (wrong, options), Status::INVALID_INDICES, why);
+      expectFailure (reconstruct (wrong, options), RunStatus::INVALID_INDICES, why);
   };
   const std::string size = std::to_string (good.positions.size ());
   expectRefusal ([] (Input& input) { input.cloud_index.pop_back (); }, size + " positions");
@@ -190,17 +191,17 @@ TEST (Status, InvalidInput)
   expectRefusal ([] (Input& input) { input.cloud_index[20] = 5; }, "5 is given twice");
   Input turned = good; // indices may come in any order
   std::reverse (turned.cloud_index.begin (), turned.cloud_index.end ());
-  EXPECT_EQ (reconstruct (turned, {}).report.status, Status::OK);
+  EXPECT_EQ (reconstruct (turned, {}).report.status, RunStatus::SUCCESS);
 }
 
 // A run that outgrows 32 bits tells what to do; it is no error of the library.
-TEST (Status, TablesThatAreTooLarge)
+TEST (RunStatus, TablesThatAreTooLarge)
 {
   const Positions cloud = samples::disc (0.1, 5).positions;
   BrokenSearch<IndexLimitReached> limit{IndexLimitReached ("the table of neighbours is full")};
-  expectFailure (reconstruct (asInput (cloud, &limit), {}), Status::OUT_OF_MEMORY, "is full");
+  expectFailure (reconstruct (asInput (cloud, &limit), {}), RunStatus::OUT_OF_MEMORY, "is full");
   BrokenSearch<std::length_error> length{std::length_error ("vector::_M_default_append")};
-  expectFailure (reconstruct (asInput (cloud, &length), {}), Status::OUT_OF_MEMORY,
+  expectFailure (reconstruct (asInput (cloud, &length), {}), RunStatus::OUT_OF_MEMORY,
                  "use fewer points");
 }
 

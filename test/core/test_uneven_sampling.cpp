@@ -83,7 +83,7 @@ void
 expectOneFlatSheet (const Positions& points, std::size_t loops = 1)
 {
   const Result result = reconstruct (samples::asInput (points), {});
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_EQ (result.report.statistics.used_points, points.size ());
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);

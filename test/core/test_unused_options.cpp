@@ -23,7 +23,7 @@ Report
 madeAs (Topology topology)
 {
   Report report;
-  report.status = Status::OK;
+  report.status = RunStatus::SUCCESS;
   report.topology = topology;
   return report;
 }
@@ -36,21 +36,22 @@ struct Change
 };
 
 const Change OF_THE_DISC[] = {
-    {"the boundary method", [] (Options& o) { o.boundary.method = BoundaryMethod::CONSENSUS; }},
-    {"the opening angle", [] (Options& o) { o.boundary.opening_angle = 150.0; }},
-    {"the cluster tolerance", [] (Options& o) { o.boundary.cluster_tolerance = 0.1; }},
-    {"cluster k", [] (Options& o) { o.boundary.cluster_k = 11; }},
-    {"the domain", [] (Options& o) { o.domain.curve = Domain::SQUARE; }},
-    {"the number of polygon sides", [] (Options& o) { o.domain.polygon_sides = 5; }},
+    {"the boundary method",
+     [] (Options& o) { o.disc.boundary.method = BoundaryMethod::CONSENSUS; }},
+    {"the opening angle", [] (Options& o) { o.disc.boundary.opening_angle = 150.0; }},
+    {"the cluster tolerance", [] (Options& o) { o.disc.boundary.cluster_tolerance = 0.1; }},
+    {"cluster k", [] (Options& o) { o.disc.boundary.cluster_k = 11; }},
+    {"the domain", [] (Options& o) { o.disc.domain.curve = Domain::SQUARE; }},
+    {"the number of polygon sides", [] (Options& o) { o.disc.domain.polygon_sides = 5; }},
     {"the spacing on the domain",
-     [] (Options& o) { o.domain.loop_spacing = LoopSpacing::UNIFORM; }},
-    {"the weights", [] (Options& o) { o.weighting = Weighting::UNIFORM; }},
-    {"the solver", [] (Options& o) { o.solver.method = Solver::EIGEN_SPARSE_LU; }},
-    {"the ordering", [] (Options& o) { o.solver.ordering = Ordering::AMD; }},
-    {"the tolerance", [] (Options& o) { o.solver.tolerance = 1e-9; }},
-    {"the number of iterations", [] (Options& o) { o.solver.max_iterations = 7; }},
-    {"the fill of ILUT", [] (Options& o) { o.solver.ilut_fill = 7; }},
-    {"the drop tolerance of ILUT", [] (Options& o) { o.solver.ilut_drop = 0.1; }},
+     [] (Options& o) { o.disc.domain.loop_spacing = LoopSpacing::UNIFORM; }},
+    {"the weights", [] (Options& o) { o.disc.weighting = Weighting::UNIFORM; }},
+    {"the solver", [] (Options& o) { o.disc.solver.method = Solver::EIGEN_SPARSE_LU; }},
+    {"the ordering", [] (Options& o) { o.disc.solver.ordering = Ordering::AMD; }},
+    {"the tolerance", [] (Options& o) { o.disc.solver.tolerance = 1e-9; }},
+    {"the number of iterations", [] (Options& o) { o.disc.solver.max_iterations = 7; }},
+    {"the fill of ILUT", [] (Options& o) { o.disc.solver.ilut_fill = 7; }},
+    {"the drop tolerance of ILUT", [] (Options& o) { o.disc.solver.ilut_drop = 0.1; }},
     {"the neighbourhood", [] (Options& o) { o.neighbors.kind = Neighborhood::NEAREST; }}};
 
 TEST (UnusedOptions, DefaultsAreNone)
@@ -72,8 +73,8 @@ TEST (UnusedOptions, OfADiscWhereASurfaceIsMade)
         << found[0];
   }
   Options two;
-  two.weighting = Weighting::UNIFORM;
-  two.solver.method = Solver::GAUSS_SEIDEL;
+  two.disc.weighting = Weighting::UNIFORM;
+  two.disc.solver.method = Solver::GAUSS_SEIDEL;
   EXPECT_EQ (describeUnusedOptions (two, madeAs (Topology::SURFACE)),
              std::vector<std::string>{"options have no effect: the weights, the solver; the mesh "
                                       "was not made as a disc"});
@@ -88,20 +89,22 @@ TEST (UnusedOptions, WithoutTheOptionThatTakesThem)
     void (*is_taken) (Options&);
     Topology topology;
   };
-  const Pair pairs[] = {{[] (Options& o) { o.boundary.method = BoundaryMethod::TWO_SEGMENTS; },
-                         [] (Options& o) { o.boundary.cluster_k = 11; }, Topology::DISC},
-                        {[] (Options& o) { o.domain.curve = Domain::POLYGON; },
-                         [] (Options& o) { o.domain.polygon_sides = 5; }, Topology::DISC},
-                        {[] (Options& o) { o.solver.method = Solver::GAUSS_SEIDEL; },
-                         [] (Options& o) { o.solver.tolerance = 1e-9; }, Topology::DISC},
-                        {[] (Options& o) { o.solver.method = Solver::BICGSTAB_ILUT; },
-                         [] (Options& o) { o.solver.ilut_fill = 7; }, Topology::DISC},
+  const Pair pairs[] = {{[] (Options& o) { o.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS; },
+                         [] (Options& o) { o.disc.boundary.cluster_k = 11; }, Topology::DISC},
+                        {[] (Options& o) { o.disc.domain.curve = Domain::POLYGON; },
+                         [] (Options& o) { o.disc.domain.polygon_sides = 5; }, Topology::DISC},
+                        {[] (Options& o) { o.disc.solver.method = Solver::GAUSS_SEIDEL; },
+                         [] (Options& o) { o.disc.solver.tolerance = 1e-9; }, Topology::DISC},
+                        {[] (Options& o) { o.disc.solver.method = Solver::BICGSTAB_ILUT; },
+                         [] (Options& o) { o.disc.solver.ilut_fill = 7; }, Topology::DISC},
                         {[] (Options& o) { o.neighbors.kind = Neighborhood::BALL_DELAUNAY; },
                          [] (Options& o) { o.neighbors.ball_radius = 3.0; }, Topology::SURFACE},
                         {[] (Options& o) { o.holes.policy = HolePolicy::KEEP_COUNT; },
                          [] (Options& o) { o.holes.kept_loops = 2; }, Topology::SURFACE},
                         {[] (Options& o) { o.holes.policy = HolePolicy::BY_SIZE; },
-                         [] (Options& o) { o.holes.largest_hole = 2.0; }, Topology::SURFACE}};
+                         [] (Options& o) { o.holes.largest_hole = 2.0; }, Topology::SURFACE},
+                        {[] (Options& o) { o.holes.policy = HolePolicy::BY_SIZE; },
+                         [] (Options& o) { o.holes.unit = LengthUnit::CLOUD; }, Topology::SURFACE}};
   for (const Pair& pair : pairs) {
     Options options;
     pair.is_taken (options);
@@ -114,8 +117,8 @@ TEST (UnusedOptions, WithoutTheOptionThatTakesThem)
 TEST (UnusedOptions, OfTheSearchForALoopThatIsGiven)
 {
   Options options;
-  options.boundary.loop = {0, 1, 2};
-  options.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+  options.disc.boundary.loop = {0, 1, 2};
+  options.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
   EXPECT_EQ (describeUnusedOptions (options, madeAs (Topology::DISC)).size (), 1U);
 }
 
@@ -137,7 +140,7 @@ TEST (UnusedOptions, AreWarningsOfARun)
   const Positions points = generateSurface (spec);
   const auto warnsOf = [&points] (const Options& options, const char* name) {
     const Result result = reconstruct (asInput (points), options);
-    EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     for (const std::string& warning : result.report.warnings)
       if (warning.find (std::string ("no effect: ") + name) != std::string::npos)
         return true;
@@ -145,7 +148,7 @@ TEST (UnusedOptions, AreWarningsOfARun)
   };
   Options surface, disc = discOptions ();
   surface.topology = Topology::SURFACE;
-  surface.weighting = disc.weighting = Weighting::UNIFORM;
+  surface.disc.weighting = disc.disc.weighting = Weighting::UNIFORM;
   EXPECT_TRUE (warnsOf (surface, "the weights"));
   EXPECT_FALSE (warnsOf (disc, "the weights"));
 }

@@ -341,20 +341,20 @@ decodeLimit (ByteSource& bytes)
 void
 decodeDiscOptions (ByteSource& bytes, std::size_t points, Options& options)
 {
-  options.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
-  options.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
-  options.domain.polygon_sides = static_cast<int> (bytes.below (20));
-  options.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
-  options.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
-  options.solver.method = decodeEnum (bytes, Solver::GAUSS_SEIDEL);
-  options.solver.ordering = decodeEnum (bytes, Ordering::NATURAL);
-  options.boundary.cluster_k = static_cast<int> (bytes.below (40));
-  options.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
-  options.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;
+  options.disc.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
+  options.disc.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
+  options.disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
+  options.disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
+  options.disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
+  options.disc.solver.method = decodeEnum (bytes, Solver::GAUSS_SEIDEL);
+  options.disc.solver.ordering = decodeEnum (bytes, Ordering::NATURAL);
+  options.disc.boundary.cluster_k = static_cast<int> (bytes.below (40));
+  options.disc.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
+  options.disc.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;
   if (bytes.isOneIn (4)) {
     const std::size_t length = bytes.below (24);
     for (std::size_t i = 0; i < length; ++i)
-      options.boundary.loop.push_back (static_cast<std::uint32_t> (bytes.below (points + 2)));
+      options.disc.boundary.loop.push_back (static_cast<std::uint32_t> (bytes.below (points + 2)));
   }
 }
 
@@ -394,7 +394,7 @@ decodeOptions (ByteSource& bytes, std::size_t points)
     options.holes.policy = decodeEnum (bytes, HolePolicy::BY_SIZE);
     options.holes.kept_loops = static_cast<int> (bytes.below (6));
     options.holes.largest_hole = decodeLimit (bytes);
-    options.holes.largest_hole_length = decodeLimit (bytes);
+    options.holes.unit = decodeEnum (bytes, LengthUnit::CLOUD);
     options.view.use = decodeEnum (bytes, ViewUse::NEVER);
     for (double& coordinate : options.view.viewpoint)
       coordinate = 3.0 - decodeLimit (bytes);

@@ -32,7 +32,7 @@ parse (std::vector<std::string> words)
     return;
   }
   if (line.input.empty () || line.output.empty () ||
-      pcl::floater::checkOptions (line.options).status != pcl::floater::Status::OK)
+      pcl::floater::checkOptions (line.options).status != pcl::floater::RunStatus::SUCCESS)
     std::abort ();
   pcl::floater::checkPaths (line);
 }

@@ -22,7 +22,8 @@ namespace
 std::string
 findFaultOfFailure (const Result& result)
 {
-  if (result.report.status == Status::INTERNAL_ERROR || result.report.status == Status::NOT_RUN)
+  if (result.report.status == RunStatus::INTERNAL_ERROR ||
+      result.report.status == RunStatus::NOT_RUN)
     return std::string (statusName (result.report.status)) + ": " + result.report.message;
   if (!result.triangles.empty ())
     return "a run that failed has triangles";
@@ -165,7 +166,7 @@ findFaultOfFigures (const Input& input, const Result& result, const samples::Top
 std::string
 findFault (const Input& input, const Result& result)
 {
-  if (result.report.status != Status::OK)
+  if (result.report.status != RunStatus::SUCCESS)
     return findFaultOfFailure (result);
   if (result.triangles.empty ())
     return "a run that succeeded has no triangles";

@@ -62,13 +62,13 @@ struct Task
 {
   SurfaceKind kind;
   Topology topology;
-  int threads;
+  unsigned int threads;
 };
 
 TEST (Concurrency, EightObjectsInEightThreads)
 {
   std::vector<Task> tasks;
-  for (const int threads : {1, 2})
+  for (const unsigned int threads : {1U, 2U})
     for (const auto& [kind, topology] : {std::pair{SurfaceKind::HEIGHT_FIELD, Topology::DISC},
                                          std::pair{SurfaceKind::FINGER, Topology::DISC},
                                          std::pair{SurfaceKind::TORUS, Topology::SURFACE},
@@ -135,13 +135,13 @@ TEST (Concurrency, CancelledFromAnotherThread)
     });
     const std::vector<pcl::Indices> polygons = polygonsOf (floater, cloud);
     canceller.join ();
-    const Status status = floater.getReport ().status;
-    if (status == Status::CANCELLED) {
+    const RunStatus status = floater.getReport ().status;
+    if (status == RunStatus::CANCELLED) {
       ++cancelled;
       EXPECT_TRUE (polygons.empty ());
     }
     else {
-      EXPECT_EQ (status, Status::OK);
+      EXPECT_EQ (status, RunStatus::SUCCESS);
       EXPECT_EQ (polygons, expected);
     }
     // The object is as good as new.

@@ -55,13 +55,13 @@ allWays (std::size_t points)
 {
   Options disc = samples::discOptions (), iterative = disc, unsymmetric = disc, balls, surface,
           view;
-  iterative.solver.method = Solver::BICGSTAB_ILUT;
-  iterative.boundary.method = BoundaryMethod::TWO_SEGMENTS;
-  iterative.boundary.cluster_tolerance = 0.3;
+  iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
+  iterative.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+  iterative.disc.boundary.cluster_tolerance = 0.3;
   // SuperLU itself ends the program when it finds no memory, and Eigen's sparse LU decomposition
   // frees twice what it could not enlarge.
-  unsymmetric.solver.method = Solver::UMFPACK_UNSYMMETRIC;
-  unsymmetric.boundary.method = BoundaryMethod::CONSENSUS;
+  unsymmetric.disc.solver.method = Solver::UMFPACK_UNSYMMETRIC;
+  unsymmetric.disc.boundary.method = BoundaryMethod::CONSENSUS;
   balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
   balls.trimming.minimum_component_size = 5;
   surface.holes.policy = HolePolicy::CLOSE_ALL;
@@ -109,7 +109,7 @@ TEST_P (MemoryFaults, EndARunInAnOrderlyWay)
   const Way way = allWays (pointsWanted ())[GetParam ()];
   SCOPED_TRACE (way.name);
   const Result expected = reconstruct (way.input, way.options);
-  ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
+  ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
   fuzz::failAllocations (MemoryFault::NONE, 0);
   reconstruct (way.input, way.options);
   const std::size_t all = fuzz::stopFailing ();
@@ -132,13 +132,13 @@ TEST_P (MemoryFaults, EndARunInAnOrderlyWay)
         }
         fuzz::stopFailing ();
         EXPECT_FALSE (has_thrown) << "allocation " << n << " of " << all;
-        if (result.report.status == Status::OK) { // a library has done without
+        if (result.report.status == RunStatus::SUCCESS) { // a library has done without
           ++survived;
           EXPECT_EQ (result.triangles, expected.triangles) << "allocation " << n;
         }
         else {
           ++ended;
-          EXPECT_EQ (result.report.status, Status::OUT_OF_MEMORY)
+          EXPECT_EQ (result.report.status, RunStatus::OUT_OF_MEMORY)
               << "allocation " << n << " of " << all << ": " << result.report.message;
           EXPECT_FALSE (result.report.message.empty ());
           EXPECT_TRUE (result.triangles.empty ());

@@ -39,7 +39,7 @@ TEST_P (RandomClouds, GiveNoWrongResult)
     const fuzz::Attack attack = fuzz::randomAttack (seed, GetParam ());
     const Result result = reconstruct (attack.input, attack.options);
     EXPECT_EQ (fuzz::findFault (attack.input, result), "") << "seed " << seed;
-    meshes += result.report.status == Status::OK ? 1 : 0;
+    meshes += result.report.status == RunStatus::SUCCESS ? 1 : 0;
   }
   EXPECT_GE (3 * meshes, cloudsWanted ()) << "the clouds are too hopeless to test much";
 }
@@ -71,7 +71,7 @@ TEST (ResultOracle, SeesFaults)
   input.positions[7] = input.positions[11];
   input.positions[40].x () = std::numeric_limits<double>::quiet_NaN ();
   const Result right = reconstruct (input, {});
-  ASSERT_EQ (right.report.status, Status::OK);
+  ASSERT_EQ (right.report.status, RunStatus::SUCCESS);
   EXPECT_EQ (fuzz::findFault (input, right), "");
   const auto expectFault = [&] (const auto& change, const std::string& what) {
     Result wrong = right;
@@ -90,8 +90,8 @@ TEST (ResultOracle, SeesFaults)
   expectFault ([] (Result& r) { r.report.duplicates.front ()[1] = 0; }, "is no duplicate of 0");
   expectFault ([] (Result& r) { ++r.report.statistics.used_points; }, "counts of points");
   expectFault ([] (Result& r) { r.report.check.euler_characteristic = 2; }, "the check counts");
-  expectFault ([] (Result& r) { r.report.status = Status::INTERNAL_ERROR; }, "INTERNAL_ERROR");
-  expectFault ([] (Result& r) { r.report.status = Status::DEGENERATE; }, "has triangles");
+  expectFault ([] (Result& r) { r.report.status = RunStatus::INTERNAL_ERROR; }, "INTERNAL_ERROR");
+  expectFault ([] (Result& r) { r.report.status = RunStatus::DEGENERATE; }, "has triangles");
 }
 
 // Triangles in any order, each from its smallest corner; seen from either side if `either`.
@@ -149,7 +149,7 @@ TEST (Invariance, OrderAndPowersOfTwoChangeNothing)
   for (const Cloud& cloud : surfacesWithoutTies ()) {
     SCOPED_TRACE (cloud.name);
     const Result expected = reconstruct (asInput (cloud.positions), {});
-    ASSERT_EQ (expected.report.status, Status::OK) << expected.report.message;
+    ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
     for (const double scale : {0x1p-900, 0x1p-20, 0x1p3, 0x1p900})
       EXPECT_EQ (
           reconstruct (asInput (moved (cloud.positions, Eigen::Affine3d (Eigen::Scaling (scale)))),
@@ -189,7 +189,7 @@ TEST (Invariance, RigidMotionChangesFewTriangles)
           Eigen::Affine3d (Eigen::Translation3d (1e4, -3e3, 70) * turn),
           Eigen::Affine3d (Eigen::Scaling (1e-7))}) {
       const Result result = reconstruct (asInput (moved (cloud.positions, motion)), {});
-      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
       EXPECT_EQ (result.report.check.euler_characteristic,
                  expected.report.check.euler_characteristic);
       EXPECT_EQ (result.report.check.loops.size (), expected.report.check.loops.size ());

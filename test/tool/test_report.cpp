@@ -23,7 +23,7 @@ TEST_F (ReportTest, JsonIsTheLastLine)
     const std::size_t before = lines.rfind ('\n');
     EXPECT_EQ (before == std::string::npos, quiet);
     const Json summary = Json::parse (lines.substr (before == std::string::npos ? 0 : before + 1));
-    EXPECT_EQ (summary.at ("status"), "OK");
+    EXPECT_EQ (summary.at ("status"), "SUCCESS");
     EXPECT_EQ (summary.at ("points"), sample_.size ());
     EXPECT_EQ (summary.at ("components"), 1);
     EXPECT_EQ (summary.at ("genus"), 0);
@@ -52,7 +52,7 @@ TEST_F (ReportTest, ReportHasEverything)
   writeFile ("in.pcd", pcdText (points));
   const Json all = report ({});
   EXPECT_EQ (all.at ("tool"), "pcl_floater_reconstruct");
-  EXPECT_EQ (all.at ("status"), "OK");
+  EXPECT_EQ (all.at ("status"), "SUCCESS");
   EXPECT_EQ (all.at ("message"), "");
   EXPECT_EQ (all.at ("input").at ("file"), "in.pcd");
   EXPECT_EQ (all.at ("input").at ("points"), points.size ());

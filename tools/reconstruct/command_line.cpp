@@ -46,6 +46,9 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
       return app.exit (error);
     throw UsageError (error.what ());
   }
+  if (app.count ("--largest-hole") > 0 && app.count ("--largest-hole-length") > 0)
+    throw UsageError ("--largest-hole and --largest-hole-length are one size in two units; give "
+                      "one of them");
   if (command_line.input.empty () || command_line.output.empty ())
     throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");
   const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();

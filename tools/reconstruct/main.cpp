@@ -64,12 +64,12 @@ exitCode (const Report& report, const RunFigures& run)
   if (run.is_refused)
     return EXIT_WARNINGS;
   switch (report.status) {
-  case Status::OK:
+  case RunStatus::SUCCESS:
     return EXIT_OK;
-  case Status::INVALID_OPTION:
+  case RunStatus::INVALID_OPTION:
     return EXIT_USAGE;
-  case Status::OUT_OF_MEMORY:
-  case Status::INTERNAL_ERROR:
+  case RunStatus::OUT_OF_MEMORY:
+  case RunStatus::INTERNAL_ERROR:
     return EXIT_INTERNAL;
   default:
     return EXIT_RECONSTRUCTION;
@@ -170,7 +170,7 @@ void
 reportMemory (const CommandLine& line, Report& report)
 {
   if (const std::string failure = largeArrayFailure ();
-      report.status == Status::OUT_OF_MEMORY && !failure.empty ())
+      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
     report.message = failure;
   if (line.max_memory == 0)
     return;
@@ -231,9 +231,9 @@ void
 stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
 {
   Report& report = result.report;
-  if (report.status == Status::OK)
+  if (report.status == RunStatus::SUCCESS)
     stageOutputs (line, cloud, result, run, files);
-  run.is_refused = line.strict && report.status == Status::OK && !report.warnings.empty ();
+  run.is_refused = line.strict && report.status == RunStatus::SUCCESS && !report.warnings.empty ();
   if (run.is_refused) {
     files.clear ();
     report.message =
@@ -260,7 +260,7 @@ run (CommandLine line)
   progress.show ("reading");
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
-    line.options.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
+    line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   const bool all_digits = line.auto_shift || line.shift;
   Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, all_digits); });
   checkMemory (line, cloud.size ());

@@ -112,6 +112,22 @@ addViewpoint (CLI::App& app, ViewOptions& options, const std::string& group)
       ->group (group);
 }
 
+// The size of --largest-hole in another unit. CommandLine has one size: only one may be given.
+void
+addLargestHoleLength (CLI::App& app, HoleOptions& options, const std::string& group)
+{
+  const std::string name = "--largest-hole-length";
+  const auto parse = [&options, name] (const std::string& word) {
+    if (!parseNumber (word, options.largest_hole))
+      throw CLI::ValidationError (name, "'" + word + "' is not a number");
+    options.unit = LengthUnit::CLOUD;
+  };
+  app.add_option_function<std::string> (
+         name, parse, "instead of --largest-hole: the same in units of the\ncloud")
+      ->option_text ("X")
+      ->group (group);
+}
+
 void
 addTopology (CLI::App& app, Options& options)
 {
@@ -129,9 +145,8 @@ addTopology (CLI::App& app, Options& options)
   addNumber (app, "--kept-loops", options.holes.kept_loops,
              "keep-count: boundary loops that stay open, 0 or more", surface);
   addNumber (app, "--largest-hole", options.holes.largest_hole,
-             "by-size: width of the widest hole to fill, in local\nspacings; 0: no limit", surface);
-  addNumber (app, "--largest-hole-length", options.holes.largest_hole_length,
-             "by-size: the same in units of the cloud", surface);
+             "by-size: width of the widest hole to fill, in local\nspacings", surface);
+  addLargestHoleLength (app, options.holes, surface);
   addViewpoint (app, options.view, surface);
   addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
              "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
@@ -218,7 +233,7 @@ addBoundary (CLI::App& app, CommandLine& line)
 {
   Options& options = line.options;
   const std::string boundary = "Boundary of a disc";
-  addChoice (app, "--boundary", options.boundary.method, BOUNDARY_CHOICES,
+  addChoice (app, "--boundary", options.disc.boundary.method, BOUNDARY_CHOICES,
              "how the boundary loop is found: in a spanning tree of\nthe boundary points; as the "
              "largest boundary loop of\nthe consensus of the stars; or as in TW 385, section 3\n"
              "(two-segments)",
@@ -226,14 +241,14 @@ addBoundary (CLI::App& app, CommandLine& line)
   addPath (app, "--loop", line.loop,
            "read the loop from this text file: indices of points,\nfrom 0, in order; makes a disc",
            boundary);
-  addNumber (app, "--opening-angle", options.boundary.opening_angle,
+  addNumber (app, "--opening-angle", options.disc.boundary.opening_angle,
              "two-segments: degrees; a boundary point has a wider\nsector without neighbours",
              boundary);
-  addNumber (app, "--cluster-tolerance", options.boundary.cluster_tolerance,
+  addNumber (app, "--cluster-tolerance", options.disc.boundary.cluster_tolerance,
              "two-segments: distance over which clusters grow, as\na fraction of the bounding box "
              "diagonal",
              boundary);
-  addNumber (app, "--cluster-neighbors", options.boundary.cluster_k,
+  addNumber (app, "--cluster-neighbors", options.disc.boundary.cluster_k,
              "two-segments: boundary points that a cluster takes in\nat a time, 1 or more",
              boundary);
 }
@@ -242,13 +257,13 @@ void
 addParameterization (CLI::App& app, Options& options)
 {
   const std::string parameterization = "Parameterization of a disc";
-  addChoice (app, "--domain", options.domain.curve, DOMAIN_CHOICES,
+  addChoice (app, "--domain", options.disc.domain.curve, DOMAIN_CHOICES,
              "convex curve on which the loop is laid", parameterization);
-  addNumber (app, "--sides", options.domain.polygon_sides, "sides of the polygon, 3 or more",
+  addNumber (app, "--sides", options.disc.domain.polygon_sides, "sides of the polygon, 3 or more",
              parameterization);
-  addChoice (app, "--spacing", options.domain.loop_spacing, SPACING_CHOICES,
+  addChoice (app, "--spacing", options.disc.domain.loop_spacing, SPACING_CHOICES,
              "how the points of the loop are spaced on that curve", parameterization);
-  addChoice (app, "--weights", options.weighting, WEIGHTING_CHOICES,
+  addChoice (app, "--weights", options.disc.weighting, WEIGHTING_CHOICES,
              "weights of the neighbours of a point", parameterization);
 }
 
@@ -256,20 +271,20 @@ void
 addSystem (CLI::App& app, Options& options)
 {
   const std::string system = "Linear system";
-  addChoice (app, "--solver", options.solver.method, SOLVER_CHOICES, "what solves the system",
+  addChoice (app, "--solver", options.disc.solver.method, SOLVER_CHOICES, "what solves the system",
              system);
-  addChoice (app, "--ordering", options.solver.ordering, ORDERING_CHOICES, "order of the unknowns",
-             system);
-  addNumber (app, "--tolerance", options.solver.tolerance,
+  addChoice (app, "--ordering", options.disc.solver.ordering, ORDERING_CHOICES,
+             "order of the unknowns", system);
+  addNumber (app, "--tolerance", options.disc.solver.tolerance,
              "bicgstab-ilut, gauss-seidel: relative residual to\nreach, above 0 and below 1",
              system);
-  addNumber (app, "--max-iterations", options.solver.max_iterations,
+  addNumber (app, "--max-iterations", options.disc.solver.max_iterations,
              "bicgstab-ilut, gauss-seidel: iterations after which\nthey give up, 1 or more",
              system);
-  addNumber (app, "--ilut-fill", options.solver.ilut_fill,
+  addNumber (app, "--ilut-fill", options.disc.solver.ilut_fill,
              "bicgstab-ilut: entries kept in a row of each factor,\n1 to 10000", system);
   addNumber (
-      app, "--ilut-drop", options.solver.ilut_drop,
+      app, "--ilut-drop", options.disc.solver.ilut_drop,
       "bicgstab-ilut: entries of the factors below this\nfraction of their row are dropped, 0 "
       "to 1",
       system);

@@ -18,11 +18,12 @@ using Json = nlohmann::ordered_json;
 Json
 optionsJson (const Options& options)
 {
+  const bool in_cloud_units = options.holes.unit == LengthUnit::CLOUD;
   return {{"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
           {"holes", choiceName (HOLE_CHOICES, options.holes.policy)},
           {"kept_loops", options.holes.kept_loops},
-          {"largest_hole", options.holes.largest_hole},
-          {"largest_hole_length", options.holes.largest_hole_length},
+          {"largest_hole", in_cloud_units ? 0.0 : options.holes.largest_hole},
+          {"largest_hole_length", in_cloud_units ? options.holes.largest_hole : 0.0},
           {"max_edge", options.trimming.maximum_edge_length},
           {"max_edge_ratio", options.trimming.maximum_edge_ratio},
           {"min_component", options.trimming.minimum_component_size},
@@ -36,21 +37,21 @@ optionsJson (const Options& options)
           {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighbors.kind)},
           {"ball_radius", options.neighbors.ball_radius},
           {"sheet_filter", options.filter_sheets},
-          {"boundary", choiceName (BOUNDARY_CHOICES, options.boundary.method)},
-          {"loop_given", !options.boundary.loop.empty ()},
-          {"opening_angle", options.boundary.opening_angle},
-          {"cluster_tolerance", options.boundary.cluster_tolerance},
-          {"cluster_neighbors", options.boundary.cluster_k},
-          {"domain", choiceName (DOMAIN_CHOICES, options.domain.curve)},
-          {"sides", options.domain.polygon_sides},
-          {"spacing", choiceName (SPACING_CHOICES, options.domain.loop_spacing)},
-          {"weights", choiceName (WEIGHTING_CHOICES, options.weighting)},
-          {"solver", choiceName (SOLVER_CHOICES, options.solver.method)},
-          {"ordering", choiceName (ORDERING_CHOICES, options.solver.ordering)},
-          {"tolerance", options.solver.tolerance},
-          {"max_iterations", options.solver.max_iterations},
-          {"ilut_fill", options.solver.ilut_fill},
-          {"ilut_drop", options.solver.ilut_drop},
+          {"boundary", choiceName (BOUNDARY_CHOICES, options.disc.boundary.method)},
+          {"loop_given", !options.disc.boundary.loop.empty ()},
+          {"opening_angle", options.disc.boundary.opening_angle},
+          {"cluster_tolerance", options.disc.boundary.cluster_tolerance},
+          {"cluster_neighbors", options.disc.boundary.cluster_k},
+          {"domain", choiceName (DOMAIN_CHOICES, options.disc.domain.curve)},
+          {"sides", options.disc.domain.polygon_sides},
+          {"spacing", choiceName (SPACING_CHOICES, options.disc.domain.loop_spacing)},
+          {"weights", choiceName (WEIGHTING_CHOICES, options.disc.weighting)},
+          {"solver", choiceName (SOLVER_CHOICES, options.disc.solver.method)},
+          {"ordering", choiceName (ORDERING_CHOICES, options.disc.solver.ordering)},
+          {"tolerance", options.disc.solver.tolerance},
+          {"max_iterations", options.disc.solver.max_iterations},
+          {"ilut_fill", options.disc.solver.ilut_fill},
+          {"ilut_drop", options.disc.solver.ilut_drop},
           {"flips", options.flip_edges},
           {"uncross", options.remove_self_intersections},
           {"open_crossings", options.trimming.open_self_intersections},
@@ -223,7 +224,7 @@ outcomeName (const Report& report, const RunFigures& run)
 std::string
 reportText (const CommandLine& line, const Report& report, const RunFigures& run)
 {
-  const bool is_ok = report.status == Status::OK && !run.is_refused;
+  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
   const Json all = {{"tool", "pcl_floater_reconstruct"},
                     {"version", PCL_FLOATER_VERSION},
                     {"input",
@@ -270,7 +271,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
 std::string
 summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
 {
-  const bool is_ok = report.status == Status::OK && !run.is_refused;
+  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
   return dump ({{"status", outcomeName (report, run)},
                 {"message", report.message},
                 {"points", run.input_points},

@@ -138,7 +138,7 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
 void
 printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures)
 {
-  const bool is_ok = report.status == Status::OK && !figures.is_refused;
+  const bool is_ok = report.status == RunStatus::SUCCESS && !figures.is_refused;
   if (!is_ok)
     std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct '%s': %s (%s)\n",
                   line.input.c_str (), report.message.c_str (),

@@ -21,7 +21,7 @@ fromUser (const Points& points, const std::vector<Index>& user_loop)
 {
   Boundary boundary;
   const auto invalid = [&] (const std::string& why) {
-    boundary.problem = {Status::INVALID_LOOP, "the given boundary loop " + why};
+    boundary.problem = {RunStatus::INVALID_LOOP, "the given boundary loop " + why};
     boundary.loop.clear ();
     return boundary;
   };
@@ -99,7 +99,7 @@ checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_
   if (boundary.loop.size () < 3 || is_mere_gap) {
     boundary.loop.clear ();
     boundary.problem = {
-        Status::NO_BOUNDARY,
+        RunStatus::NO_BOUNDARY,
         "no boundary loop was found among " + std::to_string (boundary.candidates) +
             (boundary.candidates == 1 ? " boundary point" : " boundary points") +
             ": the surface seems to be closed, or it is not one disc; cut it open, or give the "

@@ -106,10 +106,10 @@ checkSolver (Solver solver, Ordering ordering)
   const std::string name = solverName (solver);
   if (ordering == Ordering::COLAMD && solver != Solver::UMFPACK_UNSYMMETRIC &&
       solver != Solver::SUPERLU && solver != Solver::EIGEN_SPARSE_LU)
-    return {Status::INVALID_OPTION, name + " does not take the ordering COLAMD, which orders "
-                                           "columns alone; choose another ordering"};
+    return {RunStatus::INVALID_OPTION, name + " does not take the ordering COLAMD, which orders "
+                                              "columns alone; choose another ordering"};
   if (!isAvailable (solver))
-    return {Status::SOLVER_UNAVAILABLE,
+    return {RunStatus::SOLVER_UNAVAILABLE,
             "this build of pcl_floater does not have " + name +
                 "; choose another solver, or build pcl_floater where that library is installed"};
   return {};
@@ -121,7 +121,7 @@ solve (const LinearSystem& system, const SolverOptions& options,
 {
   Solution solution;
   if (const Problem problem = checkSolver (options.method, options.ordering)) {
-    if (problem.status == Status::SOLVER_UNAVAILABLE)
+    if (problem.status == RunStatus::SOLVER_UNAVAILABLE)
       solution.outcome = Solution::Outcome::UNAVAILABLE;
     solution.message = problem.message;
     return solution;

@@ -22,7 +22,7 @@ public:
   FloaterMethod (Topology topology, int threads)
   {
     floater_.setTopology (topology);
-    floater_.setNumberOfThreads (threads);
+    floater_.setNumberOfThreads (static_cast<unsigned int> (threads));
   }
 
   void prepare (const std::vector<Eigen::Vector3d>& points) override
@@ -33,7 +33,7 @@ public:
   void run () override
   {
     floater_.reconstruct (mesh_);
-    if (floater_.getStatus () != Status::OK)
+    if (floater_.getStatus () != RunStatus::SUCCESS)
       throw std::runtime_error (floater_.getMessage ());
   }
 

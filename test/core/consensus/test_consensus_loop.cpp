@@ -68,7 +68,7 @@ TEST (ConsensusLoop, OfAClosedSurfaceIsEmpty)
                  std::sqrt (1.0 - z * z) * std::sin (angle), z};
   }
   const Boundary boundary = find (makeNeighborhoods (sphere));
-  EXPECT_EQ (boundary.problem.status, Status::NO_BOUNDARY);
+  EXPECT_EQ (boundary.problem.status, RunStatus::NO_BOUNDARY);
   EXPECT_FALSE (boundary.problem.message.empty ());
   EXPECT_TRUE (boundary.loop.empty ());
 }

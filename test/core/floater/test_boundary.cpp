@@ -46,7 +46,7 @@ expectInvalid (const Neighborhoods& made, const std::vector<Index>& loop, const 
   BoundaryOptions options;
   options.loop = loop;
   const Boundary boundary = find (made, options);
-  EXPECT_EQ (boundary.problem.status, Status::INVALID_LOOP);
+  EXPECT_EQ (boundary.problem.status, RunStatus::INVALID_LOOP);
   EXPECT_NE (boundary.problem.message.find (why), std::string::npos) << boundary.problem.message;
   EXPECT_TRUE (boundary.loop.empty ());
 }
@@ -128,8 +128,9 @@ TEST (Boundary, MustNotBeShorterThanTheLimit)
       limits.shortest_loop = shortest;
       Boundary boundary = findBoundary (made.points, made.geometry, {}, 1, limits);
       checkBoundary (made.points, made.geometry.spacing, is_given, boundary, limits);
-      EXPECT_EQ (boundary.problem.status,
-                 is_given || shortest == sheet.border ? Status::OK : Status::NO_BOUNDARY);
+      EXPECT_EQ (boundary.problem.status, is_given || shortest == sheet.border
+                                              ? RunStatus::SUCCESS
+                                              : RunStatus::NO_BOUNDARY);
     }
 }
 
@@ -148,7 +149,7 @@ TEST (Boundary, OfAClosedSurfaceIsAProblem)
     BoundaryOptions options;
     options.method = method;
     const Boundary boundary = find (made, options);
-    EXPECT_EQ (boundary.problem.status, Status::NO_BOUNDARY);
+    EXPECT_EQ (boundary.problem.status, RunStatus::NO_BOUNDARY);
     EXPECT_FALSE (boundary.problem.message.empty ());
     EXPECT_TRUE (boundary.loop.empty ());
   }

@@ -83,7 +83,7 @@ hand (const std::vector<double>& lengths)
 void
 expectWholeDisc (const Result& result, const Positions& cloud)
 {
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.components, 1U);

@@ -139,7 +139,7 @@ TEST (Solvers, WithDiagonalPivotsRefuseColamd)
   system.row_offsets = {0};
   for (const Solver solver : {Solver::UMFPACK, Solver::BICGSTAB_ILUT, Solver::GAUSS_SEIDEL}) {
     const Problem problem = checkSolver (solver, Ordering::COLAMD);
-    EXPECT_EQ (problem.status, Status::INVALID_OPTION);
+    EXPECT_EQ (problem.status, RunStatus::INVALID_OPTION);
     EXPECT_NE (problem.message.find ("COLAMD"), std::string::npos);
     EXPECT_EQ (solveOnAllCores (system, choice (solver, Ordering::COLAMD)).outcome,
                Outcome::FAILED);
@@ -169,7 +169,8 @@ TEST (Solvers, TellIfTheyAreNotBuilt)
     system.row_offsets = {0};
     const Problem problem = checkSolver (solver, Ordering::AUTOMATIC);
     const Solution solution = solveOnAllCores (system, choice (solver));
-    EXPECT_EQ (problem.status, isAvailable (solver) ? Status::OK : Status::SOLVER_UNAVAILABLE);
+    EXPECT_EQ (problem.status,
+               isAvailable (solver) ? RunStatus::SUCCESS : RunStatus::SOLVER_UNAVAILABLE);
     EXPECT_EQ (problem.message.empty (), isAvailable (solver));
     EXPECT_EQ (solution.outcome, isAvailable (solver) ? Outcome::OK : Outcome::UNAVAILABLE);
     EXPECT_EQ (solution.message, problem.message);

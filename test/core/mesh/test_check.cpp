@@ -218,7 +218,7 @@ TEST (MeshCheck, WhatIsBrokenIsCounted)
     EXPECT_EQ (found.broken_at, 0U + (std::string (broken.what) == "a corner thrice" ? 2U : 0U));
     Report report;
     const Problem problem = reportCheck (pointsAt (positions), found, {}, report);
-    EXPECT_EQ (problem.status, Status::INTERNAL_ERROR);
+    EXPECT_EQ (problem.status, RunStatus::INTERNAL_ERROR);
     EXPECT_NE (problem.message.find ("not an oriented manifold"), std::string::npos);
     EXPECT_TRUE (report.check.done);
   }

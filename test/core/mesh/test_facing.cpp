@@ -328,7 +328,7 @@ TEST (Facing, IsHowEveryResultFaces)
       Options options;
       options.topology = method;
       const Result result = reconstruct (samples::asInput (permuted), options);
-      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
       EXPECT_EQ (shareFacing (result.triangles, permuted, outside), 1.0);
       if (method == Topology::SURFACE)
         continue;
@@ -358,7 +358,7 @@ TEST (Facing, TheSensorOfACloudIsFacedByBothMethods)
         Input input = samples::asInput (points);
         input.sensor_origin = {5.0, -3.0, height};
         const Result result = reconstruct (std::move (input), options);
-        ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+        ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
         EXPECT_FALSE (result.report.is_view);
         EXPECT_TRUE (result.report.facing_decisions.empty ());
         const double front = use == ViewUse::NEVER ? 1.0 : height;

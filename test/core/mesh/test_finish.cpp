@@ -151,12 +151,12 @@ TEST (Finish, ATorusLaidOutAsADiscIsRefused)
       positions.emplace_back (radius * std::cos (a), radius * std::sin (a), 0.4 * std::sin (b));
     }
   for (const int v : {0, 1, 2}) // around a square of 2 x 2 cells
-    options.boundary.loop.push_back (static_cast<Index> (v));
+    options.disc.boundary.loop.push_back (static_cast<Index> (v));
   for (const int place : {ACROSS + 2, 2 * ACROSS + 2, 2 * ACROSS + 1, 2 * ACROSS, ACROSS})
-    options.boundary.loop.push_back (static_cast<Index> (place));
+    options.disc.boundary.loop.push_back (static_cast<Index> (place));
   options.topology = Topology::DISC;
   const Result result = reconstruct (samples::asInput (positions), options);
-  EXPECT_EQ (result.report.status, Status::NOT_A_DISC);
+  EXPECT_EQ (result.report.status, RunStatus::NOT_A_DISC);
   EXPECT_NE (result.report.message.find ("folded"), std::string::npos) << result.report.message;
   EXPECT_TRUE (result.triangles.empty ());
 }

@@ -25,7 +25,7 @@ policy (HolePolicy kind)
 
 // Widths of the loops that are kept open, of loops 1 to 9 wide with spacings of 0.5.
 std::vector<double>
-widthsKept (double largest_hole, double largest_hole_length, double unit)
+widthsKept (double largest_hole, LengthUnit length_unit, double unit)
 {
   std::vector<BoundaryLoop> loops;
   for (int width = 1; width <= 9; ++width) {
@@ -36,7 +36,7 @@ widthsKept (double largest_hole, double largest_hole_length, double unit)
   }
   HoleOptions holes = policy (HolePolicy::BY_SIZE);
   holes.largest_hole = largest_hole;
-  holes.largest_hole_length = largest_hole_length;
+  holes.unit = length_unit;
   chooseOpenLoops (loops, std::vector<LoopJudgement> (loops.size ()), 1, holes, unit);
   std::vector<double> widths;
   for (const BoundaryLoop& loop : loops)
@@ -45,13 +45,13 @@ widthsKept (double largest_hole, double largest_hole_length, double unit)
   return widths;
 }
 
-TEST (OpenLoops, AreKeptIfTheyExceedAnyOfTheSizesGiven)
+TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
 {
-  EXPECT_EQ (widthsKept (14.0, 0.0, 1.0), (std::vector<double>{8.0, 9.0}));
-  EXPECT_EQ (widthsKept (0.0, 6.0, 1.0), (std::vector<double>{7.0, 8.0, 9.0}));
-  EXPECT_EQ (widthsKept (0.0, 3.0, 2.0), (std::vector<double>{7.0, 8.0, 9.0}));
-  EXPECT_EQ (widthsKept (14.0, 6.0, 1.0), (std::vector<double>{7.0, 8.0, 9.0}));
-  EXPECT_EQ (widthsKept (12.0, 8.0, 1.0), (std::vector<double>{7.0, 8.0, 9.0}));
+  EXPECT_EQ (widthsKept (14.0, LengthUnit::SPACINGS, 1.0), (std::vector<double>{8.0, 9.0}));
+  EXPECT_EQ (widthsKept (14.0, LengthUnit::SPACINGS, 0.1), (std::vector<double>{8.0, 9.0}));
+  EXPECT_EQ (widthsKept (6.0, LengthUnit::CLOUD, 1.0), (std::vector<double>{7.0, 8.0, 9.0}));
+  EXPECT_EQ (widthsKept (3.0, LengthUnit::CLOUD, 2.0), (std::vector<double>{7.0, 8.0, 9.0}));
+  EXPECT_EQ (widthsKept (14.0, LengthUnit::CLOUD, 1.0), std::vector<double>{});
 }
 
 // A loop of a length, of a component.

@@ -236,14 +236,14 @@ TEST (Trimming, ABridgedHoleIsOpenedAgain)
       options.holes.largest_hole = 30.0;
     }
     const Result bridged = reconstruct (asInput (cloud), options);
-    ASSERT_EQ (bridged.report.status, Status::OK) << bridged.report.message;
+    ASSERT_EQ (bridged.report.status, RunStatus::SUCCESS) << bridged.report.message;
     EXPECT_GT (bridged.report.check.longest_edge, 4.0);
     EXPECT_EQ (bridged.report.check.loops.size (), 1U);
     EXPECT_EQ (bridged.report.statistics.trimmed_triangles, 0U);
     for (const bool by_ratio : {false, true}) {
       (by_ratio ? options.trimming.maximum_edge_ratio : options.trimming.maximum_edge_length) = 4.0;
       const Result result = reconstruct (asInput (cloud), options);
-      ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
       const Report& report = result.report;
       EXPECT_LE (by_ratio ? report.check.longest_edge : longestEdgeOf (cloud, result.triangles),
                  4.0);
@@ -279,7 +279,7 @@ TEST (Trimming, SmallComponentsOfACloud)
   EXPECT_EQ (reconstruct (asInput (cloud), options).report.check.components, 2U);
   options.trimming.minimum_component_size = 101;
   const Result result = reconstruct (asInput (cloud), options);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const Report& report = result.report;
   EXPECT_EQ (report.check.components, 1U);
   EXPECT_EQ (report.statistics.trimmed_components, 1U);
@@ -297,7 +297,7 @@ TEST (Trimming, NothingLeftIsAFailure)
     Options options;
     options.trimming = trimming;
     const Result result = reconstruct (asInput (cloud), options);
-    EXPECT_EQ (result.report.status, Status::INVALID_OPTION);
+    EXPECT_EQ (result.report.status, RunStatus::INVALID_OPTION);
     EXPECT_NE (result.report.message.find ("no triangle is left"), std::string::npos);
     EXPECT_TRUE (result.triangles.empty ());
   }

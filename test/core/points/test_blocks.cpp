@@ -204,7 +204,7 @@ TEST (Blocks, GiveTheSameMeshHoweverManyThereAre)
     options.topology = Topology::SURFACE;
     options.blocks = 1;
     const Result whole = reconstruct (samples::asInput (clouds[cloud]), options);
-    ASSERT_EQ (whole.report.status, Status::OK) << whole.report.message;
+    ASSERT_EQ (whole.report.status, RunStatus::SUCCESS) << whole.report.message;
     EXPECT_EQ (whole.report.denoised, cloud == 3);
     EXPECT_EQ (whole.report.outliers.size (), cloud == 4 ? 2U : 0U);
     for (const int blocks : {2, 5, 64})

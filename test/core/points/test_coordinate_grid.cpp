@@ -133,7 +133,7 @@ TEST (CoordinateGrid, TheReportWarns)
   EXPECT_EQ (clean.report.statistics.coordinate_step, 0.0);
   EXPECT_TRUE (clean.report.warnings.empty ()) << clean.report.warnings.front ();
   const Result result = reconstruct (asInput (asFloats (fine)), {});
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_GT (result.report.statistics.coordinate_step, 0.1);
   ASSERT_FALSE (result.report.warnings.empty ());
   std::string warnings; // rounding to wide steps looks like noise, too

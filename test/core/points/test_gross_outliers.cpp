@@ -154,7 +154,7 @@ TEST (GrossOutliers, LeaveTheMeshAsItIs)
     const Positions cloud = clean + strays;
     const Result expected = reconstruct (asInput (clean), {});
     const Result result = reconstruct (asInput (cloud), {});
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     EXPECT_EQ (result.triangles, expected.triangles);
     EXPECT_EQ (result.report.outliers, rowsFrom (3000, cloud));
     EXPECT_EQ (result.report.statistics.outlier_points, 4U);
@@ -172,7 +172,7 @@ TEST (GrossOutliers, AreAddedToTheOthers)
   cloud.emplace_back (0, 0, 200);
   cloud.insert (cloud.begin (), {1e10, 0, 0});
   const Result result = reconstruct (asInput (cloud), {});
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_EQ (result.report.outliers, (Rows{0, 3001}));
   EXPECT_EQ (result.report.statistics.outlier_points, 2U);
   EXPECT_EQ (result.report.statistics.working_points, 3000U);
@@ -185,13 +185,13 @@ TEST (GrossOutliers, StayIfOutliersAreToStay)
   options.remove_outliers = false;
   const Positions torus = surface (SurfaceKind::TORUS, 3000);
   const Result failed = reconstruct (asInput (torus + Positions{{LARGEST_FLOAT, 0, 0}}), options);
-  EXPECT_EQ (failed.report.status, Status::DEGENERATE);
+  EXPECT_EQ (failed.report.status, RunStatus::DEGENERATE);
   EXPECT_NE (failed.report.message.find ("point 3000"), std::string::npos);
   EXPECT_TRUE (failed.triangles.empty ());
   // Double precision can hold these.
   const Result result =
       reconstruct (asInput (torus + Positions{{1e8, 2e8, 0}, {-1e10, 0, 1e9}}), options);
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_GE (topology.vertices, 3000U);
@@ -203,7 +203,7 @@ TEST (GrossOutliers, AreNoQuarterOfTheCloud)
   const Positions cloud =
       surface (SurfaceKind::TORUS, 1000) + surface (SurfaceKind::TORUS, 600, {0, 0, 0}, 1e30);
   const Result result = reconstruct (asInput (cloud), {});
-  EXPECT_EQ (result.report.status, Status::DEGENERATE);
+  EXPECT_EQ (result.report.status, RunStatus::DEGENERATE);
   EXPECT_NE (result.report.message.find ("double precision"), std::string::npos);
 }
 
@@ -212,7 +212,7 @@ TEST (GrossOutliers, ObjectsFarApartAreBothReconstructed)
   const Positions cloud =
       surface (SurfaceKind::TORUS, 2000) + surface (SurfaceKind::TORUS, 2500, {4e8, 0, 0});
   const Result result = reconstruct (asInput (cloud), {});
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.components, 2U);

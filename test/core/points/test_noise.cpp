@@ -335,7 +335,7 @@ TEST (Scatter, IsKeptOrDroppedAndTold)
   Options options;
   options.threads = 1;
   const Result kept = reconstruct (positions, options);
-  ASSERT_EQ (kept.report.status, Status::OK) << kept.report.message;
+  ASSERT_EQ (kept.report.status, RunStatus::SUCCESS) << kept.report.message;
   const std::vector<std::uint32_t>& scatter = kept.report.scatter;
   EXPECT_EQ (kept.report.statistics.scatter_points, scatter.size ());
   EXPECT_GT (scatter.size (), 1200U);
@@ -344,7 +344,7 @@ TEST (Scatter, IsKeptOrDroppedAndTold)
 
   options.scatter = ScatterPolicy::DROP;
   const Result dropped = reconstruct (positions, options);
-  ASSERT_EQ (dropped.report.status, Status::OK) << dropped.report.message;
+  ASSERT_EQ (dropped.report.status, RunStatus::SUCCESS) << dropped.report.message;
   EXPECT_EQ (dropped.report.scatter, scatter);
   for (const Triangle& t : dropped.triangles)
     for (const Index p : t)
@@ -360,7 +360,7 @@ TEST (Scatter, IsKeptOrDroppedAndTold)
     if (none.report.scatter.size () != 400)
       continue;
     ++empty;
-    EXPECT_EQ (none.report.status, Status::TOO_FEW_POINTS);
+    EXPECT_EQ (none.report.status, RunStatus::TOO_FEW_POINTS);
     EXPECT_NE (none.report.message.find ("400 points of no surface"), std::string::npos);
   }
   EXPECT_GT (empty, 0U);

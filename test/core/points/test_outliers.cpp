@@ -208,7 +208,7 @@ TEST (Outliers, AreReportedAndLeftOut)
   for (const Topology topology : {Topology::SURFACE, Topology::DISC}) {
     options.topology = topology;
     const Result result = reconstruct (samples::asInput (points), options);
-    EXPECT_EQ (result.report.status, Status::OK) << result.report.message;
+    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     EXPECT_EQ (result.report.outliers, (std::vector<Index>{900, 901}));
     EXPECT_EQ (result.report.statistics.outlier_points, 2U);
     EXPECT_EQ (result.report.statistics.working_points, 900U);

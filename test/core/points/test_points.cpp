@@ -263,7 +263,7 @@ TEST (Points, ABoxAsSmallAsOneDigit)
   }
 }
 
-Status
+RunStatus
 statusOf (const Positions& positions)
 {
   return checkPoints (make (positions)).status;
@@ -272,13 +272,13 @@ statusOf (const Positions& positions)
 TEST (CheckPoints, FourDistinctFinitePoints)
 {
   const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  EXPECT_EQ (statusOf (square), Status::OK);
-  EXPECT_EQ (statusOf ({}), Status::TOO_FEW_POINTS);
-  EXPECT_EQ (statusOf ({square[0], square[1], square[2]}), Status::TOO_FEW_POINTS);
+  EXPECT_EQ (statusOf (square), RunStatus::SUCCESS);
+  EXPECT_EQ (statusOf ({}), RunStatus::TOO_FEW_POINTS);
+  EXPECT_EQ (statusOf ({square[0], square[1], square[2]}), RunStatus::TOO_FEW_POINTS);
   EXPECT_EQ (statusOf ({square[0], square[1], square[2], square[1], square[0]}),
-             Status::TOO_FEW_POINTS);
+             RunStatus::TOO_FEW_POINTS);
   EXPECT_EQ (statusOf ({square[0], square[1], square[2], {0, NOT_A_NUMBER, 0}}),
-             Status::TOO_FEW_POINTS);
+             RunStatus::TOO_FEW_POINTS);
 }
 
 TEST (CheckPoints, NotAllOnOneLine)
@@ -288,9 +288,9 @@ TEST (CheckPoints, NotAllOnOneLine)
     for (int i = 0; i < 30; ++i) // rounded to single precision, as clouds are
       line.emplace_back (static_cast<float> (scale * 0.1 * i), static_cast<float> (scale * 0.3 * i),
                          static_cast<float> (scale * -0.7 * i));
-    EXPECT_EQ (statusOf (line), Status::DEGENERATE);
+    EXPECT_EQ (statusOf (line), RunStatus::DEGENERATE);
     line.emplace_back (scale * 0.01, 0.0, 0.0);
-    EXPECT_EQ (statusOf (line), Status::OK);
+    EXPECT_EQ (statusOf (line), RunStatus::SUCCESS);
   }
 }
 
@@ -299,10 +299,10 @@ TEST (CheckPoints, SmallObjectsFarApartAreNoLine)
   Positions cloud = samples::randomPoints (200, 11);
   for (const Eigen::Vector3d& p : samples::randomPoints (300, 12))
     cloud.emplace_back (p + Eigen::Vector3d (1e8, 2e8, 0.0));
-  EXPECT_EQ (statusOf (cloud), Status::OK);
+  EXPECT_EQ (statusOf (cloud), RunStatus::SUCCESS);
   cloud.assign (cloud.begin (), cloud.begin () + 200);
   cloud.emplace_back (1e10, 0.0, 0.0);
-  EXPECT_EQ (statusOf (cloud), Status::OK);
+  EXPECT_EQ (statusOf (cloud), RunStatus::SUCCESS);
 }
 
 // Random points in a cube, and two points far away.

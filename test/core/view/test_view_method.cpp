@@ -54,7 +54,7 @@ TEST_P (Noises, DepthStepsAreLeftOut)
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Scan scan = samples::scanScene (Raster::CAMERA, GetParam (), seed);
     const Result result = reconstruct (scan.points, seenFrom (scan.viewpoint));
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     EXPECT_TRUE (result.report.is_view);
     EXPECT_GT (result.report.statistics.view_steps, 100U);
     EXPECT_GT (result.report.statistics.used_points, 0.99 * scan.points.size ());
@@ -74,7 +74,7 @@ TEST (ViewMethod, TheMeshFacesTheSensor)
   for (const Raster raster : {Raster::CAMERA, Raster::RINGS, Raster::SPHERE}) {
     const Scan scan = samples::scanScene (raster, {0.005, 0.0}, 3);
     const Result result = reconstruct (scan.points, seenFrom (scan.viewpoint));
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     std::size_t turned = 0;
     for (const auto& [a, b, c] : result.triangles)
       turned += areaVector (scan.points[a], scan.points[b], scan.points[c])
@@ -107,7 +107,7 @@ TEST (ViewMethod, TheViewpointIsSearchedWhereNoiseIsStrong)
   for (const Raster raster : {Raster::CAMERA, Raster::SPHERE}) {
     const Scan scan = samples::scanScene (raster, {0.01, 0.0}, 2);
     const Result result = reconstruct (scan.points, {});
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     EXPECT_TRUE (result.report.is_view);
     EXPECT_GT (result.report.statistics.used_points, 0.98 * scan.points.size ());
     EXPECT_LE (result.report.check.components, 10U);
@@ -120,7 +120,7 @@ TEST (ViewMethod, TheDirectionOfALineScannerIsFound)
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Scan scan = samples::scanScene (Raster::LINES, {0.0002, 0.0}, seed);
     const Result result = reconstruct (scan.points, {});
-    ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
     ASSERT_TRUE (result.report.is_view) << seed;
     ASSERT_TRUE (result.report.is_far_view) << seed;
     const Eigen::Vector3d found (result.report.viewpoint.data ());
@@ -181,7 +181,7 @@ TEST (ViewMethod, SmallPartsAreOutliersIfOutliersAreLeftOut)
       points.emplace_back (0.001 * (i + 0.25), 0.001 * (j + 0.25), 0.1);
   Options options = seenFrom (Eigen::Vector3d::Zero ());
   const Result without = reconstruct (points, options);
-  ASSERT_EQ (without.report.status, Status::OK) << without.report.message;
+  ASSERT_EQ (without.report.status, RunStatus::SUCCESS) << without.report.message;
   EXPECT_EQ (without.report.outliers.size (), 9U);
   EXPECT_EQ (without.report.outliers.front (), square);
   options.remove_outliers = false;
@@ -210,7 +210,7 @@ TEST (ViewMethod, AViewThatLeavesManyPointsOutIsTold)
       points.emplace_back (1.0 + 0.1 * (part / 10) + 0.01 * (i / 3),
                            0.1 * (part % 10) + 0.01 * (i % 3), 1.0);
   const Result result = reconstruct (points, seenFrom (Eigen::Vector3d::Zero ()));
-  ASSERT_EQ (result.report.status, Status::OK) << result.report.message;
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_EQ (result.report.check.nonmanifold_vertices, 0U);
   const std::vector<std::string>& warnings = result.report.warnings;
   EXPECT_TRUE (std::any_of (warnings.begin (), warnings.end (), [] (const std::string& warning) {
@@ -225,7 +225,7 @@ TEST (ViewMethod, AllPointsOnOneRayGiveNoMesh)
     points.emplace_back (0.0, 0.0, i);
   points.emplace_back (0.0, 1e-3, 5.0);
   const Result result = reconstruct (points, seenFrom (Eigen::Vector3d::Zero ()));
-  EXPECT_EQ (result.report.status, Status::INVALID_OPTION);
+  EXPECT_EQ (result.report.status, RunStatus::INVALID_OPTION);
   EXPECT_NE (result.report.message.find ("viewpoint"), std::string::npos);
   EXPECT_TRUE (result.triangles.empty ());
 }

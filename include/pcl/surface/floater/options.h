@@ -34,7 +34,14 @@ enum class HolePolicy
   CLOSE_ALL,    ///< none: every component is closed
   KEEP_LARGEST, ///< the largest loop of every component, as its boundary
   KEEP_COUNT,   ///< the HoleOptions::kept_loops likeliest boundaries of the whole surface
-  BY_SIZE       ///< those wider than HoleOptions::largest_hole or largest_hole_length
+  BY_SIZE       ///< those wider than HoleOptions::largest_hole
+};
+
+/// What a length is measured in.
+enum class LengthUnit
+{
+  SPACINGS, ///< local spacings: mean distances of the points there to their 6 nearest
+  CLOUD     ///< units of the cloud
 };
 
 /// What becomes of scatter: points around which the cloud is flat at no scale, such as leaves and
@@ -157,12 +164,11 @@ struct NeighborOptions
 /// Holes of a surface. A disc takes the policies AUTO and KEEP_LARGEST only.
 struct HoleOptions
 {
-  HolePolicy policy = HolePolicy::AUTO; ///< which boundary loops stay open
-  int kept_loops = 1;                   ///< KEEP_COUNT: loops that stay open, 0 or more
-  double largest_hole = 0.0;            ///< BY_SIZE: width of the widest hole to fill, in local
-                                        ///< spacings, 0 or more; 0: no limit
-  double largest_hole_length = 0.0;     ///< BY_SIZE: the same in units of the cloud. At least one
-                                        ///< of the two limits must be above 0
+  HolePolicy policy = HolePolicy::AUTO;   ///< which boundary loops stay open
+  int kept_loops = 1;                     ///< KEEP_COUNT: loops that stay open, 0 or more
+  double largest_hole = 0.0;              ///< BY_SIZE: width of the widest hole to fill, above 0.
+                                          ///< Other policies do not read it, and take 0 as well
+  LengthUnit unit = LengthUnit::SPACINGS; ///< BY_SIZE: of largest_hole
 };
 
 /// What is cut off the finished mesh. Where triangles are taken out there is a boundary, also of a
@@ -221,6 +227,16 @@ struct SolverOptions
                              ///< dropped, 0 to 1
 };
 
+/// What only a disc takes: its boundary loop, and the parameterization that lays it out in the
+/// plane.
+struct DiscOptions
+{
+  BoundaryOptions boundary;                    ///< the boundary loop, given or how it is found
+  DomainOptions domain;                        ///< where the loop is laid
+  Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point
+  SolverOptions solver;                        ///< of the linear system
+};
+
 /// All options of a run. The defaults need no tuning, and a run never changes them.
 struct Options
 {
@@ -228,12 +244,9 @@ struct Options
   NeighborOptions neighbors;
   HoleOptions holes;
   TrimmingOptions trimming;
-  ViewOptions view; ///< not for discs
-  BoundaryOptions boundary;
-  DomainOptions domain;
-  Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point of a disc
-  SolverOptions solver;
-  bool remove_outliers = true;                 ///< leave out points that lie off any surface
+  ViewOptions view;            ///< not for discs
+  DiscOptions disc;            ///< a surface that is made by another method does not read them
+  bool remove_outliers = true; ///< leave out points that lie off any surface
   ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points of no surface, such as leaves
   bool denoise = true;       ///< where noise is strong, connect the points as they lie when
                              ///< projected on local planes; the vertices are not moved
@@ -257,7 +270,7 @@ struct Options
   std::function<void (double)> progress_callback;
 
   /// Asked as often as progress_callback is called, by the same thread. If it returns true, the run
-  /// ends with Status::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
+  /// ends with RunStatus::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
   /// solvers, CGAL's triangulation and a search of the caller's are not interrupted; the run ends
   /// when they return.
   std::function<bool ()> cancelled_callback;

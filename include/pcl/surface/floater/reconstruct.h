@@ -44,7 +44,8 @@ public:
   }
 };
 
-/// Points to reconstruct. Arrays that break what is said of them end with Status::INVALID_INDICES.
+/// Points to reconstruct. Arrays that break what is said of them end with
+/// RunStatus::INVALID_INDICES.
 struct Input
 {
   std::vector<Eigen::Vector3d> positions; ///< may hold non-finite coordinates and equal points
@@ -84,8 +85,8 @@ reconstruct (Input input, const Options& options);
 
 /// The same for a whole cloud of points in double precision: for map coordinates, say, of which the
 /// 32 bits of PCL's point types keep only half a metre. The indices of the result count in
-/// `positions`. More than 2^32 - 1 points end with Status::OUT_OF_MEMORY, no point with
-/// Status::NO_INPUT.
+/// `positions`. More than 2^32 - 1 points end with RunStatus::OUT_OF_MEMORY, no point with
+/// RunStatus::NO_INPUT.
 /// \param positions may hold non-finite coordinates and equal points. To save 24 bytes per point,
 /// std::move () them
 PCL_FLOATER_EXPORT Result

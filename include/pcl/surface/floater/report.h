@@ -16,11 +16,12 @@ namespace pcl
 {
 namespace floater
 {
-/// Outcome of a run. With every status but OK, the mesh is empty and a message names the cause.
-enum class Status
+/// Outcome of a run. With every status but SUCCESS, the mesh is empty and a message names the
+/// cause.
+enum class RunStatus
 {
   NOT_RUN,         ///< reconstruct () has not been called
-  OK,              ///< a mesh was made; Report::warnings tells what is odd about it
+  SUCCESS,         ///< a mesh was made; Report::warnings tells what is odd about it
   NO_INPUT,        ///< null or empty input cloud
   INVALID_OPTION,  ///< an option is out of its range, or leaves no triangle
   INVALID_INDICES, ///< an index is outside the cloud, or the arrays of Input do not fit together
@@ -40,7 +41,7 @@ enum class Status
 
 /// Short name of a status in upper case ("NO_BOUNDARY").
 PCL_FLOATER_EXPORT const char*
-statusName (Status status);
+statusName (RunStatus status);
 
 /// A boundary loop of the mesh.
 struct LoopSummary
@@ -172,8 +173,8 @@ struct Statistics
 /// All about a run but the mesh itself. All indices are cloud indices.
 struct Report
 {
-  Status status = Status::NOT_RUN;    ///< outcome
-  std::string message;                ///< one sentence: the cause and what to do; empty if OK
+  RunStatus status = RunStatus::NOT_RUN; ///< outcome
+  std::string message; ///< one sentence: the cause and what to do; empty after SUCCESS
   std::vector<std::string> warnings;  ///< oddities of cloud and mesh, one sentence each
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE
   std::string topology_reason;        ///< why this method, in a few words

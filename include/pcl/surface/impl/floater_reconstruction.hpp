@@ -2,16 +2,15 @@
 // Passes the points of PCL's clouds to the core, and indices back.
 #pragma once
 
-#include <pcl/console/print.h>
 #include <pcl/search/search.h>
 #include <pcl/surface/floater_reconstruction.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <limits>
 #include <new>
+#include <utility>
 
 namespace pcl
 {
@@ -69,52 +68,30 @@ private:
 } // namespace floater
 
 template <typename PointT>
+template <typename Work>
 bool
-FloaterReconstruction<PointT>::fail (floater::Status status, const std::string& message)
+FloaterReconstruction<PointT>::guarded (const Work& work)
 {
-  report_.status = status;
-  report_.message = message;
-  return false;
-}
-
-template <typename PointT>
-bool
-FloaterReconstruction<PointT>::guarded (const std::function<void ()>& reconstruction)
-{
-  report_ = floater::Report ();
+  beginRun ();
   try {
     // Checked here: the base class dereferences a null pointer, and accepts an empty cloud.
     if (!input_)
-      fail (floater::Status::NO_INPUT, "no input cloud: call setInputCloud () first");
+      fail (floater::RunStatus::NO_INPUT, "no input cloud: call setInputCloud () first");
     else if (input_->empty ())
-      fail (floater::Status::NO_INPUT, "the input cloud is empty");
+      fail (floater::RunStatus::NO_INPUT, "the input cloud is empty");
     else
-      reconstruction ();
-  }
-  catch (const std::bad_alloc&) {
-    report_.status = floater::Status::OUT_OF_MEMORY;
-    report_.message = "out of memory"; // so short that the string takes no memory
-  }
-  catch (const std::exception& error) {
-    fail (floater::Status::INTERNAL_ERROR, std::string ("unexpected error: ") + error.what ());
+      work ();
   }
   catch (...) {
-    fail (floater::Status::INTERNAL_ERROR, "unexpected error of unknown type");
+    failByException ();
   }
-  const bool has_mesh = report_.status == floater::Status::OK;
   try {
-    if (!has_mesh)
-      PCL_ERROR ("[pcl::%s::performReconstruction] %s: %s\n", getClassName ().c_str (),
-                 floater::statusName (report_.status), report_.message.c_str ());
-    else
-      for (const std::string& warning : report_.warnings)
-        PCL_WARN ("[pcl::%s::performReconstruction] %s\n", getClassName ().c_str (),
-                  warning.c_str ());
+    printOutcome (getClassName ());
   }
   catch (const std::bad_alloc&) {
     // No memory to print; the report tells the same.
   }
-  return has_mesh;
+  return getStatus () == floater::RunStatus::SUCCESS;
 }
 
 template <typename PointT>
@@ -156,37 +133,17 @@ FloaterReconstruction<PointT>::performReconstruction (PointCloud& points,
 }
 
 template <typename PointT>
-bool
-FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Options& options)
+void
+FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons)
 {
-  constexpr std::size_t MAX_POINTS = std::numeric_limits<std::uint32_t>::max ();
+  polygons.clear ();
   const std::size_t size = input_->size ();
-  report_.statistics.cloud_points = size;
-  const std::string outside_the_cloud =
-      " is outside the cloud of " + std::to_string (size) + (size == 1 ? " point" : " points");
-  if (size > MAX_POINTS)
-    return fail (floater::Status::OUT_OF_MEMORY, "the cloud has more than " +
-                                                     std::to_string (MAX_POINTS) +
-                                                     " points; reconstruct parts of it");
   // If memory runs out, PCLBase continues with fewer indices than there are points.
   if (fake_indices_ && indices_->size () != size)
     throw std::bad_alloc ();
-
-  // The conversion makes negative indices too large.
-  const auto is_outside = [size] (pcl::index_t index) {
-    return static_cast<std::size_t> (index) >= size;
-  };
-  const auto outside = std::find_if (indices_->begin (), indices_->end (), is_outside);
-  if (outside != indices_->end ())
-    return fail (floater::Status::INVALID_INDICES,
-                 "index " + std::to_string (*outside) + outside_the_cloud);
-  const auto outside_in_loop =
-      std::find_if (prescribed_loop_.begin (), prescribed_loop_.end (), is_outside);
-  if (outside_in_loop != prescribed_loop_.end ())
-    return fail (floater::Status::INVALID_LOOP, "point " + std::to_string (*outside_in_loop) +
-                                                    " of the given boundary loop" +
-                                                    outside_the_cloud);
-
+  if (!checkCloud (size, *indices_))
+    return;
+  floater::Input input;
   input.cloud_size = size;
   for (std::size_t axis = 0; axis < 3; ++axis)
     input.sensor_origin[axis] =
@@ -203,77 +160,15 @@ FloaterReconstruction<PointT>::makeInput (floater::Input& input, floater::Option
     input.positions.emplace_back (point.x, point.y, point.z);
     input.cloud_index.push_back (static_cast<std::uint32_t> (row));
   }
-
-  options = options_;
-  options.boundary.loop.assign (prescribed_loop_.begin (), prescribed_loop_.end ());
-  return true;
-}
-
-template <typename PointT>
-void
-FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons)
-{
-  polygons.clear ();
-  floater::Input input;
-  floater::Options options;
-  if (!makeInput (input, options))
-    return;
   floater::SearchMethod<PointT> search (tree_, input_);
   if (tree_)
     input.search = &search;
 
-  floater::Result result = floater::reconstruct (std::move (input), options);
-  report_ = std::move (result.report);
-  polygons.resize (result.triangles.size ());
+  const std::vector<std::array<std::uint32_t, 3>> triangles =
+      triangulatePoints (std::move (input));
+  polygons.resize (triangles.size ());
   for (std::size_t t = 0; t < polygons.size (); ++t)
-    polygons[t].vertices.assign (result.triangles[t].begin (), result.triangles[t].end ());
-}
-
-template <typename PointT>
-pcl::Indices
-FloaterReconstruction<PointT>::getBoundaryLoop () const
-{
-  return pcl::Indices (report_.loop.begin (), report_.loop.end ());
-}
-
-template <typename PointT>
-pcl::Indices
-FloaterReconstruction<PointT>::getUnusedIndices () const
-{
-  return pcl::Indices (report_.unused.begin (), report_.unused.end ());
-}
-
-template <typename PointT>
-pcl::Indices
-FloaterReconstruction<PointT>::getOutlierIndices () const
-{
-  return pcl::Indices (report_.outliers.begin (), report_.outliers.end ());
-}
-
-template <typename PointT>
-pcl::Indices
-FloaterReconstruction<PointT>::getScatterIndices () const
-{
-  return pcl::Indices (report_.scatter.begin (), report_.scatter.end ());
-}
-
-template <typename PointT>
-pcl::Indices
-FloaterReconstruction<PointT>::getNonFiniteIndices () const
-{
-  return pcl::Indices (report_.non_finite.begin (), report_.non_finite.end ());
-}
-
-template <typename PointT>
-std::vector<std::array<pcl::index_t, 2>>
-FloaterReconstruction<PointT>::getDuplicates () const
-{
-  std::vector<std::array<pcl::index_t, 2>> duplicates;
-  duplicates.reserve (report_.duplicates.size ());
-  for (const std::array<std::uint32_t, 2>& pair : report_.duplicates)
-    duplicates.push_back (
-        {static_cast<pcl::index_t> (pair[0]), static_cast<pcl::index_t> (pair[1])});
-  return duplicates;
+    polygons[t].vertices.assign (triangles[t].begin (), triangles[t].end ());
 }
 
 } // namespace pcl

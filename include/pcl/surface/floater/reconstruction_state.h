@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What FloaterReconstruction keeps between calls, whatever the type of its points.
+#pragma once
+
+#include <pcl/surface/floater/options.h>
+#include <pcl/surface/floater/reconstruct.h>
+#include <pcl/surface/floater/report.h>
+#include <pcl/types.h>
+#include <pcl_floater/export.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/** \brief The options of FloaterReconstruction and the results of its last run.
+ *
+ * It has nothing but a pointer to them, and no member is inline: options and results may be added
+ * without a change of the size of the class, or of what programs have compiled of it. */
+class PCL_FLOATER_EXPORT ReconstructionState
+{
+public:
+  /** \brief The kind of surface that the points are taken for; default AUTO. With DISC, a run ends
+   * with RunStatus::NO_BOUNDARY, NOT_A_DISC or UNREACHABLE if the surface is not a disc. */
+  void setTopology (Topology topology);
+  /** \brief The kind of surface asked for; getReport() has the one that was made. */
+  Topology getTopology () const;
+
+  /** \brief Which boundary loops of a surface stay open; default AUTO: those that look
+   * like boundaries, not like gaps of the sampling. Topology::DISC takes AUTO and KEEP_LARGEST
+   * only, which mean the same there. */
+  void setHolePolicy (HolePolicy policy);
+  /** \brief Which boundary loops of a surface stay open. */
+  HolePolicy getHolePolicy () const;
+
+  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open, the most likely boundaries of
+   * the whole surface; 0 or more, default 1. */
+  void setKeptLoops (int loops);
+  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open. */
+  int getKeptLoops () const;
+
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, above 0, in local
+   * spacings or in units of the cloud. No default would do: without a size, a run with this policy
+   * ends with RunStatus::INVALID_OPTION. Other policies do not read it. */
+  void setLargestHole (double size, LengthUnit unit = LengthUnit::SPACINGS);
+  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled; 0 if none was set. */
+  double getLargestHole () const;
+  /** \brief HolePolicy::BY_SIZE: the unit of getLargestHole(). */
+  LengthUnit getLargestHoleUnit () const;
+
+  /** \brief The place of the sensor, for a cloud that is one scan, in the frame of the cloud. The
+   * points are connected as they were seen from there, and the mesh faces the sensor; every point
+   * must be visible from there. Sets ViewUse::GIVEN. */
+  void setViewPoint (double x, double y, double z);
+  /** \brief The place that was given; (0, 0, 0) if there is none. getReport() has the one that was
+   * used. */
+  const std::array<double, 3>& getViewPoint () const;
+
+  /** \brief Whether a cloud of one scan is connected as its sensor saw it; default AUTO: if the
+   * spacing of its points tells so. The origin of the sensor in the cloud is tried, and where
+   * points are noisy or uneven, the place is searched. With NEVER, the mesh does not face the
+   * sensor either. */
+  void setViewUse (ViewUse use);
+  /** \brief Whether a cloud of one scan is connected as its sensor saw it. */
+  ViewUse getViewUse () const;
+
+  /** \brief Length that no edge of the mesh exceeds, in units of the cloud, 0 or more; default 0:
+   * no limit. Triangles with a longer edge are cut off the finished mesh, and where they were there
+   * is a boundary, also of a disc. The mesh stays a manifold: at a point where only a corner holds
+   * parts of it together, the one with most triangles stays. getStatistics() counts what is cut
+   * off, getUnusedIndices() has points that lose all their triangles. If nothing is left, the run
+   * ends with RunStatus::INVALID_OPTION. */
+  void setMaximumEdgeLength (double length);
+  /** \brief Length that no edge of the mesh exceeds, in units of the cloud; 0: no limit. */
+  double getMaximumEdgeLength () const;
+
+  /** \brief As setMaximumEdgeLength(), in local spacings: the mean of those of the two ends of the
+   * edge; 0 or more; default 0: no limit. Edges of a good mesh are up to about 3 long, and up to 6
+   * where the sampling is uneven. */
+  void setMaximumEdgeRatio (double spacings);
+  /** \brief Length that no edge of the mesh exceeds, in local spacings; 0: no limit. */
+  double getMaximumEdgeRatio () const;
+
+  /** \brief Whether triangles are taken out until no two cross each other; default false. It is the
+   * last resort after setRemoveSelfIntersections(), for those who simulate, print or trace rays: at
+   * such places the mesh gets holes, mostly of a few triangles. getStatistics() counts them. */
+  void setOpenSelfIntersections (bool open);
+  /** \brief Whether triangles are taken out until no two cross each other. */
+  bool getOpenSelfIntersections () const;
+
+  /** \brief Components of the mesh with fewer points are left out, 0 or more; default 0: none.
+   * Components are counted after long edges and crossing triangles were cut off. */
+  void setMinimumComponentSize (int points);
+  /** \brief Components of the mesh with fewer points are left out. */
+  int getMinimumComponentSize () const;
+
+  /** \brief Whether points that lie off any surface are left out of the mesh; default true.
+   * getOutlierIndices() has them. */
+  void setRemoveOutliers (bool remove_outliers);
+  /** \brief Whether points that lie off any surface are left out of the mesh. */
+  bool getRemoveOutliers () const;
+
+  /** \brief What becomes of points around which the cloud is flat at no scale, such as leaves and
+   * grass; default KEEP. getScatterIndices() has them. */
+  void setScatterPolicy (ScatterPolicy policy);
+  /** \brief What becomes of points around which the cloud is flat at no scale. */
+  ScatterPolicy getScatterPolicy () const;
+
+  /** \brief Whether points are connected as they lie when projected on local planes, where noise is
+   * strong; default true. The vertices of the mesh are not moved. */
+  void setDenoise (bool denoise);
+  /** \brief Whether strong noise is projected away before points are connected. */
+  bool getDenoise () const;
+
+  /** \brief Number of nearest neighbours of each point, 6 to 200; default 20. Not for balls. */
+  void setKSearch (int k);
+  /** \brief Number of nearest neighbours of each point. */
+  int getKSearch () const;
+
+  /** \brief Which points a point of a disc is a convex combination of; default NEAREST_DELAUNAY. A
+   * surface takes Delaunay stars in any case. With BALL and BALL_DELAUNAY, the points in a ball
+   * replace the k nearest in all stages (TW 385, sections 2.1 and 6). */
+  void setNeighborhood (Neighborhood neighborhood);
+  /** \brief Which points a point of a disc is a convex combination of. */
+  Neighborhood getNeighborhood () const;
+
+  /** \brief Radius of balls, in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
+   * which gives about 20 neighbours. */
+  void setBallRadius (double spacings);
+  /** \brief Radius of balls, in mean distances of a point to its 6 nearest. */
+  double getBallRadius () const;
+
+  /** \brief All that only a disc takes: how its boundary loop is found, or the loop itself; the
+   * curve on which it is laid; weights and solver of the linear system. Another surface does not
+   * read them. They replace all that were set before, a loop of setPrescribedLoop() as well: to
+   * keep what was set, change a copy of getDiscOptions(). */
+  void setDiscOptions (const DiscOptions& options);
+  /** \brief All that only a disc takes, the given boundary loop among them. */
+  const DiscOptions& getDiscOptions () const;
+
+  /** \brief Gives the boundary loop: cloud indices in order, either way round, each once, 3 or
+   * more. The surface is then made as a disc. Default empty: the loop is found. Not with
+   * Topology::SURFACE. It is BoundaryOptions::loop of getDiscOptions() in the type of PCL's
+   * indices: the later call of the two setters counts. */
+  void setPrescribedLoop (const pcl::Indices& loop);
+  /** \brief The given boundary loop; empty: the loop is found. */
+  const pcl::Indices& getPrescribedLoop () const;
+
+  /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
+  void setFilterSheets (bool filter_sheets);
+  /** \brief Whether neighbours on another sheet of the surface are dropped. */
+  bool getFilterSheets () const;
+
+  /** \brief Whether edges are flipped in space towards Delaunay, and folds repaired; default true.
+   */
+  void setFlipEdges (bool flip_edges);
+  /** \brief Whether edges are flipped in space and folds repaired. */
+  bool getFlipEdges () const;
+
+  /** \brief Whether the mesh is changed where its triangles cross each other, by flips of edges and
+   * by moving points to other triangles; default true. Not without setFlipEdges, and not where
+   * noise makes the true triangles cross each other, too: for scans that are connected as their
+   * sensor saw them, and where noisy points were projected to connect them (see setDenoise).
+   * Report::check tells how many pairs are left. */
+  void setRemoveSelfIntersections (bool remove);
+  /** \brief Whether the mesh is changed where its triangles cross each other. */
+  bool getRemoveSelfIntersections () const;
+
+  /** \brief Number of threads; default 0: one for each core. The result is the same. */
+  void setNumberOfThreads (unsigned int nr_threads = 0);
+  /** \brief Number of threads; 0: one for each core. */
+  unsigned int getNumberOfThreads () const;
+
+  /** \brief Number of blocks in which the nearest neighbours are searched, 0 or more; default 0:
+   * one block up to 262,144 points, above that blocks of at most 131,072 points. It changes the
+   * time and the memory of the search only; the result is the same. Discs, balls and a search
+   * method of one's own have one block. */
+  void setNumberOfBlocks (int blocks = 0);
+  /** \brief Number of blocks in which the nearest neighbours are searched; 0: chosen. */
+  int getNumberOfBlocks () const;
+
+  /** \brief Called when a stage of a run begins, by the thread that called reconstruct(); default
+   * none. An exception from it ends the run with RunStatus::INTERNAL_ERROR. */
+  void setStageCallback (std::function<void (Stage)> callback);
+  /** \brief The function that is called when a stage begins; empty if there is none. */
+  const std::function<void (Stage)>& getStageCallback () const;
+
+  /** \brief Called with the fraction of the run that is done, from 0 to 1 and never decreasing:
+   * when a stage begins, up to 20 times a second within it, and with 1 at the end; default none.
+   * The fraction is estimated from typical runs, and does not move while a linear system is solved.
+   * Thread and exceptions are as for setStageCallback(). */
+  void setProgressCallback (std::function<void (double fraction)> callback);
+  /** \brief The function that is called with the fraction done; empty if there is none. */
+  const std::function<void (double)>& getProgressCallback () const;
+
+  /** \brief Asked whether the run is to be cancelled, as often as the progress callback is called;
+   * default none. If it returns true, the run ends with RunStatus::CANCELLED and an empty mesh,
+   * mostly within a tenth of a second; direct solvers, CGAL's triangulation and a search method of
+   * PCL are waited for. It may read an atomic variable that another thread sets. Thread and
+   * exceptions are as for setStageCallback(). */
+  void setCancelledCallback (std::function<bool ()> callback);
+  /** \brief The function that is asked whether to cancel; empty if there is none. */
+  const std::function<bool ()>& getCancelledCallback () const;
+
+  /** \brief Outcome of the last run; NOT_RUN before the first. */
+  RunStatus getStatus () const;
+
+  /** \brief Cause of a failure and what to do, in one sentence; empty after SUCCESS. */
+  const std::string& getMessage () const;
+
+  /** \brief The whole report on the last run. */
+  const Report& getReport () const;
+
+  /** \brief Counts, times and figures of the last run. */
+  const Statistics& getStatistics () const;
+
+  /** \brief The mesh as examined at the end of the last run: components, genus, boundary loops with
+   * their sizes, folds and more. */
+  const MeshCheck& getMeshCheck () const;
+
+  /** \brief The longest boundary loop in order, each point once; empty if the surface is closed. */
+  pcl::Indices getBoundaryLoop () const;
+
+  /** \brief Position of every cloud point in the plane, if the mesh was made as a disc; NaN where a
+   * point was not used. Else empty. */
+  const std::vector<Eigen::Vector2d>& getParameters () const;
+
+  /** \brief Finite points, neither duplicates nor outliers, that are in no triangle; ascending. */
+  pcl::Indices getUnusedIndices () const;
+
+  /** \brief Points left out of the mesh because they lie off any surface; ascending. */
+  pcl::Indices getOutlierIndices () const;
+
+  /** \brief Points around which the cloud is flat at no scale, such as leaves; ascending. With
+   * ScatterPolicy::DROP they are left out of the mesh. */
+  pcl::Indices getScatterIndices () const;
+
+  /** \brief Points with a NaN or infinite coordinate; ascending. */
+  pcl::Indices getNonFiniteIndices () const;
+
+  /** \brief Pairs (point, the equal point that stands for it in the mesh); ascending. */
+  std::vector<std::array<pcl::index_t, 2>> getDuplicates () const;
+
+protected:
+  /** \brief All options at their defaults, and no run yet. */
+  ReconstructionState ();
+  /** \brief The same options and results. A callback is copied as well. */
+  ReconstructionState (const ReconstructionState& other);
+  /** \brief The same options and results. */
+  ReconstructionState& operator= (const ReconstructionState& other);
+  /** \brief Not virtual: an object is deleted as what it is. */
+  ~ReconstructionState ();
+
+  /** \brief Forgets the results of the last run. */
+  void beginRun ();
+
+  /** \brief Records a failure. */
+  void fail (RunStatus status, const std::string& message);
+
+  /** \brief Records what the exception that is being handled means. To be called in a handler. */
+  void failByException () noexcept;
+
+  /** \brief Checks a cloud before its points are read.
+   * \param size number of its points
+   * \param indices those that are to be reconstructed
+   * \return false, with the failure recorded, if the cloud is too large, or an index or the given
+   * boundary loop is outside of it */
+  bool checkCloud (std::size_t size, const pcl::Indices& indices);
+
+  /** \brief Reconstructs with the options, and records the report.
+   * \return the triangles, none after a failure */
+  std::vector<std::array<std::uint32_t, 3>> triangulatePoints (Input&& input);
+
+  /** \brief Prints a failure or the warnings.
+   * \param class_name of whom they are */
+  void printOutcome (const std::string& class_name) const;
+
+private:
+  struct Data;
+  std::unique_ptr<Data> data_; // never null
+};
+
+} // namespace floater
+} // namespace pcl
