@@ -6,6 +6,7 @@
 check_pages.py           links: every relative link leads to a file, and every #part to a heading.
                          quotes: a block of code after <!-- quote: FILE --> is in FILE, line by line;
                          every program in test/examples is quoted.
+                         names: the pages have every option, setter, part of DiscOptions and status.
 check_pages.py FOLDER... runs the blocks of commands after <!-- run -->, with the tools in these folders,
                          those of one page in one new folder, in order. Each block must succeed. A block
                          after <!-- output --> follows one: each of its lines must be in that output,
@@ -80,6 +81,31 @@ def check_quotes(page, quoted):
             yield f"the code is not that of {name}: {first}"
 
 
+def check_names():
+    """Whatever a user can set, and how a run can end, has its place in the pages."""
+    state, options, report, table = ((ROOT / name).read_text() for name in (
+        "include/pcl/surface/floater/reconstruction_state.h", "include/pcl/surface/floater/options.h",
+        "include/pcl/surface/floater/report.h", "tools/reconstruct/option_table.cpp"))
+
+    def body(kind, name, text):
+        return re.search(kind + " " + name + r"\n\{(.*?)^\};", text, re.MULTILINE | re.DOTALL)[1]
+    wanted = {
+        "doc/options.md":
+            set(re.findall(r'"(?:-\w,)?(--[a-z][a-z-]+)"', table)) - {"--help", "--version"} |
+            set(re.findall(r"\bvoid (set\w+) \(", state)) |
+            set(re.findall(r"^  [\w:<> ]+ (\w+)(?: = [^;]*)?;", "".join(
+                body("struct", name, options) for name in ("BoundaryOptions", "DomainOptions", "SolverOptions")),
+                re.MULTILINE)),
+        "doc/troubleshooting.md": set(re.findall(r"^  ([A-Z_]+)\b", body("enum class", "RunStatus", report),
+                                                 re.MULTILINE))}
+    for page, names in wanted.items():
+        text = (ROOT / page).read_text()
+        if len(names) < 10:
+            yield f"{page}: too few names were found that it should have"
+        yield from (f"{page} does not have {name}" for name in sorted(names)
+                    if not re.search(rf"(?<![\w-]){name}(?![\w-])", text))
+
+
 def pattern(line):
     """What a line of an output must match, whatever its numbers are."""
     parts = [NUMBER.sub("0", part) for part in line.strip().split("...")]
@@ -111,6 +137,7 @@ def main():
         checks = [check_runs(page, tools)] if tools else [check_links(page), check_quotes(page, quoted)]
         wrong += [f"{page.relative_to(ROOT)}: {what}" for check in checks for what in check]
     if not tools:
+        wrong += check_names()
         wrong += [f"{file.relative_to(ROOT)} is quoted by no page"
                   for file in sorted((ROOT / "test/examples").glob("*.cpp")) if file not in quoted]
     print("\n".join(wrong))
