@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pcl/surface/floater/reconstruction_state.h>
 
+#include "core/disjoint_sets.h"
 #include "problem_of_exception.h"
 
 #include <pcl/console/print.h>
@@ -22,6 +23,66 @@ toPcl (const std::vector<std::uint32_t>& indices)
   return pcl::Indices (indices.begin (), indices.end ());
 }
 
+// The component of each of `size` points, from 0 in the order of their first points, or -1.
+std::vector<int>
+componentsOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t size)
+{
+  DisjointSets sets (size);
+  std::vector<int> components (size, -1);
+  for (const std::array<std::uint32_t, 3>& t : triangles) {
+    sets.join (t[0], t[1]);
+    sets.join (t[0], t[2]);
+    for (const std::uint32_t p : t)
+      components[p] = 0;
+  }
+  // The smallest element of a set represents it, and so has its number before the others.
+  int count = 0;
+  for (std::size_t p = 0; p < size; ++p)
+    if (components[p] == 0) {
+      const std::size_t first = sets.find (static_cast<std::uint32_t> (p));
+      components[p] = first == p ? count++ : components[first];
+    }
+  return components;
+}
+
+// Whether each of `size` points is on a boundary loop of a consistently oriented manifold.
+std::vector<bool>
+boundaryOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t size)
+{
+  // Around a point, each triangle leads from one neighbour to the next. The steps of an open fan
+  // add up to the way from its first to its last neighbour, those of a closed one to 0.
+  std::vector<std::uint32_t> way (size, 0);
+  for (const std::array<std::uint32_t, 3>& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      way[t[i]] += t[(i + 2) % 3] - t[(i + 1) % 3];
+  std::vector<bool> is_boundary (size);
+  for (std::size_t p = 0; p < size; ++p)
+    is_boundary[p] = way[p] != 0;
+  return is_boundary;
+}
+
+// The state of each point.
+// \param components as of componentsOf
+// \param is_selected of each point: it was to be reconstructed
+std::vector<std::int8_t>
+statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
+          const std::vector<int>& components, const std::vector<bool>& is_selected,
+          const std::vector<std::uint32_t>& non_finite)
+{
+  using State = ReconstructionState::PointState;
+  const std::size_t size = is_selected.size ();
+  const std::vector<bool> is_boundary = boundaryOf (triangles, size);
+  std::vector<std::int8_t> states (size, State::NONE);
+  for (std::size_t p = 0; p < size; ++p)
+    if (components[p] >= 0)
+      states[p] = is_boundary[p] ? State::BOUNDARY : State::COMPLETED;
+    else if (is_selected[p])
+      states[p] = State::FREE;
+  for (const std::uint32_t p : non_finite)
+    states[p] = State::NONE;
+  return states;
+}
+
 } // namespace
 
 struct ReconstructionState::Data
@@ -29,6 +90,8 @@ struct ReconstructionState::Data
   Options options;
   pcl::Indices prescribed_loop; // as given: may hold indices that the core's type cannot
   Report report;
+  std::vector<int> parts;          // of each point; empty if there is no mesh
+  std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
 };
 
 ReconstructionState::ReconstructionState () : data_ (std::make_unique<Data> ()) {}
@@ -411,6 +474,18 @@ ReconstructionState::getParameters () const
   return data_->report.parameters;
 }
 
+std::vector<int>
+ReconstructionState::getPartIDs () const
+{
+  return data_->parts;
+}
+
+std::vector<int>
+ReconstructionState::getPointStates () const
+{
+  return {data_->states.begin (), data_->states.end ()};
+}
+
 pcl::Indices
 ReconstructionState::getUnusedIndices () const
 {
@@ -450,6 +525,8 @@ void
 ReconstructionState::beginRun ()
 {
   data_->report = Report ();
+  data_->parts.clear ();
+  data_->states.clear ();
 }
 
 void
@@ -462,6 +539,8 @@ ReconstructionState::fail (RunStatus status, const std::string& message)
 void
 ReconstructionState::failByException () noexcept
 {
+  data_->parts.clear ();
+  data_->states.clear ();
   try {
     const Problem problem = problemOfException ();
     fail (problem.status, problem.message);
@@ -507,8 +586,16 @@ std::vector<std::array<std::uint32_t, 3>>
 ReconstructionState::triangulatePoints (Input&& input)
 {
   const Options options = data_->options; // a callback may set options for the next run
+  std::vector<bool> is_selected (input.cloud_size, false);
+  for (const std::uint32_t p : input.cloud_index)
+    is_selected[p] = true;
   Result result = reconstruct (std::move (input), options);
   data_->report = std::move (result.report);
+  if (data_->report.status == RunStatus::SUCCESS) {
+    data_->parts = componentsOf (result.triangles, is_selected.size ());
+    data_->states =
+        statesOf (result.triangles, data_->parts, is_selected, data_->report.non_finite);
+  }
   return std::move (result.triangles);
 }
 

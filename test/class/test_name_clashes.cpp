@@ -51,7 +51,7 @@
 #define ERR (-1)
 #endif
 
-#include <pcl/surface/floater_reconstruction.h>
+#include <pcl/surface/floater_mesh_construction.h>
 
 namespace pcl
 {
@@ -77,6 +77,11 @@ TEST (NameClashes, MacrosOfX11AndCursesDoNoHarm)
   EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
   EXPECT_STREQ (statusName (floater.getStatus ()), "SUCCESS");
   EXPECT_EQ (mesh.polygons.size (), 162U);
+  pcl::FloaterMeshConstruction<pcl::PointXYZ> mesher;
+  mesher.setInputCloud (cloud);
+  std::vector<pcl::Vertices> polygons;
+  mesher.reconstruct (polygons);
+  EXPECT_EQ (polygons.size (), mesh.polygons.size ());
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
 #include <pcl/search/kdtree.h>
+#include <pcl/surface/floater_mesh_construction.h>
 
 #include <cstdint>
 
@@ -49,6 +50,16 @@ main ()
   floater.reconstruct (points, polygons);
   if (!isHeightField (points, polygons)) {
     std::cerr << "with a search method of the user: " << floater.getMessage () << '\n';
+    return 1;
+  }
+
+  // As a mesh construction, and what it tells of the points.
+  pcl::FloaterMeshConstruction<LidarPoint> mesher;
+  mesher.setInputCloud (cloud);
+  mesher.reconstruct (polygons);
+  if (!isHeightField (*cloud, polygons) ||
+      mesher.floater ().getPartIDs () != std::vector<int> (cloud->size (), 0)) {
+    std::cerr << "as a mesh construction: " << mesher.floater ().getMessage () << '\n';
     return 1;
   }
   return 0;

@@ -72,6 +72,8 @@ namespace pcl
  * The setters of the options and the getters of the results are those of
  * floater::ReconstructionState. A copy of an object has its options and its results.
  *
+ * FloaterMeshConstruction is the same for programs that are built on pcl::MeshConstruction.
+ *
  * An object may be used for one cloud after another, but by one thread at a time.
  * \ingroup surface
  */
@@ -95,6 +97,11 @@ public:
    * \param[out] points the whole input cloud; not the object given to setInputCloud()
    * \param[out] polygons the triangles, as indices of the whole cloud */
   void reconstruct (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
+
+  /** \brief Reconstructs the surface of setInputCloud() and setIndices(), without a copy of the
+   * cloud.
+   * \param[out] polygons the triangles, as indices of the whole cloud */
+  void reconstruct (std::vector<pcl::Vertices>& polygons);
 
 protected:
   using SurfaceReconstruction<PointT>::check_tree_;

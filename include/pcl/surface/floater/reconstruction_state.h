@@ -23,10 +23,22 @@ namespace floater
 /** \brief The options of FloaterReconstruction and the results of its last run.
  *
  * It has nothing but a pointer to them, and no member is inline: options and results may be added
- * without a change of the size of the class, or of what programs have compiled of it. */
+ * without a change of the size of the class, or of what programs have compiled of it. Not so the
+ * fields of DiscOptions and of Report, which programs read and write themselves. */
 class PCL_FLOATER_EXPORT ReconstructionState
 {
 public:
+  /** \brief What a point is in the mesh, with names and values of
+   * pcl::GreedyProjectionTriangulation. */
+  enum PointState
+  {
+    NONE = -1,    ///< it cannot be connected: not selected, or with a NaN or infinite coordinate
+    FREE = 0,     ///< it is in no triangle
+    FRINGE = 1,   ///< the mesh still grows there: no point of a finished mesh
+    BOUNDARY = 2, ///< it is on a boundary loop of the mesh
+    COMPLETED = 3 ///< it is surrounded by triangles
+  };
+
   /** \brief The kind of surface that the points are taken for; default AUTO. With DISC, a run ends
    * with RunStatus::NO_BOUNDARY, NOT_A_DISC or UNREACHABLE if the surface is not a disc. */
   void setTopology (Topology topology);
@@ -232,6 +244,16 @@ public:
    * point was not used. Else empty. */
   const std::vector<Eigen::Vector2d>& getParameters () const;
 
+  /** \brief The component of the mesh that each point of the whole cloud is in: they are numbered
+   * from 0 in the order of their first points; -1 for points in no triangle. Empty if there is no
+   * mesh. As that of pcl::GreedyProjectionTriangulation, which numbers the points of setIndices()
+   * instead. */
+  std::vector<int> getPartIDs () const;
+
+  /** \brief The PointState of each point of the whole cloud. Empty if there is no mesh. As that of
+   * pcl::GreedyProjectionTriangulation, which numbers the points of setIndices() instead. */
+  std::vector<int> getPointStates () const;
+
   /** \brief Finite points, neither duplicates nor outliers, that are in no triangle; ascending. */
   pcl::Indices getUnusedIndices () const;
 
@@ -274,7 +296,7 @@ protected:
    * boundary loop is outside of it */
   bool checkCloud (std::size_t size, const pcl::Indices& indices);
 
-  /** \brief Reconstructs with the options, and records the report.
+  /** \brief Reconstructs with the options. Records the report, and what each point is in the mesh.
    * \return the triangles, none after a failure */
   std::vector<std::array<std::uint32_t, 3>> triangulatePoints (Input&& input);
 

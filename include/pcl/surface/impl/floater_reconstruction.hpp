@@ -118,6 +118,20 @@ FloaterReconstruction<PointT>::reconstruct (PointCloud& points,
 
 template <typename PointT>
 void
+FloaterReconstruction<PointT>::reconstruct (std::vector<pcl::Vertices>& polygons)
+{
+  const auto work = [&] {
+    if (!this->initCompute ())
+      return;
+    triangulate (polygons);
+    this->deinitCompute ();
+  };
+  if (!guarded (work))
+    polygons.clear ();
+}
+
+template <typename PointT>
+void
 FloaterReconstruction<PointT>::performReconstruction (pcl::PolygonMesh& output)
 {
   triangulate (output.polygons); // the base class copies the cloud
@@ -164,8 +178,7 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
   if (tree_)
     input.search = &search;
 
-  const std::vector<std::array<std::uint32_t, 3>> triangles =
-      triangulatePoints (std::move (input));
+  const std::vector<std::array<std::uint32_t, 3>> triangles = triangulatePoints (std::move (input));
   polygons.resize (triangles.size ());
   for (std::size_t t = 0; t < polygons.size (); ++t)
     polygons[t].vertices.assign (triangles[t].begin (), triangles[t].end ());
