@@ -8,7 +8,8 @@ check_pages.py           links: every relative link leads to a file, and every #
                          every program in test/examples is quoted.
                          names: the pages have every option, setter, part of DiscOptions and status.
 check_pages.py FOLDER... runs the blocks of commands after <!-- run -->, with the tools in these folders,
-                         those of one page in one new folder, in order. Each block must succeed. A block
+                         those of one page in one new folder, in order, where PCL_FLOATER is the folder
+                         of the project. Each block must succeed. A block
                          after <!-- output --> follows one: each of its lines must be in that output,
                          where numbers may differ, and "..." stands for any text."""
 import os
@@ -113,7 +114,7 @@ def pattern(line):
 
 
 def check_runs(page, tools):
-    environment = dict(os.environ, PATH=os.pathsep.join([*tools, os.environ["PATH"]]))
+    environment = dict(os.environ, PATH=os.pathsep.join([*tools, os.environ["PATH"]]), PCL_FLOATER=str(ROOT))
     output = ""
     with tempfile.TemporaryDirectory() as folder:
         for block in MARKED_BLOCK.finditer(page.read_text()):
@@ -140,7 +141,8 @@ def main():
         wrong += check_names()
         wrong += [f"{file.relative_to(ROOT)} is quoted by no page"
                   for file in sorted((ROOT / "test/examples").glob("*.cpp")) if file not in quoted]
-    print("\n".join(wrong))
+    for what in wrong:
+        print(what)
     return 1 if wrong else 0
 
 
