@@ -45,36 +45,39 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
   removeTriangles (mesh, std::move (is_removed), run);
 }
 
-// A set of triangles that has one of each pair.
+// A set of triangles that has one of each pair. O(pairs log pairs).
 std::vector<std::uint8_t>
-coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
+coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs, const RunContext& run)
 {
   std::unordered_map<Index, std::vector<Index>> partners;
   for (const CrossingPair& pair : pairs) {
     partners[pair.first].push_back (pair.second);
     partners[pair.second].push_back (pair.first);
   }
-  // The most partners first, then the smallest triangle.
+  // The most partners that are not in the set first, then the smallest triangle.
+  std::unordered_map<Index, std::size_t> left;
   std::set<std::pair<std::size_t, Index>> order;
-  const auto key = [&] (Index t) {
-    return std::make_pair (pairs.size () - partners[t].size (), t);
-  };
-  for (const auto& [t, others] : partners)
-    order.insert ({pairs.size () - others.size (), t});
+  const auto key = [&] (Index t) { return std::make_pair (pairs.size () - left[t], t); };
+  for (const auto& [t, others] : partners) {
+    left[t] = others.size ();
+    order.insert (key (t));
+  }
   std::vector<std::uint8_t> is_in (triangles, 0);
+  ProgressLoop progress (run);
   while (!order.empty ()) {
     const Index t = order.begin ()->second;
     order.erase (order.begin ());
-    if (partners[t].empty ())
+    if (left[t] == 0)
       break; // those that follow have none, either
     is_in[t] = 1;
     for (const Index u : partners[t]) {
+      progress.next ();
+      if (is_in[u] != 0)
+        continue;
       order.erase (key (u));
-      std::vector<Index>& others = partners[u];
-      others.erase (std::find (others.begin (), others.end (), t));
+      --left[u];
       order.insert (key (u));
     }
-    partners[t].clear ();
   }
   return is_in;
 }
@@ -86,7 +89,7 @@ cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
   const std::size_t before = mesh.triangles.size ();
   const std::vector<CrossingPair> pairs =
       findSelfIntersections (mesh.triangles, points.positions, run);
-  removeTriangles (mesh, coverPairs (before, pairs), run);
+  removeTriangles (mesh, coverPairs (before, pairs, run), run);
   return before - mesh.triangles.size ();
 }
 

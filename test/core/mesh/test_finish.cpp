@@ -113,10 +113,24 @@ TEST (Finish, LimitsOfTheRepairAreThoseGiven)
   settings.limits.repair.passes = 0;
   settings.limits.repair.kicks = 0;
   settings.limits.repair.points_per_kick = 1'000'000;
+  settings.limits.repair.rebuilt_orders = 0;
   const MeshFinish finish = finishMesh (sheet.mesh, positions, sheet.made.geometry, settings, 1);
   EXPECT_TRUE (finish.is_repairable);
   EXPECT_GT (finish.folds, 0U);
   EXPECT_EQ (finish.folds, finish.folds_after_flips);
+}
+
+TEST (Finish, PatchesAloneMendASheet)
+{
+  MixedUpSheet sheet;
+  const std::vector<Eigen::Vector3d>& positions = sheet.made.points.positions;
+  FinishSettings settings;
+  settings.limits.repair.passes = 0;
+  settings.limits.repair.kicks = 0;
+  settings.limits.repair.points_per_kick = 1'000'000;
+  const MeshFinish finish = finishMesh (sheet.mesh, positions, sheet.made.geometry, settings, 1);
+  EXPECT_GT (finish.folds_after_flips, 0U);
+  EXPECT_EQ (finish.folds, 0U);
 }
 
 TEST (Finish, ASurfaceFoldedAllOverIsNotRepairable)
