@@ -20,6 +20,10 @@ checkInput (const Input& input)
   if (indices.size () != input.positions.size ())
     return refused ("there are " + std::to_string (input.positions.size ()) + " positions but " +
                     std::to_string (indices.size ()) + " cloud indices; give one for each");
+  if (!input.normals.empty () && input.normals.size () != input.cloud_size)
+    return refused ("there are " + std::to_string (input.normals.size ()) +
+                    " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
+                    " points; give one for each, or none");
   if (indices.empty ())
     return {};
   const Index largest = *std::max_element (indices.begin (), indices.end ());

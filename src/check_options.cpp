@@ -35,6 +35,8 @@ checkTopology (const Options& options)
                     "AUTO and KEEP_LARGEST only; choose another topology");
   if (options.topology == Topology::SURFACE && !options.disc.boundary.loop.empty ())
     return refused ("a boundary loop can be given for a disc only; choose another topology");
+  if (options.topology == Topology::SURFACE && options.disc.as_published)
+    return refused ("the method of TW 385 makes discs only; choose another topology");
   return {};
 }
 

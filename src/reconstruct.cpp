@@ -12,6 +12,7 @@
 #include "local/star_agreement.h"
 #include "mesh/mesh_spacing.h"
 #include "problem_of_exception.h"
+#include "published_method.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
 #include "request.h"
@@ -50,7 +51,9 @@ discSettings (const Points& points, const Request& request)
   settings.neighborhood = options.neighbors.kind;
   settings.stars.filter_sheets = options.filter_sheets;
   settings.stars.limits = limits.sheets;
-  settings.parameterization = {options.disc.weighting, options.disc.domain, options.disc.solver};
+  settings.parameterization = {options.disc.weighting, options.disc.domain, options.disc.solver,
+                               !options.disc.as_published};
+  settings.as_published = options.disc.as_published;
   settings.flip_edges = options.flip_edges;
   settings.facing = facingHints (points, request);
   settings.limits = limits.disc;
@@ -114,8 +117,10 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
 {
   const Options& options = request.options;
   result.report.topology = Topology::DISC;
-  result.report.topology_reason =
-      options.topology == Topology::DISC ? "asked for" : "its boundary loop is given";
+  result.report.topology_reason = options.disc.as_published ? "the method of TW 385 is asked for"
+                                  : options.topology == Topology::DISC
+                                      ? "asked for"
+                                      : "its boundary loop is given";
   Disc disc = layOutDisc (points, geometry, request);
   reportDisc (points, disc, result.report);
   if (disc.problem)
@@ -290,6 +295,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = cleanInput (input, options, limits.gross_outliers, run, report))
     return problem;
   Points points = makePoints (input.positions, input.cloud_index, run);
+  takeNormals (input.normals, points);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
   std::vector<Index> ().swap (input.cloud_index);
   reportPoints (points, report);
@@ -355,7 +361,10 @@ reconstruct (Input input, const Options& options, const Limits& limits)
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
-    problem = reconstructAny (input, {options, limits, run, input.sensor_origin}, result);
+    const Options effective = effectiveOptions (options);
+    const Limits effective_limits = effectiveLimits (limits, options);
+    problem =
+        reconstructAny (input, {effective, effective_limits, run, input.sensor_origin}, result);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report))
         result.report.warnings.push_back (std::move (unused));

@@ -2,6 +2,7 @@
 #include <pcl/surface/floater/reconstruction_state.h>
 
 #include "core/disjoint_sets.h"
+#include "pcl_neighborhoods.h"
 #include "problem_of_exception.h"
 
 #include <pcl/console/print.h>
@@ -89,6 +90,7 @@ struct ReconstructionState::Data
 {
   Options options;
   pcl::Indices prescribed_loop; // as given: may hold indices that the core's type cannot
+  bool use_input_normals = false;
   Report report;
   std::vector<int> parts;          // of each point; empty if there is no mesh
   std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
@@ -334,6 +336,18 @@ const pcl::Indices&
 ReconstructionState::getPrescribedLoop () const
 {
   return data_->prescribed_loop;
+}
+
+void
+ReconstructionState::setUseInputNormals (bool use)
+{
+  data_->use_input_normals = use;
+}
+
+bool
+ReconstructionState::getUseInputNormals () const
+{
+  return data_->use_input_normals;
 }
 
 void
@@ -589,6 +603,13 @@ ReconstructionState::triangulatePoints (Input&& input)
   std::vector<bool> is_selected (input.cloud_size, false);
   for (const std::uint32_t p : input.cloud_index)
     is_selected[p] = true;
+  std::unique_ptr<PclNeighborhoods> by_pcl; // TW 385 as a user of PCL would put it together
+  if (options.disc.as_published && input.search == nullptr) {
+    by_pcl = std::make_unique<PclNeighborhoods> (input);
+    input.search = &by_pcl->search ();
+    if (input.normals.empty ())
+      input.normals = by_pcl->normals (options.neighbors.k);
+  }
   Result result = reconstruct (std::move (input), options);
   data_->report = std::move (result.report);
   if (data_->report.status == RunStatus::SUCCESS) {

@@ -62,17 +62,18 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   disc.mesh = triangulatePlane (uv, loop);
 
   // Beyond TW 385: what is too deep for double precision is laid out again, level by level.
-  disc.levels =
-      layOutCollapsedRegions (disc.mesh, uv, positions, geometry.neighbors, geometry.stars.normals,
-                              loop, star_settings, settings.parameterization, run, settings.limits);
+  if (!settings.as_published)
+    disc.levels = layOutCollapsedRegions (disc.mesh, uv, positions, geometry.neighbors,
+                                          geometry.stars.normals, loop, star_settings,
+                                          settings.parameterization, run, settings.limits);
 
   // Beyond TW 385: points without a triangle, as those that coincide in the plane, are inserted,
   // and edges are flipped in space.
   run.beginStage (Stage::FLIPS);
-  disc.finish = finishMesh (
-      disc.mesh, points.positions, geometry,
-      {settings.flip_edges, settings.limits.largest_fold_share, settings.finish, settings.facing},
-      run);
+  disc.finish = finishMesh (disc.mesh, points.positions, geometry,
+                            {settings.flip_edges, settings.limits.largest_fold_share,
+                             settings.finish, settings.facing, !settings.as_published},
+                            run);
   if (!disc.finish.is_repairable)
     disc.problem = describeFolds (disc);
   return disc;

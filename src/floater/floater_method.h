@@ -16,7 +16,8 @@ struct DiscSettings
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
   StarSettings stars; ///< of stars that are made anew
   ParameterizationSettings parameterization;
-  bool flip_edges = true; ///< flip edges in space at the end, and repair folds
+  bool flip_edges = true;    ///< flip edges in space at the end, and repair folds
+  bool as_published = false; ///< nothing beyond TW 385
   DiscLimits limits{};
   FinishLimits finish{};
   FacingHints facing{};

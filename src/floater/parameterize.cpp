@@ -79,7 +79,11 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   CsrLists neighbors = std::move (stars.neighbors);
   stars = {};
 
-  const Reachability reach = reachLoop (neighbors, nearest, positions, loop, run, limits);
+  CsrLists no_links;
+  if (!settings.link_points)
+    no_links.offsets.assign (positions.size () + 1, 0);
+  const Reachability reach = reachLoop (neighbors, settings.link_points ? nearest : no_links,
+                                        positions, loop, run, limits);
   addLinks (reach.links, neighbors, weights);
   result.relinked = reach.linked_points;
   result.unreachable =

@@ -21,6 +21,7 @@ struct ParameterizationSettings
   Weighting weighting = Weighting::MEAN_VALUE;
   DomainOptions domain;
   SolverOptions solver;
+  bool link_points = true; ///< link points to others so that all are connected with the loop
 };
 
 /// Parameters of the points in the plane.

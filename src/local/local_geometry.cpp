@@ -43,6 +43,9 @@ fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> 
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
   planes.normals = fitTangentPlanes (positions, planes.neighbors, run, limits);
+  for (std::size_t p = 0; p < points.normals.size (); ++p)
+    if (!points.normals[p].isZero (0.0F))
+      planes.normals[p] = points.normals[p];
   return planes;
 }
 

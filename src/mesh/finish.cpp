@@ -23,7 +23,8 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   orientNormals (mesh, positions, normals, run);
   const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
   run.beginStep (AFTER_INSERTION);
-  insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
+  if (settings.insert_points)
+    insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);

@@ -32,6 +32,7 @@ struct FinishSettings
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
   FacingHints facing = {};
+  bool insert_points = true; ///< insert points that have no triangle
 };
 
 /// What finishMesh has done.

@@ -111,10 +111,14 @@ leaveDuplicatesOut (Points& points)
     }
     points.positions[kept] = points.positions[p];
     points.cloud_index[kept] = points.cloud_index[p];
+    if (!points.normals.empty ())
+      points.normals[kept] = points.normals[p];
     ++kept;
   }
   points.positions.resize (kept);
   points.cloud_index.resize (kept);
+  if (!points.normals.empty ())
+    points.normals.resize (kept);
   std::sort (points.duplicates.begin (), points.duplicates.end ());
 }
 
@@ -204,6 +208,23 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
   });
   leaveDuplicatesOut (points);
   return points;
+}
+
+void
+takeNormals (const std::vector<Eigen::Vector3f>& normals, Points& points)
+{
+  points.normals.clear ();
+  if (normals.empty ())
+    return;
+  points.normals.reserve (points.size ());
+  for (const Index cloud_index : points.cloud_index) {
+    // In double precision, where squares of floats neither overflow nor vanish.
+    const Eigen::Vector3d given = normals[cloud_index].cast<double> ();
+    const double length = given.norm ();
+    const bool is_normal = std::isfinite (length) && length > 0.0;
+    points.normals.push_back (is_normal ? Eigen::Vector3f ((given / length).cast<float> ())
+                                        : Eigen::Vector3f (Eigen::Vector3f::Zero ()));
+  }
 }
 
 Problem

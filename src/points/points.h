@@ -19,6 +19,8 @@ struct Points
   std::vector<Eigen::Vector3d> positions; ///< centred, scaled to a bounding box diagonal of 1
   std::vector<Eigen::Vector3d> projected; ///< on local planes where noise is strong; else empty
   std::vector<Index> cloud_index;         ///< of each point; of equal points the smallest
+  std::vector<Eigen::Vector3f> normals;   ///< that are given: unit length, of arbitrary sign, zero
+                                          ///< where there is none; empty if none is given
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
   double diagonal =
@@ -48,6 +50,10 @@ struct Points
 Points
 makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
             const RunContext& run);
+
+/// Takes over normals that are given, for each index of the whole cloud, or none. O(n).
+void
+takeNormals (const std::vector<Eigen::Vector3f>& normals, Points& points);
 
 /// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line. Small objects far
 /// apart do not: it is enough that a quarter of the points lie beside the line as seen from one of

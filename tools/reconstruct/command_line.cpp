@@ -4,6 +4,7 @@
 #include "check_options.h"
 #include "memory_limit.h"
 #include "option_table.h"
+#include "published_method.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,6 +50,17 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   if (app.count ("--largest-hole") > 0 && app.count ("--largest-hole-length") > 0)
     throw UsageError ("--largest-hole and --largest-hole-length are one size in two units; give "
                       "one of them");
+  if (command_line.as_published) {
+    // What is given stays: the report compares solvers and weights.
+    const DiscOptions published = DiscOptions::tw385 ();
+    DiscOptions& disc = command_line.options.disc;
+    disc.as_published = true;
+    if (app.count ("--boundary") == 0)
+      disc.boundary.method = published.boundary.method;
+    if (app.count ("--ordering") == 0 && disc.solver.method == published.solver.method)
+      disc.solver.ordering = published.solver.ordering;
+    command_line.options = effectiveOptions (command_line.options); // the report lists these
+  }
   if (command_line.input.empty () || command_line.output.empty ())
     throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");
   const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();

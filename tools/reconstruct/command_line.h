@@ -50,6 +50,7 @@ struct CommandLine
   std::optional<Eigen::Vector3d> shift;  ///< --shift x,y,z
   bool auto_shift = false;               ///< --shift auto
   Precision precision = Precision::AUTO; ///< of coordinates in outputs
+  bool as_published = false;             ///< --method tw385
   Options options;                       ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
@@ -60,6 +61,7 @@ struct CommandLine
 template <typename Enum, std::size_t N>
 using Choices = std::array<std::pair<const char*, Enum>, N>;
 
+constexpr Choices<bool, 2> METHOD_CHOICES{{{"auto", false}, {"tw385", true}}};
 constexpr Choices<Topology, 3> TOPOLOGY_CHOICES{
     {{"auto", Topology::AUTO}, {"disc", Topology::DISC}, {"surface", Topology::SURFACE}}};
 constexpr Choices<HolePolicy, 5> HOLE_CHOICES{{{"auto", HolePolicy::AUTO},

@@ -25,8 +25,7 @@ const char* const FOOTER =
   pcl_floater_reconstruct scan.pcd scan.vtk
   pcl_floater_reconstruct --report scan.json --parameterization flat.ply scan.ply mesh.ply
   pcl_floater_reconstruct --holes close-all --strict statue.pcd statue.stl
-  pcl_floater_reconstruct --topology disc --boundary two-segments --flips off --sheet-filter off \
-                          scan.pcd paper.ply
+  pcl_floater_reconstruct --method tw385 scan.pcd paper.ply
 
 Notes:
   With --shift, coordinates in the outputs and in messages are those after the origin was
@@ -129,9 +128,15 @@ addLargestHoleLength (CLI::App& app, HoleOptions& options, const std::string& gr
 }
 
 void
-addTopology (CLI::App& app, Options& options)
+addTopology (CLI::App& app, CommandLine& line)
 {
+  Options& options = line.options;
   const std::string surface = "Surface";
+  addChoice (
+      app, "--method", line.as_published, METHOD_CHOICES,
+      "tw385: a disc by the method of that report and nothing\nelse: no outliers, noise, sheet "
+      "filter, flips or repair",
+      surface);
   addChoice (app, "--topology", options.topology, TOPOLOGY_CHOICES,
              "what the points are taken for: a disc (one component\nwith one boundary loop) or any "
              "surface; auto: a disc\nif the boundary loop is given, else any surface",
@@ -304,7 +309,7 @@ addOptions (CLI::App& app, CommandLine& line)
                         "print the version and exit")
       ->group (GENERAL);
   addGeneral (app, line);
-  addTopology (app, line.options);
+  addTopology (app, line);
   addNeighbors (app, line.options);
   addBoundary (app, line);
   addParameterization (app, line.options);

@@ -19,7 +19,8 @@ Json
 optionsJson (const Options& options)
 {
   const bool in_cloud_units = options.holes.unit == LengthUnit::CLOUD;
-  return {{"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
+  return {{"method", choiceName (METHOD_CHOICES, options.disc.as_published)},
+          {"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
           {"holes", choiceName (HOLE_CHOICES, options.holes.policy)},
           {"kept_loops", options.holes.kept_loops},
           {"largest_hole", in_cloud_units ? 0.0 : options.holes.largest_hole},

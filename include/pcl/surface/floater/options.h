@@ -235,6 +235,20 @@ struct DiscOptions
   DomainOptions domain;                        ///< where the loop is laid
   Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point
   SolverOptions solver;                        ///< of the linear system
+
+  /// The method of TW 385 and nothing else. The surface is made as a disc, also for Topology::AUTO,
+  /// and what goes beyond the report is off, whatever the options of the run say: outliers, noise,
+  /// the filter of sheets, edge flips, the repair of folds and crossings, links to points that no
+  /// neighbour connects with the loop, the layout of collapsed regions, and the insertion of points
+  /// without a triangle. Not with Topology::SURFACE.
+  bool as_published = false;
+
+  /// What TW 385 describes: boundary points by an opening angle of 160 degrees (section 3.1), their
+  /// largest cluster (3.2), ordered in two segments (3.3), laid on a circle (2.1); mean value
+  /// weights in Delaunay neighbourhoods (4.1, equation (2)), the linear system by UMFPACK with the
+  /// ordering AMD (4.2); and as_published. Its 20 nearest neighbours (section 5) are the default of
+  /// NeighborOptions.
+  PCL_FLOATER_EXPORT static DiscOptions tw385 ();
 };
 
 /// All options of a run. The defaults need no tuning, and a run never changes them.

@@ -54,6 +54,11 @@ struct Input
   NeighborSearch* search = nullptr; ///< nullptr: a kd-tree of the core's, in parallel
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the cloud is one scan; see ViewUse.
                                          ///< If it is not 0, the mesh faces it where it can
+
+  /// Empty, or one for each point of the whole cloud: normals of the tangent planes, of any length
+  /// and sign, in place of those that would be fitted. Where one is zero or not finite, the plane
+  /// is fitted.
+  std::vector<Eigen::Vector3f> normals;
 };
 
 /// A mesh and the report on the run that made it.

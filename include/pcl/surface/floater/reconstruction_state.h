@@ -151,7 +151,9 @@ public:
 
   /** \brief All that only a disc takes: how its boundary loop is found, or the loop itself; the
    * curve on which it is laid; weights and solver of the linear system. Another surface does not
-   * read them. They replace all that were set before, a loop of setPrescribedLoop() as well: to
+   * read them. With DiscOptions::tw385(), the run is the method of TW 385 and nothing else, with
+   * pcl::search::KdTree and pcl::NormalEstimation where no other search method and no normals are
+   * given. They replace all that were set before, a loop of setPrescribedLoop() as well: to
    * keep what was set, change a copy of getDiscOptions(). */
   void setDiscOptions (const DiscOptions& options);
   /** \brief All that only a disc takes, the given boundary loop among them. */
@@ -164,6 +166,14 @@ public:
   void setPrescribedLoop (const pcl::Indices& loop);
   /** \brief The given boundary loop; empty: the loop is found. */
   const pcl::Indices& getPrescribedLoop () const;
+
+  /** \brief Whether the normals of the points are those of their tangent planes, instead of planes
+   * through their neighbours; default false. For point types with normals only: with others, a run
+   * ends with RunStatus::INVALID_OPTION. Lengths and signs do not matter. Where a normal is zero or
+   * not finite, the plane is fitted. A scan that is connected as its sensor saw it needs none. */
+  void setUseInputNormals (bool use);
+  /** \brief Whether the normals of the points are those of their tangent planes. */
+  bool getUseInputNormals () const;
 
   /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
   void setFilterSheets (bool filter_sheets);

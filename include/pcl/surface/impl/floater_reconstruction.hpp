@@ -174,6 +174,20 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
     input.positions.emplace_back (point.x, point.y, point.z);
     input.cloud_index.push_back (static_cast<std::uint32_t> (row));
   }
+  if (getUseInputNormals ()) {
+    if constexpr (pcl::traits::has_normal<PointT>::value) {
+      input.normals.reserve (size);
+      for (const PointT& point : *input_)
+        input.normals.emplace_back (point.normal_x, point.normal_y, point.normal_z);
+    }
+    else {
+      fail (
+          floater::RunStatus::INVALID_OPTION,
+          "the points have no normals that could be used: take a point type with normals, or call "
+          "setUseInputNormals (false)");
+      return;
+    }
+  }
   floater::SearchMethod<PointT> search (tree_, input_);
   if (tree_)
     input.search = &search;
