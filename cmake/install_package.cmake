@@ -70,6 +70,15 @@ foreach (picture tools/picture/example.png test/benchmark/figures/figure6_mesh_b
   install (FILES "${PROJECT_SOURCE_DIR}/${picture}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}"
            COMPONENT documentation)
 endforeach ()
+# The pages, and what they name.
+file (GLOB pages CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/doc/*.md")
+install (FILES ${pages} "${PROJECT_SOURCE_DIR}/doc/sample_clouds.sh"
+         DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" COMPONENT documentation)
+install (FILES "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
+install (FILES "${PROJECT_SOURCE_DIR}/src/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}/src"
+         COMPONENT documentation)
+install (DIRECTORY "${PROJECT_SOURCE_DIR}/test/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}/test"
+         COMPONENT documentation FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h")
 # A Debian package has names of its own for these.
 if (NOT PCL_FLOATER_PACKAGES)
   install (FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)

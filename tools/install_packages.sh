@@ -6,12 +6,13 @@ set -euo pipefail
 
 usage () {
   cat <<'END'
-Usage: install_packages.sh [--tests] [--benchmarks] [--lint] [--packages]
+Usage: install_packages.sh [--tests] [--benchmarks] [--lint] [--packages] [--docs]
 Installs the Debian packages for the library and its tools.
   --tests       also those for the tests
   --benchmarks  also those for the benchmarks
   --lint        also those for checking the source code
   --packages    also those for making and testing Debian packages
+  --docs        also those for the documentation of the headers
 END
 }
 
@@ -27,6 +28,7 @@ for argument in "$@"; do
     --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     --packages) packages+=(dpkg-dev lintian debootstrap) ;;
+    --docs) packages+=(doxygen) ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 1 ;;
   esac
