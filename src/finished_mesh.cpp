@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finished_mesh.h"
 
@@ -58,6 +59,7 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
                                request.limits.uncrossing, request.run);
   statistics.self_intersection_flips = done.flips;
   statistics.self_intersection_moves = done.moves;
+  statistics.self_intersection_rebuilds = done.rebuilds;
   if (done.flips + done.moves > 0)
     found = examineWithCrossing (mesh, points, geometry, request);
 }

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The end of every way: the mesh is checked, triangles that cross each other are moved apart, what
 // is asked for is cut off, and the rest is reported.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way of a cloud: points, neighbours, outliers, noise, the geometry around each point;
 // then a disc laid out in the plane, or a surface of any topology out of stars; then one check. One

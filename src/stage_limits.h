@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All limits: values that decide what a mesh is. Each stage says what its own mean and where they
 // come from.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks that the shared library exports every symbol of a list: programs that were linked with an
 earlier build need them. Symbols that are not in the list are named, and are no failure.

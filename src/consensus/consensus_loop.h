@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The boundary loop of a disc as a loop of the triangles that stars agree on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a stage is given of the run that it belongs to: threads, clock, progress, cancellation.
 #pragma once

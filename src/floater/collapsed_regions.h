@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Regions in which a parameterization has shrunk so far that double precision is about to run out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Delaunay triangulation of the parameters (TW 385, section 2; exact predicates, section 6).
 #pragma once

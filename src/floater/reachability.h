@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which points are connected with the boundary loop, so that the linear system determines them. The
 // solver does not tell: for unknowns that are not, UMFPACK may return OK and put them all on the

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Smoothed normals: planes from which both faces of a sharp edge are seen.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The last changes of a mesh, whatever method made it: insertion, flips, repair, orientation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which boundary loops are boundaries and holes of the surface, and which are mere defects.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cost of triangles and of the edges between them, which flips and moves of vertices minimize.
 #pragma once

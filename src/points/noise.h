@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How noisy the points are, each at its own scale, and which lie on no surface at any scale.
 #pragma once

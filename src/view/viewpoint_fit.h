@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Moves a viewpoint that is nearly right to where the rays are spaced most evenly.
 #pragma once

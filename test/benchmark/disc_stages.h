@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A cloud taken through the stages of a disc up to the linear system, with all results kept.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table 2 of TW 385: the fill-in factor gamma.
 #include "floater/solvers/ordering.h"

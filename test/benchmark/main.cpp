@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl_floater_benchmark: makes the tables and figures of TW 385 again, from clouds of the user's.
 #include "atomic_file.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure 6 of TW 385: mesh, parameterization, and what it is like where it is densest.
 #include "floater/planar_delaunay.h"

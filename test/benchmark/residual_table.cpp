@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why TW 385 asks BiCGSTAB for a residual of 1e-15: what the mesh is at larger ones.
 #include "floater/planar_delaunay.h"

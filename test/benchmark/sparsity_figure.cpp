@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure 4 of TW 385: where the matrix and its factors have their nonzeros.
 #include "floater/solvers/ordering.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table 3 of TW 385, and Figure 5: seconds by stage and solver.
 #include "floater/planar_delaunay.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds on known surfaces and checks of the meshes made from them, for the tests of the PCL class.
 #pragma once

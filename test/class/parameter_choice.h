@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A parameter of FloaterReconstruction and one of its values, for tests that go over many of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // FloaterMeshConstruction, and what FloaterReconstruction has in common with PCL's mesh
 // construction: triangles without a copy of the cloud, and what each point is in the mesh.

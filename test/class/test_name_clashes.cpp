@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Our headers after those of X11 and curses, whose macros are plain words. What is used of Eigen,
 // PCL and GoogleTest is included first: some of them do not stand these macros.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A point type of the user's own: the class is instantiated here, from the installed templates.
 #define PCL_NO_PRECOMPILE

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One picture of many results: pcl_floater_contact_sheet OUT.png FOLDER NAME...
 //

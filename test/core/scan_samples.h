@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scans of a small scene: a floor, two walls, a ball, and a thin post before the walls.
 #pragma once

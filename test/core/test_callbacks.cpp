@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Callbacks of a whole run: its progress, its cancellation, and what else a callback may do.
 #include <pcl/surface/floater/reconstruct.h>

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the check of a mesh tells a disc in its loop from anything else.
 #include "mesh/check.h"

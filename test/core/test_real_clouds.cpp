@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole method on real clouds with a ground truth: vertex k of <name>.gt.ply is point k of
 // <name>.pcd. They are looked for in the folder PCL_FLOATER_DATA of the environment.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The samples that other tests rely on have the density and size that they are meant to have.
 #include "darts.h"

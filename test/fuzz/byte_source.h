@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Choices that are decoded from bytes, so that a fuzzer can make them.
 #pragma once

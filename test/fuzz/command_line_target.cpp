@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzz target: each line of the bytes is an argument of the tool. Parsed and checked, not run.
 #include "fuzz_target.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Memory that runs out when a test wants it to. A program that links this gets malloc and its kin
 // replaced, and with them operator new and what C libraries allocate. For glibc, and not together

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The entry of a fuzz target, for libFuzzer and for the replay of a corpus.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzz target: a whole reconstruction of a cloud that is decoded from the bytes.
 #include "cloud_recipe.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reconstructs clouds that are decoded from random bytes, one for each seed, and says which results
 // are wrong or slow.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every allocation of a run fails once, and once together with all later ones: the run ends with a
 // status, nothing escapes, nothing leaks, and the next run is as before.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds that are hard on a reconstruction: no result is wrong, and what must not matter does not.
 #include "random_attack.h"

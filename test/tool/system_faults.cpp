@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A library to be preloaded (LD_PRELOAD): one call of the system goes wrong. In the environment are
 //   PCL_FLOATER_FAULT       CALL:N:KIND, such as write:2:ENOSPC: the third write

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files and clouds that cannot be used: exit code, a message that names the cause, and no output.
 #include "cloud_reader.h"

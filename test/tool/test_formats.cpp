@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every input format gives the same mesh, and every output format holds it to the last bit.
 #include "mesh_files.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replaced operators new and delete, scratch files, and the memory limit. Their state is that
 // of the process: once a scratch folder is set, it stays set.

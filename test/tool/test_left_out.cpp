@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a file has beside its points: left out with a word, and normals given to the right points.
 #include "cloud_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The report, the summary as JSON, and warnings that --strict does not allow.
 #include "command_line_test.h"
@@ -106,8 +107,8 @@ TEST_F (ReportTest, ReportTellsWhatTheMeshIs)
                            "genus", "folds", "degenerate_triangles", "self_intersections"})
     EXPECT_EQ (check.at (flaw), 0) << flaw;
   EXPECT_EQ (check.at ("self_intersections_at"), Json::array ());
-  for (const char* figure :
-       {"self_intersections_found", "self_intersection_flips", "self_intersection_moves"})
+  for (const char* figure : {"self_intersections_found", "self_intersection_flips",
+                             "self_intersection_moves", "self_intersection_rebuilds"})
     EXPECT_EQ (all.at ("statistics").at (figure), 0) << figure;
   EXPECT_EQ (check.at ("components"), 1);
   EXPECT_EQ (check.at ("euler_characteristic"), 1);

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates far from zero: --shift, and the warning on coordinates that are too coarse.
 #include "command_line_test.h"
@@ -117,6 +118,26 @@ TEST_F (ShiftTest, AGivenOrigin)
   EXPECT_EQ (run ({"in.pcd", "out.ply", "-q", "--shift", "-5,0,0"}).code, 0);
   EXPECT_NEAR (readPly (path ("out.ply")).points.front ().x (), sample_.points.front ().x () + 5.0,
                1e-5);
+}
+
+// An origin of the sensor of (0, 0, 0) tells nothing. Shifted, it would be a sensor below the
+// ground.
+TEST_F (ShiftTest, AnUnknownSensorStaysUnknown)
+{
+  const auto upward = [this] (const std::vector<std::string>& options) {
+    reportOf ("double.ply", options);
+    const MeshContent mesh = readPly (path ("out.ply"));
+    std::size_t count = 0;
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3d &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+      count += (b - a).cross (c - a).z () > 0.0 ? 1 : 0;
+    }
+    return count;
+  };
+  const std::size_t plain = upward ({});
+  EXPECT_GT (plain, 100U);
+  EXPECT_EQ (upward ({"--shift", "auto"}), plain);
+  EXPECT_EQ (upward ({"--shift", "500000,5500000,1000"}), plain);
 }
 
 TEST_F (ShiftTest, CoarseCoordinatesAreTold)

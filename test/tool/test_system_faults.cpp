@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each call of the system goes wrong once, in every way that it may: the run succeeds or fails with
 // a message, and the output is the new file or the old one, whole.

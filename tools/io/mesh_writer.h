@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes triangle meshes whose vertices are the points of a cloud: VTK, PLY, OBJ, STL.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does not use VTK, because loading its libraries takes longer than reconstructing most clouds. The
 // tests read the files back with VTK and PCL.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each array has a file of its own, so that the file goes when the array is freed. Its space is
 // reserved when it is made: a page without a block on the disk would be SIGBUS when it is written.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Arrays larger than memory. A program that links this gets its operators new and delete replaced:
 // they use malloc, but after keepLargeArraysIn () every large array is mapped to a scratch file of

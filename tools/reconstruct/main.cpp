@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
@@ -102,8 +103,10 @@ shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
     return;
   for (Eigen::Vector3d& position : input.positions)
     position -= cloud.shift;
-  for (std::array<double, 3>* place : {&input.sensor_origin, &line.options.view.viewpoint})
-    Eigen::Map<Eigen::Vector3d> (place->data ()) -= cloud.shift;
+  Eigen::Map<Eigen::Vector3d> (line.options.view.viewpoint.data ()) -= cloud.shift;
+  Eigen::Map<Eigen::Vector3d> sensor_origin (input.sensor_origin.data ());
+  if (!sensor_origin.isZero (0.0)) // else it is one that nobody told
+    sensor_origin -= cloud.shift;
 }
 
 Result

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Operators new and delete that put large arrays into scratch files once there is a scratch folder.
 #include "large_arrays.h"

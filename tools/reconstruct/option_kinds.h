@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
 // where it is told, shows the default in the help, and refuses a malformed word by name.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
@@ -102,6 +103,7 @@ statisticsJson (const Statistics& statistics)
           {"self_intersections_found", statistics.self_intersections_found},
           {"self_intersection_flips", statistics.self_intersection_flips},
           {"self_intersection_moves", statistics.self_intersection_moves},
+          {"self_intersection_rebuilds", statistics.self_intersection_rebuilds},
           {"unknowns", statistics.unknowns},
           {"nnz_matrix", statistics.nnz_matrix},
           {"nnz_factors", statistics.nnz_factors},

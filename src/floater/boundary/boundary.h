@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The boundary stage (TW 385, section 3): from the geometry around each point to one ordered loop.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Direct solution by SuperLU, which TW 385 compares with UMFPACK (section 4.2).
 #pragma once

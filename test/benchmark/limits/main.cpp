@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What hangs on each limit: how many verdicts change if it is a fifth smaller or larger.
 #include "limit_list.h"

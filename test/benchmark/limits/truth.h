@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A cloud with the mesh that it was taken from, and the verdict on a reconstruction of it.
 #pragma once

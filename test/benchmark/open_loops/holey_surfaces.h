@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds on smooth open surfaces with windows cut into them, or with gaps that only the sampling
 // has. What is a window is known, so that every boundary loop of a mesh can be told.

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boundary loops of the consensus mesh of a holey surface, each with what it is.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Error rates of the rule that tells holes from gaps, and the fit of its coefficients.
 #include "labelled_loops.h"

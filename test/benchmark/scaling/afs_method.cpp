@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's advancing front surface reconstruction with its default settings. It has one thread.
 #include "method_run.h"

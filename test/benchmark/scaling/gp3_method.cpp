@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl::GreedyProjectionTriangulation with the settings of PCL's tutorial. What it needs and a user
 // has to find first, a radius and normals, is part of its time.

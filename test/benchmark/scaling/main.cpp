@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl_floater_scaling_report: tables and charts of the runs that scaling.sh measured.
 #include "atomic_file.h"

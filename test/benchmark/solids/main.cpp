@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes random surfaces as clouds with their truth: NAME.pcd and NAME.gt.ply.
 #include "solid_surface.h"

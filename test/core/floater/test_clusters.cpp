@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boundary points and their clusters (TW 385, sections 3.1 and 3.2).
 #include "floater/boundary/clusters.h"

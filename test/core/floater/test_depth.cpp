@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Deep surfaces: regions that collapse in the plane, and that are laid out again.
 #include "floater/collapsed_regions.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The connected graph of neighbouring points on which boundary points are ordered.
 #include "floater/boundary/neighbor_graph.h"

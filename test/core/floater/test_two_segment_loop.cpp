@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Order of a boundary cluster by two segments (TW 385, section 3.3).
 #include "floater/boundary/two_segment_loop.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Insertion, flips, repair and orientation, one after the other.
 #include "mesh/finish.h"

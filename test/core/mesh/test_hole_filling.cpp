@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangulation of polygons at least cost, and the filling of holes by it.
 #include "mesh/hole_filling.h"

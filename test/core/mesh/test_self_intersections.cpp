@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles that cross each other: all are found, and they are removed.
 #include "mesh/self_intersections.h"

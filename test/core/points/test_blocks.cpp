@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Points of a block, and nearest neighbours that do not depend on the number of blocks.
 #include "points/point_block.h"

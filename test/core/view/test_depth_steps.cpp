@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a view is cut: profiles of known surfaces, seen by a lidar with rings.
 #include "view/depth_steps.h"

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scans of known surfaces, made into meshes as they were seen.
 #include "view/view_method.h"

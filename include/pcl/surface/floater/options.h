@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options of a reconstruction, with their defaults, units and ranges.
 //
@@ -187,7 +188,7 @@ struct TrimmingOptions
 /// Scans, of which every point is visible from one place.
 struct ViewOptions
 {
-  ViewUse use = ViewUse::AUTO;
+  ViewUse use = ViewUse::AUTO;       ///< whether the cloud is connected as its sensor saw it
   std::array<double, 3> viewpoint{}; ///< ViewUse::GIVEN: x, y, z in the frame of the cloud
 };
 
@@ -218,7 +219,7 @@ struct DomainOptions
 /// How the linear system of a disc is solved.
 struct SolverOptions
 {
-  Solver method = Solver::UMFPACK;
+  Solver method = Solver::UMFPACK;         ///< direct or iterative
   Ordering ordering = Ordering::AUTOMATIC; ///< of the unknowns
   double tolerance = 1e-15;  ///< |b - A u| / |b| at which iterative solvers stop, above 0, below 1
   int max_iterations = 1000; ///< of an iterative solver for each coordinate, 1 or more
@@ -255,10 +256,10 @@ struct DiscOptions
 struct Options
 {
   Topology topology = Topology::AUTO; ///< what the points are taken for
-  NeighborOptions neighbors;
-  HoleOptions holes;
-  TrimmingOptions trimming;
-  ViewOptions view;            ///< not for discs
+  NeighborOptions neighbors;          ///< of each point
+  HoleOptions holes;                  ///< which boundary loops stay open
+  TrimmingOptions trimming;           ///< what is cut off the finished mesh
+  ViewOptions view;                   ///< not for discs
   DiscOptions disc;            ///< a surface that is made by another method does not read them
   bool remove_outliers = true; ///< leave out points that lie off any surface
   ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points of no surface, such as leaves

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Entry point of the core, which uses no types of PCL.
 #pragma once
@@ -65,13 +66,14 @@ struct Input
 struct Result
 {
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< cloud indices, facing outwards
-  Report report;
+  Report report;                                       ///< status, figures and warnings
 };
 
-/// Reconstructs a surface by one of two methods (see Topology). The consensus method makes surfaces
-/// of any topology: it assembles the triangles on which the Delaunay stars of neighbouring points
-/// agree, and fills holes by minimum-cost triangulations of their boundary loops. The disc method
-/// is meshless parameterization (Floater and Reimers 2001) as in TW 385. After either method,
+/// Reconstructs a surface by one of three methods (see Topology and ViewUse). The consensus method
+/// makes surfaces of any topology: it assembles the triangles on which the Delaunay stars of
+/// neighbouring points agree, and fills holes by minimum-cost triangulations of their boundary
+/// loops. The disc method is meshless parameterization (Floater and Reimers 2001) as in TW 385. The
+/// view method triangulates the rays of a single scan. After the first two,
 /// points without a triangle are inserted, edges are flipped in space and folds are repaired.
 ///
 /// Every component of the mesh faces outwards: a closed one encloses a positive volume, but the

@@ -1,3 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The report on a run.
 #pragma once
@@ -86,9 +87,9 @@ facingRuleName (FacingRule rule);
 /// back.
 struct FacingDecision
 {
-  std::size_t triangles = 0; ///< number of triangles
-  std::uint32_t at = 0;      ///< cloud index of one of its points
-  FacingRule rule = FacingRule::SHEET;
+  std::size_t triangles = 0;           ///< number of triangles
+  std::uint32_t at = 0;                ///< cloud index of one of its points
+  FacingRule rule = FacingRule::SHEET; ///< by which it was turned
   double certainty = 0.0; ///< that the rule fits: 0.5 where another one does so as well, to 1
 };
 
@@ -154,9 +155,10 @@ struct Statistics
   std::size_t levels = 0; ///< depth to which collapsed regions of a disc were laid out again
   std::size_t flips = 0;  ///< edges flipped in space
   std::size_t folds = 0;  ///< as MeshCheck::folds
-  std::size_t self_intersections_found = 0; ///< before any were removed
-  std::size_t self_intersection_flips = 0;  ///< edges flipped to remove them
-  std::size_t self_intersection_moves = 0;  ///< points moved to other triangles to remove them
+  std::size_t self_intersections_found = 0;   ///< before any were removed
+  std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them
+  std::size_t self_intersection_moves = 0;    ///< points moved to other triangles to remove them
+  std::size_t self_intersection_rebuilds = 0; ///< patches of points taken out and put back for that
 
   std::size_t unknowns = 0;            ///< interior points m, rows of the system
   std::size_t nnz_matrix = 0;          ///< nnz (A)
