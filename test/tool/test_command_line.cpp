@@ -270,7 +270,7 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
 
 TEST_F (CommandLineTest, TheMethodOfTheReport)
 {
-  const Json made = report ({"--method", "tw385"});
+  const Json made = report ({"--method", "tw385", "--cluster-tolerance", "0.2"});
   const Json& options = made["options"];
   EXPECT_EQ (options["method"], "tw385");
   EXPECT_EQ (options["topology"], "disc");
