@@ -47,7 +47,7 @@ verticesAt (const std::vector<MeshEdge>& edges, const TriangleMesh& mesh)
 // all in the block.
 std::size_t
 moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
-             const std::vector<RepairTarget>& targets, std::vector<Index> vertices,
+             const std::vector<RepairTarget>& targets, const std::vector<Index>& vertices,
              const TriangleCost& cost, const RepairLimits& limits, const RunContext& run,
              const std::function<void (Index v, bool is_whole)>& tell)
 {
@@ -88,7 +88,7 @@ moveInBlocks (TriangleMesh& mesh, const CsrLists& neighbors,
       v -= first;
     MeshBlock block = blocks.cutOut (mesh, b);
     moves += moveInBlock (block, neighbors, {targets.begin () + first, targets.begin () + last},
-                          std::move (inside), cost.countedFrom (first), limits, run.withThreads (1),
+                          inside, cost.countedFrom (first), limits, run.withThreads (1),
                           [&] (Index v, bool is) { is_done[first + v] = is ? 1 : 0; });
     blocks.putBack (block, b, mesh);
   });
