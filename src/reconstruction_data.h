@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is behind the pointer of ReconstructionState.
+#pragma once
+
+#include <pcl/surface/floater/reconstruction_state.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+struct ReconstructionState::Data
+{
+  Options options;
+  pcl::Indices prescribed_loop; // as given: may hold indices that the core's type cannot
+  bool use_input_normals = false;
+  Report report;
+  std::vector<int> parts;          // of each point; empty if there is no mesh
+  std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
+};
+
+} // namespace floater
+} // namespace pcl
