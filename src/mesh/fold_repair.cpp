@@ -42,9 +42,8 @@ verticesAt (const std::vector<MeshEdge>& edges, const TriangleMesh& mesh)
   return vertices;
 }
 
-// Moves vertices of a block, which are counted in it. Tells of each of them whether what is done
-// about it is what would be done in the whole mesh: its triangles are free, and its neighbours are
-// all in the block.
+// Moves vertices of a block, which are counted in it. Tells of each of them whether it is done
+// with: its triangles are free, and its neighbours are all in the block.
 std::size_t
 moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
              const std::vector<RepairTarget>& targets, const std::vector<Index>& vertices,

@@ -16,7 +16,8 @@ namespace floater
 {
 /// Consecutive points, and the triangles all of whose corners are among them. Triangles beside one
 /// that is not in the block are fixed. So the triangles beside one that is not fixed are all there,
-/// and what is decided about it is what would be decided in the whole mesh.
+/// and its cost and that of its edges are those in the whole mesh. Fewer changes are possible: none
+/// across the end of the block, and no new edge between two points of which triangles are missing.
 struct MeshBlock
 {
   Index first = 0;   ///< the point that is point 0 here
@@ -30,8 +31,8 @@ class MeshBlocks
 {
 public:
   /// O(n). One block for a small mesh, else up to 16 of 4,096 points or more, and beyond a million
-  /// points blocks of 65,536: enough of them for as many threads, and large enough that a tenth of
-  /// the triangles of a surface, or less, is at the ends of its block.
+  /// points blocks of 65,536: enough of them for as many threads, and large enough that most
+  /// triangles of a surface are free. Chosen by hand.
   MeshBlocks (const TriangleMesh& mesh, const RunContext& run);
 
   std::size_t count () const { return triangles_.rows (); }

@@ -19,7 +19,7 @@ namespace floater
 namespace
 {
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
-constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // that take as long; measured
+constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // that take about as long: an estimate
 
 class CrossingRepair
 {
