@@ -3,6 +3,7 @@
 #include "view/viewpoint_search.h"
 
 #include "core/geometry.h"
+#include "core/plane_fit.h"
 #include "view/area_evidence.h"
 #include "view/pattern_search.h"
 #include "view/row_evidence.h"
@@ -101,20 +102,11 @@ public:
       if (starts.size () < limits_.by_rows && !isNear (candidate, starts, APART))
         starts.push_back (candidate);
     // Rays are spaced evenly from the right direction only; from others, less unevenly than around.
-    RatedViewpoint best{std::numeric_limits<double>::infinity (), {}};
-    for (const RatedViewpoint& start : starts) {
-      if (const std::optional<Viewpoint> found = refine (start.viewpoint, step)) {
-        const double cost =
-            costByRays (*found, findRayPatches (positions_, *found, evidence_, run_));
-        if (cost < best.cost)
-          best = {cost, *found};
-        if (cost < EVEN)
-          break;
-      }
-    }
-    if (best.cost == std::numeric_limits<double>::infinity ())
-      return {};
-    return best.viewpoint;
+    RatedViewpoint best = NOT_FOUND;
+    for (const RatedViewpoint& start : starts)
+      if (takeBetter (refine (start.viewpoint, step), best))
+        break;
+    return placeOf (best);
   }
 
   std::optional<Viewpoint> find ()
@@ -136,9 +128,13 @@ public:
     candidates.resize (std::min (candidates.size (), limits_.by_areas + limits_.compared));
     const auto others = candidates.begin () + static_cast<std::ptrdiff_t> (
                                                   std::min (candidates.size (), limits_.by_areas));
-    for (auto candidate = candidates.begin (); candidate != others; ++candidate)
-      if (const std::optional<Viewpoint> found = refineWithFar (candidate->viewpoint))
-        return found;
+    for (auto candidate = candidates.begin (); candidate != others; ++candidate) {
+      RatedViewpoint found = NOT_FOUND;
+      if (!takeBetter (refineWithFar (candidate->viewpoint), found) && !candidate->viewpoint.is_far)
+        takeBetter (refine (mirrored (candidate->viewpoint)), found);
+      if (const std::optional<Viewpoint> place = placeOf (found))
+        return place;
+    }
     for (auto candidate = others; candidate != candidates.end (); ++candidate)
       candidate->cost = costByRays (
           candidate->viewpoint, findRayPatches (positions_, candidate->viewpoint, coarse_, run_));
@@ -151,8 +147,30 @@ private:
   static constexpr double EVEN = 0.02;       // spread of rays that needs no other try
   static constexpr double AREA_ERROR = 0.05; // of a place, in bounding boxes
 
+  inline static const RatedViewpoint NOT_FOUND{std::numeric_limits<double>::infinity (), {}};
+
+  static std::optional<Viewpoint> placeOf (const RatedViewpoint& found)
+  {
+    return found.cost < NOT_FOUND.cost ? std::optional<Viewpoint> (found.viewpoint) : std::nullopt;
+  }
+
+  // Takes what was found if the rays are spaced more evenly from there. Returns whether they are
+  // so even that no other place need be tried.
+  bool takeBetter (const std::optional<Viewpoint>& found, RatedViewpoint& best) const
+  {
+    if (!found)
+      return false;
+    const double cost = costByRays (*found, findRayPatches (positions_, *found, evidence_, run_));
+    if (cost < best.cost)
+      best = {cost, *found};
+    return cost < EVEN;
+  }
+
   // Areas tell a place to about a hundredth of the bounding box; rays tell the rest.
   static constexpr double SMALLEST_AREA_STEP = 4e-3;
+
+  // Samples that tell the plane around a place: a tenth, as few as a plane can be told by.
+  static constexpr std::size_t AROUND = 50;
 
   static bool isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
   {
@@ -192,6 +210,27 @@ private:
   double costByAreas (const Viewpoint& viewpoint)
   {
     return areaSpread (samples_, viewpoint, angles_);
+  }
+
+  // The mirror image of a place at the plane of the samples around it. A scanner that stands low on
+  // the ground is no farther from its image than descents by areas can tell.
+  Viewpoint mirrored (const Viewpoint& viewpoint) const
+  {
+    std::vector<Eigen::Vector3d> offsets;
+    for (const AreaSample& sample : samples_)
+      offsets.push_back (sample.position - viewpoint.place);
+    const auto around =
+        offsets.begin () + static_cast<std::ptrdiff_t> (std::min (offsets.size (), AROUND));
+    std::partial_sort (offsets.begin (), around, offsets.end (),
+                       [] (const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+                         return a.squaredNorm () < b.squaredNorm ();
+                       });
+    PlaneFit fit;
+    for (auto offset = offsets.begin (); offset != around; ++offset)
+      fit.add (*offset);
+    const Plane plane = fit.plane ();
+    const double height = plane.height (Eigen::Vector3d::Zero ());
+    return {viewpoint.place - 2.0 * height * plane.normal, false};
   }
 
   void add (std::vector<RatedViewpoint>& candidates, const Viewpoint& viewpoint)

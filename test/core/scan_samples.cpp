@@ -150,6 +150,59 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
   return scan;
 }
 
+Scan
+scanYard (DepthNoise noise, std::uint64_t seed)
+{
+  constexpr double HALF_SIDE = 40.0;
+  constexpr int RINGS = 32, RAYS = 1800;
+  RandomStream random (seed);
+  const auto between = [&random] (double least, double most) {
+    return least + (most - least) * random.uniform ();
+  };
+  const Vector3d slope (between (-0.05, 0.05), between (-0.05, 0.05), 0.0);
+  struct Thing
+  {
+    Vector3d foot;
+    double radius;
+    bool is_post;
+  };
+  std::vector<Thing> things;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = between (0.0, 2.0 * PI), distance = between (5.0, 25.0);
+    Vector3d foot (distance * std::cos (angle), distance * std::sin (angle), 0.0);
+    foot.z () = slope.dot (foot);
+    const bool is_post = i < 4;
+    things.push_back ({foot, is_post ? between (0.1, 0.6) : between (1.0, 4.0), is_post});
+  }
+  Scan scan;
+  scan.viewpoint = {between (-2.0, 2.0), between (-2.0, 2.0), between (1.2, 2.6)};
+  for (int ring = 0; ring < RINGS; ++ring)
+    for (int i = 0; i < RAYS; ++i) {
+      const double azimuth = 2.0 * PI * i / RAYS;
+      const double elevation = (-25.0 + 35.0 * ring / (RINGS - 1)) * DEGREE;
+      const Vector3d ray (std::cos (azimuth) * std::cos (elevation),
+                          std::sin (azimuth) * std::cos (elevation), std::sin (elevation));
+      Hit hit;
+      meet (hit, -(scan.viewpoint.z () - slope.dot (scan.viewpoint)) / (ray.z () - slope.dot (ray)),
+            0);
+      for (std::size_t k = 0; k < things.size (); ++k) {
+        const Thing& thing = things[k];
+        const int object = static_cast<int> (k) + 1;
+        if (thing.is_post)
+          meetPost (hit, scan.viewpoint, ray, thing.foot, thing.radius, object);
+        else
+          meetBall (hit, scan.viewpoint, ray, thing.foot + thing.radius * Vector3d::UnitZ (),
+                    thing.radius, object);
+      }
+      const Vector3d at = scan.viewpoint + hit.depth * ray;
+      if (hit.object < 0 || at.head<2> ().cwiseAbs ().maxCoeff () > HALF_SIDE || at.z () > 8.0)
+        continue;
+      scan.points.push_back (scan.viewpoint + disturbed (hit.depth, noise, random) * ray);
+      scan.object.push_back (hit.object);
+    }
+  return scan;
+}
+
 } // namespace samples
 } // namespace floater
 } // namespace pcl

@@ -41,6 +41,11 @@ struct DepthNoise
 Scan
 scanScene (Raster raster, DepthNoise noise, std::uint64_t seed);
 
+/// A scan by 32 rings of a yard of 80 by 80: sloping ground, posts, and balls that rest on it. The
+/// sensor stands 1.2 to 2.6 above the ground, near the middle. About 40,000 points, not turned.
+Scan
+scanYard (DepthNoise noise, std::uint64_t seed);
+
 } // namespace samples
 } // namespace floater
 } // namespace pcl
