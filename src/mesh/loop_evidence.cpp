@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/tangent_frame.h"
 #include "local/planar_star.h"
+#include "mesh/polygon_filling.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,14 @@ namespace floater
 namespace
 {
 constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have any number
+
+// Corners of a loop between which it is filled; a longer one is taken in even steps. A limit of
+// time, which grows with the third power.
+constexpr std::size_t MOST_CORNERS = 64;
+
+// Weight of the squared edges of a filling beside its doubled area: among fillings of about the
+// same area, as all of a flat loop are, that with short edges is taken.
+constexpr double EDGE_WEIGHT = 0.05;
 
 // Tells whether a point has a large sector without neighbours: of those on its own sheet, or of
 // all.
@@ -162,8 +171,39 @@ private:
   std::vector<Index> current_, next_, fan_;
 };
 
+// The largest height of a triangle in a filling of least area.
+double
+findDepth (const std::vector<Index>& loop, const std::vector<Eigen::Vector3d>& positions,
+           PolygonFilling& filling)
+{
+  std::vector<Index> corners;
+  const std::size_t count = std::min (loop.size (), MOST_CORNERS);
+  for (std::size_t i = 0; i < count; ++i)
+    corners.push_back (loop[i * loop.size () / count]);
+  const auto squaredEdges = [&positions] (Index a, Index b, Index c) {
+    return (positions[b] - positions[a]).squaredNorm () +
+           (positions[c] - positions[b]).squaredNorm () +
+           (positions[a] - positions[c]).squaredNorm ();
+  };
+  const auto cost = [&] (Index a, Index b, Index c) {
+    return areaVector (positions[a], positions[b], positions[c]).norm () +
+           EDGE_WEIGHT * squaredEdges (a, b, c);
+  };
+  double depth = 0.0;
+  for (const auto& [a, b, c] : filling.fill (corners, cost, [] (Index, Index) { return true; })) {
+    const double longest = std::sqrt (std::max ({(positions[b] - positions[a]).squaredNorm (),
+                                                 (positions[c] - positions[b]).squaredNorm (),
+                                                 (positions[a] - positions[c]).squaredNorm ()}));
+    if (longest > 0.0)
+      depth =
+          std::max (depth, areaVector (positions[a], positions[b], positions[c]).norm () / longest);
+  }
+  return depth;
+}
+
 LoopEvidence
-lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions, RingWalk& rings)
+lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions, RingWalk& rings,
+        PolygonFilling& filling)
 {
   const std::size_t count = loop.points.size ();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
@@ -182,8 +222,8 @@ lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
   const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
   LoopEvidence evidence;
   evidence.compactness = 2.0 * PI * double_area.norm () / (length * length);
-  evidence.depth =
-      double_area.norm () / (length * std::sqrt (squares / static_cast<double> (count)));
+  const double edge = std::sqrt (squares / static_cast<double> (count));
+  evidence.depth = findDepth (loop.points, positions, filling) / edge;
   evidence.irregularity = edges[2].deviation ();
   evidence.growth = edges[3].isEmpty () ? 0.0 : edges[0].mean () - edges[3].mean ();
   evidence.turning = std::clamp (curvature / (2.0 * PI), -MOST_TURNING, +MOST_TURNING);
@@ -202,6 +242,7 @@ findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
   evidence.reserve (loops.size ());
   SectorTest test (positions, neighbors, normals, limits);
   RingWalk rings (mesh, positions);
+  PolygonFilling filling (run);
   ProgressLoop progress (run);
   for (const BoundaryLoop& loop : loops) {
     std::size_t open = 0, empty = 0;
@@ -211,7 +252,7 @@ findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
       empty += test.hasEmptySector (p, false) ? 1 : 0;
     }
     const auto count = static_cast<double> (loop.points.size ());
-    evidence.push_back (lookAt (loop, positions, rings));
+    evidence.push_back (lookAt (loop, positions, rings, filling));
     evidence.back ().open_share = static_cast<double> (open) / count;
     evidence.back ().empty_share = static_cast<double> (empty) / count;
   }

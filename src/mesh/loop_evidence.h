@@ -38,13 +38,15 @@ struct LoopEvidence
   double turning = 0.0;      ///< total geodesic curvature in turns, seen from the surface: -1 for a
                              ///< hole in a plane, 0 for the end of a tube, 1 for the border of a
                              ///< disc; at most 3/2 of either sign
-  double depth = 0.0; ///< 2 area / length, which is the radius of a circle and the width of a
-                      ///< slit, by the root mean square of the loop's edges: where spacings
-                      ///< meet that differ, the coarse one says how wide gaps may be
+  double depth = 0.0; ///< largest height of a triangle in a filling of least area, by the root mean
+                      ///< square of the loop's edges: how wide the loop is at its widest place,
+                      ///< however long and bent it is; where spacings meet that differ, the coarse
+                      ///< one says how wide gaps may be
 };
 
 /// Looks at the mesh three rings into the surface, and at the neighbours of the points of each
-/// loop. O(n + k log k) for a point of k neighbours, with n for the points of all rings.
+/// loop. O(n + k log k) for a point of k neighbours, with n for the points of all rings, and O(m^3)
+/// for a loop of m points, up to 64.
 /// \param mesh      with its loops open
 /// \param loops     of the mesh
 /// \param neighbors of each point of the mesh

@@ -33,7 +33,7 @@ struct OpenLoopLimits
   double turning = 1.54;
   double open_points = 0.599; ///< of the root of the number of points times the 4th power of
                               ///< open_share: long loops with hardly a point beyond
-  double deepest_gap = 1.94;  ///< of LoopEvidence::depth times open_share, since a loop that sees
+  double deepest_gap = 2.46;  ///< of LoopEvidence::depth times open_share, since a loop that sees
                               ///< points beyond is not empty. What is taken for a gap and deeper
                               ///< stays open by the automatic policy. Measured: fewer than 1 in 200
                               ///< generated gaps from 4 spacings on are deeper

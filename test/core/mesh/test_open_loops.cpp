@@ -193,12 +193,33 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   ASSERT_EQ (sheet.loops[0].points.size (), 6U);
   const double area = 1.5 * std::sqrt (3.0);
   EXPECT_NEAR (hole.compactness, 4.0 * PI * area / 36.0, 1e-12);
-  EXPECT_NEAR (hole.depth, 2.0 * area / 6.0, 1e-12);
+  EXPECT_NEAR (hole.depth, 1.5, 1e-12); // three corners are cut off: a triangle of side sqrt (3)
   EXPECT_NEAR (hole.irregularity, 0.0, 1e-6);
   EXPECT_NEAR (hole.growth, 0.0, 1e-12);
   EXPECT_NEAR (hole.turning, -1.0, 1e-12);
   // A point of the hexagon misses one of six neighbours: a sector of 120 degrees.
   EXPECT_EQ (hole.open_share, 0.0);
+}
+
+// Teeth make the loop more than twice as long, and leave the hole nearly as wide.
+TEST (LoopEvidence, ARaggedHoleIsAsDeepAsItIsWide)
+{
+  constexpr double RADIUS = 6.5, TOOTH = 2.0;
+  TriangularSheet sheet (12, RADIUS);
+  const auto widest = [&sheet] {
+    const std::vector<Index>& loop = sheet.loops[0].points;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < loop.size (); ++i)
+      squares +=
+          (sheet.positions[loop[i]] - sheet.positions[loop[(i + 1) % loop.size ()]]).squaredNorm ();
+    return sheet.evidence ()[0].depth * std::sqrt (squares / static_cast<double> (loop.size ()));
+  };
+  // Some triangle holds the middle of the hole; the largest of its heights is above the radius.
+  EXPECT_GT (widest (), RADIUS);
+  const std::vector<Index>& loop = sheet.loops[0].points;
+  for (std::size_t i = 0; i < loop.size (); i += 2)
+    sheet.positions[loop[i]] *= (RADIUS - TOOTH) / sheet.positions[loop[i]].norm ();
+  EXPECT_GT (widest (), RADIUS - TOOTH);
 }
 
 TEST (LoopEvidence, TheBorderOfADiscTurnsTheOtherWay)
