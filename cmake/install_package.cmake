@@ -29,7 +29,7 @@ configure_package_config_file ("${PROJECT_SOURCE_DIR}/cmake/pcl_floaterConfig.cm
                                INSTALL_DESTINATION "${package_dir}"
                                PATH_VARS CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file ("${PROJECT_BINARY_DIR}/pcl_floaterConfigVersion.cmake"
-                                  COMPATIBILITY SameMinorVersion)
+                                  COMPATIBILITY SameMajorVersion)
 install (FILES "${PROJECT_BINARY_DIR}/pcl_floaterConfig.cmake"
                "${PROJECT_BINARY_DIR}/pcl_floaterConfigVersion.cmake"
          DESTINATION "${package_dir}" COMPONENT development)
