@@ -29,7 +29,7 @@ configure_package_config_file ("${PROJECT_SOURCE_DIR}/cmake/pcl_floaterConfig.cm
                                INSTALL_DESTINATION "${package_dir}"
                                PATH_VARS CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file ("${PROJECT_BINARY_DIR}/pcl_floaterConfigVersion.cmake"
-                                  COMPATIBILITY SameMinorVersion)
+                                  COMPATIBILITY SameMajorVersion)
 install (FILES "${PROJECT_BINARY_DIR}/pcl_floaterConfig.cmake"
                "${PROJECT_BINARY_DIR}/pcl_floaterConfigVersion.cmake"
          DESTINATION "${package_dir}" COMPONENT development)
@@ -83,4 +83,7 @@ install (DIRECTORY "${PROJECT_SOURCE_DIR}/test/examples" DESTINATION "${CMAKE_IN
 if (NOT PCL_FLOATER_PACKAGES)
   install (FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
   install (FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT library)
+  # That of the scan in the picture of README.md.
+  install (FILES "${PROJECT_SOURCE_DIR}/LICENSES/BSD-3-Clause.txt" DESTINATION "${CMAKE_INSTALL_DOCDIR}/LICENSES"
+           COMPONENT documentation)
 endif ()

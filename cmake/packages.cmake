@@ -4,11 +4,10 @@
 set (maintainer "The pcl_floater authors <pcl-floater@users.noreply.github.com>")
 set (debian_revision 1)
 set (debian_version "${PROJECT_VERSION}-${debian_revision}")
-set (so_version "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 math (EXPR next_pcl_minor "${PCL_VERSION_MINOR} + 1")
 
 # The package of a shared library is named by its soname, so that two of them can be installed.
-set (library_package "libpcl-floater${so_version}")
+set (library_package "libpcl-floater${PROJECT_VERSION_MAJOR}")
 set (development_package "libpcl-floater-dev")
 set (tools_package "pcl-floater-tools")
 set (documentation_package "pcl-floater-doc")

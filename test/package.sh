@@ -10,7 +10,7 @@ usage () {
 Usage: package.sh [--no-install] [-j N]
 As root: makes the packages by tools/package.sh, runs lintian on them, installs them in a new
 Debian 12 below a temporary folder, runs the first example of the man page, builds programs against
-them with CMake and with pkg-config, removes them, and looks for what is left.
+them with CMake, as README.md tells, and with pkg-config, removes them, and looks for what is left.
   --no-install  do not install missing packages on this system
   -j N          jobs at a time (default: one for each core)
 PCL_FLOATER_CHROOT: folder that keeps the downloads for the next run, some GB (default:
@@ -124,6 +124,17 @@ find "$system/var/cache/apt/archives" -name '*.deb' -exec cp -nl -t "$cache/arch
 step "Building and running a program with find_package" "
   cmake -S consumer -B build; cmake --build build --parallel $jobs
   ctest --test-dir build --output-on-failure --no-tests=error"
+step "Building and running the program of README.md" '
+  mkdir readme; cd readme
+  block () { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" /usr/share/doc/pcl-floater-doc/README.md | sed "/^\`\`\`/d"; }
+  block cpp >main.cpp
+  { echo "cmake_minimum_required (VERSION 3.18)"; echo "project (my_program)"
+    echo "add_executable (my_program main.cpp)"; block cmake; } >CMakeLists.txt
+  grep -q "int main" main.cpp; grep -q "find_package (pcl_floater" CMakeLists.txt
+  cmake -S . -B build; cmake --build build
+  pcl_floater_generate torus scan.pcd
+  build/my_program
+  test -s mesh.ply'
 step "Building and running a program with pkg-config" '
   g++ -std=c++17 consumer/own_types.cpp -o own_types $(pkg-config --cflags --libs pcl_floater)
   ./own_types'

@@ -17,7 +17,7 @@ CLOUD: point clouds (.pcd, .ply or .obj); default: some of the folder PCL_FLOATE
   --repeats N       runs, of which the median is shown (default 3, and 1 above 300000 points)
   --methods LIST    some of floater,floater-disc,gp3,afs (default: all; floater-disc runs on
                     height-field only)
-  --surfaces LIST   kinds of pcl_floater_generate (default: height-field,sphere,torus)
+  --surfaces LIST   kinds of pcl_floater_generate (default: height-field,sphere,torus), or none
   --time-limit S    seconds after which a run is ended, and larger ones are left out (default 600)
   --threads N       threads of floater and of the normals of gp3; afs has one (default 0: one for
                     each core)
@@ -58,7 +58,12 @@ while (($# > 0)); do
     --largest) largest=$(number "$@"); shift ;;
     --repeats) repeats=$(number "$@"); shift ;;
     --methods) list=$(text "$@"); IFS=, read -r -a methods <<<"$list"; shift ;;
-    --surfaces) list=$(text "$@"); IFS=, read -r -a surfaces <<<"$list"; shift ;;
+    --surfaces)
+      list=$(text "$@")
+      surfaces=()
+      [[ $list == none ]] || IFS=, read -r -a surfaces <<<"$list"
+      shift
+      ;;
     --time-limit) time_limit=$(number "$@"); shift ;;
     --threads) threads=$(number "$@"); shift ;;
     --build) build=$(text "$@"); shift ;;

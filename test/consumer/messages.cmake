@@ -44,6 +44,7 @@ get_filename_component (package_dir "${config_file}" DIRECTORY)
 
 expect ("the component tools of pcl_floater is not installed" -DCOMPONENTS=tools)
 expect ("pcl_floater has no component viewer" "-DCOMPONENTS=viewer")
+expect ("compatible with requested version \"0.1\"" -DCOMPONENTS=library -DVERSION=0.1) # of another major version
 expect ("but PCL 1.99.0 was found in" -DCOMPONENTS=library "-DPCL_DIR=${CMAKE_CURRENT_LIST_DIR}/missing")
 
 configure (result output -S "${CMAKE_CURRENT_LIST_DIR}/parent" -B "${WORK_DIR}/parent" ${CACHE})

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <thread>
+#include <utility>
 
 namespace pcl
 {
@@ -111,6 +113,29 @@ runsTable (const Measurements& measurements)
                    grouped (static_cast<std::size_t> (f["triangles"])),
                    fixed (100.0 * f["used_points"] / one.points, 2), std::to_string (one.runs)});
     table.rows.push_back (std::move (row));
+  }
+  return table;
+}
+
+// Seconds and memory of all methods on each cloud.
+Table
+comparisonTable (const Measurements& all)
+{
+  const std::vector<std::string> methods = namesOf (all, &Measurement::method);
+  Table table{{"cloud", "points"}, {}};
+  table.columns.insert (table.columns.end (), methods.begin (), methods.end ());
+  std::map<std::pair<std::string, double>, std::size_t> row_of;
+  for (const Measurement& one : all) {
+    const auto [at, is_new] =
+        row_of.emplace (std::pair (one.cloud, one.points), table.rows.size ());
+    if (is_new) {
+      table.rows.push_back ({one.cloud, grouped (static_cast<std::size_t> (one.points))});
+      table.rows.back ().resize (table.columns.size (), "-");
+    }
+    const auto column = std::find (methods.begin (), methods.end (), one.method);
+    table.rows[at->second][2 + static_cast<std::size_t> (column - methods.begin ())] =
+        one.outcome == "ok" ? fixed (seconds (one), 2) + " s, " + fixed (megabytes (one), 0) + " MB"
+                            : one.outcome;
   }
   return table;
 }
@@ -215,6 +240,8 @@ run (const CommandLine& line)
   const Measurements all = readMeasurements (line.runs);
   ReportFolder report (line.out);
   writeIntroduction (line, report);
+  report.heading ("Side by side");
+  report.table ("comparison", comparisonTable (all));
   const std::vector<std::string> surfaces = namesOf (all, &Measurement::surface);
   for (const std::string& surface : surfaces)
     writeSurface (surface, select (all, &Measurement::surface, surface), report);
