@@ -3,6 +3,7 @@
 #include "check_input.h"
 
 #include "core/types.h"
+#include "request.h"
 
 #include <algorithm>
 #include <functional>
@@ -21,10 +22,11 @@ checkInput (const Input& input)
   if (indices.size () != input.positions.size ())
     return refused ("there are " + std::to_string (input.positions.size ()) + " positions but " +
                     std::to_string (indices.size ()) + " cloud indices; give one for each");
-  if (!input.normals.empty () && input.normals.size () != input.cloud_size)
-    return refused ("there are " + std::to_string (input.normals.size ()) +
-                    " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
-                    " points; give one for each, or none");
+  for (const std::vector<Eigen::Vector3f>* normals : {&input.normals, &input.facing_normals})
+    if (!normals->empty () && normals->size () != input.cloud_size)
+      return refused ("there are " + std::to_string (normals->size ()) +
+                      " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
+                      " points; give one for each, or none");
   if (indices.empty ())
     return {};
   const Index largest = *std::max_element (indices.begin (), indices.end ());
@@ -39,6 +41,27 @@ checkInput (const Input& input)
       return refused ("cloud index " + std::to_string (index) + " is given twice");
     is_taken[index] = true;
   }
+  return {};
+}
+
+bool
+isSensorKnown (const std::array<double, 3>& sensor_origin)
+{
+  const Eigen::Map<const Eigen::Vector3d> sensor (sensor_origin.data ());
+  return !sensor.isZero (0.0) && sensor.allFinite ();
+}
+
+Problem
+checkFacing (const Input& input, const Options& options)
+{
+  const auto refused = [] (const char* why) { return Problem{RunStatus::INVALID_OPTION, why}; };
+  if (options.facing == Facing::NORMALS && input.facing_normals.empty ())
+    return refused ("the mesh is to face where the normals of the points point to, but the points "
+                    "have no normals: take points with normals, or choose another facing");
+  if (options.facing == Facing::VIEWPOINT && !mayBeSeen (options) &&
+      !isSensorKnown (input.sensor_origin))
+    return refused ("the mesh is to face the viewpoint, but the cloud has no origin of its sensor, "
+                    "and no viewpoint is looked for: give that origin, or choose another facing");
   return {};
 }
 

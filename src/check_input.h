@@ -17,5 +17,13 @@ namespace floater
 Problem
 checkInput (const Input& input);
 
+/// A sensor at the origin of the cloud is one that nobody told.
+bool
+isSensorKnown (const std::array<double, 3>& sensor_origin);
+
+/// INVALID_OPTION if that which is to decide on the front of the mesh cannot be known.
+Problem
+checkFacing (const Input& input, const Options& options);
+
 } // namespace floater
 } // namespace pcl

@@ -33,7 +33,8 @@ checkTopology (const Options& options)
   if (options.topology == Topology::DISC && options.holes.policy != HolePolicy::AUTO &&
       options.holes.policy != HolePolicy::KEEP_LARGEST)
     return refused ("a disc has one boundary loop and no holes: of the policies for holes it takes "
-                    "AUTO and KEEP_LARGEST only; choose another topology");
+                    "the automatic one and that which keeps the largest loop; choose another "
+                    "topology");
   if (options.topology == Topology::SURFACE && !options.disc.boundary.loop.empty ())
     return refused ("a boundary loop can be given for a disc only; choose another topology");
   if (options.topology == Topology::SURFACE && options.disc.as_published)
@@ -76,7 +77,7 @@ checkDisc (const DiscOptions& options)
   if (!(options.boundary.cluster_tolerance > 0.0 && options.boundary.cluster_tolerance <= 1.0))
     return outOfRange ("the cluster tolerance", "above 0 and at most 1");
   if (options.boundary.cluster_k < 1)
-    return outOfRange ("cluster k", "1 or more");
+    return outOfRange ("the number of cluster neighbours", "1 or more");
   if (options.domain.polygon_sides < 3)
     return outOfRange ("the number of polygon sides", "3 or more");
   if (!(options.solver.tolerance > 0.0 && options.solver.tolerance < 1.0))
@@ -104,7 +105,7 @@ checkOptions (const Options& options)
   if (Problem problem = checkView (options))
     return problem;
   if (options.neighbors.k < 6 || options.neighbors.k > 200)
-    return outOfRange ("k", "from 6 to 200");
+    return outOfRange ("the number of neighbours", "from 6 to 200");
   if (!(options.neighbors.ball_radius >= 1.0 && options.neighbors.ball_radius <= 10.0))
     return outOfRange ("the ball radius", "from 1 to 10 local spacings");
   if (Problem problem = checkDisc (options.disc))

@@ -88,9 +88,10 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   mesh = {};
   Problem problem = reportCheck (points, found, request.options, report);
   if (!problem)
-    problem = reportTrimming (points, trimming, triangles.size (), report);
+    problem =
+        reportTrimming (points, trimming, request.options.trimming, triangles.size (), report);
   if (!problem)
-    reportFacing (points, finish.facing, report);
+    reportFacing (points, finish.facing, request.options.facing, report);
   result.triangles = reportMesh (points, std::move (triangles), finish, report);
   return problem;
 }

@@ -28,8 +28,8 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
          const Request& request, Statistics& statistics);
 
 /// Makes the result of a mesh.
-/// \return INTERNAL_ERROR if it is no oriented manifold, DEGENERATE if it is empty, INVALID_OPTION
-/// if nothing is left of it
+/// \return INTERNAL_ERROR if it is no oriented manifold, DEGENERATE if it is empty, or
+/// nothing is left of it
 Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
          const LocalGeometry& geometry, const Request& request, Result& result);

@@ -16,6 +16,7 @@
 #include "published_method.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
+#include "report_text.h"
 #include "request.h"
 #include "unused_options.h"
 
@@ -32,13 +33,18 @@ namespace floater
 {
 namespace
 {
-// A sensor at the origin of the cloud is one that nobody told.
 FacingHints
 facingHints (const Points& points, const Request& request)
 {
   const Eigen::Map<const Eigen::Vector3d> sensor (request.sensor_origin.data ());
   FacingHints hints;
-  if (request.options.view.use != ViewUse::NEVER && !sensor.isZero (0.0) && sensor.allFinite ())
+  hints.wanted = request.options.facing;
+  if (!points.facing_normals.empty () &&
+      (hints.wanted == Facing::AUTO || hints.wanted == Facing::NORMALS))
+    hints.normals = &points.facing_normals;
+  const bool may_be_seen =
+      request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
+  if (may_be_seen && isSensorKnown (request.sensor_origin))
     hints.sensor = (sensor - points.centre) / points.scale;
   return hints;
 }
@@ -152,13 +158,6 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
                   result);
 }
 
-// Whether the cloud may be connected as its sensor saw it.
-bool
-mayBeSeen (const Options& options)
-{
-  return !asksForDisc (options) && options.view.use != ViewUse::NEVER;
-}
-
 // The viewpoint that is given, or the origin of the sensor if the cloud was seen from there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
@@ -183,9 +182,9 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   const Options& options = request.options;
   const Limits& limits = request.limits;
   const ViewSettings settings{
-      options.holes,        options.flip_edges,        options.remove_outliers,
-      limits.view,          limits.surface.open_loops, limits.surface.hole_filling,
-      limits.surface.finish};
+      options.holes,         options.flip_edges,           options.remove_outliers,
+      limits.view,           limits.surface.open_loops,    limits.surface.hole_filling,
+      limits.surface.finish, facingHints (points, request)};
   ViewSurface surface = makeViewSurface (points, viewpoint, settings, request.run);
   LocalGeometry geometry;
   geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
@@ -251,8 +250,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   const std::size_t with_scatter = points.size ();
   Noise noise = measureNoiseAndScatter (points, planes, settings, request, report);
   if (Problem problem = checkPoints (points)) {
-    problem.message = "without the " + std::to_string (with_scatter - points.size ()) +
-                      " points of no surface: " + problem.message + "; keep the scatter";
+    problem.message = "without the " + counted (with_scatter - points.size (), "point", "points") +
+                      " of no surface: " + problem.message + "; keep the scatter";
     return problem;
   }
   LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
@@ -288,6 +287,8 @@ reconstructAny (Input& input, const Request& request, Result& result)
     return problem;
   if (Problem problem = checkInput (input))
     return problem;
+  if (Problem problem = checkFacing (input, options))
+    return problem;
   const bool as_disc = asksForDisc (options);
   if (as_disc)
     run.setMethod (Topology::DISC);
@@ -296,7 +297,10 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = cleanInput (input, options, limits.gross_outliers, run, report))
     return problem;
   Points points = makePoints (input.positions, input.cloud_index, run);
-  takeNormals (input.normals, points);
+  points.normals = normalsOfPoints (input.normals, points);
+  std::vector<Eigen::Vector3f> ().swap (input.normals);
+  points.facing_normals = normalsOfPoints (input.facing_normals, points);
+  std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
   std::vector<Eigen::Vector3d> ().swap (input.positions);
   std::vector<Index> ().swap (input.cloud_index);
   reportPoints (points, report);
@@ -362,12 +366,13 @@ reconstruct (Input input, const Options& options, const Limits& limits)
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
+    const bool has_plane_normals = !input.normals.empty ();
     const Options effective = effectiveOptions (options);
     const Limits effective_limits = effectiveLimits (limits, options);
     problem =
         reconstructAny (input, {effective, effective_limits, run, input.sensor_origin}, result);
     if (!problem) {
-      for (std::string& unused : describeUnusedOptions (options, result.report))
+      for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))
         result.report.warnings.push_back (std::move (unused));
       monitor.finish ();
     }

@@ -90,6 +90,18 @@ ReconstructionState::getViewUse () const
 }
 
 void
+ReconstructionState::setFacing (Facing facing)
+{
+  data_->options.facing = facing;
+}
+
+Facing
+ReconstructionState::getFacing () const
+{
+  return data_->options.facing;
+}
+
+void
 ReconstructionState::setMaximumEdgeLength (double length)
 {
   data_->options.trimming.maximum_edge_length = length;

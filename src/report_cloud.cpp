@@ -46,13 +46,13 @@ reportPoints (const Points& points, Report& report)
   report.statistics.working_points = points.positions.size ();
   const std::size_t coincident = points.duplicates.size ();
   if (coincident > 0 && MANY_COINCIDE * coincident >= coincident + points.positions.size ())
-    report.warnings.push_back (counted (coincident, "point coincides", "points coincide") +
-                               " with another one, point " +
-                               std::to_string (points.duplicates.front ()[0]) + " with point " +
-                               std::to_string (points.duplicates.front ()[1]) +
-                               " among them: one point of each place is in the mesh; coordinates "
-                               "may have been rounded, or "
-                               "a cloud may be in the file twice");
+    report.warnings.push_back (
+        counted (coincident, "point coincides", "points coincide") + " with another one, point " +
+        std::to_string (points.duplicates.front ()[0]) + " with point " +
+        std::to_string (points.duplicates.front ()[1]) + (coincident == 1 ? "" : " among them") +
+        ": one point of each place is in the mesh; coordinates "
+        "may have been rounded, or "
+        "a cloud may be in the file twice");
 }
 
 Problem
@@ -106,8 +106,10 @@ reportNoise (const Noise& noise, bool denoised, Report& report)
         counted (noise.noisy_points, "point is", "points are") + " noisy, by up to " +
         std::to_string (noise.largest) + " local spacings (median of all points " +
         std::to_string (noise.median) + ", 90 % below " + std::to_string (noise.quantile_90) +
-        "): they were connected by their places on the planes of the points around; the vertices "
-        "of the mesh are the points themselves");
+        "): " +
+        (noise.noisy_points == 1 ? "it was connected by its place on the plane"
+                                 : "they were connected by their places on the planes") +
+        " of the points around; the vertices of the mesh are the points themselves");
 }
 
 void

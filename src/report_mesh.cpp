@@ -20,8 +20,6 @@ constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary l
 constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
 constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
 constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
-constexpr double SURE_FACING = 0.9;    // certainty; told to the user below
-constexpr double GUESSED_FACING = 0.6; // certainty; a warning below
 
 // Far fewer points than the border of a disc as large as its component has, and not wide: 3.5 sqrt
 // (n) if that were round.
@@ -38,25 +36,26 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
   const MeshCheck& check = found.check;
   if (check.folds > 0)
     warnings.push_back (counted (check.folds, "edge is", "edges are") +
-                        " folded by more than 120 degrees, one of them at " +
-                        place (points, found.fold_at) +
+                        " folded by more than 120 degrees" +
+                        oneAt (check.folds, place (points, found.fold_at)) +
                         ": sheets of the surface come close there, or a feature is thinly sampled");
   if (!found.crossing.empty ())
     warnings.push_back (
         counted (found.crossing.size (), "pair of triangles crosses", "pairs of triangles cross") +
-        " each other, one of them at " + place (points, found.crossing_at) +
+        " each other" + oneAt (found.crossing.size (), place (points, found.crossing_at)) +
         ": sheets of the surface come closer there than their points are, or a feature is thinly "
         "sampled");
   if (found.long_edges > 0)
     warnings.push_back (
         counted (found.long_edges, "edge inside the surface is", "edges inside the surface are") +
-        " much longer than the local spacing, the longest one of " +
-        rounded (found.longest_inside) + " spacings from " +
-        place (points, found.longest_inside_at.first) + " to " +
+        " much longer than the local spacing, " +
+        (found.long_edges == 1 ? "" : "the longest one ") + "of " + rounded (found.longest_inside) +
+        " spacings from " + place (points, found.longest_inside_at.first) + " to " +
         place (points, found.longest_inside_at.second) + ": a hole may be bridged there");
   if (check.degenerate_triangles > 0)
     warnings.push_back (counted (check.degenerate_triangles, "triangle has", "triangles have") +
-                        " no area, one of them at " + place (points, found.degenerate_at) +
+                        " no area" +
+                        oneAt (check.degenerate_triangles, place (points, found.degenerate_at)) +
                         ": points lie on one line there in the precision of the coordinates");
   if (found.smallest_component < FEW_POINTS &&
       found.largest_component > TINY_SHARE * found.smallest_component)
@@ -88,9 +87,10 @@ warnOfHoles (const Points& points, const MeshExamination& found, const Options& 
     }
   if (holes == 0)
     return;
-  const std::string where =
-      ", the largest, of " + std::to_string (found.loops[largest].points.size ()) +
-      " points, around " + place (points, found.loops[largest].points.front ());
+  const std::string where = (holes == 1 ? ", of " : ", the largest, of ") +
+                            std::to_string (found.loops[largest].points.size ()) +
+                            " points, around " +
+                            place (points, found.loops[largest].points.front ());
   if (close_all)
     report.warnings.push_back (counted (holes, "hole stays", "holes stay") +
                                " open though all were to be closed" + where);
@@ -132,8 +132,8 @@ reportUnused (const Points& points, const MeshExamination& found, Report& report
     return points.cloud_index[p] == report.unused.front ();
   });
   report.warnings.push_back (counted (report.unused.size (), "point is", "points are") +
-                             " in no triangle, " + place (points, *first) + " among them: " +
-                             (report.unused.size () == 1 ? "it does" : "they do") +
+                             " in no triangle, " + place (points, *first) +
+                             (report.unused.size () == 1 ? ": it does" : " among them: they do") +
                              " not connect to the rest of the surface");
 }
 
@@ -170,6 +170,29 @@ reportSystem (const Parameterization& parameterization, Statistics& statistics)
   statistics.factorization_bytes = solution.peak_bytes;
 }
 
+// The limits that cut all triangles off, each with what it was compared with.
+std::string
+whyNothingIsLeft (const Trimming& trimming, const TrimmingOptions& options)
+{
+  std::string limits;
+  const auto add = [&limits] (bool is_asked_for, const std::string& limit) {
+    if (is_asked_for)
+      limits += (limits.empty () ? "" : ", ") + limit;
+  };
+  add (options.maximum_edge_length > 0.0,
+       "edges longer than " + rounded (options.maximum_edge_length) + " units of the cloud");
+  add (options.maximum_edge_ratio > 0.0,
+       "edges longer than " + rounded (options.maximum_edge_ratio) + " local spacings");
+  add (options.open_self_intersections, "crossing triangles");
+  add (options.minimum_component_size > 0,
+       "components of fewer than " + std::to_string (options.minimum_component_size) + " points");
+  return "no triangle is left: " +
+         counted (trimming.triangles, "triangle was", "triangles, all that there were, were") +
+         " cut off as asked for (" + limits +
+         "); allow longer edges or smaller components, and look whether lengths are in the unit of "
+         "the cloud";
+}
+
 } // namespace
 
 void
@@ -203,7 +226,8 @@ reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, 
   if (!seam.empty ())
     report.warnings.push_back (
         "the surface seems to be one-sided, like a Moebius strip: it was cut open along " +
-        std::to_string (seam.size ()) + " triangles near " + place (points, seam.front ()[0]));
+        counted (seam.size (), "triangle", "triangles") + " near " +
+        place (points, seam.front ()[0]));
 }
 
 void
@@ -240,40 +264,12 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
   std::ostringstream text;
   text.precision (3);
   text << counted (too_deep, "hole stays", "holes stay")
-       << " open though the sampling around looks as if points were missing there, the widest of "
-       << widest->width * points.scale << " (" << widest->width / widest->spacing
-       << " local spacings) around " << place (points, widest->points.front ())
+       << " open though the sampling around looks as if points were missing there, "
+       << (too_deep == 1 ? "of a width of " : "the widest of ") << widest->width * points.scale
+       << " (" << widest->width / widest->spacing << " local spacings) around "
+       << place (points, widest->points.front ())
        << ": triangles across would be a lid; the hole policy decides what is closed";
   report.warnings.push_back (text.str ());
-}
-
-void
-reportFacing (const Points& points, const Facing& facing, Report& report)
-{
-  std::size_t guessed = 0, triangles = 0;
-  const FacingObject* largest = nullptr;
-  for (const FacingObject& object : facing.objects)
-    triangles += object.triangles;
-  for (const FacingObject& object : facing.objects) {
-    report.facing_certainty = std::min (report.facing_certainty, object.certainty);
-    if (object.certainty >= SURE_FACING)
-      continue;
-    report.facing_decisions.push_back (
-        {object.triangles, points.cloud_index[object.at], object.rule, object.certainty});
-    if (object.certainty >= GUESSED_FACING || TINY_SHARE * object.triangles < triangles)
-      continue;
-    ++guessed;
-    if (largest == nullptr || object.triangles > largest->triangles)
-      largest = &object;
-  }
-  std::stable_sort (
-      report.facing_decisions.begin (), report.facing_decisions.end (),
-      [] (const FacingDecision& a, const FacingDecision& b) { return a.certainty < b.certainty; });
-  if (guessed > 0)
-    report.warnings.push_back (
-        "which side is the front of " + counted (guessed, "part", "parts") +
-        " of the mesh is a guess, the largest at " + place (points, largest->at) +
-        ": it may be a body or a sheet; the place of the sensor would tell, if it is one scan");
 }
 
 std::vector<Triangle>
@@ -319,8 +315,8 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
 }
 
 Problem
-reportTrimming (const Points& points, const Trimming& trimming, std::size_t triangles_left,
-                Report& report)
+reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOptions& options,
+                std::size_t triangles_left, Report& report)
 {
   Statistics& statistics = report.statistics;
   statistics.trimmed_triangles = trimming.triangles;
@@ -333,10 +329,7 @@ reportTrimming (const Points& points, const Trimming& trimming, std::size_t tria
   std::sort (report.unused.begin (), report.unused.end ());
   if (triangles_left > 0 || trimming.triangles == 0)
     return {};
-  return {
-      RunStatus::INVALID_OPTION,
-      "no triangle is left: every edge is longer than the maximum, every component smaller than "
-      "the minimum, or every triangle crosses another one"};
+  return {RunStatus::DEGENERATE, whyNothingIsLeft (trimming, options)};
 }
 
 } // namespace floater

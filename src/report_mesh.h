@@ -34,10 +34,10 @@ reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, 
 void
 reportLoops (const Points& points, const Surface& surface, Report& report);
 
-/// How sure it is which side of each part of the mesh is its front, and a warning where that is a
-/// guess.
+/// How sure it is which side of each part of the mesh is its front, and by which rule. Warnings
+/// where that is a guess, and where what was to decide did not.
 void
-reportFacing (const Points& points, const Facing& facing, Report& report);
+reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report);
 
 /// Triangles from working set to cloud indices, and counts.
 std::vector<Triangle>
@@ -55,10 +55,10 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
 
 /// Counts of what was cut off, and points that lost all their triangles. There is no warning: it
 /// was asked for. After reportCheck ().
-/// \return INVALID_OPTION if no triangle is left
+/// \return DEGENERATE if no triangle is left
 Problem
-reportTrimming (const Points& points, const Trimming& trimming, std::size_t triangles_left,
-                Report& report);
+reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOptions& options,
+                std::size_t triangles_left, Report& report);
 
 } // namespace floater
 } // namespace pcl

@@ -34,5 +34,11 @@ counted (std::size_t count, const char* one, const char* several)
   return std::to_string (count) + " " + (count == 1 ? one : several);
 }
 
+std::string
+oneAt (std::size_t count, const std::string& place)
+{
+  return (count == 1 ? " at " : ", one of them at ") + place;
+}
+
 } // namespace floater
 } // namespace pcl

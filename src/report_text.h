@@ -24,5 +24,9 @@ rounded (double value);
 std::string
 counted (std::size_t count, const char* one, const char* several);
 
+/// " at ..." if there is but one thing, else ", one of them at ...".
+std::string
+oneAt (std::size_t count, const std::string& place);
+
 } // namespace floater
 } // namespace pcl

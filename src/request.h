@@ -27,5 +27,12 @@ asksForDisc (const Options& options)
   return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
 }
 
+/// Whether the cloud may be connected as its sensor saw it.
+inline bool
+mayBeSeen (const Options& options)
+{
+  return !asksForDisc (options) && options.view.use != ViewUse::NEVER;
+}
+
 } // namespace floater
 } // namespace pcl

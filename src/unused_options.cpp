@@ -59,11 +59,11 @@ addBoundaryAndDomain (const DiscOptions& options, Sentences& sentences)
   const Change angle{"the opening angle", boundary.opening_angle != usual.opening_angle};
   const Change tolerance{"the cluster tolerance",
                          boundary.cluster_tolerance != usual.cluster_tolerance};
-  const Change k{"cluster k", boundary.cluster_k != usual.cluster_k};
+  const Change k{"the number of cluster neighbours", boundary.cluster_k != usual.cluster_k};
   if (!boundary.loop.empty ())
     sentences.add ({method, angle, tolerance, k}, "the boundary loop is given");
   else if (boundary.method != BoundaryMethod::TWO_SEGMENTS)
-    sentences.add ({angle, tolerance, k}, "only the boundary method TWO_SEGMENTS takes it");
+    sentences.add ({angle, tolerance, k}, "only the boundary method of two segments takes it");
   if (options.domain.curve != Domain::POLYGON)
     sentences.add ({{"the number of polygon sides",
                      options.domain.polygon_sides != defaults.domain.polygon_sides}},
@@ -77,7 +77,7 @@ addSolver (const SolverOptions& options, Sentences& sentences)
   if (options.method != Solver::BICGSTAB_ILUT)
     sentences.add ({{"the fill of ILUT", options.ilut_fill != defaults.ilut_fill},
                     {"the drop tolerance of ILUT", options.ilut_drop != defaults.ilut_drop}},
-                   "only the solver BICGSTAB_ILUT takes it");
+                   "only the solver BiCGSTAB with ILUT takes it");
   if (options.method != Solver::BICGSTAB_ILUT && options.method != Solver::GAUSS_SEIDEL)
     sentences.add (
         {{"the tolerance", options.tolerance != defaults.tolerance},
@@ -97,7 +97,7 @@ addDisc (const DiscOptions& options, Sentences& sentences)
       {{"the boundary method", boundary.method != defaults.boundary.method},
        {"the opening angle", boundary.opening_angle != defaults.boundary.opening_angle},
        {"the cluster tolerance", boundary.cluster_tolerance != defaults.boundary.cluster_tolerance},
-       {"cluster k", boundary.cluster_k != defaults.boundary.cluster_k},
+       {"the number of cluster neighbours", boundary.cluster_k != defaults.boundary.cluster_k},
        {"the domain", domain.curve != defaults.domain.curve},
        {"the number of polygon sides", domain.polygon_sides != defaults.domain.polygon_sides},
        {"the spacing on the domain", domain.loop_spacing != defaults.domain.loop_spacing},
@@ -117,11 +117,11 @@ addHoles (const HoleOptions& options, Sentences& sentences)
   const HoleOptions defaults;
   if (options.policy != HolePolicy::KEEP_COUNT)
     sentences.add ({{"the number of kept loops", options.kept_loops != defaults.kept_loops}},
-                   "only the hole policy KEEP_COUNT takes it");
+                   "only the hole policy that keeps a number of loops takes it");
   if (options.policy != HolePolicy::BY_SIZE)
     sentences.add ({{"the largest hole", options.largest_hole != defaults.largest_hole},
                     {"the unit of the largest hole", options.unit != defaults.unit}},
-                   "only the hole policy BY_SIZE takes it");
+                   "only the hole policy that chooses by size takes it");
 }
 
 void
@@ -130,7 +130,7 @@ addNeighbors (const Options& options, const Report& report, Sentences& sentences
   const Options defaults;
   const NeighborOptions &neighbors = options.neighbors, &usual = defaults.neighbors;
   const Change kind{"the neighbourhood", neighbors.kind != usual.kind};
-  const Change k{"k", neighbors.k != usual.k};
+  const Change k{"the number of neighbours", neighbors.k != usual.k};
   const Change radius{"the ball radius", neighbors.ball_radius != usual.ball_radius};
   const ScatterPolicy usual_scatter = defaults.scatter;
   if (report.is_view) {
@@ -154,10 +154,19 @@ addNeighbors (const Options& options, const Report& report, Sentences& sentences
 } // namespace
 
 std::vector<std::string>
-describeUnusedOptions (const Options& options, const Report& report)
+describeUnusedOptions (const Options& options, const Report& report, bool has_plane_normals)
 {
   Sentences sentences;
+  if (options.disc.as_published)
+    sentences.add ({{"the policy for scatter", options.scatter != Options{}.scatter}},
+                   "the method of TW 385 keeps all points");
   addNeighbors (options, report, sentences);
+  const bool may_face_by_normals =
+      options.facing == Facing::AUTO || options.facing == Facing::NORMALS;
+  if (report.is_view && !may_face_by_normals)
+    sentences.add ({{"the normals of the input", has_plane_normals}},
+                   "a scan is connected as its sensor saw it, without tangent planes, and another "
+                   "facing is asked for");
   if (report.topology == Topology::DISC) {
     addBoundaryAndDomain (options.disc, sentences);
     addSolver (options.disc.solver, sentences);

@@ -15,8 +15,10 @@ namespace floater
 /// One sentence for each reason why options without effect have none, with the names of these
 /// options. An option counts if its value is not the default.
 /// \param report of the run: which method made the mesh
+/// \param has_plane_normals normals were given for the tangent planes
 std::vector<std::string>
-describeUnusedOptions (const Options& options, const Report& report);
+describeUnusedOptions (const Options& options, const Report& report,
+                       bool has_plane_normals = false);
 
 } // namespace floater
 } // namespace pcl

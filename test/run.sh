@@ -52,7 +52,7 @@ fi
 
 export PCL_FLOATER_DATA=${PCL_FLOATER_DATA:-$root/../shared/data}
 mkdir -p "$build"
-if ! cmake --preset "$preset" >"$build/configure.log" 2>&1; then
+if ! cmake --preset "$preset" -DBUILD_TESTING=ON >"$build/configure.log" 2>&1; then
   cat "$build/configure.log" >&2
   exit 1
 fi

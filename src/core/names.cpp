@@ -94,6 +94,14 @@ facingRuleName (FacingRule rule)
     return "body";
   case FacingRule::SHEET:
     return "sheet";
+  case FacingRule::NORMALS:
+    return "normals";
+  case FacingRule::UP:
+    return "up";
+  case FacingRule::BULGE:
+    return "bulge";
+  case FacingRule::COUNT:
+    break;
   }
   return "unknown";
 }

@@ -51,7 +51,7 @@ describeOutcome (const Solution& solution)
     return {};
   case Solution::Outcome::SINGULAR:
     return {RunStatus::SINGULAR,
-            "the linear system is singular (" + solution.message + "); use a larger k"};
+            "the linear system is singular (" + solution.message + "); use more neighbours"};
   case Solution::Outcome::NOT_CONVERGED:
     return {RunStatus::NOT_CONVERGED,
             solution.message + "; allow more iterations, or use a direct solver"};
@@ -95,8 +95,8 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
         RunStatus::UNREACHABLE,
         std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
             " points do not connect to the boundary loop: the cloud has several components, or "
-            "gaps much wider than its spacing; reconstruct its components one by one, or use a "
-            "larger k"};
+            "gaps much wider than its spacing; reconstruct its components one by one, or use "
+            "more neighbours"};
     return result;
   }
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, settings.domain);

@@ -144,7 +144,7 @@ appendRows (const CsrLists& added, CsrLists& lists)
   if (added.ids.empty ())
     return;
   requireCountable (lists.ids.size () + added.ids.size (), NONE - 1, "the table of neighbours",
-                    "use fewer points or a smaller k");
+                    "use fewer points or fewer neighbours");
   lists.ids.resize (lists.ids.size () + added.ids.size ());
   // From the last row to the first: every entry moves backwards.
   for (std::size_t r = lists.rows (); r-- > 0;) {

@@ -41,15 +41,17 @@ class FacingJudge
 {
 public:
   FacingJudge (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& found,
-               const FacingObjects& objects, const FacingLimits& limits, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), limits_ (limits),
-        run_ (run), judged_ (objects.sums.size ()), is_turned_ (objects.sums.size (), 0)
+               const FacingObjects& objects, const FacingHints& hints, const FacingLimits& limits,
+               const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
+        limits_ (limits), run_ (run), judged_ (objects.sums.size ()),
+        is_turned_ (objects.sums.size (), 0), is_body_ (objects.sums.size (), 0)
   {
   }
 
-  void judge (const std::optional<Eigen::Vector3d>& sensor)
+  void judge ()
   {
-    const bool is_scan = sensor && isSeenFrom (*sensor);
+    const bool is_scan = mayFaceSensor () && isSeenFrom (*hints_.sensor);
     std::vector<Index> open;
     for (Index o = 0; o < judged_.size (); ++o) {
       const FacingSums& sums = objects_.sums[o];
@@ -57,8 +59,27 @@ public:
       object.triangles = sums.triangles;
       object.at = sums.at;
       object.mean_normal = sums.meanNormal ();
-      if (sums.is_closed)
+      is_body_[o] = sums.is_closed ? 1 : 0;
+      if (hints_.normals != nullptr && sums.told == 0.0)
+        object.miss = sums.contradictory > 0.0           ? FacingMiss::CONTRADICTION
+                      : hints_.wanted == Facing::NORMALS ? FacingMiss::NO_NORMALS
+                                                         : FacingMiss::NOTHING;
+      if (sums.told > 0.0)
+        decide (o, FacingRule::NORMALS, sums.along < 0.0,
+                0.5 + 0.5 * std::abs (sums.along) / sums.told);
+      else if (hints_.wanted == Facing::UP && !sums.is_closed)
+        decideUp (o);
+      else if (hints_.wanted == Facing::VIEWPOINT && isTowardsOneSide (sums))
+        decideByViewpoint (o);
+      else if (sums.is_closed) {
+        if (hints_.wanted == Facing::UP || hints_.wanted == Facing::VIEWPOINT)
+          object.miss = FacingMiss::CLOSED;
         decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
+      }
+      else if (hints_.wanted == Facing::OUTWARDS)
+        open.push_back (o);
+      else if (hints_.faces_sensor)
+        decide (o, FacingRule::SENSOR, false, 1.0);
       else if (is_scan && std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
         decide (o, FacingRule::SENSOR, sums.seen < 0.0,
                 0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
@@ -77,6 +98,54 @@ public:
   bool isTurned (Index object) const { return is_turned_[object] != 0; }
 
 private:
+  // Whether the place of a sensor is to decide, if the mesh was seen from there.
+  bool mayFaceSensor () const
+  {
+    return hints_.sensor && !hints_.faces_sensor &&
+           (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS);
+  }
+
+  // A closed component has the sensor on one side of all of it only if the sensor is within it.
+  bool isTowardsOneSide (const FacingSums& sums) const
+  {
+    return !sums.is_closed || std::abs (sums.seen) > limits_.within_share * sums.in_sight;
+  }
+
+  void decideByViewpoint (Index o)
+  {
+    const FacingSums& sums = objects_.sums[o];
+    const double share = sums.in_sight > 0.0 ? std::abs (sums.seen) / sums.in_sight : 0.0;
+    if (hints_.faces_sensor && !sums.is_closed)
+      decide (o, FacingRule::SENSOR, false, 1.0);
+    else
+      decide (o, FacingRule::SENSOR, sums.seen < 0.0, 0.5 + 0.5 * share);
+  }
+
+  void decideUp (Index o)
+  {
+    const FacingSums& sums = objects_.sums[o];
+    if (sums.from_above <= limits_.flatness * sums.area) // upright
+      decide (o, FacingRule::UP, facesDown (sums.area_vector, limits_), 0.5);
+    else
+      decide (o, FacingRule::UP, sums.area_vector.z () < 0.0,
+              0.5 + 0.5 * std::abs (sums.area_vector.z ()) / sums.from_above);
+  }
+
+  // An open object that is to face outwards, however little it is a body.
+  void decideOutwards (Index o, double body, double chance)
+  {
+    if (std::abs (body) >= 2.0 * chance) { // two standard deviations: chance in one case of twenty
+      decide (o, FacingRule::BODY, body < 0.0, certaintyOf ((std::abs (body) + chance) / chance));
+      return;
+    }
+    if (bulges_.empty ())
+      bulges_ = bulgesOf (mesh_, positions_, found_, objects_, limits_.flatness);
+    const double bulge = bulges_[o];
+    decide (o, FacingRule::BULGE,
+            bulge == 0.0 ? facesDown (objects_.sums[o].area_vector, limits_) : bulge < 0.0,
+            0.5 + 0.5 * std::abs (bulge));
+  }
+
   void decide (Index o, FacingRule rule, bool is_turned, double certainty)
   {
     judged_[o].rule = rule;
@@ -186,9 +255,14 @@ private:
       const double body = object.front - object.back;
       const double sheet = limits_.body_ratio * object.mean_normal;
       const bool is_body = std::abs (body) >= sheet;
+      is_body_[o] = is_body ? 1 : 0;
       const bool is_inwards = body < 0.0,
                  is_down = facesDown (objects_.sums[o].area_vector, limits_);
       const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
+      if (hints_.wanted == Facing::OUTWARDS) {
+        decideOutwards (o, body, chance);
+        continue;
+      }
       const double certainty = is_inwards == is_down
                                    ? certaintyOf ((std::abs (body) + sheet + chance) / chance)
                                    : certaintyOf ((std::max (std::abs (body), sheet) + chance) /
@@ -198,9 +272,11 @@ private:
     }
   }
 
-  bool isBody (Index o) const
+  // Whether the rules for bodies decided, which do not know yet what lies in what.
+  bool mayBeHollow (Index o) const
   {
-    return judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY;
+    return is_body_[o] != 0 &&
+           (judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY);
   }
 
   // Whether one object may lie within another.
@@ -222,10 +298,12 @@ private:
   {
     std::vector<Index> bodies, inner;
     for (Index o = 0; o < judged_.size (); ++o)
-      if (isBody (o))
+      if (is_body_[o] != 0)
         bodies.push_back (o);
     std::vector<std::vector<Index>> around (judged_.size ());
     for (const Index o : bodies) {
+      if (!mayBeHollow (o))
+        continue;
       for (const Index other : bodies)
         if (other != o && mayLieIn (o, other))
           around[o].push_back (other);
@@ -274,37 +352,35 @@ private:
   const Positions& positions_;
   const MeshComponents& found_;
   const FacingObjects& objects_;
+  const FacingHints& hints_;
   const FacingLimits& limits_;
   const RunContext& run_;
   std::optional<TriangleRays> rays_; // made when they are needed
   std::vector<FacingObject> judged_;
   std::vector<std::uint8_t> is_turned_; // of each object
+  std::vector<std::uint8_t> is_body_;   // of each object: others may lie in it
+  std::vector<double> bulges_;          // of each object, made when they are needed
 };
 
 } // namespace
 
-Facing
+MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
 {
-  const MeshComponents found = findComponents (mesh, run);
-  const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, hints.sensor, run);
-  SignedSets sets (found.count);
-  if (hints.is_one_view) {
-    Index first = NONE;
-    for (Index c = 0; c < found.count; ++c)
-      if (!sums[c].is_closed && first == NONE)
-        first = c;
-      else if (!sums[c].is_closed)
-        sets.join (first, c, false);
+  MeshFacing facing;
+  FacingHints used = hints;
+  if (hints.wanted == Facing::VIEWPOINT && !hints.sensor && !hints.faces_sensor) {
+    facing.lacks_viewpoint = true;
+    used.wanted = Facing::AUTO;
   }
-  else
-    joinContinuations (findContinuations (mesh, found, positions, limits.continuations, run), sets);
+  const MeshComponents found = findComponents (mesh, run);
+  const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, used, limits, run);
+  SignedSets sets (found.count);
+  joinContinuations (findTogether (mesh, positions, found, sums, used, limits, run), sums, sets);
   const FacingObjects objects = makeObjects (sums, std::move (sets));
-  FacingJudge judge (mesh, positions, found, objects, limits, run);
-  judge.judge (hints.sensor);
-
-  Facing facing;
+  FacingJudge judge (mesh, positions, found, objects, used, limits, run);
+  judge.judge ();
   facing.objects = judge.objects ();
   std::vector<std::uint8_t> is_turned (found.count);
   for (Index c = 0; c < found.count; ++c)

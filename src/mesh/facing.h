@@ -35,6 +35,20 @@ struct FacingLimits
   /// one scan has 1 less its noise, while a whole body is hidden by half, and has 0.
   double seen_share = 0.8;
 
+  /// By how much more of a component, as a share of its area, the normals of the input point to one
+  /// side than to the other. Above, they decide; below, they contradict each other. Theory: midway
+  /// between normals without a fault, which have 1, and those that were never oriented, which have
+  /// 0: a quarter of the area has normals to the wrong side.
+  double normals_share = 0.5;
+
+  /// Share of its directions from which the place of a sensor sees the inside of a closed
+  /// component: 1 within it, 0 outside. Midway.
+  double within_share = 0.5;
+
+  /// Mean height of a flat object, as a share of its size. Rounding of 32-bit coordinates; below,
+  /// it bulges to no side.
+  double flatness = 1e-6;
+
   /// Ratio of the lengths of the mean normal along two axes. Above, they count as equal. Chosen by
   /// hand.
   double equal_axes = 0.9;
@@ -57,8 +71,22 @@ struct FacingLimits
 struct FacingHints
 {
   std::optional<Eigen::Vector3d> sensor; ///< where the points were seen from, if it is told
-  bool is_one_view = false; ///< all open components face one side already, that of an unknown
-                            ///< sensor or the other one
+  bool is_one_view = false;  ///< all open components face one side already, that of an unknown
+                             ///< sensor or the other one
+  bool faces_sensor = false; ///< all open components face the sensor already
+  Facing wanted = Facing::AUTO;
+  const std::vector<Eigen::Vector3f>* normals = nullptr; ///< of the points, to the front of the
+                                                         ///< surface, zero where there is none
+};
+
+/// Why the evidence that was to decide has not done so.
+enum class FacingMiss
+{
+  NOTHING,       ///< it has
+  CONTRADICTION, ///< the normals point to both sides
+  NO_NORMALS,    ///< no point has a normal
+  CLOSED,        ///< neither up nor the viewpoint is on one side of a closed component
+  COUNT
 };
 
 /// Components that continue each other, or one alone.
@@ -71,17 +99,21 @@ struct FacingObject
   double mean_normal = 0.0;  ///< its length: 1 of a plane, 0 of a closed surface
   std::size_t triangles = 0; ///< of all its components
   Index at = NONE;           ///< its smallest point
+  FacingMiss miss = FacingMiss::NOTHING;
 };
 
-struct Facing
+struct MeshFacing
 {
   std::size_t turned = 0;            ///< components that were turned round
   std::vector<FacingObject> objects; ///< in the order of their first triangles
+  bool lacks_viewpoint = false;      ///< the mesh was to face the viewpoint, and none is known
 };
 
 /// Turns every component of a mesh so that its front is where it can be seen. Components that
 /// continue each other are turned together, as one object.
 ///
+/// - If there are normals of the points, those of a component that agree decide. It is not turned
+///   together with another one whose normals tell otherwise.
 /// - A closed one encloses a positive volume. In an odd number of other bodies, it is the wall of a
 ///   hollow, and faces into it; but not if it is seen through windows of those bodies.
 /// - One that was seen from the sensor faces the sensor.
@@ -92,9 +124,13 @@ struct Facing
 /// - Terrain or a flat sheet, of which both sides are seen alike, faces up the axis along which its
 ///   mean normal is longest; of equal axes z comes before y before x.
 ///
+/// This is Facing::AUTO, and what is done where another choice does not decide. With OUTWARDS, a
+/// sheet faces where more of it is seen from outside, by however little; where that is chance, the
+/// side to which it bulges out of its boundary. With UP and VIEWPOINT, every component is turned by
+/// itself.
 ///
 /// O(n log n), about 0.3 microseconds per point of a body.
-Facing
+MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
 

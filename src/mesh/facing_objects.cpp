@@ -11,7 +11,7 @@ namespace floater
 {
 std::vector<FacingSums>
 sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const std::optional<Eigen::Vector3d>& sensor,
+               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
                const RunContext& run)
 {
   std::vector<FacingSums> sums (found.count);
@@ -27,6 +27,7 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
     const double area = area_vector.norm ();
     sum.area_vector += area_vector;
     sum.area += area;
+    sum.from_above += std::abs (area_vector.z ());
     sum.volume +=
         (positions[corners[0]] - positions[origin[found.of_triangle[t]]]).dot (area_vector);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -34,25 +35,70 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
       sum.box.extend (positions[corners[i]]);
       sum.is_closed = sum.is_closed && mesh.neighbors[t][i] != NONE;
     }
-    if (sensor) {
-      const Eigen::Vector3d way = *sensor - middleOf (corners, positions);
+    if (hints.normals != nullptr)
+      for (const Index p : corners) {
+        const double part = area_vector.dot ((*hints.normals)[p].cast<double> ()) / 3.0;
+        sum.along += part;
+        sum.told += std::abs (part);
+      }
+    if (hints.sensor) {
+      const Eigen::Vector3d way = *hints.sensor - middleOf (corners, positions);
       const double cube = way.squaredNorm () * way.norm ();
       const double solid_angle = cube > 0.0 ? way.dot (area_vector) / cube : 0.0;
       sum.seen += solid_angle;
       sum.in_sight += std::abs (solid_angle);
     }
   }
+  for (FacingSums& sum : sums)
+    if (std::abs (sum.along) < limits.normals_share * sum.told) {
+      sum.contradictory = sum.told;
+      sum.along = sum.told = 0.0;
+    }
   return sums;
 }
 
+std::vector<Continuation>
+findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const MeshComponents& found, const std::vector<FacingSums>& sums,
+              const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
+{
+  if (hints.wanted == Facing::UP || hints.wanted == Facing::VIEWPOINT)
+    return {};
+  if (hints.faces_sensor && hints.wanted != Facing::OUTWARDS)
+    return {};
+  if (!hints.is_one_view && !hints.faces_sensor)
+    return findContinuations (mesh, found, positions, limits.continuations, run);
+  std::vector<Continuation> all; // an open one with all others
+  Index first = NONE;
+  for (Index c = 0; c < found.count; ++c)
+    if (!sums[c].is_closed && first == NONE)
+      first = c;
+    else if (!sums[c].is_closed)
+      all.push_back ({first, c, false, 0.0});
+  return all;
+}
+
 void
-joinContinuations (std::vector<Continuation> continuations, SignedSets& sets)
+joinContinuations (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums,
+                   SignedSets& sets)
 {
   std::stable_sort (
       continuations.begin (), continuations.end (),
       [] (const Continuation& a, const Continuation& b) { return a.support > b.support; });
-  for (const Continuation& one : continuations)
+  // Of each representative: 1 or -1 where the normals point, 0 if no component of its set has any.
+  std::vector<int> told;
+  for (const FacingSums& sum : sums)
+    told.push_back (sum.along > 0.0 ? 1 : sum.along < 0.0 ? -1 : 0);
+  for (const Continuation& one : continuations) {
+    const SignedSets::Place a = sets.find (one.a), b = sets.find (one.b);
+    const int sign = ((a.flipped != b.flipped) != one.is_opposite) ? -1 : 1;
+    if (a.root == b.root || sign * told[a.root] * told[b.root] < 0)
+      continue;
     sets.join (one.a, one.b, one.is_opposite);
+    const Index root = sets.find (a.root).root, other = root == a.root ? b.root : a.root;
+    if (told[root] == 0)
+      told[root] = sign * told[other];
+  }
 }
 
 FacingObjects
@@ -71,6 +117,43 @@ makeObjects (const std::vector<FacingSums>& components, SignedSets sets)
     objects.sums[of_root[place.root]].add (components[c], objects.sign (c));
   }
   return objects;
+}
+
+std::vector<double>
+bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+          const MeshComponents& found, const FacingObjects& objects, double flatness)
+{
+  const std::size_t count = objects.sums.size ();
+  const auto objectOf = [&] (Index t) { return objects.of_component[found.of_triangle[t]]; };
+  std::vector<Eigen::Vector3d> middle (count, Eigen::Vector3d::Zero ()); // of the boundary
+  std::vector<double> length (count, 0.0);
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mesh.neighbors[t][i] != NONE)
+        continue;
+      const Eigen::Vector3d& from = positions[mesh.triangles[t][(i + 1) % 3]];
+      const Eigen::Vector3d& to = positions[mesh.triangles[t][(i + 2) % 3]];
+      middle[objectOf (t)] += 0.5 * (to - from).norm () * (from + to);
+      length[objectOf (t)] += (to - from).norm ();
+    }
+  for (std::size_t o = 0; o < count; ++o)
+    if (length[o] > 0.0)
+      middle[o] /= length[o];
+  std::vector<double> bulges (count, 0.0), volumes (count, 0.0);
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    const Index o = objectOf (t);
+    const double volume = (middleOf (mesh.triangles[t], positions) - middle[o])
+                              .dot (areaVectorOf (mesh.triangles[t], positions));
+    bulges[o] += objects.sign (found.of_triangle[t]) * volume;
+    volumes[o] += std::abs (volume);
+  }
+  for (std::size_t o = 0; o < count; ++o) {
+    const FacingSums& sums = objects.sums[o];
+    const bool is_flat =
+        sums.box.isEmpty () || volumes[o] <= flatness * sums.area * sums.box.diagonal ().norm ();
+    bulges[o] = is_flat ? 0.0 : bulges[o] / volumes[o];
+  }
+  return bulges;
 }
 
 } // namespace floater

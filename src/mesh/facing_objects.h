@@ -6,9 +6,9 @@
 #include "core/disjoint_sets.h"
 #include "core/geometry.h"
 #include "mesh/continuations.h"
+#include "mesh/facing.h"
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 namespace pcl
@@ -22,6 +22,10 @@ struct FacingSums
   double area = 0.0;
   double volume = 0.0;               ///< six times that which a closed one encloses
   double seen = 0.0, in_sight = 0.0; ///< from the sensor: signed and unsigned solid angle, doubled
+  double from_above = 0.0;           ///< area as seen along z, whichever side is up; doubled
+  double along = 0.0, told = 0.0;    ///< area times cosine to the normals of the input, signed and
+                                     ///< unsigned, of components on which these agree; doubled
+  double contradictory = 0.0;        ///< the same, unsigned, where they do not
   std::size_t triangles = 0;
   Index at = NONE;
   bool is_closed = true;
@@ -34,6 +38,10 @@ struct FacingSums
     volume += sign * other.volume;
     seen += sign * other.seen;
     in_sight += other.in_sight;
+    from_above += other.from_above;
+    along += sign * other.along;
+    told += other.told;
+    contradictory += other.contradictory;
     triangles += other.triangles;
     at = std::min (at, other.at);
     is_closed = is_closed && other.is_closed;
@@ -65,20 +73,36 @@ areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-/// O(n).
+/// The sums of each component, by the sensor and the normals of the hints. O(n).
 std::vector<FacingSums>
 sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const std::optional<Eigen::Vector3d>& sensor,
+               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
                const RunContext& run);
 
+/// Components that are to be turned together, if nothing contradicts.
+std::vector<Continuation>
+findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const MeshComponents& found, const std::vector<FacingSums>& sums,
+              const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
+
 /// Joins components that continue each other, the strongest continuations first. Those that
-/// contradict them are left out.
+/// contradict them, or the normals of the input, are left out.
+/// \param sums of the components
 void
-joinContinuations (std::vector<Continuation> continuations, SignedSets& sets);
+joinContinuations (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums,
+                   SignedSets& sets);
 
 /// The objects in the order of their first components.
 FacingObjects
 makeObjects (const std::vector<FacingSums>& components, SignedSets sets);
+
+/// How far each object bulges out of its boundary to its front: the volume between it and the
+/// middle of its boundary, signed over unsigned, from -1 to 1: 1 of a dome that faces outwards,
+/// about 0 of a wave. 0 of a flat one. O(n).
+/// \param flatness see FacingLimits
+std::vector<double>
+bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+          const MeshComponents& found, const FacingObjects& objects, double flatness);
 
 } // namespace floater
 } // namespace pcl

@@ -43,7 +43,7 @@ struct MeshFinish
   std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
   std::size_t folds = 0;             ///< folded edges that are left
   bool is_repairable = true;         ///< false: more than FinishSettings::largest_fold_share of all
-  Facing facing;                     ///< which components were turned round, and why
+  MeshFacing facing;                 ///< which components were turned round, and why
 };
 
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, and turns

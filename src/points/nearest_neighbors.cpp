@@ -20,7 +20,7 @@ constexpr double SAFELY = 1.0 + 1e-9;
 
 // For the message that there are too many.
 constexpr const char* TABLE = "the table of neighbours";
-constexpr const char* REMEDY = "use fewer points or a smaller k";
+constexpr const char* REMEDY = "use fewer points or fewer neighbours";
 
 // Writes the k nearest points of one of them but for itself, and NONE for those that are missing.
 // Points whose squared distance to it underflows may push it out of the results.

@@ -112,14 +112,10 @@ leaveDuplicatesOut (Points& points)
     }
     points.positions[kept] = points.positions[p];
     points.cloud_index[kept] = points.cloud_index[p];
-    if (!points.normals.empty ())
-      points.normals[kept] = points.normals[p];
     ++kept;
   }
   points.positions.resize (kept);
   points.cloud_index.resize (kept);
-  if (!points.normals.empty ())
-    points.normals.resize (kept);
   std::sort (points.duplicates.begin (), points.duplicates.end ());
 }
 
@@ -211,21 +207,22 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
   return points;
 }
 
-void
-takeNormals (const std::vector<Eigen::Vector3f>& normals, Points& points)
+std::vector<Eigen::Vector3f>
+normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points)
 {
-  points.normals.clear ();
+  std::vector<Eigen::Vector3f> of_points;
   if (normals.empty ())
-    return;
-  points.normals.reserve (points.size ());
+    return of_points;
+  of_points.reserve (points.size ());
   for (const Index cloud_index : points.cloud_index) {
     // In double precision, where squares of floats neither overflow nor vanish.
     const Eigen::Vector3d given = normals[cloud_index].cast<double> ();
     const double length = given.norm ();
     const bool is_normal = std::isfinite (length) && length > 0.0;
-    points.normals.push_back (is_normal ? Eigen::Vector3f ((given / length).cast<float> ())
-                                        : Eigen::Vector3f (Eigen::Vector3f::Zero ()));
+    of_points.push_back (is_normal ? Eigen::Vector3f ((given / length).cast<float> ())
+                                   : Eigen::Vector3f (Eigen::Vector3f::Zero ()));
   }
+  return of_points;
 }
 
 Problem
@@ -262,10 +259,16 @@ removePoints (Points& points, const std::vector<Index>& removed)
     box.extend (points.positions[p]);
     points.positions[kept] = points.positions[p];
     points.cloud_index[kept] = points.cloud_index[p];
+    for (std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
+      if (!normals->empty ())
+        (*normals)[kept] = (*normals)[p];
     ++kept;
   }
   points.positions.resize (kept);
   points.cloud_index.resize (kept);
+  for (std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
+    if (!normals->empty ())
+      normals->resize (kept);
   std::sort (cloud_indices.begin (), cloud_indices.end ());
 
   // By a power of two, which is exact: distances compare as before.

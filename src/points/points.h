@@ -22,6 +22,7 @@ struct Points
   std::vector<Index> cloud_index;         ///< of each point; of equal points the smallest
   std::vector<Eigen::Vector3f> normals;   ///< that are given: unit length, of arbitrary sign, zero
                                           ///< where there is none; empty if none is given
+  std::vector<Eigen::Vector3f> facing_normals;       ///< the same for those that point to the front
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
   double diagonal =
@@ -52,9 +53,10 @@ Points
 makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
             const RunContext& run);
 
-/// Takes over normals that are given, for each index of the whole cloud, or none. O(n).
-void
-takeNormals (const std::vector<Eigen::Vector3f>& normals, Points& points);
+/// Normals that are given for each index of the whole cloud, or none, in the order of the points:
+/// unit length, or zero where there is none. O(n).
+std::vector<Eigen::Vector3f>
+normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points);
 
 /// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line. Small objects far
 /// apart do not: it is enough that a quarter of the points lie beside the line as seen from one of

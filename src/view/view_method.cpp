@@ -90,6 +90,29 @@ hasBoundary (const TriangleMesh& mesh)
   });
 }
 
+// The front of each component, which the sensor has seen unless it is far away.
+MeshFacing
+faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
+            const ViewSettings& settings, const RunContext& run)
+{
+  FacingHints hints = settings.facing;
+  hints.is_one_view = viewpoint.is_far;
+  hints.faces_sensor = !viewpoint.is_far;
+  const bool by_view = hints.wanted == Facing::AUTO && hints.normals == nullptr;
+  if (!viewpoint.is_far)
+    hints.sensor = viewpoint.place;
+  else if (hints.wanted != Facing::VIEWPOINT)
+    hints.sensor.reset ();
+  if (!by_view || viewpoint.is_far || !hasBoundary (mesh))
+    return faceOutwards (mesh, points.positions, hints, settings.finish.facing, run);
+  MeshFacing facing; // as the triangles of the view do
+  FacingObject& all = facing.objects.emplace_back ();
+  all.rule = FacingRule::SENSOR;
+  all.triangles = mesh.triangles.size ();
+  all.at = mesh.triangles.front ()[0];
+  return facing;
+}
+
 } // namespace
 
 bool
@@ -140,9 +163,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
     surface.finish.flips = flipInView (mesh, rays, points.positions, settings.limits.flips, run);
   if (settings.holes.policy != HolePolicy::AUTO)
     surface.holes_filled = closeHoles (mesh, points, viewpoint, settings, run);
-  if (viewpoint.is_far || !hasBoundary (mesh))
-    surface.finish.facing =
-        faceOutwards (mesh, points.positions, {{}, viewpoint.is_far}, settings.finish.facing, run);
+  surface.finish.facing = faceInView (mesh, points, viewpoint, settings, run);
   return surface;
 }
 

@@ -46,6 +46,7 @@ struct ViewSettings
   OpenLoopLimits open_loops = {};      ///< for policies of holes other than AUTO
   HoleFillingLimits hole_filling = {}; ///< the same
   FinishLimits finish = {};            ///< the same, and for closed components
+  FacingHints facing = {};             ///< its sensor counts for rays of a sensor far away only
 };
 
 /// Whether the cloud was seen from there (see RayEvidence). Ends early where it is clear that it
@@ -66,8 +67,9 @@ struct ViewSurface
 
 /// Triangulates the rays, leaves out what lies in gaps of the view or across depth steps, and
 /// chooses diagonals. From the sensor, no part of the mesh hides another. Its front faces the
-/// sensor, but closed components face outwards, and so does everything if the sensor is far away on
-/// an unknown side. Stages DELAUNAY, HOLES and FLIPS. O(n log n).
+/// sensor, but a mesh that is closed faces outwards, and so does everything if the sensor is far
+/// away on an unknown side; or as the hints on its facing want. Stages DELAUNAY, HOLES and FLIPS.
+/// O(n log n).
 ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
                  const RunContext& run);

@@ -38,6 +38,95 @@ TEST_F (FloaterClass, TakesTheNormalsOfPoints)
   EXPECT_NE (triangles (true), expected);
 }
 
+// A sphere around the origin whose normals point to its middle.
+NormalCloud::Ptr
+bodyWithInwardNormals ()
+{
+  NormalCloud::Ptr cloud = makeCloud<pcl::PointNormal> (SurfaceKind::SPHERE, 2000);
+  for (pcl::PointNormal& point : *cloud)
+    point.getNormalVector3fMap () = -point.getVector3fMap ().normalized ();
+  return cloud;
+}
+
+// Share of the triangles that face away from the origin.
+double
+shareOutwards (const NormalCloud& cloud, const Polygons& polygons)
+{
+  std::size_t outwards = 0;
+  for (const pcl::Vertices& polygon : polygons) {
+    const auto corner = [&] (std::size_t i) -> Eigen::Vector3f {
+      return cloud[static_cast<std::size_t> (polygon.vertices[i])].getVector3fMap ();
+    };
+    const Eigen::Vector3f normal = (corner (1) - corner (0)).cross (corner (2) - corner (0));
+    outwards += normal.dot (corner (0)) > 0.0F ? 1 : 0;
+  }
+  return static_cast<double> (outwards) / static_cast<double> (polygons.size ());
+}
+
+TEST_F (FloaterClass, NormalsDecideWhichSideIsTheFront)
+{
+  const NormalCloud::Ptr cloud = bodyWithInwardNormals ();
+  pcl::FloaterReconstruction<pcl::PointNormal> floater;
+  floater.setInputCloud (cloud);
+  EXPECT_EQ (floater.getFacing (), Facing::AUTO);
+  Polygons polygons;
+  const auto outwards = [&] (Facing facing, bool use_normals) {
+    floater.setFacing (facing);
+    EXPECT_EQ (floater.getFacing (), facing);
+    floater.setUseInputNormals (use_normals);
+    floater.reconstruct (polygons);
+    EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+    return shareOutwards (*cloud, polygons);
+  };
+  EXPECT_EQ (outwards (Facing::AUTO, false), 1.0);
+  EXPECT_EQ (outwards (Facing::NORMALS, false), 0.0);
+  EXPECT_EQ (outwards (Facing::AUTO, true), 0.0);
+  const auto by_normals = static_cast<std::size_t> (FacingRule::NORMALS);
+  EXPECT_EQ (floater.getReport ().facing_parts[by_normals], 1U);
+  EXPECT_EQ (outwards (Facing::OUTWARDS, true), 1.0);
+  EXPECT_EQ (floater.getReport ().facing_parts[by_normals], 0U);
+
+  // As pcl::NormalEstimation leaves them where nobody tells a viewpoint.
+  for (pcl::PointNormal& point : *cloud)
+    if (point.normal_z < 0.0F)
+      point.getNormalVector3fMap () *= -1.0F;
+  EXPECT_EQ (outwards (Facing::NORMALS, false), 1.0);
+  ASSERT_EQ (floater.getReport ().warnings.size (), 1U);
+  EXPECT_NE (floater.getReport ().warnings.front ().find ("contradict"), std::string::npos);
+}
+
+// The planes of PCL, whose signs tell nothing, do not decide in the method of TW 385.
+TEST_F (FloaterClass, TheMethodOfTheReportFacesAsUsual)
+{
+  const Cloud::Ptr cloud = heightField (2000);
+  const auto triangles = [&cloud] (const DiscOptions& disc) {
+    pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+    floater.setTopology (Topology::DISC);
+    floater.setDiscOptions (disc);
+    floater.setInputCloud (cloud);
+    Polygons polygons;
+    floater.reconstruct (polygons);
+    EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+    EXPECT_EQ (floater.getReport ().facing_parts[static_cast<std::size_t> (FacingRule::NORMALS)],
+               0U);
+    return polygons.size ();
+  };
+  EXPECT_GT (triangles (DiscOptions::tw385 ()), 0U);
+  EXPECT_GT (triangles ({}), 0U);
+}
+
+TEST_F (FloaterClass, PointsWithoutNormalsCannotFaceByThem)
+{
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setFacing (Facing::NORMALS);
+  floater.setInputCloud (heightField ());
+  Polygons polygons;
+  floater.reconstruct (polygons);
+  EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
+  EXPECT_NE (floater.getMessage ().find ("no normals"), std::string::npos);
+  EXPECT_TRUE (polygons.empty ());
+}
+
 TEST_F (FloaterClass, PointsWithoutNormalsHaveNoneToUse)
 {
   pcl::FloaterReconstruction<pcl::PointXYZ> floater;

@@ -46,6 +46,7 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getDiscOptions ().solver.ilut_drop, defaults.disc.solver.ilut_drop);
   EXPECT_EQ (floater.getFilterSheets (), defaults.filter_sheets);
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
+  EXPECT_EQ (floater.getFacing (), defaults.facing);
   EXPECT_EQ (floater.getRemoveSelfIntersections (), defaults.remove_self_intersections);
   EXPECT_EQ (floater.getNumberOfThreads (), 0U);
   EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
@@ -114,6 +115,8 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       DISC_CHOICE (solver.ilut_drop, 1e-3),
       CHOICE (FilterSheets, false),
       CHOICE (FlipEdges, false),
+      CHOICE (Facing, Facing::OUTWARDS),
+      CHOICE (Facing, Facing::UP),
       CHOICE (RemoveSelfIntersections, false),
       CHOICE (NumberOfThreads, 1U),
   };

@@ -41,7 +41,7 @@ const Change OF_THE_DISC[] = {
      [] (Options& o) { o.disc.boundary.method = BoundaryMethod::CONSENSUS; }},
     {"the opening angle", [] (Options& o) { o.disc.boundary.opening_angle = 150.0; }},
     {"the cluster tolerance", [] (Options& o) { o.disc.boundary.cluster_tolerance = 0.1; }},
-    {"cluster k", [] (Options& o) { o.disc.boundary.cluster_k = 11; }},
+    {"the number of cluster neighbours", [] (Options& o) { o.disc.boundary.cluster_k = 11; }},
     {"the domain", [] (Options& o) { o.disc.domain.curve = Domain::SQUARE; }},
     {"the number of polygon sides", [] (Options& o) { o.disc.domain.polygon_sides = 5; }},
     {"the spacing on the domain",
@@ -115,6 +115,49 @@ TEST (UnusedOptions, WithoutTheOptionThatTakesThem)
   }
 }
 
+// Words that a user of the class and one of the tool both know: no names of enumerators, no
+// symbols.
+TEST (UnusedOptions, AreToldInWords)
+{
+  Options options;
+  options.neighbors.ball_radius = 3.0;
+  options.holes.kept_loops = 2;
+  options.holes.largest_hole = 2.0;
+  options.disc.boundary.cluster_k = 11;
+  options.disc.solver.ilut_fill = 7;
+  std::string text;
+  for (const Topology topology : {Topology::DISC, Topology::SURFACE})
+    for (const std::string& warning : describeUnusedOptions (options, madeAs (topology)))
+      text += warning + "\n";
+  for (const char* word : {"TWO_SEGMENTS", "BICGSTAB", "KEEP_COUNT", "BY_SIZE", " k;", "_"})
+    EXPECT_EQ (text.find (word), std::string::npos) << word << " in:\n" << text;
+}
+
+TEST (UnusedOptions, OfScatterInThePublishedMethod)
+{
+  Options options;
+  options.disc = DiscOptions::tw385 ();
+  options.scatter = ScatterPolicy::DROP;
+  const std::vector<std::string> found = describeUnusedOptions (options, madeAs (Topology::DISC));
+  ASSERT_EQ (found.size (), 1U);
+  EXPECT_NE (found[0].find ("the policy for scatter"), std::string::npos);
+}
+
+// A scan takes no planes from normals; its facing takes the normals only if it may.
+TEST (UnusedOptions, OfNormalsThatNeitherPlanesNorFacingTake)
+{
+  Report view = madeAs (Topology::SURFACE);
+  view.is_view = true;
+  Options options;
+  for (const Facing facing : {Facing::AUTO, Facing::NORMALS, Facing::UP, Facing::OUTWARDS}) {
+    options.facing = facing;
+    const bool is_read = facing == Facing::AUTO || facing == Facing::NORMALS;
+    EXPECT_EQ (describeUnusedOptions (options, view, true).size (), is_read ? 0U : 1U);
+    EXPECT_TRUE (describeUnusedOptions (options, view, false).empty ());
+    EXPECT_TRUE (describeUnusedOptions (options, madeAs (Topology::SURFACE), true).empty ());
+  }
+}
+
 TEST (UnusedOptions, OfTheSearchForALoopThatIsGiven)
 {
   Options options;
@@ -164,8 +207,9 @@ TEST (UnusedOptions, OfTheNeighborsWhereAScanIsConnectedAsItsSensorSawIt)
   options.neighbors.k = 30;
   EXPECT_EQ (
       describeUnusedOptions (options, view),
-      std::vector<std::string>{"options have no effect: k, the policy for scatter; a scan is "
-                               "connected as its sensor saw it, without neighbours"});
+      std::vector<std::string>{
+          "options have no effect: the number of neighbours, the policy for scatter; a scan is "
+          "connected as its sensor saw it, without neighbours"});
 }
 
 } // namespace

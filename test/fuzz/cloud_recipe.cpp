@@ -403,6 +403,7 @@ decodeOptions (ByteSource& bytes, std::size_t points)
   options.trimming.maximum_edge_length = decodeLimit (bytes);
   options.trimming.maximum_edge_ratio = decodeLimit (bytes);
   options.trimming.minimum_component_size = static_cast<int> (bytes.below (12));
+  options.facing = static_cast<Facing> (switches % 5U);
   return options;
 }
 
@@ -439,6 +440,11 @@ decodeAttack (ByteSource& bytes, std::size_t most)
   if (bytes.isOneIn (4))
     for (double& coordinate : attack.input.sensor_origin)
       coordinate = decodeLimit (bytes);
+  if (attack.options.facing == Facing::NORMALS || bytes.isOneIn (8))
+    for (std::size_t p = 0; p < attack.input.cloud_size; ++p)
+      attack.input.facing_normals.push_back (
+          points.empty () ? Eigen::Vector3f (Eigen::Vector3f::UnitZ ())
+                          : Eigen::Vector3f (points[p % points.size ()].cast<float> ()));
   return attack;
 }
 

@@ -249,6 +249,8 @@ TEST_F (CommandLineTest, OptionsReachTheRunAndTheReport)
       {"--ilut-fill", "20", "ilut_fill", 20},
       {"--ilut-drop", "0.001", "ilut_drop", 0.001},
       {"--ordering", "metis", "ordering", "metis"},
+      {"--facing", "outwards", "facing", "outwards"},
+      {"--facing", "up", "facing", "up"},
       {"--flips", "off", "flips", false},
       {"--uncross", "off", "uncross", false},
       {"--open-crossings", "on", "open_crossings", true},
@@ -288,6 +290,37 @@ TEST_F (CommandLineTest, TheMethodOfTheReport)
   const Outcome refused = run ({"in.pcd", "out.ply", "--method", "tw385", "--topology", "surface"});
   EXPECT_EQ (refused.code, USAGE);
   EXPECT_NE (refused.err.find ("TW 385"), std::string::npos) << refused.err;
+}
+
+TEST_F (CommandLineTest, OptionsThatTheMethodOfTheReportDoesNotTake)
+{
+  const auto warnings = [this] (std::vector<std::string> options) {
+    options.insert (options.end (), {"--method", "tw385", "--cluster-tolerance", "0.2"});
+    return report (options).at ("warnings").dump ();
+  };
+  EXPECT_EQ (warnings ({}).find ("no effect"), std::string::npos);
+  EXPECT_EQ (warnings ({"--flips", "off"}).find ("no effect"), std::string::npos);
+  EXPECT_NE (warnings ({"--flips", "on"}).find ("an option has no effect: --flips; --method tw385"),
+             std::string::npos);
+  EXPECT_NE (warnings ({"--denoise", "on", "--scatter", "drop"})
+                 .find ("options have no effect: --scatter, --denoise; --method tw385"),
+             std::string::npos);
+}
+
+// In the words of the tool's own options, or in words that everybody knows.
+TEST_F (CommandLineTest, MessagesNameNoEnumerators)
+{
+  expectFailure ({"in.pcd", "out.ply", "-k", "5"}, USAGE,
+                 "the number of neighbours must be from 6 to 200");
+  expectFailure ({"in.pcd", "out.ply", "--topology", "disc", "--holes", "close-all"}, USAGE,
+                 "the automatic one and that which keeps the largest loop");
+  const std::string warnings =
+      report ({"--kept-loops", "3", "--largest-hole", "2", "--cluster-neighbors", "7"})
+          .at ("warnings")
+          .dump ();
+  EXPECT_NE (warnings.find ("the number of cluster neighbours"), std::string::npos);
+  EXPECT_NE (warnings.find ("the hole policy that keeps a number of loops"), std::string::npos);
+  EXPECT_EQ (warnings.find ('_'), std::string::npos) << warnings;
 }
 
 TEST_F (CommandLineTest, LoopFromFile)
@@ -381,7 +414,10 @@ TEST_F (CommandLineTest, LongEdgesAndSmallComponentsAreCutOff)
   // Nothing is left.
   std::filesystem::remove (path ("out.ply"));
   std::filesystem::remove (path ("out.json"));
-  expectFailure ({"in.pcd", "out.ply", "--max-edge", "0.001"}, USAGE, "no triangle is left");
+  expectFailure ({"in.pcd", "out.ply", "--max-edge", "0.001"}, RECONSTRUCTION_FAILED,
+                 "edges longer than 0.001 units of the cloud");
+  run ({"in.pcd", "out.ply", "--max-edge", "0.001", "--report", "failed.json"});
+  EXPECT_EQ (Json::parse (readFile ("failed.json")).at ("status"), "DEGENERATE");
 }
 
 } // namespace

@@ -158,6 +158,20 @@ TEST_F (ShiftTest, CoarseCoordinatesAreTold)
   EXPECT_EQ (run ({"text.pcd", "out.ply", "--strict", "--shift", "auto"}).code, 0);
 }
 
+// A shift that leaves more digits than 32 bits hold.
+TEST_F (ShiftTest, WhatWasGivenIsNotAdvised)
+{
+  const auto warnings = [this] (std::vector<std::string> options) {
+    return reportOf ("double.ply", std::move (options)).at ("warnings").dump ();
+  };
+  const std::string doubles = "the coordinates are written as doubles", advice = "--shift if";
+  const std::string without = warnings ({}), with = warnings ({"--shift", "500000,5500000,0"});
+  EXPECT_NE (without.find (doubles), std::string::npos);
+  EXPECT_NE (without.find (advice), std::string::npos);
+  EXPECT_NE (with.find (doubles), std::string::npos);
+  EXPECT_EQ (with.find (advice), std::string::npos);
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl

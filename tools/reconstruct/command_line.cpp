@@ -33,6 +33,30 @@ checkMemoryLimit (CommandLine& line)
     line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }
 
+// Warns of options that were given, and that the method of TW 385 sets otherwise.
+void
+warnOfUnpublished (const CLI::App& app, const Options& given, const Options& effective,
+                   std::vector<std::string>& warnings)
+{
+  const std::pair<const char*, bool> changes[] = {
+      {"--remove-outliers", given.remove_outliers != effective.remove_outliers},
+      {"--scatter", given.scatter != effective.scatter},
+      {"--denoise", given.denoise != effective.denoise},
+      {"--sheet-filter", given.filter_sheets != effective.filter_sheets},
+      {"--flips", given.flip_edges != effective.flip_edges},
+      {"--uncross", given.remove_self_intersections != effective.remove_self_intersections}};
+  std::string names;
+  std::size_t count = 0;
+  for (const auto& [name, is_changed] : changes)
+    if (is_changed && app.count (name) > 0) {
+      names += (count == 0 ? "" : ", ") + std::string (name);
+      ++count;
+    }
+  if (count > 0)
+    warnings.push_back ((count == 1 ? "an option has no effect: " : "options have no effect: ") +
+                        names + "; --method tw385 is that report and nothing else");
+}
+
 } // namespace
 
 std::optional<int>
@@ -60,7 +84,9 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
       disc.boundary.method = published.boundary.method;
     if (app.count ("--ordering") == 0 && disc.solver.method == published.solver.method)
       disc.solver.ordering = published.solver.ordering;
-    command_line.options = effectiveOptions (command_line.options); // the report lists these
+    const Options given = command_line.options;
+    command_line.options = effectiveOptions (given); // the report lists these
+    warnOfUnpublished (app, given, command_line.options, command_line.warnings);
   }
   if (command_line.input.empty () || command_line.output.empty ())
     throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");

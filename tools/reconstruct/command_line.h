@@ -13,7 +13,9 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl
 {
@@ -52,10 +54,19 @@ struct CommandLine
   bool auto_shift = false;               ///< --shift auto
   Precision precision = Precision::AUTO; ///< of coordinates in outputs
   bool as_published = false;             ///< --method tw385
+  bool use_input_normals = false;        ///< for tangent planes, and so for the facing
   Options options;                       ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
-  bool strict = false; ///< write no mesh if there is a warning
+  bool strict = false;                 ///< write no mesh if there is a warning
+  std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
+
+  /// Whether the normals of the input are read to find the front of the mesh.
+  bool usesNormalsForFacing () const
+  {
+    return options.facing == Facing::NORMALS ||
+           (options.facing == Facing::AUTO && use_input_normals);
+  }
 };
 
 /// Words for the values of an enumeration, on the command line and in reports.
@@ -70,6 +81,11 @@ constexpr Choices<HolePolicy, 5> HOLE_CHOICES{{{"auto", HolePolicy::AUTO},
                                                {"keep-largest", HolePolicy::KEEP_LARGEST},
                                                {"keep-count", HolePolicy::KEEP_COUNT},
                                                {"by-size", HolePolicy::BY_SIZE}}};
+constexpr Choices<Facing, 5> FACING_CHOICES{{{"auto", Facing::AUTO},
+                                             {"outwards", Facing::OUTWARDS},
+                                             {"up", Facing::UP},
+                                             {"viewpoint", Facing::VIEWPOINT},
+                                             {"normals", Facing::NORMALS}}};
 constexpr Choices<ScatterPolicy, 2> SCATTER_CHOICES{
     {{"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
 constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{

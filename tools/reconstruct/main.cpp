@@ -91,6 +91,33 @@ makeInput (const Cloud& cloud)
   return input;
 }
 
+/// The normals of all points, for what the command line uses them.
+/// \throws UsageError if the cloud has none
+void
+takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
+{
+  const bool for_facing = line.usesNormalsForFacing ();
+  if (!line.use_input_normals && !for_facing)
+    return;
+  const FieldTriple fields = normalFields (cloud);
+  if (!fields[0])
+    throw UsageError (
+        std::string (line.use_input_normals ? "--use-input-normals on" : "--facing normals") +
+        ": the points of '" + line.input.string () +
+        "' have no normals (float fields normal_x, normal_y, normal_z, or nx, ny, "
+        "nz); leave the option out, or add them");
+  std::vector<Eigen::Vector3f> normals (cloud.size ());
+  for (std::size_t p = 0; p < normals.size (); ++p)
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      normals[p][axis] =
+          static_cast<float> (fields[static_cast<std::size_t> (axis)]->asDouble (cloud.row (p)));
+  cloud.file.giveBack ();
+  if (line.use_input_normals)
+    input.normals = normals;
+  if (for_facing)
+    input.facing_normals = std::move (normals);
+}
+
 /// Subtracts the origin that was asked for, from the viewpoints as well.
 void
 shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
@@ -264,10 +291,11 @@ run (CommandLine line)
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
-  const bool all_digits = line.auto_shift || line.shift;
-  Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, all_digits); });
+  const bool is_shift_asked = line.auto_shift || line.shift; // all digits of a text count then
+  Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, is_shift_asked); });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
+  takeNormals (line, cloud, input);
   shiftOrigin (line, cloud, input);
   RunFigures figures;
   figures.shift = cloud.shift;
@@ -276,14 +304,15 @@ run (CommandLine line)
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
-  cloud.single_precision =
-      choosePrecision (line.precision, line.input, line.output, input.positions, cloud);
+  cloud.single_precision = choosePrecision (line.precision, line.input, line.output,
+                                            input.positions, is_shift_asked, cloud);
   figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();
   Result result = reconstructInput (std::move (input), line.options, progress);
   figures.reconstruct_seconds = secondsSince (start);
   Report& report = result.report;
+  report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
   reportMemory (line, report);
 

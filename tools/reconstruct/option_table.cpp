@@ -41,7 +41,7 @@ Notes:
 
 Exit codes:
   0  success
-  1  usage: an option is unknown, malformed or out of its range
+  1  usage: an option is unknown, malformed, out of its range, or not for this input
   2  the input cannot be read: missing, truncated, damaged, without x y z
   3  the cloud cannot be reconstructed; the message and the report name the status
   4  an output cannot be written, or nothing can be printed; no file is changed
@@ -154,6 +154,9 @@ addTopology (CLI::App& app, CommandLine& line)
              "by-size: width of the widest hole to fill, in local\nspacings", surface);
   addLargestHoleLength (app, options.holes, surface);
   addViewpoint (app, options.view, surface);
+  addChoice (app, "--facing", options.facing, FACING_CHOICES,
+             "which side of each component is its front; auto: that\nwhich the evidence tells",
+             surface);
   addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
              "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
   addNumber (app, "--max-edge-ratio", options.trimming.maximum_edge_ratio,
@@ -218,8 +221,9 @@ addFiles (CLI::App& app, CommandLine& line)
 }
 
 void
-addNeighbors (CLI::App& app, Options& options)
+addNeighbors (CLI::App& app, CommandLine& line)
 {
+  Options& options = line.options;
   const std::string neighborhoods = "Neighbourhoods";
   addNumber (app, "-k,--neighbors", options.neighbors.k,
              "nearest neighbours of each point, 6 to 200", neighborhoods);
@@ -229,6 +233,10 @@ addNeighbors (CLI::App& app, Options& options)
              neighborhoods);
   addNumber (app, "--ball-radius", options.neighbors.ball_radius,
              "ball, ball-delaunay: radius, in mean distances of a\npoint to its 6 nearest, 1 to 10",
+             neighborhoods);
+  addChoice (app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,
+             "take the normals of the input for tangent planes, and,\nwith --facing auto, for the "
+             "front",
              neighborhoods);
   addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
              "drop neighbours on another sheet of the surface", neighborhoods);
@@ -311,7 +319,7 @@ addOptions (CLI::App& app, CommandLine& line)
       ->group (GENERAL);
   addGeneral (app, line);
   addTopology (app, line);
-  addNeighbors (app, line.options);
+  addNeighbors (app, line);
   addBoundary (app, line);
   addParameterization (app, line.options);
   addSystem (app, line.options);

@@ -51,7 +51,7 @@ fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_deci
 bool
 choosePrecision (Precision wanted, const std::filesystem::path& input,
                  const std::filesystem::path& output, const std::vector<Eigen::Vector3d>& positions,
-                 Cloud& cloud)
+                 bool is_shift_asked, Cloud& cloud)
 {
   if (wanted != Precision::AUTO)
     return wanted == Precision::SINGLE;
@@ -60,8 +60,8 @@ choosePrecision (Precision wanted, const std::filesystem::path& input,
   if (lowerExtension (output) == ".ply")
     cloud.warnings.emplace_back (
         "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
-        "as 0: use --precision single or another format for PCL, --shift if they are far from "
-        "zero, "
+        "as 0: use --precision single or another format for PCL, " +
+        std::string (is_shift_asked ? "" : "--shift if they are far from zero, ") +
         "or --precision double if doubles are wanted");
   return false;
 }

@@ -26,10 +26,11 @@ fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_deci
 
 /// Whether to write 32-bit floats, and a warning if readers may not expect what is written.
 /// \param positions of the cloud, after the shift
+/// \param is_shift_asked so that the warning does not advise it
 bool
 choosePrecision (Precision wanted, const std::filesystem::path& input,
                  const std::filesystem::path& output, const std::vector<Eigen::Vector3d>& positions,
-                 Cloud& cloud);
+                 bool is_shift_asked, Cloud& cloud);
 
 } // namespace floater
 } // namespace pcl

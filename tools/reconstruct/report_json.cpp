@@ -17,8 +17,9 @@ namespace
 using Json = nlohmann::ordered_json;
 
 Json
-optionsJson (const Options& options)
+optionsJson (const CommandLine& line)
 {
+  const Options& options = line.options;
   const bool in_cloud_units = options.holes.unit == LengthUnit::CLOUD;
   return {{"method", choiceName (METHOD_CHOICES, options.disc.as_published)},
           {"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
@@ -32,6 +33,8 @@ optionsJson (const Options& options)
           {"viewpoint", options.view.use == ViewUse::GIVEN  ? Json (options.view.viewpoint)
                         : options.view.use == ViewUse::AUTO ? Json ("auto")
                                                             : Json ("none")},
+          {"facing", choiceName (FACING_CHOICES, options.facing)},
+          {"use_input_normals", line.use_input_normals},
           {"remove_outliers", options.remove_outliers},
           {"scatter", choiceName (SCATTER_CHOICES, options.scatter)},
           {"denoise", options.denoise},
@@ -170,6 +173,17 @@ facingDecisionsJson (const Report& report)
   return decisions;
 }
 
+// How many parts of the mesh face as they do by each rule that turned any.
+Json
+facingPartsJson (const Report& report)
+{
+  Json parts = Json::object ();
+  for (std::size_t rule = 0; rule < report.facing_parts.size (); ++rule)
+    if (report.facing_parts[rule] > 0)
+      parts[facingRuleName (static_cast<FacingRule> (rule))] = report.facing_parts[rule];
+  return parts;
+}
+
 Json
 secondsJson (const Statistics& statistics, const RunFigures& run)
 {
@@ -242,7 +256,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                                             {"triangles", report.statistics.triangles},
                                             {"parameterization", fileName (line.parameterization)}}
                                      : Json ()},
-                    {"options", optionsJson (line.options)},
+                    {"options", optionsJson (line)},
                     {"strict", line.strict},
                     {"status", outcomeName (report, run)},
                     {"message", report.message},
@@ -254,6 +268,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"check", checkJson (report.check, report.is_view)},
                     {"loop_decisions", loopDecisionsJson (report)},
                     {"facing_certainty", report.facing_certainty},
+                    {"facing_parts", facingPartsJson (report)},
                     {"facing_decisions", facingDecisionsJson (report)},
                     {"statistics", statisticsJson (report.statistics)},
                     {"seconds", secondsJson (report.statistics, run)},

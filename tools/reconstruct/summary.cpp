@@ -52,9 +52,11 @@ printFacingDecisions (const Report& report)
                count > MOST ? ", the least sure of them:" : "");
   for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
     const FacingDecision& decision = report.facing_decisions[i];
-    std::printf ("           of %zu triangles at point %u: as a %s, with a certainty of %.0f %%\n",
-                 decision.triangles, decision.at, facingRuleName (decision.rule),
-                 100.0 * decision.certainty);
+    std::printf (
+        "           of %zu triangles at point %u: by the rule '%s', with a certainty of %.0f "
+        "%%\n",
+        decision.triangles, decision.at, facingRuleName (decision.rule),
+        100.0 * decision.certainty);
   }
 }
 

@@ -53,7 +53,7 @@ placeRows (const CsrLists& neighbors, std::size_t most_entries, const RunContext
   for (std::size_t i = 0; i < unknowns; ++i)
     entries += static_cast<std::size_t> (system.row_offsets[i + 1]);
   requireCountable (entries, most_entries, "the linear system",
-                    "use fewer points or a smaller k, or make a surface instead of a disc");
+                    "use fewer points or fewer neighbours, or make a surface instead of a disc");
   for (std::size_t i = 0; i < unknowns; ++i)
     system.row_offsets[i + 1] += system.row_offsets[i];
 }

@@ -86,7 +86,7 @@ measure (Family family, std::uint64_t first, std::size_t cases, const FacingLimi
     RandomStream random (seed);
     TriangleMesh before = turnAtRandom (one, random), after = before;
     faceByVolume (before, one.positions);
-    const Facing facing = faceOutwards (after, one.positions, one.hints, limits, 1);
+    const MeshFacing facing = faceOutwards (after, one.positions, one.hints, limits, 1);
     const bool is_wrong = wrongShare (one, after) > WRONG;
     double certainty = 1.0;
     for (const FacingObject& object : facing.objects)
@@ -144,7 +144,7 @@ printCaps (const FacingLimits& limits)
   for (int i = 1; i < STEPS; ++i) {
     const FacingCase one = makeBowl (static_cast<double> (i) / STEPS);
     TriangleMesh mesh = one.mesh;
-    const Facing facing = faceOutwards (mesh, one.positions, {}, limits, 1);
+    const MeshFacing facing = faceOutwards (mesh, one.positions, {}, limits, 1);
     const FacingObject& object = facing.objects.front ();
     std::printf ("%5.2f %8.3f %8.3f %12.3f %10.2f %s\n", static_cast<double> (i) / STEPS,
                  object.front, object.back, object.mean_normal, object.certainty,

@@ -220,10 +220,10 @@ TEST (Facing, GeneratedSurfacesFaceAsTheyShould)
       const FacingCase one = makeFacingCase (static_cast<Family> (f), seed);
       RandomStream random (seed);
       TriangleMesh mesh = turnAtRandom (one, random), with_threads = mesh;
-      const Facing facing = faceOutwards (mesh, one.positions, one.hints, {}, 1);
+      const MeshFacing facing = faceOutwards (mesh, one.positions, one.hints, {}, 1);
       EXPECT_EQ (wrongShare (one, mesh), 0.0);
       expectConnected (mesh);
-      const Facing same = faceOutwards (with_threads, one.positions, one.hints, {}, 3);
+      const MeshFacing same = faceOutwards (with_threads, one.positions, one.hints, {}, 3);
       EXPECT_EQ (mesh.triangles, with_threads.triangles);
       ASSERT_EQ (facing.objects.size (), same.objects.size ());
       for (std::size_t i = 0; i < same.objects.size (); ++i)
@@ -238,7 +238,7 @@ TEST (Facing, ACapIsSeenAsTheoryTells)
   for (const double share : {0.3, 0.5, 0.7, 0.9}) {
     const facing_cases::FacingCase one = facing_cases::makeBowl (share);
     TriangleMesh mesh = one.mesh;
-    const Facing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
+    const MeshFacing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
     ASSERT_EQ (facing.objects.size (), 1U);
     const FacingObject& object = facing.objects.front ();
     EXPECT_EQ (object.rule, FacingRule::BODY);
@@ -254,7 +254,7 @@ TEST (Facing, ABowlBecomesAValleyWhereItIsUnsure)
   const auto facingOf = [] (double share, std::size_t& turned) {
     const facing_cases::FacingCase one = facing_cases::makeBowl (share);
     TriangleMesh mesh = one.mesh;
-    const Facing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
+    const MeshFacing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
     turned = facing.turned;
     return facing.objects.front ().certainty;
   };
@@ -304,7 +304,7 @@ TEST (Facing, WhatOneViewHasShownIsTurnedTogether)
   for (const bool is_one_view : {false, true}) {
     hints.is_one_view = is_one_view;
     TriangleMesh mesh = one.mesh;
-    const Facing facing = faceOutwards (mesh, one.positions, hints, {}, 1);
+    const MeshFacing facing = faceOutwards (mesh, one.positions, hints, {}, 1);
     EXPECT_EQ (facing.objects.size (), is_one_view ? 1U : 2U);
     EXPECT_EQ (facing.turned, is_one_view ? 0U : 1U);
   }

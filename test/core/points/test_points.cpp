@@ -345,6 +345,28 @@ TEST (RemovePoints, KeepsTheOrderAndThePlaceInTheCloud)
   EXPECT_TRUE (points.positions.empty ());
 }
 
+TEST (RemovePoints, NormalsStayWithTheirPoints)
+{
+  const Positions positions = withFarPoints ();
+  std::vector<Eigen::Vector3f> normals, front;
+  for (std::size_t i = 0; i < positions.size (); ++i) {
+    const double angle = 0.01 * static_cast<double> (i);
+    normals.push_back (
+        Eigen::Vector3d (2.0 * std::cos (angle), 2.0 * std::sin (angle), 0.0).cast<float> ());
+    front.push_back (-normals.back ());
+  }
+  Points points = make (positions);
+  points.normals = normalsOfPoints (normals, points);
+  points.facing_normals = normalsOfPoints (front, points);
+  removePoints (points, rowsFrom (points, 200, NONE));
+  ASSERT_EQ (points.normals.size (), points.size ());
+  ASSERT_EQ (points.facing_normals.size (), points.size ());
+  for (Index p = 0; p < points.size (); ++p) {
+    EXPECT_LT ((2.0F * points.normals[p] - normals[points.cloud_index[p]]).norm (), 1e-6F);
+    EXPECT_EQ (points.facing_normals[p], -points.normals[p]);
+  }
+}
+
 TEST (RemovePoints, ScalesByAPowerOfTwo)
 {
   const Points before = make (withFarPoints ());

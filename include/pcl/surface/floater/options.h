@@ -130,6 +130,20 @@ enum class ViewUse
   NEVER  ///< no
 };
 
+/// Which side of each component of the mesh is its front. Where what is asked for does not decide,
+/// a warning says so, and AUTO does.
+enum class Facing
+{
+  AUTO,      ///< by the first evidence that decides: normals of the input, if they are used; closed
+             ///< components face outwards; the sensor, if a single scan tells where it was; more is
+             ///< seen of one side from outside; up
+  OUTWARDS,  ///< away from the inside; of an open sheet, the side that bulges
+  UP,        ///< towards +z; upright ones towards +y, or +x. Closed components face outwards
+  VIEWPOINT, ///< towards the place of the sensor, which must be known. Closed components that it
+             ///< was not in face outwards
+  NORMALS    ///< where the normals of the input point to; they must be oriented
+};
+
 /// The stages of a run, in order. A method passes through some of them only.
 enum class Stage
 {
@@ -260,6 +274,7 @@ struct Options
   HoleOptions holes;                  ///< which boundary loops stay open
   TrimmingOptions trimming;           ///< what is cut off the finished mesh
   ViewOptions view;                   ///< not for discs
+  Facing facing = Facing::AUTO;       ///< which side of the mesh is its front
   DiscOptions disc;            ///< a surface that is made by another method does not read them
   bool remove_outliers = true; ///< leave out points that lie off any surface
   ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points of no surface, such as leaves

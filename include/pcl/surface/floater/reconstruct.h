@@ -60,6 +60,11 @@ struct Input
   /// and sign, in place of those that would be fitted. Where one is zero or not finite, the plane
   /// is fitted.
   std::vector<Eigen::Vector3f> normals{};
+
+  /// Empty, or one for each point of the whole cloud: normals of any length that point to the front
+  /// of the surface; read for Facing::AUTO and NORMALS. Where one is zero or not finite, it tells
+  /// nothing. They may be the same as `normals`.
+  std::vector<Eigen::Vector3f> facing_normals{};
 };
 
 /// A mesh and the report on the run that made it.
@@ -80,7 +85,8 @@ struct Result
 /// wall of a hollow within another body faces into the hollow. A body with openings faces where
 /// more of it is seen from outside. A sheet or terrain faces up (+z; +y or +x where it is upright).
 /// A single scan whose sensor is known faces the sensor. Components that continue each other across
-/// a gap face alike. Report::facing_decisions has those that are not sure.
+/// a gap face alike. Oriented normals of the input go before all that, and Options::facing may ask
+/// for something else. Report::facing_decisions has those that are not sure.
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
 /// on the number of threads, on the number of blocks, or on the order of the points. A surface of

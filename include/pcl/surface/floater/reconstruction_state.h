@@ -84,12 +84,21 @@ public:
   /** \brief Whether a cloud of one scan is connected as its sensor saw it. */
   ViewUse getViewUse () const;
 
+  /** \brief Which side of each component of the mesh is its front; default AUTO: that which the
+   * evidence tells. With NORMALS, the points need normals, else a run ends with
+   * RunStatus::INVALID_OPTION; they are not used for tangent planes unless setUseInputNormals()
+   * asks for that. Where a choice decides nothing, a warning says so, and AUTO decides. getReport()
+   * has in facing_parts which rule turned how many parts, and how sure that is. */
+  void setFacing (Facing facing);
+  /** \brief Which side of each component of the mesh is its front. */
+  Facing getFacing () const;
+
   /** \brief Length that no edge of the mesh exceeds, in units of the cloud, 0 or more; default 0:
    * no limit. Triangles with a longer edge are cut off the finished mesh, and where they were there
    * is a boundary, also of a disc. The mesh stays a manifold: at a point where only a corner holds
    * parts of it together, the one with most triangles stays. getStatistics() counts what is cut
    * off, getUnusedIndices() has points that lose all their triangles. If nothing is left, the run
-   * ends with RunStatus::INVALID_OPTION. */
+   * ends with RunStatus::DEGENERATE. */
   void setMaximumEdgeLength (double length);
   /** \brief Length that no edge of the mesh exceeds, in units of the cloud; 0: no limit. */
   double getMaximumEdgeLength () const;
@@ -170,8 +179,10 @@ public:
 
   /** \brief Whether the normals of the points are those of their tangent planes, instead of planes
    * through their neighbours; default false. For point types with normals only: with others, a run
-   * ends with RunStatus::INVALID_OPTION. Lengths and signs do not matter. Where a normal is zero or
-   * not finite, the plane is fitted. A scan that is connected as its sensor saw it needs none. */
+   * ends with RunStatus::INVALID_OPTION. Lengths do not matter. Where a normal is zero or not
+   * finite, the plane is fitted. A scan that is connected as its sensor saw it needs no planes.
+   * With Facing::AUTO, the mesh also faces where the normals point to; where they contradict each
+   * other, as if they had never been oriented, a warning says so and they decide nothing. */
   void setUseInputNormals (bool use);
   /** \brief Whether the normals of the points are those of their tangent planes. */
   bool getUseInputNormals () const;

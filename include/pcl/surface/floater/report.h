@@ -24,10 +24,12 @@ enum class RunStatus
   NOT_RUN,         ///< reconstruct () has not been called
   SUCCESS,         ///< a mesh was made; Report::warnings tells what is odd about it
   NO_INPUT,        ///< null or empty input cloud
-  INVALID_OPTION,  ///< an option is out of its range, or leaves no triangle
+  INVALID_OPTION,  ///< an option is out of its range or of no use, or the given viewpoint sees
+                   ///< no triangle
   INVALID_INDICES, ///< an index is outside the cloud, or the arrays of Input do not fit together
   TOO_FEW_POINTS,  ///< fewer than 4 distinct finite points
-  DEGENERATE,      ///< points on one line or in no triangle, or too far away for double precision
+  DEGENERATE,      ///< points on one line or in no triangle, or too far away for double precision;
+                   ///< or every triangle was cut off (see TrimmingOptions)
   NO_BOUNDARY,     ///< disc: no boundary loop was found; the surface is closed or not one disc
   INVALID_LOOP,    ///< disc: the given loop is too short, repeats a point or names an unusable one
   UNREACHABLE,     ///< disc: most points are not connected to the boundary loop
@@ -72,11 +74,16 @@ struct LoopDecision
 /// Why a part of the mesh faces as it does.
 enum class FacingRule
 {
-  CLOSED, ///< it encloses a volume, and faces away from it
-  HOLLOW, ///< it is the wall of a hollow within another part, and faces into it
-  SENSOR, ///< it was seen from the sensor, and faces it
-  BODY,   ///< one side is seen more from outside than the other one, and is the front
-  SHEET   ///< both sides are seen alike: it faces up
+  CLOSED,  ///< it encloses a volume, and faces away from it
+  HOLLOW,  ///< it is the wall of a hollow within another part, and faces into it
+  SENSOR,  ///< it was seen from the sensor, and faces it
+  BODY,    ///< one side is seen more from outside than the other one, and is the front
+  SHEET,   ///< both sides are seen alike: it faces up
+  NORMALS, ///< most of the normals of the input point to the front
+  UP,      ///< it faces up, as asked for
+  BULGE, ///< both sides are seen alike, but it faces outwards, as asked for: the front is the side
+         ///< to which it bulges out of its boundary
+  COUNT  ///< the number of rules
 };
 
 /// Short name of a rule in lower case ("body").
@@ -90,7 +97,8 @@ struct FacingDecision
   std::size_t triangles = 0;           ///< number of triangles
   std::uint32_t at = 0;                ///< cloud index of one of its points
   FacingRule rule = FacingRule::SHEET; ///< by which it was turned
-  double certainty = 0.0; ///< that the rule fits: 0.5 where another one does so as well, to 1
+  double certainty = 0.0; ///< that the rule fits: 0.5 where another one does so as well, to 1. Of
+                          ///< NORMALS, the share of the area whose normals point to the front
 };
 
 /// What the final check found on the mesh. It uses nothing but triangles and positions.
@@ -188,6 +196,8 @@ struct Report
   /// below 0.9. Empty if the method was sure of all.
   std::vector<FacingDecision> facing_decisions;
   double facing_certainty = 1.0; ///< least of FacingDecision::certainty of all parts of the mesh
+  /// Parts of the mesh by the rule that turned them; the index is a FacingRule.
+  std::array<std::size_t, static_cast<std::size_t> (FacingRule::COUNT)> facing_parts{};
   bool denoised = false; ///< the points were connected as they lie when projected on local planes
   bool is_view = false;  ///< the points are one scan, and were connected as its sensor saw them
   bool is_far_view = false;          ///< the sensor was so far away that its rays are parallel

@@ -175,19 +175,26 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
     input.positions.emplace_back (point.x, point.y, point.z);
     input.cloud_index.push_back (static_cast<std::uint32_t> (row));
   }
-  if (getUseInputNormals ()) {
-    if constexpr (pcl::traits::has_normal<PointT>::value) {
-      input.normals.reserve (size);
+  const bool for_planes = getUseInputNormals ();
+  const bool for_facing = getFacing () == floater::Facing::NORMALS ||
+                          (getFacing () == floater::Facing::AUTO && for_planes);
+  if constexpr (pcl::traits::has_normal<PointT>::value) {
+    std::vector<Eigen::Vector3f> normals;
+    if (for_planes || for_facing) {
+      normals.reserve (size);
       for (const PointT& point : *input_)
-        input.normals.emplace_back (point.normal_x, point.normal_y, point.normal_z);
+        normals.emplace_back (point.normal_x, point.normal_y, point.normal_z);
     }
-    else {
-      fail (
-          floater::RunStatus::INVALID_OPTION,
+    if (for_planes)
+      input.normals = normals;
+    if (for_facing)
+      input.facing_normals = std::move (normals);
+  }
+  else if (for_planes) {
+    fail (floater::RunStatus::INVALID_OPTION,
           "the points have no normals that could be used: take a point type with normals, or call "
           "setUseInputNormals (false)");
-      return;
-    }
+    return;
   }
   floater::SearchMethod<PointT> search (tree_, input_);
   if (tree_)
