@@ -4,6 +4,8 @@
 #include "command_line_test.h"
 #include "mesh_files.h"
 
+#include <Eigen/Geometry>
+
 namespace pcl
 {
 namespace floater
