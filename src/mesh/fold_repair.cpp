@@ -42,19 +42,37 @@ verticesAt (const std::vector<MeshEdge>& edges, const TriangleMesh& mesh)
   return vertices;
 }
 
+// How many costs of triangles may be asked for, and how many were.
+struct Costs
+{
+  std::size_t most;
+  std::atomic<std::size_t> asked{0};
+
+  std::size_t left () const { return most - std::min (most, asked.load ()); }
+
+  // The share of a block, by its vertices that are to be moved.
+  std::size_t share (std::size_t vertices, std::size_t of_all) const
+  {
+    return static_cast<std::size_t> (static_cast<double> (most) * static_cast<double> (vertices) /
+                                     static_cast<double> (of_all));
+  }
+};
+
 // Moves vertices of a block, which are counted in it. Tells of each of them whether it is done
 // with: its triangles are free, and its neighbours are all in the block.
 std::size_t
 moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
              const std::vector<RepairTarget>& targets, const std::vector<Index>& vertices,
              const TriangleCost& cost, const RepairLimits& limits, const RunContext& run,
+             std::size_t most_costs, Costs& costs,
              const std::function<void (Index v, bool is_whole)>& tell)
 {
   const CsrLists neighbors =
       neighborsWithin (all_neighbors, block.first,
                        block.first + static_cast<Index> (block.mesh.triangle_of.size ()));
-  const std::size_t moves =
-      VertexRepair (block.mesh, neighbors, targets, cost, limits, run).moveAll (vertices);
+  VertexRepair repair (block.mesh, neighbors, targets, cost, limits, run);
+  const std::size_t moves = repair.moveAll (vertices, most_costs);
+  costs.asked += repair.costs ();
   std::vector<Index> fan;
   for (const Index v : vertices) {
     block.mesh.fan (v, fan);
@@ -70,7 +88,8 @@ moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
 std::size_t
 moveInBlocks (TriangleMesh& mesh, const CsrLists& neighbors,
               const std::vector<RepairTarget>& targets, const TriangleCost& cost,
-              const RepairLimits& limits, const RunContext& run, std::vector<Index>& vertices)
+              const RepairLimits& limits, const RunContext& run, std::vector<Index>& vertices,
+              Costs& costs)
 {
   const MeshBlocks blocks (mesh, run);
   if (vertices.empty () || blocks.count () == 1)
@@ -88,6 +107,7 @@ moveInBlocks (TriangleMesh& mesh, const CsrLists& neighbors,
     MeshBlock block = blocks.cutOut (mesh, b);
     moves += moveInBlock (block, neighbors, {targets.begin () + first, targets.begin () + last},
                           inside, cost.countedFrom (first), limits, run.withThreads (1),
+                          costs.share (inside.size (), vertices.size ()), costs,
                           [&] (Index v, bool is) { is_done[first + v] = is ? 1 : 0; });
     blocks.putBack (block, b, mesh);
   });
@@ -136,10 +156,11 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<I
   for (Index v = 0; v < targets.size (); ++v)
     if (targets[v] == RepairTarget::BAD || targets[v] == RepairTarget::SCATTERED)
       bad.push_back (v);
+  Costs costs{std::max (limits.fewest_costs, limits.costs_of_moves * targets.size ())};
   const std::size_t moves_in_blocks =
-      moveInBlocks (mesh, neighbors, targets, cost, limits, run, bad);
+      moveInBlocks (mesh, neighbors, targets, cost, limits, run, bad, costs);
   VertexRepair repair (mesh, neighbors, targets, cost, limits, run);
-  const std::size_t moves = repair.moveAll (std::move (bad));
+  const std::size_t moves = repair.moveAll (std::move (bad), costs.left ());
   const std::size_t kicks = repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
   const std::size_t rebuilds =
       repair.rebuildAll (verticesAt (findFolds (mesh, positions, run), mesh));

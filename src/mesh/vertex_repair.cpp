@@ -20,8 +20,9 @@ constexpr std::uint8_t NO_PLACE = 255; // a rank: all places were tried in vain
 } // namespace
 
 std::size_t
-VertexRepair::moveAll (std::vector<Index> vertices)
+VertexRepair::moveAll (std::vector<Index> vertices, std::size_t most_costs)
 {
+  most_costs_ = costs () + most_costs;
   std::size_t moves = 0;
   keepThoseToMove (vertices);
   for (int pass = 0; pass < limits_.passes && !vertices.empty (); ++pass) {
@@ -29,6 +30,8 @@ VertexRepair::moveAll (std::vector<Index> vertices)
     ProgressLoop progress (run_, vertices.size ());
     for (Index v : vertices) {
       progress.next ();
+      if (isSpent ())
+        return moves;
       mover_.start ();
       moves += mover_.move (v, limits_.places) < 0.0 ? 1 : 0;
     }
@@ -45,6 +48,10 @@ VertexRepair::kickAll (std::vector<Index> vertices)
   std::size_t kept = 0;
   next_rank_.assign (mesh_.triangle_of.size (), 0);
   kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.kicks;
+  most_costs_ = costs () +
+                std::max (limits_.fewest_costs, limits_.costs_of_kicks * mesh_.triangle_of.size ());
+  if (isSpent ())
+    return 0;
   const std::size_t kicks = kicks_left_;
   ProgressLoop progress (run_, kicks);
   while (!vertices.empty ()) {
@@ -60,7 +67,7 @@ VertexRepair::kickAll (std::vector<Index> vertices)
       }
       else if (next_rank_[v] != NO_PLACE)
         again.push_back (v);
-      if (kicks_left_ == 0)
+      if (kicks_left_ == 0 || isSpent ())
         return kept;
     }
     sortUnique (again);
@@ -199,7 +206,7 @@ VertexRepair::rebuildAll (const std::vector<Index>& vertices)
     progress.next ();
     if (targets_[v] == RepairTarget::LEFT || !isAtFold (v))
       continue;
-    if (tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
+    if (isSpent () || tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
       break;
     successes += rebuildAround (v) ? 1 : 0;
   }

@@ -286,6 +286,31 @@ TEST (FoldRepair, KicksRemoveFoldsThatNoSingleMoveRemoves)
   }
 }
 
+// Where every point is in the wrong triangles, the work is limited, and each part of it by itself.
+TEST (FoldRepair, EndsWhenItHasAskedForAllItsCosts)
+{
+  const auto repair = [] (std::size_t of_moves, std::size_t of_kicks) {
+    Sheets sheets (0.8, 47);
+    sheets.mixUp (40, 37);
+    const TriangleCost cost (sheets.positions, sheets.normals);
+    flipEdges (sheets.mesh, cost, 1);
+    RepairLimits limits;
+    limits.fewest_costs = 0;
+    limits.costs_of_moves = of_moves;
+    limits.costs_of_kicks = of_kicks;
+    const std::size_t changes =
+        moveVertices (sheets.mesh, sheets.neighbors, {}, cost, sheets.positions, limits, 1);
+    expectConsistent (sheets.mesh, sheets.positions.size ());
+    return changes;
+  };
+  constexpr std::size_t MANY = 1'000'000;
+  EXPECT_EQ (repair (0, 0), 0U);
+  const std::size_t few = repair (100, 0), moves = repair (MANY, 0);
+  EXPECT_GT (few, 0U);
+  EXPECT_LT (few, moves);
+  EXPECT_GT (repair (0, MANY), 0U);
+}
+
 TEST (FoldRepair, NothingIsMovedInScatter)
 {
   Sheets sheets (0.8, 47);
