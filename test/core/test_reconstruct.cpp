@@ -132,7 +132,7 @@ TEST (Reconstruct, PointsInDoublePrecision)
   EXPECT_EQ (result.report.statistics.used_points, 2000U);
   Options options;
   options.trimming.maximum_edge_length = 1e-9;
-  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, RunStatus::INVALID_OPTION);
+  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, RunStatus::DEGENERATE);
 }
 
 TEST (Reconstruct, TheReportsLoopMakesADisc)
