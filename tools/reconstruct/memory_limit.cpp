@@ -47,22 +47,22 @@ constexpr std::chrono::duration<double> LONGEST_SLEEP{0.005};
 constexpr suseconds_t MICROSECONDS_BETWEEN_LOOKS = 1000;
 
 // How often a thread that finds the resident set high sleeps, and how long each time. It goes on
-// after that in any case: it may hold what the watcher waits for, or use pages that come back. One
-// round of the watcher is not enough, as the other threads go on until the clock stops them, too:
-// 10 million points with 1G then took 1057 MB.
+// after that in any case, as it may hold what the watcher waits for.
 constexpr int MOST_NAPS = 200;
 constexpr long NAP = 500'000; // nanoseconds
 
 const ResidentSet* watched = nullptr; // by stopWhileHigh
 sem_t wake_watcher;
+std::atomic<unsigned> rounds{0}; // of the watcher that have ended
 
-/// Signal handler: stops this thread until the watcher has dropped pages. Calls only what may be
-/// called in one, and system calls.
+/// Signal handler: stops this thread until the watcher has dropped what it can, in a round that
+/// began after this call. Calls only what may be called in one, and system calls.
 void
 stopWhileHigh (int /*signal*/)
 {
   const int error = errno;
-  for (int i = 0; i < MOST_NAPS && watched->isHigh (); ++i) {
+  const unsigned before = rounds;
+  for (int i = 0; i < MOST_NAPS && rounds - before < 2 && watched->isHigh (); ++i) {
     ::sem_post (&wake_watcher);
     const timespec nap{0, NAP};
     ::nanosleep (&nap, nullptr);
@@ -219,6 +219,7 @@ MemoryLimit::watch ()
   ::pthread_sigmask (SIG_BLOCK, &signals, nullptr); // others are stopped, this one is not
   while (!is_ending_) {
     resident_set_->makeRoom (0);
+    ++rounds;
     const timespec end = timeFromNow (resident_set_->timeToSleep ());
     ::sem_timedwait (&wake_watcher, &end);
   }
