@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 
-#include <sched.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -320,46 +319,6 @@ TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
   other.join ();
   EXPECT_EQ (wrong, 0U);
   EXPECT_GT (scratchUse ().bytes, 3 * LIMIT);
-  EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
-}
-
-/// Pages come back while the watcher waits for the only processor.
-TEST_F (LargeArrays, ResidentSetStaysBelowTheLimitOnABusyProcessor)
-{
-  if (IS_SANITIZED)
-    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
-  constexpr std::size_t LIMIT = 400 * MEGABYTE, SIZE = 3 * LIMIT, LINE = 64;
-  constexpr int SPINNING = 6, ROUNDS = 8;
-  dropAll ();
-  std::ofstream ("/proc/self/clear_refs") << 5; // resets the peak
-  if (memoryStatus ("VmHWM") > LIMIT / 2)
-    GTEST_SKIP () << "the memory of earlier tests cannot be separated";
-  cpu_set_t before, one;
-  ::sched_getaffinity (0, sizeof (before), &before);
-  CPU_ZERO (&one);
-  for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT (&one) == 0; ++cpu)
-    if (CPU_ISSET (cpu, &before))
-      CPU_SET (cpu, &one);
-  ::sched_setaffinity (0, sizeof (one), &one); // threads that are made from here on inherit it
-  {
-    const MemoryLimit limit (LIMIT, folder_);
-    std::vector<char> array (SIZE); // in its file as a whole
-    std::atomic<bool> is_done{false};
-    std::vector<std::thread> spinning;
-    for (int i = 0; i < SPINNING; ++i)
-      spinning.emplace_back ([&is_done] {
-        while (!is_done) {}
-      });
-    std::size_t sum = 0;
-    for (int round = 0; round < ROUNDS; ++round)
-      for (std::size_t at = 0; at < SIZE; at += LINE)
-        sum += static_cast<std::size_t> (array[at]);
-    is_done = true;
-    for (std::thread& thread : spinning)
-      thread.join ();
-    EXPECT_EQ (sum, 0U);
-  }
-  ::sched_setaffinity (0, sizeof (before), &before);
   EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
 }
 

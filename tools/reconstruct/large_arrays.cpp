@@ -16,7 +16,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -108,16 +107,9 @@ mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
   const int file = makeScratchFile (folder);
   if (file < 0)
     return errno;
-  // A file system in memory gives up when a signal comes, and the clock of MemoryLimit sends one
-  // every few milliseconds.
-  sigset_t clock, before;
-  ::sigemptyset (&clock);
-  ::sigaddset (&clock, SIGPROF);
-  ::pthread_sigmask (SIG_BLOCK, &clock, &before);
   int error = EINTR;
   while (error == EINTR)
     error = ::posix_fallocate (file, 0, static_cast<off_t> (bytes));
-  ::pthread_sigmask (SIG_SETMASK, &before, nullptr);
   if (error == 0 && ::mmap (pointerTo (begin), bytes, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_FIXED, file, 0) == MAP_FAILED)
     error = errno;

@@ -7,15 +7,11 @@
 #include "text_scanner.h"
 
 #include <fcntl.h>
-#include <semaphore.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <ctime>
 
 namespace pcl
 {
@@ -41,54 +37,6 @@ constexpr double PER_POINT = 25.0;
 constexpr double FASTEST_GROWTH = 100e9;
 constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.00025};
 constexpr std::chrono::duration<double> LONGEST_SLEEP{0.005};
-
-// Processor time of all threads between two looks at the resident set by one of them; the clock of
-// the kernel makes it some milliseconds.
-constexpr suseconds_t MICROSECONDS_BETWEEN_LOOKS = 1000;
-
-// How often a thread that finds the resident set high sleeps, and how long each time. It goes on
-// after that in any case, as it may hold what the watcher waits for.
-constexpr int MOST_NAPS = 200;
-constexpr long NAP = 500'000; // nanoseconds
-
-const ResidentSet* watched = nullptr; // by stopWhileHigh
-sem_t wake_watcher;
-std::atomic<unsigned> rounds{0}; // of the watcher that have ended
-
-/// Signal handler: stops this thread until the watcher has dropped what it can, in a round that
-/// began after this call. Calls only what may be called in one, and system calls.
-void
-stopWhileHigh (int /*signal*/)
-{
-  const int error = errno;
-  const unsigned before = rounds;
-  for (int i = 0; i < MOST_NAPS && rounds - before < 2 && watched->isHigh (); ++i) {
-    ::sem_post (&wake_watcher);
-    const timespec nap{0, NAP};
-    ::nanosleep (&nap, nullptr);
-  }
-  errno = error;
-}
-
-timespec
-timeFromNow (std::chrono::duration<double> seconds)
-{
-  constexpr long BILLION = 1'000'000'000;
-  timespec time{};
-  ::clock_gettime (CLOCK_REALTIME, &time);
-  time.tv_nsec += std::lround (seconds.count () * BILLION);
-  time.tv_sec += time.tv_nsec / BILLION;
-  time.tv_nsec %= BILLION;
-  return time;
-}
-
-/// Looks at the resident set every so many microseconds of processor time; 0: no longer.
-void
-lookEvery (suseconds_t microseconds)
-{
-  const itimerval times{{0, microseconds}, {0, microseconds}};
-  ::setitimer (ITIMER_PROF, &times, nullptr);
-}
 
 } // namespace
 
@@ -131,8 +79,7 @@ ResidentSet::ResidentSet (std::size_t limit)
     : limit_ (static_cast<double> (limit)),
       high_ (limit_ -
              std::max (ROOM * limit_, std::min (ROOM_OF_SMALL * limit_, MOST_ROOM_OF_SMALL))),
-      low_ (high_ - STEP * limit_), page_ (static_cast<double> (::sysconf (_SC_PAGESIZE))),
-      statm_ (::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC))
+      low_ (high_ - STEP * limit_), statm_ (::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC))
 {
 }
 
@@ -142,21 +89,19 @@ ResidentSet::~ResidentSet ()
     ::close (statm_);
 }
 
-// Without memory of its own, as it is called by a signal handler.
 double
 ResidentSet::resident () const
 {
   std::array<char, 128> text{};
   const ssize_t size = ::pread (statm_, text.data (), text.size () - 1, 0);
   // The first number is the size of the program, the second its resident set, both in pages.
-  const char* at = text.data ();
-  const char* const end = at + std::max<ssize_t> (size, 0);
-  at = std::find (at, end, ' ');
-  double pages = 0.0;
-  constexpr double TEN = 10.0;
-  for (at += at != end ? 1 : 0; at != end && *at >= '0' && *at <= '9'; ++at)
-    pages = TEN * pages + (*at - '0');
-  return pages * page_;
+  const std::string_view words (text.data (), size > 0 ? static_cast<std::size_t> (size) : 0);
+  const std::string_view rest = words.substr (std::min (words.find (' '), words.size ()));
+  TextScanner scanner (rest);
+  std::size_t pages = 0;
+  return scanner.nextLine () && parseNumber (scanner.word (), pages)
+             ? static_cast<double> (pages) * static_cast<double> (::sysconf (_SC_PAGESIZE))
+             : 0.0;
 }
 
 void
@@ -189,39 +134,26 @@ MemoryLimit::MemoryLimit (std::size_t bytes, const std::filesystem::path& scratc
 {
   keepLargeArraysIn (scratch_folder,
                      [all = resident_set_] (std::size_t size) { all->makeRoom (size); });
-  ::sem_init (&wake_watcher, 0, 0);
-  watched = resident_set_.get ();
   watcher_ = std::thread ([this] { watch (); });
-  struct sigaction action = {};
-  action.sa_handler = stopWhileHigh;
-  action.sa_flags = SA_RESTART;
-  ::sigemptyset (&action.sa_mask);
-  ::sigaction (SIGPROF, &action, &old_action_);
-  lookEvery (MICROSECONDS_BETWEEN_LOOKS);
 }
 
 MemoryLimit::~MemoryLimit ()
 {
-  lookEvery (0);
-  // One that is on its way already would end the program by default.
-  ::signal (SIGPROF, old_action_.sa_handler == SIG_DFL ? SIG_IGN : old_action_.sa_handler);
-  is_ending_ = true;
-  ::sem_post (&wake_watcher);
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    is_ending_ = true;
+  }
+  ended_.notify_all ();
   watcher_.join ();
 }
 
 void
 MemoryLimit::watch ()
 {
-  sigset_t signals;
-  ::sigemptyset (&signals);
-  ::sigaddset (&signals, SIGPROF);
-  ::pthread_sigmask (SIG_BLOCK, &signals, nullptr); // others are stopped, this one is not
+  std::unique_lock<std::mutex> lock (mutex_);
   while (!is_ending_) {
     resident_set_->makeRoom (0);
-    ++rounds;
-    const timespec end = timeFromNow (resident_set_->timeToSleep ());
-    ::sem_timedwait (&wake_watcher, &end);
+    ended_.wait_for (lock, resident_set_->timeToSleep ());
   }
 }
 

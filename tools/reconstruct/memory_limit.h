@@ -3,12 +3,12 @@
 // Keeps the resident set of the program below a limit.
 #pragma once
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
+#include <condition_variable>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -46,9 +46,6 @@ public:
   /// called by any thread.
   void makeRoom (std::size_t bytes) const;
 
-  /// Whether pages are to be dropped. May be called by a signal handler.
-  bool isHigh () const { return resident () > high_; }
-
   /// Time during which the resident set cannot come near the limit.
   std::chrono::duration<double> timeToSleep () const;
 
@@ -58,15 +55,11 @@ private:
   double limit_; // bytes, as the others
   double high_;  // pages are dropped above this ...
   double low_;   // ... until this is reached
-  double page_;  // size of a page
   int statm_;    // descriptor of /proc/self/statm
 };
 
 /// While it exists, a thread watches the resident set and drops pages before the limit is reached.
-/// On a busy machine that thread may wait for a processor while others fill the memory. So these
-/// are stopped after some milliseconds of processor time (SIGPROF) if the resident set is high,
-/// until pages have been dropped. Large arrays stay in their scratch files after its end. One at a
-/// time.
+/// Large arrays stay in their scratch files after its end.
 class MemoryLimit
 {
 public:
@@ -83,8 +76,9 @@ private:
   void watch ();
 
   std::shared_ptr<ResidentSet> resident_set_; // shared: large arrays may be made after this
-  std::atomic<bool> is_ending_{false};
-  struct sigaction old_action_ = {};
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool is_ending_ = false;
   std::thread watcher_;
 };
 
