@@ -130,8 +130,8 @@ TEST (ViewMethod, TheDirectionOfALineScannerIsFound)
   }
 }
 
-// A sensor that stands low on wide ground is near its mirror image below it, from where points stand
-// for the same areas. Of the seeds 1 to 40, it is not found for the 4th.
+// A sensor that stands low on wide ground is near its mirror image below it, from where points
+// stand for the same areas. Of the seeds 1 to 40, it is not found for the 4th.
 TEST (ViewMethod, AScannerLowOnTheGroundIsFound)
 {
   for (std::uint64_t seed = 5; seed <= 14; ++seed) {
