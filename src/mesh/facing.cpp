@@ -59,6 +59,7 @@ public:
       object.triangles = sums.triangles;
       object.at = sums.at;
       object.mean_normal = sums.meanNormal ();
+      const bool is_outwards = hints_.wanted == Facing::OUTWARDS;
       is_body_[o] = sums.is_closed ? 1 : 0;
       if (hints_.normals != nullptr && sums.told == 0.0)
         object.miss = sums.contradictory > 0.0           ? FacingMiss::CONTRADICTION
@@ -76,16 +77,15 @@ public:
           object.miss = FacingMiss::CLOSED;
         decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
       }
-      else if (hints_.wanted == Facing::OUTWARDS)
-        open.push_back (o);
-      else if (hints_.faces_sensor)
+      else if (!is_outwards && hints_.faces_sensor)
         decide (o, FacingRule::SENSOR, false, 1.0);
-      else if (is_scan && std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
+      else if (!is_outwards && is_scan &&
+               std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
         decide (o, FacingRule::SENSOR, sums.seen < 0.0,
                 0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
       // The back sees at least as much of the outside as the mean normal is long: whatever light
       // comes in through the lid of the boundary loops, falls on it.
-      else if (object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
+      else if (!is_outwards && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
         decide (o, FacingRule::SHEET, facesDown (sums.area_vector, limits_), 1.0);
       else
         open.push_back (o);

@@ -87,6 +87,7 @@ joinContinuations (std::vector<Continuation> continuations, const std::vector<Fa
       [] (const Continuation& a, const Continuation& b) { return a.support > b.support; });
   // Of each representative: 1 or -1 where the normals point, 0 if no component of its set has any.
   std::vector<int> told;
+  told.reserve (sums.size ());
   for (const FacingSums& sum : sums)
     told.push_back (sum.along > 0.0 ? 1 : sum.along < 0.0 ? -1 : 0);
   for (const Continuation& one : continuations) {

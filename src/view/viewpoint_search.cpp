@@ -218,7 +218,7 @@ private:
   {
     std::vector<Eigen::Vector3d> offsets;
     for (const AreaSample& sample : samples_)
-      offsets.push_back (sample.position - viewpoint.place);
+      offsets.emplace_back (sample.position - viewpoint.place);
     const auto around =
         offsets.begin () + static_cast<std::ptrdiff_t> (std::min (offsets.size (), AROUND));
     std::partial_sort (offsets.begin (), around, offsets.end (),
