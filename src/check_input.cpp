@@ -27,6 +27,10 @@ checkInput (const Input& input)
       return refused ("there are " + std::to_string (normals->size ()) +
                       " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
                       " points; give one for each, or none");
+  if (input.lattice_width != 0 && input.cloud_size % input.lattice_width != 0)
+    return refused ("the rows of the organized cloud have " + std::to_string (input.lattice_width) +
+                    " points, but the whole cloud has " + std::to_string (input.cloud_size) +
+                    "; give a divisor of that, or 0");
   if (indices.empty ())
     return {};
   const Index largest = *std::max_element (indices.begin (), indices.end ());

@@ -297,6 +297,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
   if (Problem problem = cleanInput (input, options, limits.gross_outliers, run, report))
     return problem;
   Points points = makePoints (input.positions, input.cloud_index, run);
+  points.lattice_width = input.lattice_width;
   points.normals = normalsOfPoints (input.normals, points);
   std::vector<Eigen::Vector3f> ().swap (input.normals);
   points.facing_normals = normalsOfPoints (input.facing_normals, points);
@@ -363,7 +364,8 @@ reconstruct (Input input, const Options& options, const Limits& limits)
   Problem problem;
   try {
     RunMonitor monitor (
-        {options.stage_callback, options.progress_callback, options.cancelled_callback},
+        {options.stage_callback, options.progress_callback, options.cancelled_callback,
+         options.task_callback},
         result.report.statistics);
     const RunContext run (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();

@@ -48,8 +48,10 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
   };
   const auto help = [&] {
     guarded ([&] {
-      for (std::size_t i = next++; i < count; i = next++)
+      for (std::size_t i = next++; i < count; i = next++) {
+        run.beginTask ();
         body (i);
+      }
     });
     const std::lock_guard<std::mutex> lock (mutex);
     --running;
@@ -71,6 +73,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
   }
   guarded ([&] {
     for (std::size_t i = next++; i < count; i = next++) {
+      run.beginTask ();
       body (i);
       progress.reach (i);
     }

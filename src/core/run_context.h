@@ -22,12 +22,14 @@ struct Cancelled
 {
 };
 
-/// Functions of the caller; each may be empty. All are called by the thread that made the monitor.
+/// Functions of the caller; each may be empty. All but the last are called by the thread that made
+/// the monitor.
 struct Callbacks
 {
   std::function<void (Stage)> stage;     ///< a stage begins
   std::function<void (double)> progress; ///< the fraction of the run that is done
   std::function<bool ()> cancelled;      ///< whether the run is to be cancelled
+  std::function<void ()> task{};         ///< a thread is about to begin a task; must not throw
 };
 
 /// Clock and callbacks of one run. Books wall time by stage, tells the caller how much of the run
@@ -67,6 +69,13 @@ public:
 
   /// The run has ended well: tells that all of it is done.
   void finish ();
+
+  /// A thread of the run is about to begin a task. May be called by any of them.
+  void beginTask () const
+  {
+    if (callbacks_.task)
+      callbacks_.task ();
+  }
 
   /// Whether anyone wants to know about progress, or may cancel.
   bool isWatched () const { return is_watched_; }
@@ -117,6 +126,11 @@ public:
   void beginStage (Stage stage) const;
   void beginStep (double until) const;
   void setMethod (Topology method) const;
+  void beginTask () const
+  {
+    if (monitor_ != nullptr)
+      monitor_->beginTask ();
+  }
   void poll () const
   {
     if (monitor_ != nullptr && monitor_->isWatched ())

@@ -24,6 +24,12 @@ using Delaunay =
     CGAL::Delaunay_triangulation_2<Kernel,
                                    CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
+Kernel::Point_2
+toPoint (const Eigen::Vector2d& place)
+{
+  return {place.x (), place.y ()};
+}
+
 // Marks the points that are not strictly inside of the loop, but for the loop's own. Rounding may
 // put a point beyond the edge between two loop points.
 std::vector<std::uint8_t>
@@ -43,7 +49,7 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   }
   std::sort (corners.begin (), corners.end ());
   std::vector<std::uint8_t> outside (uv.size (), 0);
-  const auto point = [&] (Index p) { return Kernel::Point_2 (uv[p].x (), uv[p].y ()); };
+  const auto point = [&] (Index p) { return toPoint (uv[p]); };
   for (Index p = 0; p < uv.size (); ++p) {
     if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
       continue;
@@ -137,7 +143,7 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
   const std::vector<std::uint8_t> outside = outsideLoop (uv, loop);
   for (Index p = 0; p < uv.size (); ++p)
     if (uv[p].allFinite () && outside[p] == 0)
-      sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
+      sites.emplace_back (toPoint (uv[p]), p);
   Delaunay delaunay;
   delaunay.insert (sites.begin (), sites.end ());
   // Where points coincide, CGAL keeps the index of any of them; a loop point must be the vertex.
@@ -145,7 +151,7 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
     for (Index p : loop) {
       Delaunay::Locate_type type{};
       int side = 0;
-      const auto face = delaunay.locate (Kernel::Point_2 (uv[p].x (), uv[p].y ()), type, side);
+      const auto face = delaunay.locate (toPoint (uv[p]), type, side);
       if (type == Delaunay::VERTEX)
         face->vertex (side)->info () = p;
     }
@@ -163,7 +169,7 @@ triangulateHull (const std::vector<Eigen::Vector2d>& uv)
   sites.reserve (uv.size ());
   for (Index p = 0; p < uv.size (); ++p)
     if (uv[p].allFinite ())
-      sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
+      sites.emplace_back (toPoint (uv[p]), p);
   Delaunay delaunay;
   delaunay.insert (sites.begin (), sites.end ());
   if (delaunay.dimension () < 2)
@@ -172,6 +178,22 @@ triangulateHull (const std::vector<Eigen::Vector2d>& uv)
   for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
     face->info () = delaunay.is_infinite (face) ? NONE : count++;
   return makeMesh (delaunay, count, uv.size ());
+}
+
+bool
+isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+{
+  return CGAL::orientation (toPoint (a), toPoint (b), toPoint (c)) == CGAL::LEFT_TURN;
+}
+
+bool
+isInCircle (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+            const Eigen::Vector2d& d)
+{
+  static const Delaunay none;
+  constexpr bool DECIDES_TIES = true;
+  return none.side_of_oriented_circle (toPoint (a), toPoint (b), toPoint (c), toPoint (d),
+                                       DECIDES_TIES) == CGAL::ON_POSITIVE_SIDE;
 }
 
 } // namespace floater

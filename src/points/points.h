@@ -25,6 +25,7 @@ struct Points
   std::vector<Eigen::Vector3f> facing_normals;       ///< the same for those that point to the front
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
+  std::size_t lattice_width = 0; ///< of an organized cloud: points of a row; else 0
   double diagonal =
       1.0; ///< of the bounding box of the positions; 1/2 to 1 after points were removed
   std::vector<Index> non_finite;                ///< cloud indices, ascending

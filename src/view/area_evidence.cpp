@@ -28,6 +28,7 @@ takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSett
   for (std::size_t k = 0; k < centres.size (); ++k) {
     if (stars.open[k] != 0)
       continue;
+    run.beginTask (); // each touches other memory
     const Eigen::Vector3d& centre = positions[centres[k]];
     const Row star = stars.neighbors.row (static_cast<Index> (k));
     double area = 0.0;

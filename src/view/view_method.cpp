@@ -5,6 +5,7 @@
 #include "floater/planar_delaunay.h"
 #include "mesh/mesh_spacing.h"
 #include "mesh/triangle_removal.h"
+#include "view/lattice_view.h"
 
 #include <algorithm>
 
@@ -14,6 +15,18 @@ namespace floater
 {
 namespace
 {
+// Of an organized cloud, by its pixels where they are in the order of the rays.
+TriangleMesh
+triangulateRays (const Rays& rays, const Points& points, const RunContext& run)
+{
+  constexpr std::size_t LEAST_WIDTH = 2;
+  if (points.lattice_width >= LEAST_WIDTH)
+    if (std::optional<TriangleMesh> mesh =
+            triangulateLattice (rays.places, points.cloud_index, points.lattice_width, run))
+      return std::move (*mesh);
+  return triangulateHull (rays.places);
+}
+
 // Fills the loops that the policy does not keep. All loops end at a gap or at a depth step.
 std::size_t
 closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
@@ -143,7 +156,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   TriangleMesh& mesh = surface.mesh;
   run.beginStage (Stage::DELAUNAY);
   const Rays rays = makeRays (points.positions, viewpoint, run);
-  mesh = triangulateHull (rays.places);
+  mesh = triangulateRays (rays, points, run);
 
   run.beginStage (Stage::HOLES);
   std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);

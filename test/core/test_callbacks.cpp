@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -52,6 +54,35 @@ allWays ()
           {"disc", SurfaceKind::HEIGHT_FIELD, discOptions ()},
           {"iterative", SurfaceKind::HEIGHT_FIELD, iterative},
           {"deep disc", SurfaceKind::FINGER, discOptions ()}};
+}
+
+/// A search in the core takes the points in ranges of 1024.
+TEST (Task, EachThreadTellsOfItsTasks)
+{
+  for (Way& way : allWays ()) {
+    SCOPED_TRACE (way.name);
+    constexpr std::size_t POINTS = 20'000, RANGE = 1024;
+    for (const int threads : {1, 3}) {
+      std::mutex mutex;
+      std::size_t tasks = 0;
+      std::set<std::thread::id> callers;
+      way.options.threads = threads;
+      way.options.task_callback = [&] {
+        const std::lock_guard<std::mutex> lock (mutex);
+        ++tasks;
+        callers.insert (std::this_thread::get_id ());
+      };
+      const Result result = reconstruct (asInput (surface (way.kind, POINTS)), way.options);
+      EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+      EXPECT_GT (tasks, POINTS / RANGE);
+      if (threads == 1) {
+        EXPECT_EQ (callers, std::set<std::thread::id>{std::this_thread::get_id ()});
+      }
+      else {
+        EXPECT_GT (callers.size (), 1U);
+      }
+    }
+  }
 }
 
 TEST (Progress, FractionsGrowFromZeroToOne)

@@ -31,6 +31,7 @@ struct Cloud
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates
   std::size_t rows = 0;                  ///< points of the file
+  std::size_t lattice_width = 0;         ///< of an organized cloud: points of a row; else 0
   KeptPoints kept;                       ///< points that are left
   std::vector<std::string> warnings;     ///< oddities of the file, one sentence each
   FileBytes file;                        ///< the file, if the fields refer to it

@@ -305,10 +305,12 @@ parsePcd (const FileBytes& file, bool all_digits)
   cloud.single_precision |= is_widened;
   if (header.data == "binary")
     cloud.file = file;
-  if (header.height > 1)
+  if (header.height > 1) {
+    cloud.lattice_width = header.points / header.height;
     cloud.warnings.push_back ("the input cloud is organized in " + counted (header.height, "row") +
-                              " of " + counted (header.points / header.height, "point") +
-                              ": the mesh has them as one list, and makes no use of the rows");
+                              " of " + counted (cloud.lattice_width, "point") +
+                              ": the mesh has them as one list");
+  }
   if (has_more)
     cloud.warnings.push_back ("the input file has more data than the " +
                               counted (header.points, "point") +

@@ -84,6 +84,8 @@ makeInput (const Cloud& cloud)
   Input input;
   input.positions = cloud.positions ();
   input.cloud_size = cloud.size ();
+  if (cloud.size () == cloud.rows)
+    input.lattice_width = cloud.lattice_width;
   input.sensor_origin = cloud.sensor_origin;
   input.cloud_index.resize (cloud.size ());
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
@@ -309,6 +311,8 @@ run (CommandLine line)
   figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();
+  if (memory_limit)
+    line.options.task_callback = [&memory_limit] { memory_limit->makeRoom (); };
   Result result = reconstructInput (std::move (input), line.options, progress);
   figures.reconstruct_seconds = secondsSince (start);
   Report& report = result.report;

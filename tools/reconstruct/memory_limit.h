@@ -72,6 +72,11 @@ public:
   MemoryLimit (MemoryLimit&&) = delete;
   MemoryLimit& operator= (MemoryLimit&&) = delete;
 
+  /// Drops pages if the limit is near. For threads that work: the more of them fill the memory, the
+  /// more make room, also where the watcher gets no processor. Microseconds if nothing is to be
+  /// dropped.
+  void makeRoom () const { resident_set_->makeRoom (0); }
+
 private:
   void watch ();
 

@@ -304,6 +304,11 @@ struct Options
   /// solvers, CGAL's triangulation and a search of the caller's are not interrupted; the run ends
   /// when they return.
   std::function<bool ()> cancelled_callback;
+
+  /// Called before each piece of work that threads share among them, by the thread that does it: so
+  /// by several at the same time, mostly some hundred times a second. For a caller who watches what
+  /// a run uses, such as memory, and makes room for it. Must not throw.
+  std::function<void ()> task_callback;
 };
 
 } // namespace floater

@@ -65,6 +65,10 @@ struct Input
   /// of the surface; read for Facing::AUTO and NORMALS. Where one is zero or not finite, it tells
   /// nothing. They may be the same as `normals`.
   std::vector<Eigen::Vector3f> facing_normals{};
+
+  /// Of an organized cloud, the number of points of a row: cloud index = row * lattice_width +
+  /// column. 0: not organized. A single scan takes less time with it, and has the same triangles.
+  std::size_t lattice_width = 0;
 };
 
 /// A mesh and the report on the run that made it.

@@ -160,6 +160,8 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
     return;
   floater::Input input;
   input.cloud_size = size;
+  if (input_->isOrganized () && std::size_t{input_->width} * input_->height == size)
+    input.lattice_width = input_->width;
   for (std::size_t axis = 0; axis < 3; ++axis)
     input.sensor_origin[axis] =
         static_cast<double> (input_->sensor_origin_[static_cast<Eigen::Index> (axis)]);
