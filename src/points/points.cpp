@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "core/plane_fit.h"
+#include "points/hilbert_curve.h"
 
 #include <Eigen/Geometry>
 
@@ -16,46 +17,12 @@ namespace floater
 {
 namespace
 {
-constexpr int BITS = 21; // per axis, so that a code fits 64 bits
-
-// Position on a Hilbert curve through the grid of 2^BITS cells a side. The coordinates are turned
-// into the "transposed" code of Skilling (2004), "Programming the Hilbert curve": undo the excess
-// rotations from the highest bit down, Gray-encode, and interleave.
-std::uint64_t
-hilbertCode (std::array<std::uint32_t, 3> x)
-{
-  for (std::uint32_t bit = 1U << (BITS - 1); bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::uint32_t& axis : x) {
-      if (axis & bit) {
-        x[0] ^= below;
-      }
-      else {
-        const std::uint32_t swapped = (x[0] ^ axis) & below;
-        x[0] ^= swapped;
-        axis ^= swapped;
-      }
-    }
-  }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t parity = 0;
-  for (std::uint32_t bit = 1U << (BITS - 1); bit > 1; bit >>= 1)
-    if (x[2] & bit)
-      parity ^= bit - 1;
-  std::uint64_t code = 0;
-  for (int b = BITS - 1; b >= 0; --b)
-    for (std::uint32_t axis : x)
-      code = (code << 1) | (((axis ^ parity) >> b) & 1U);
-  return code;
-}
-
 // Place of a position on the axes, in cells. One cell size for all: the curve is to follow
 // distance, not the shape of the box.
 Eigen::Array3d
 inCells (const Eigen::Vector3d& position)
 {
-  constexpr double CELLS = static_cast<double> (1U << BITS) - 1.0;
+  constexpr double CELLS = static_cast<double> (1U << HILBERT_BITS) - 1.0;
   return CELLS * (position.array () + 0.5);
 }
 
@@ -73,12 +40,13 @@ curveCode (const Eigen::Vector3d& position)
   return codeOf (inCells (position));
 }
 
-// Position on a curve through the 2^BITS cells a side into which a cell of the curve is divided.
+// Position on a curve through the 2^HILBERT_BITS cells a side into which a cell of the curve is
+// divided.
 std::uint64_t
 codeInCell (const Eigen::Vector3d& position)
 {
   const Eigen::Array3d place = inCells (position);
-  return codeOf (static_cast<double> (1U << BITS) * (place - place.floor ()));
+  return codeOf (static_cast<double> (1U << HILBERT_BITS) * (place - place.floor ()));
 }
 
 struct Entry

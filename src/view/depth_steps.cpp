@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <numeric>
 
 namespace pcl
 {
@@ -50,11 +50,7 @@ public:
     }
     continueSurfaces ();
     findEdges ();
-    std::vector<Index> order (edges_.size ());
-    std::iota (order.begin (), order.end (), Index{0});
-    std::sort (order.begin (), order.end (), [this] (Index a, Index b) {
-      return edges_[a].depth < edges_[b].depth || (edges_[a].depth == edges_[b].depth && a < b);
-    });
+    const std::vector<Index> order = orderByDepth ();
     std::vector<std::uint8_t> is_step (view_.triangles.size (), 0);
     const std::size_t bins = std::max<std::size_t> (1, order.size () / limits_.edges_per_bin);
     const auto binBegin = [&] (std::size_t b) {
@@ -85,6 +81,29 @@ public:
   }
 
 private:
+  // The edges by the depth of their nearer ends; of the same depth, in their own order.
+  std::vector<Index> orderByDepth () const
+  {
+    // A number that is not negative is ordered as its bits are.
+    constexpr unsigned HALF = 32;
+    std::vector<std::uint64_t> keys (edges_.size ());
+    const bool are_positive = !rays_.are_parallel;
+    for (std::size_t e = 0; e < keys.size (); ++e) {
+      std::uint32_t bits = 0;
+      const float depth = edges_[e].depth;
+      std::memcpy (&bits, &depth, sizeof bits);
+      constexpr std::uint32_t SIGN = 1U << 31U;
+      if (!are_positive) // of parallel rays, depths may be negative
+        bits = (bits & SIGN) != 0 ? ~bits : bits | SIGN;
+      keys[e] = std::uint64_t{bits} << HALF | e;
+    }
+    std::sort (keys.begin (), keys.end ());
+    std::vector<Index> order (keys.size ());
+    std::transform (keys.begin (), keys.end (), order.begin (),
+                    [] (std::uint64_t key) { return static_cast<Index> (key); });
+    return order;
+  }
+
   static std::size_t numberOf (MeshEdge e) { return std::size_t{3} * e.triangle + e.side; }
 
   void continueSurfaces ()

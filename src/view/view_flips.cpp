@@ -109,8 +109,6 @@ private:
   {
     const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e);
     const Index d = mesh_.corner (mesh_.mate (e));
-    if (!isFlippable (a, b, c, d))
-      return false;
     const auto across = [this] (Index t, Index corner) {
       return mesh_.neighbors[t][mesh_.sideOf (t, corner)];
     };
@@ -124,7 +122,7 @@ private:
     const double after = costOf (at_a, at_b) + costAcross (at_a, ca) + costAcross (at_a, ad) +
                          costAcross (at_b, bc) + costAcross (at_b, db);
     // The other diagonal may be an edge elsewhere, where triangles between were taken out.
-    if (!(after < before - IMPROVES) || mesh_.hasEdge (c, d))
+    if (!(after < before - IMPROVES) || !isFlippable (a, b, c, d) || mesh_.hasEdge (c, d))
       return false;
     mesh_.flip (e);
     return true;

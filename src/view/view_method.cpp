@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_method.h"
 
+#include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/mesh_spacing.h"
+#include "mesh/triangle_order.h"
 #include "mesh/triangle_removal.h"
 #include "view/lattice_view.h"
 
@@ -15,16 +17,59 @@ namespace floater
 {
 namespace
 {
+// The triangles in an order that only they decide: what follows depends on it. Each begins with its
+// smallest corner; they are sorted by that and by the next one, so along the curve of the points.
+TriangleMesh
+inOrder (const TriangleMesh& mesh, const RunContext& run)
+{
+  TriangleMesh sorted;
+  sorted.triangle_of.assign (mesh.triangle_of.size (), NONE);
+  const std::size_t count = mesh.triangles.size ();
+  sorted.triangles.resize (count);
+  sorted.neighbors.resize (count);
+  const auto smallest = [&mesh] (Index t) {
+    const Triangle& corners = mesh.triangles[t];
+    return static_cast<std::size_t> (std::min_element (corners.begin (), corners.end ()) -
+                                     corners.begin ());
+  };
+  std::vector<Index> order = orderByPoints (mesh.triangles, mesh.triangle_of.size ());
+  const auto first = [&] (Index t) { return mesh.triangles[t][smallest (t)]; };
+  const auto second = [&] (Index t) { return mesh.triangles[t][(smallest (t) + 1) % 3]; };
+  for (auto begin = order.begin (); begin != order.end ();) {
+    const auto end =
+        std::find_if (begin, order.end (), [&] (Index t) { return first (t) != first (*begin); });
+    std::sort (begin, end, [&] (Index a, Index b) { return second (a) < second (b); });
+    begin = end;
+  }
+  std::vector<Index> place (count);
+  for (Index i = 0; i < count; ++i)
+    place[order[i]] = i;
+  parallelRanges (run, count, [&] (std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index t = order[i];
+      for (std::size_t side = 0; side < 3; ++side) {
+        const std::size_t from = (smallest (t) + side) % 3;
+        const Index across = mesh.neighbors[t][from];
+        sorted.triangles[i][side] = mesh.triangles[t][from];
+        sorted.neighbors[i][side] = across == NONE ? NONE : place[across];
+      }
+    }
+  });
+  for (Index t = 0; t < count; ++t)
+    for (const Index p : sorted.triangles[t])
+      sorted.triangle_of[p] = t;
+  return sorted;
+}
+
 // Of an organized cloud, by its pixels where they are in the order of the rays.
 TriangleMesh
 triangulateRays (const Rays& rays, const Points& points, const RunContext& run)
 {
   constexpr std::size_t LEAST_WIDTH = 2;
+  std::optional<TriangleMesh> mesh;
   if (points.lattice_width >= LEAST_WIDTH)
-    if (std::optional<TriangleMesh> mesh =
-            triangulateLattice (rays.places, points.cloud_index, points.lattice_width, run))
-      return std::move (*mesh);
-  return triangulateHull (rays.places);
+    mesh = triangulateLattice (rays.places, points.cloud_index, points.lattice_width, run);
+  return inOrder (mesh ? *mesh : triangulateHull (rays.places), run);
 }
 
 // Fills the loops that the policy does not keep. All loops end at a gap or at a depth step.

@@ -57,6 +57,7 @@ public:
     std::vector<RayPatch> patches (std::min (coarse_.patches, FEW));
     std::vector<Index> sorted;
     for (std::size_t k = 0; k < patches.size (); ++k) {
+      run_.beginTask (); // each touches other memory
       const std::size_t seed = (2 * k + 1) * positions_.size () / (2 * patches.size ());
       RayPatch& patch = patches[k];
       patch.assign (1, static_cast<Index> (seed));

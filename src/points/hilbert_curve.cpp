@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The curve is that of Skilling (2004), "Programming the Hilbert curve": from the highest bit down,
+// excess rotations are undone in all lower bits, and the rest is Gray-encoded. What has been done
+// to the lower bits is a permutation of the axes, some of which are inverted, and one more
+// inversion of all: one of few states. So the octants of a cell, from the largest down, are looked
+// up.
+#include "points/hilbert_curve.h"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+struct Orientation
+{
+  std::array<std::uint8_t, 3> axes{0, 1, 2};     // which axis of the cell has become axis i
+  std::array<std::uint8_t, 3> inverted{0, 0, 0}; // 1: its bits are inverted
+  std::uint8_t parity = 0;                       // 1: all bits of the code are inverted
+
+  bool operator== (const Orientation& other) const
+  {
+    return axes == other.axes && inverted == other.inverted && parity == other.parity;
+  }
+};
+
+struct Step
+{
+  std::uint8_t digit; // of the code, base 8
+  Orientation next;
+};
+
+// One bit of each coordinate.
+Step
+stepOf (Orientation state, std::uint8_t octant)
+{
+  std::array<std::uint8_t, 3> bits{};
+  for (std::size_t i = 0; i < 3; ++i)
+    bits[i] = static_cast<std::uint8_t> ((octant >> (2 - state.axes[i]) & 1) ^ state.inverted[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (bits[i] != 0) {
+      state.inverted[0] ^= 1;
+    }
+    else {
+      std::swap (state.axes[0], state.axes[i]);
+      std::swap (state.inverted[0], state.inverted[i]);
+    }
+  }
+  bits[1] ^= bits[0];
+  bits[2] ^= bits[1];
+  Step step{};
+  for (const std::uint8_t bit : bits)
+    step.digit = static_cast<std::uint8_t> (step.digit << 1 | (bit ^ state.parity));
+  state.parity ^= bits[2];
+  step.next = state;
+  return step;
+}
+
+struct Entry
+{
+  std::uint8_t digit, next;
+};
+
+// For each state and octant.
+std::vector<std::array<Entry, 8>>
+makeTable ()
+{
+  std::vector<Orientation> states (1);
+  std::vector<std::array<Entry, 8>> table;
+  for (std::size_t s = 0; s < states.size (); ++s) {
+    table.emplace_back ();
+    for (std::uint8_t octant = 0; octant < 8; ++octant) {
+      const Step step = stepOf (states[s], octant);
+      std::size_t next = 0;
+      while (next < states.size () && !(states[next] == step.next))
+        ++next;
+      if (next == states.size ())
+        states.push_back (step.next);
+      table[s][octant] = {step.digit, static_cast<std::uint8_t> (next)};
+    }
+  }
+  return table;
+}
+
+} // namespace
+
+std::uint64_t
+hilbertCode (const std::array<std::uint32_t, 3>& cell)
+{
+  static const std::vector<std::array<Entry, 8>> table = makeTable ();
+  std::uint64_t code = 0;
+  std::size_t state = 0;
+  for (int bit = HILBERT_BITS - 1; bit >= 0; --bit) {
+    const std::uint32_t octant =
+        (cell[0] >> bit & 1U) << 2U | (cell[1] >> bit & 1U) << 1U | (cell[2] >> bit & 1U);
+    const Entry entry = table[state][octant];
+    code = code << 3U | entry.digit;
+    state = entry.next;
+  }
+  return code;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A space-filling curve along which near points are near.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace pcl
+{
+namespace floater
+{
+constexpr int HILBERT_BITS = 21; ///< of each coordinate
+
+/// Place of a cell on a Hilbert curve through the grid of 2^HILBERT_BITS cells a side.
+/// \param cell the coordinates, of HILBERT_BITS bits
+std::uint64_t
+hilbertCode (const std::array<std::uint32_t, 3>& cell);
+
+} // namespace floater
+} // namespace pcl
