@@ -142,6 +142,7 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 {
   report.is_view = true;
   report.is_far_view = viewpoint.is_far;
+  report.is_view_by_pixels = surface.is_by_pixels;
   constexpr double ROUNDING = 1e-14; // of the scale, as a place is moved to the box and back
   Eigen::Vector3d place = viewpoint.is_far
                               ? viewpoint.place

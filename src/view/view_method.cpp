@@ -63,12 +63,13 @@ inOrder (const TriangleMesh& mesh, const RunContext& run)
 
 // Of an organized cloud, by its pixels where they are in the order of the rays.
 TriangleMesh
-triangulateRays (const Rays& rays, const Points& points, const RunContext& run)
+triangulateRays (const Rays& rays, const Points& points, const RunContext& run, bool& is_by_pixels)
 {
   constexpr std::size_t LEAST_WIDTH = 2;
   std::optional<TriangleMesh> mesh;
   if (points.lattice_width >= LEAST_WIDTH)
     mesh = triangulateLattice (rays.places, points.cloud_index, points.lattice_width, run);
+  is_by_pixels = mesh.has_value ();
   return inOrder (mesh ? *mesh : triangulateHull (rays.places), run);
 }
 
@@ -201,7 +202,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   TriangleMesh& mesh = surface.mesh;
   run.beginStage (Stage::DELAUNAY);
   const Rays rays = makeRays (points.positions, viewpoint, run);
-  mesh = triangulateRays (rays, points, run);
+  mesh = triangulateRays (rays, points, run, surface.is_by_pixels);
 
   run.beginStage (Stage::HOLES);
   std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);

@@ -61,8 +61,9 @@ struct ViewSurface
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
-  std::size_t steps = 0; ///< triangles of the view across depth steps, left out
-  std::size_t gaps = 0;  ///< triangles of the view in gaps, left out
+  std::size_t steps = 0;     ///< triangles of the view across depth steps, left out
+  std::size_t gaps = 0;      ///< triangles of the view in gaps, left out
+  bool is_by_pixels = false; ///< triangulated by the rows and columns of an organized cloud
 };
 
 /// Triangulates the rays, leaves out what lies in gaps of the view or across depth steps, and

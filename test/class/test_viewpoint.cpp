@@ -72,6 +72,47 @@ TEST_F (ViewpointOfTheClass, TheSensorOriginOfTheCloudIsTried)
   EXPECT_NEAR (report.viewpoint[2], 5.0, 1e-9);
 }
 
+// The pixels of a depth image, some of which have no point, tell the same as their rays.
+TEST_F (ViewpointOfTheClass, AnOrganizedCloudHasTheSameMesh)
+{
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud = frameFrom ({0.0, 0.0, 0.0});
+  cloud->is_dense = false;
+  for (std::size_t p = 0; p < cloud->size (); p += 37)
+    (*cloud)[p].x = (*cloud)[p].y = (*cloud)[p].z = std::nanf ("");
+  std::vector<std::vector<pcl::Vertices>> meshes;
+  for (const std::uint32_t height : {1U, 140U, 110U}) { // the last one is wrong
+    cloud->height = height;
+    cloud->width = static_cast<std::uint32_t> (cloud->size ()) / height;
+    floater_.setInputCloud (cloud);
+    reconstruct ();
+    EXPECT_TRUE (floater_.getReport ().is_view);
+    EXPECT_EQ (floater_.getReport ().is_view_by_pixels, height == 140);
+    floater_.reconstruct (meshes.emplace_back ());
+  }
+  for (const std::vector<pcl::Vertices>& mesh : meshes) {
+    ASSERT_EQ (mesh.size (), meshes.front ().size ());
+    for (std::size_t t = 0; t < mesh.size (); ++t)
+      ASSERT_EQ (mesh[t].vertices, meshes.front ()[t].vertices) << t;
+  }
+}
+
+// Points that are left out by indices are pixels without a point.
+TEST_F (ViewpointOfTheClass, IndicesOfAnOrganizedCloud)
+{
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud = frameFrom ({0.0, 0.0, 0.0});
+  cloud->height = 140;
+  cloud->width = 110;
+  const auto indices = pcl::make_shared<pcl::Indices> ();
+  for (std::size_t p = 0; p < cloud->size (); ++p)
+    if (p % 29 != 0)
+      indices->push_back (static_cast<pcl::index_t> (p));
+  floater_.setInputCloud (cloud);
+  floater_.setIndices (indices);
+  const Report& report = reconstruct ();
+  EXPECT_TRUE (report.is_view_by_pixels);
+  EXPECT_EQ (report.statistics.selected_points, indices->size ());
+}
+
 TEST_F (ViewpointOfTheClass, ASheetFacesTheSensorOfItsCloud)
 {
   // Points at random, so that their rays are not those of one view.

@@ -201,6 +201,7 @@ struct Report
   bool denoised = false; ///< the points were connected as they lie when projected on local planes
   bool is_view = false;  ///< the points are one scan, and were connected as its sensor saw them
   bool is_far_view = false;          ///< the sensor was so far away that its rays are parallel
+  bool is_view_by_pixels = false;    ///< the rows and columns of an organized cloud were of use
   std::array<double, 3> viewpoint{}; ///< of the sensor; if it was far away, direction of its rays
   std::vector<std::uint32_t> loop;   ///< longest boundary loop, in order, each point once
   /// Of a disc: position of each cloud point in the plane, NaN where it was not used. Triangles run
