@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is refused, and in which words; and how a run fails."""
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pcl_floater
@@ -102,6 +104,32 @@ def test_wrong_arguments(arguments, kind, text):
 def test_only_the_points_have_no_name():
     with pytest.raises(TypeError):
         pcl_floater.reconstruct(SQUARE, SQUARE)
+
+
+def test_more_points_than_indices_can_number():
+    with pytest.raises(ValueError, match="more than 2147483647 points"):
+        pcl_floater.reconstruct(np.broadcast_to(np.zeros((1, 3)), (2**31, 3)))  # which takes no memory
+
+
+# The memory is limited after all libraries have been loaded.
+WITHOUT_MEMORY = """
+import resource
+import numpy as np
+import pcl_floater
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 2**28, used + 2**28))
+try:
+    pcl_floater.reconstruct(np.broadcast_to(np.zeros((1, 3)), (2**26, 3)))
+except MemoryError:
+    print("no memory")
+i, j = np.mgrid[:9, :9]
+print(len(pcl_floater.reconstruct(np.stack([i, j, 0.1 * i], -1).reshape(-1, 3), threads=1).triangles))
+"""
+
+
+def test_no_memory_for_the_points():
+    done = subprocess.run([sys.executable, "-c", WITHOUT_MEMORY], stdout=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stdout) == (0, "no memory\n128\n")
 
 
 def test_compiled_part_checks_what_it_gets():
