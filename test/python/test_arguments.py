@@ -137,7 +137,8 @@ def test_compiled_part_checks_what_it_gets():
     run = pcl_floater._core.run
     with pytest.raises(TypeError, match="has no argument 'colour'"):
         run(SQUARE, None, None, {"colour": 1}, None)
-    for array in (np.zeros((5, 2)), np.zeros(5), np.zeros((5, 3), np.int16)):
+    for array in (np.zeros((5, 2)), np.zeros(5), np.zeros((5, 3), np.int32), np.zeros((5, 3), np.int64),
+                  np.zeros((5, 3), np.complex64)):
         with pytest.raises(ValueError, match=r"shape \(n, 3\)"):
             run(array, None, None, {}, None)
     with pytest.raises(TypeError):

@@ -22,7 +22,7 @@ import pcl_floater
 sys.path.insert(0, sys.argv[1])
 from conftest import torus
 
-points = torus(1000, 400)
+points = torus(2000, 800)  # which takes seconds
 try:
     print("begin", flush=True)
     pcl_floater.reconstruct(points)
@@ -99,7 +99,7 @@ def test_ctrl_c_ends_a_program():
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         assert child.stdout.readline() == "begin\n"
-        time.sleep(0.2)  # most likely within the run; if not, this holds as well
+        time.sleep(0.2)  # within the run, or before it
         child.send_signal(signal.SIGINT)
         output, errors = child.communicate(timeout=100)
     finally:

@@ -62,7 +62,11 @@ class Rows
 public:
   explicit Rows (const py::buffer& buffer) : info_ (buffer.request ())
   {
-    if (info_.ndim != 2 || info_.shape[1] != 3 || (info_.itemsize != 4 && info_.itemsize != 8))
+    // Memory that is not aligned has a sign before the letter.
+    const char type = info_.format.empty () ? ' ' : info_.format.back ();
+    const bool has_floats = (type == 'f' && info_.itemsize == sizeof (float)) ||
+                            (type == 'd' && info_.itemsize == sizeof (double));
+    if (info_.ndim != 2 || info_.shape[1] != 3 || !has_floats)
       throw py::value_error ("an array of the shape (n, 3) of floats is expected");
     if (info_.shape[0] > std::numeric_limits<std::int32_t>::max ())
       throw py::value_error ("more than 2147483647 points; reconstruct parts of the cloud");
