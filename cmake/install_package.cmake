@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Install and export, in the components library (what programs need to run), development, tools and
-# documentation. Headers go below include/pcl_floater, so that an overlay never shadows PCL's.
+# documentation; tools/python has the component python. Headers go below include/pcl_floater, so that an overlay never shadows PCL's.
 include (CMakePackageConfigHelpers)
 set (package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pcl_floater")
 if (PCL_FLOATER_PACKAGES)
@@ -78,7 +78,7 @@ install (FILES "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL
 install (FILES "${PROJECT_SOURCE_DIR}/src/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}/src"
          COMPONENT documentation)
 install (DIRECTORY "${PROJECT_SOURCE_DIR}/test/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}/test"
-         COMPONENT documentation FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h")
+         COMPONENT documentation FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h" PATTERN "*.py")
 # A Debian package has names of its own for these.
 if (NOT PCL_FLOATER_PACKAGES)
   install (FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)

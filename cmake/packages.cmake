@@ -11,12 +11,14 @@ set (library_package "libpcl-floater${PROJECT_VERSION_MAJOR}")
 set (development_package "libpcl-floater-dev")
 set (tools_package "pcl-floater-tools")
 set (documentation_package "pcl-floater-doc")
+set (python_package "python3-pcl-floater")
 
 find_program (GZIP_PROGRAM gzip)
 mark_as_advanced (GZIP_PROGRAM)
 if (NOT GZIP_PROGRAM OR NOT BUILD_SHARED_LIBS OR NOT PCL_FLOATER_BUILD_TOOLS OR NOT TARGET pcl_floater_picture
-    OR NOT makes_man_pages)
-  message (FATAL_ERROR "The packages have the shared library, all tools and their man pages, and need gzip")
+    OR NOT makes_man_pages OR NOT TARGET pcl_floater_python)
+  message (FATAL_ERROR "The packages have the shared library, all tools, their man pages and the Python module, and "
+                       "need gzip")
 endif ()
 
 # Policy wants a copyright file and a change log in every package.
@@ -30,7 +32,7 @@ execute_process (COMMAND "${GZIP_PROGRAM}" -9 -n -f -k "${debian_folder}/changel
 if (NOT result EQUAL 0)
   message (FATAL_ERROR "gzip failed on ${debian_folder}/changelog.Debian")
 endif ()
-foreach (component library development tools documentation)
+foreach (component library development tools documentation python)
   install (FILES "${debian_folder}/changelog.Debian.gz" "${debian_folder}/copyright"
            DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}" COMPONENT ${component})
 endforeach ()
@@ -51,7 +53,7 @@ set (CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set (CPACK_STRIP_FILES ON)
 set (CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
      OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set (CPACK_COMPONENTS_ALL library development tools documentation)
+set (CPACK_COMPONENTS_ALL library development tools documentation python)
 set (CPACK_COMPONENTS_GROUPING IGNORE)
 set (CPACK_DEB_COMPONENT_INSTALL ON)
 set (CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -105,6 +107,26 @@ ${what_it_is}
 .
 This package has the tools: pcl_floater_reconstruct makes a mesh of a cloud,
 pcl_floater_picture draws it, and pcl_floater_generate writes sample clouds.")
+
+# The module has the core within, and needs no other of these packages. It is for one version of Python.
+# Python's own scripts make its byte code, and remove it.
+foreach (script postinst prerm)
+  configure_file ("${PROJECT_SOURCE_DIR}/cmake/debian_python_${script}" "${debian_folder}/python/${script}" @ONLY
+                  FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+endforeach ()
+math (EXPR next_python_minor "${PCL_FLOATER_PYTHON_MINOR} + 1")
+set (CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${python_package})
+set (CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set (CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set (CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+     "python3 (>= 3.${PCL_FLOATER_PYTHON_MINOR}~), python3 (<< 3.${next_python_minor}), python3-numpy")
+set (CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${debian_folder}/python/postinst;${debian_folder}/python/prerm")
+set (CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS libopenblas0-pthread)
+set (CPACK_DEBIAN_PYTHON_DESCRIPTION
+"surface reconstruction from point clouds - Python module
+${what_it_is}
+.
+This package has the module pcl_floater, which takes arrays of NumPy.")
 
 set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME ${documentation_package})
 set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)

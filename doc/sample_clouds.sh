@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The clouds of doc/tuning.md and doc/formats.md that pcl_floater_generate does not make. One unit of
+# The clouds of doc/tuning.md, doc/formats.md and doc/pipelines.md that pcl_floater_generate does not make. One unit of
 # length is about one spacing.
 set -euo pipefail
 
 if (($# > 0)); then
   echo "Usage: sample_clouds.sh
-Writes small clouds for the examples of doc/tuning.md and doc/formats.md to the working directory."
+Writes small clouds for the examples of the pages in doc to the working directory."
   [[ $1 == -h || $1 == --help ]] && exit 0
   exit 1
 fi
@@ -61,3 +61,14 @@ slope_on_map () {
 }
 slope_on_map float >map_float.ply
 slope_on_map double >map_double.ply
+
+# A slope with colours, normals that point up, and an intensity.
+{
+  printf 'ply\nformat ascii 1.0\nelement vertex 3600\n'
+  printf 'property %s\n' 'float x' 'float y' 'float z' 'uchar red' 'uchar green' 'uchar blue' \
+    'float nx' 'float ny' 'float nz' 'float intensity'
+  echo end_header
+  cloud 5 'for (i = 0; i < 60; i++) for (j = 0; j < 60; j++) {
+    x = i + 0.4 * r(); y = j + 0.4 * r()
+    print x, y, 2 * sin(i / 9), 4 * i, 120, 4 * j, 0, 0, 1, int(100 * r()) }'
+} >coloured.ply

@@ -140,7 +140,8 @@ def main():
     if not tools:
         wrong += check_names()
         wrong += [f"{file.relative_to(ROOT)} is quoted by no page"
-                  for file in sorted((ROOT / "test/examples").glob("*.cpp")) if file not in quoted]
+                  for file in sorted((ROOT / "test/examples").iterdir())
+                  if file.suffix in (".cpp", ".py") and file not in quoted]
     for what in wrong:
         print(what)
     return 1 if wrong else 0

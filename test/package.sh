@@ -139,18 +139,27 @@ step "Building and running a program with pkg-config" '
   g++ -std=c++17 consumer/own_types.cpp -o own_types $(pkg-config --cflags --libs pcl_floater)
   ./own_types'
 
+step "Installing the Python module" "$apt install ./debs/python3-pcl-floater_*.deb"
+step "Using the Python module" '
+  /usr/bin/python3 -c "import numpy, pcl_floater; print (pcl_floater.__version__, pcl_floater.__file__)
+i, j = numpy.mgrid[:20, :20]
+mesh = pcl_floater.reconstruct (numpy.stack ([i, j, numpy.sin (0.3 * i)], -1).reshape (-1, 3))
+assert len (mesh.triangles) == 2 * 19 * 19, mesh"
+  /usr/bin/python3 -c "import importlib.metadata; print (importlib.metadata.version (\"pcl_floater\"))"
+  ls /usr/lib/python3/dist-packages/pcl_floater/__pycache__'
+
 step "Removing the packages" '
-  packages=$(dpkg-query -W -f "\${Package}\n" | grep -E "^(lib)?pcl-floater")
-  test "$(wc -l <<<"$packages")" = 4
+  packages=$(dpkg-query -W -f "\${Package}\n" | grep -E "^(lib|python3-)?pcl-floater")
+  test "$(wc -l <<<"$packages")" = 5
   # What belongs to them, and not to other packages as well.
   for package in $packages; do dpkg-query -L $package; done | sort -u >owned
-  dpkg-query -W -f "\${Package}\n" | grep -vE "^(lib)?pcl-floater" | xargs dpkg-query -L | sort -u >of_others
+  dpkg-query -W -f "\${Package}\n" | grep -vE "^(lib|python3-)?pcl-floater" | xargs dpkg-query -L | sort -u >of_others
   comm -23 owned of_others >only_owned
   test "$(wc -l <only_owned)" -gt 20
   apt-get -qq -y purge $packages'
 left=$(inside 'xargs -d "\n" ls -d 2>/dev/null <only_owned || true
   find / -xdev \( -path /proc -o -path /test -o -path /var/cache/apt -o -path /var/cache/man \) -prune -o \
     -iname "*pcl[-_]floater*" -print
-  dpkg-query -W -f "\${Package} \${db:Status-Status}\n" | grep -E "^(lib)?pcl-floater" || true')
+  dpkg-query -W -f "\${Package} \${db:Status-Status}\n" | grep -E "^(lib|python3-)?pcl-floater" || true')
 [[ -z $left ]] || fail "after the packages were removed, this is left: $left"
 echo "The packages install, work and are removed without a trace."

@@ -21,10 +21,12 @@ END
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
           libsuperlu-dev libboost-dev
           libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
-          libgl1-mesa-dri xvfb)
+          libgl1-mesa-dri xvfb
+          pybind11-dev python3-dev python3-numpy)
 for argument in "$@"; do
   case "$argument" in
-    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools pkg-config python3) ;;
+    --tests) packages+=(libgtest-dev libgmock-dev pcl-tools pkg-config python3
+                         python3-pytest python3-pip python3-setuptools python3-venv python3-wheel) ;;
     --benchmarks) packages+=(libgmm++-dev) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     --packages) packages+=(dpkg-dev lintian debootstrap) ;;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the Debian packages: the library, its headers, the tools and the documentation.
+# Makes the Debian packages: the library, its headers, the tools, the Python module and the documentation.
 set -euo pipefail
 
 usage () {
@@ -49,10 +49,12 @@ echo "Building the packages (the first time takes minutes) ..."
 if ! {
   cmake --preset release -B "$build" -D CMAKE_INSTALL_PREFIX=/usr -D PCL_FLOATER_PACKAGES=ON \
     -D PCL_FLOATER_WITH_SUPERLU=ON -D PCL_FLOATER_WITH_LZF=ON -D PCL_FLOATER_WITH_PICTURE=ON \
+    -D PCL_FLOATER_WITH_PYTHON=ON -D PCL_FLOATER_PYTHON=/usr/bin/python3 \
+    -D CMAKE_MODULE_LINKER_FLAGS="$link_flags" \
     -D CMAKE_CXX_FLAGS="$flags" -D CMAKE_SHARED_LINKER_FLAGS="$link_flags" \
     -D CMAKE_EXE_LINKER_FLAGS="$link_flags" &&
     cmake --build "$build" --parallel "$jobs" &&
-    rm -f "$folder"/libpcl-floater*.deb "$folder"/pcl-floater-*.deb &&
+    rm -f "$folder"/libpcl-floater*.deb "$folder"/pcl-floater-*.deb "$folder"/python3-pcl-floater_*.deb &&
     (cd "$build" && cpack -G DEB -B "$folder") &&
     rm -rf "$folder/_CPack_Packages"
 } >"$log" 2>&1; then

@@ -14,7 +14,7 @@
 #include "precision.h"
 #include "progress.h"
 #include "remaining_time.h"
-#include "report_json.h"
+#include "run_report.h"
 #include "shift.h"
 #include "summary.h"
 

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
-#include "large_arrays.h"
+#include "choices.h"
 
 #include <nlohmann/json.hpp>
-
-#include <sys/resource.h>
 
 namespace pcl
 {
@@ -15,63 +13,6 @@ namespace floater
 namespace
 {
 using Json = nlohmann::ordered_json;
-
-Json
-optionsJson (const CommandLine& line)
-{
-  const Options& options = line.options;
-  const bool in_cloud_units = options.holes.unit == LengthUnit::CLOUD;
-  return {{"method", choiceName (METHOD_CHOICES, options.disc.as_published)},
-          {"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
-          {"holes", choiceName (HOLE_CHOICES, options.holes.policy)},
-          {"kept_loops", options.holes.kept_loops},
-          {"largest_hole", in_cloud_units ? 0.0 : options.holes.largest_hole},
-          {"largest_hole_length", in_cloud_units ? options.holes.largest_hole : 0.0},
-          {"max_edge", options.trimming.maximum_edge_length},
-          {"max_edge_ratio", options.trimming.maximum_edge_ratio},
-          {"min_component", options.trimming.minimum_component_size},
-          {"viewpoint", options.view.use == ViewUse::GIVEN  ? Json (options.view.viewpoint)
-                        : options.view.use == ViewUse::AUTO ? Json ("auto")
-                                                            : Json ("none")},
-          {"facing", choiceName (FACING_CHOICES, options.facing)},
-          {"use_input_normals", line.use_input_normals},
-          {"remove_outliers", options.remove_outliers},
-          {"scatter", choiceName (SCATTER_CHOICES, options.scatter)},
-          {"denoise", options.denoise},
-          {"neighbors", options.neighbors.k},
-          {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighbors.kind)},
-          {"ball_radius", options.neighbors.ball_radius},
-          {"sheet_filter", options.filter_sheets},
-          {"boundary", choiceName (BOUNDARY_CHOICES, options.disc.boundary.method)},
-          {"loop_given", !options.disc.boundary.loop.empty ()},
-          {"opening_angle", options.disc.boundary.opening_angle},
-          {"cluster_tolerance", options.disc.boundary.cluster_tolerance},
-          {"cluster_neighbors", options.disc.boundary.cluster_k},
-          {"domain", choiceName (DOMAIN_CHOICES, options.disc.domain.curve)},
-          {"sides", options.disc.domain.polygon_sides},
-          {"spacing", choiceName (SPACING_CHOICES, options.disc.domain.loop_spacing)},
-          {"weights", choiceName (WEIGHTING_CHOICES, options.disc.weighting)},
-          {"solver", choiceName (SOLVER_CHOICES, options.disc.solver.method)},
-          {"ordering", choiceName (ORDERING_CHOICES, options.disc.solver.ordering)},
-          {"tolerance", options.disc.solver.tolerance},
-          {"max_iterations", options.disc.solver.max_iterations},
-          {"ilut_fill", options.disc.solver.ilut_fill},
-          {"ilut_drop", options.disc.solver.ilut_drop},
-          {"flips", options.flip_edges},
-          {"uncross", options.remove_self_intersections},
-          {"open_crossings", options.trimming.open_self_intersections},
-          {"threads", options.threads},
-          {"blocks", options.blocks}};
-}
-
-Json
-viewpointJson (const Report& report)
-{
-  if (!report.is_view)
-    return {};
-  return {{"is_far", report.is_far_view},
-          {report.is_far_view ? "direction" : "place", report.viewpoint}};
-}
 
 Json
 statisticsJson (const Statistics& statistics)
@@ -184,132 +125,86 @@ facingPartsJson (const Report& report)
   return parts;
 }
 
-Json
-secondsJson (const Statistics& statistics, const RunFigures& run)
-{
-  Json seconds = {{"reading", run.read_seconds}};
-  for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage)
-    seconds[stageName (static_cast<Stage> (stage))] = statistics.seconds[stage];
-  seconds["reconstruction"] = run.reconstruct_seconds;
-  return seconds;
-}
-
-/// JSON is UTF-8; in names of files, bytes that are not are replaced.
-std::string
-dump (const Json& json)
-{
-  constexpr int ONE_LINE = -1;
-  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
-}
-
-Json
-fileName (const std::filesystem::path& path)
-{
-  return path.empty () ? Json () : Json (path.string ());
-}
-
-/// Null if there is no limit.
-Json
-memoryLimitJson (const CommandLine& line)
-{
-  if (line.max_memory == 0)
-    return {};
-  const ScratchUse use = scratchUse ();
-  return {{"bytes", line.max_memory},
-          {"scratch", fileName (line.scratch)},
-          {"scratch_peak_bytes", use.peak},
-          {"dropped_bytes", use.dropped}};
-}
-
 } // namespace
 
-std::size_t
-peakMemory ()
+nlohmann::ordered_json
+optionsJson (const Options& options, bool use_input_normals)
 {
-  constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
-  rusage usage{};
-  return ::getrusage (RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t> (usage.ru_maxrss) * UNIT
-                                                : 0;
+  const bool in_cloud_units = options.holes.unit == LengthUnit::CLOUD;
+  return {{"method", choiceName (METHOD_CHOICES, options.disc.as_published)},
+          {"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
+          {"holes", choiceName (HOLE_CHOICES, options.holes.policy)},
+          {"kept_loops", options.holes.kept_loops},
+          {"largest_hole", in_cloud_units ? 0.0 : options.holes.largest_hole},
+          {"largest_hole_length", in_cloud_units ? options.holes.largest_hole : 0.0},
+          {"max_edge", options.trimming.maximum_edge_length},
+          {"max_edge_ratio", options.trimming.maximum_edge_ratio},
+          {"min_component", options.trimming.minimum_component_size},
+          {"viewpoint", options.view.use == ViewUse::GIVEN  ? Json (options.view.viewpoint)
+                        : options.view.use == ViewUse::AUTO ? Json ("auto")
+                                                            : Json ("none")},
+          {"facing", choiceName (FACING_CHOICES, options.facing)},
+          {"use_input_normals", use_input_normals},
+          {"remove_outliers", options.remove_outliers},
+          {"scatter", choiceName (SCATTER_CHOICES, options.scatter)},
+          {"denoise", options.denoise},
+          {"neighbors", options.neighbors.k},
+          {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighbors.kind)},
+          {"ball_radius", options.neighbors.ball_radius},
+          {"sheet_filter", options.filter_sheets},
+          {"boundary", choiceName (BOUNDARY_CHOICES, options.disc.boundary.method)},
+          {"loop_given", !options.disc.boundary.loop.empty ()},
+          {"opening_angle", options.disc.boundary.opening_angle},
+          {"cluster_tolerance", options.disc.boundary.cluster_tolerance},
+          {"cluster_neighbors", options.disc.boundary.cluster_k},
+          {"domain", choiceName (DOMAIN_CHOICES, options.disc.domain.curve)},
+          {"sides", options.disc.domain.polygon_sides},
+          {"spacing", choiceName (SPACING_CHOICES, options.disc.domain.loop_spacing)},
+          {"weights", choiceName (WEIGHTING_CHOICES, options.disc.weighting)},
+          {"solver", choiceName (SOLVER_CHOICES, options.disc.solver.method)},
+          {"ordering", choiceName (ORDERING_CHOICES, options.disc.solver.ordering)},
+          {"tolerance", options.disc.solver.tolerance},
+          {"max_iterations", options.disc.solver.max_iterations},
+          {"ilut_fill", options.disc.solver.ilut_fill},
+          {"ilut_drop", options.disc.solver.ilut_drop},
+          {"flips", options.flip_edges},
+          {"uncross", options.remove_self_intersections},
+          {"open_crossings", options.trimming.open_self_intersections},
+          {"threads", options.threads},
+          {"blocks", options.blocks}};
 }
 
-std::string
-outcomeName (const Report& report, const RunFigures& run)
+nlohmann::ordered_json
+viewpointJson (const Report& report)
 {
-  return run.is_refused ? "WARNINGS" : statusName (report.status);
+  if (!report.is_view)
+    return {};
+  return {{"is_far", report.is_far_view},
+          {report.is_far_view ? "direction" : "place", report.viewpoint}};
 }
 
-std::string
-reportText (const CommandLine& line, const Report& report, const RunFigures& run)
+nlohmann::ordered_json
+resultJson (const Report& report)
 {
-  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
-  const Json all = {{"tool", "pcl_floater_reconstruct"},
-                    {"version", PCL_FLOATER_VERSION},
-                    {"input",
-                     {{"file", fileName (line.input)},
-                      {"points", run.input_points},
-                      {"coordinates", run.single_precision ? "float" : "double"},
-                      {"fields", run.input_fields}}},
-                    {"shift", {run.shift.x (), run.shift.y (), run.shift.z ()}},
-                    {"output", is_ok ? Json{{"file", fileName (line.output)},
-                                            {"coordinates", run.writes_single ? "float" : "double"},
-                                            {"vertices", run.vertices},
-                                            {"triangles", report.statistics.triangles},
-                                            {"parameterization", fileName (line.parameterization)}}
-                                     : Json ()},
-                    {"options", optionsJson (line)},
-                    {"strict", line.strict},
-                    {"status", outcomeName (report, run)},
-                    {"message", report.message},
-                    {"warnings", report.warnings},
-                    {"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
-                    {"topology_reason", report.topology_reason},
-                    {"viewpoint", viewpointJson (report)},
-                    {"denoised", report.denoised},
-                    {"check", checkJson (report.check, report.is_view)},
-                    {"loop_decisions", loopDecisionsJson (report)},
-                    {"facing_certainty", report.facing_certainty},
-                    {"facing_parts", facingPartsJson (report)},
-                    {"facing_decisions", facingDecisionsJson (report)},
-                    {"statistics", statisticsJson (report.statistics)},
-                    {"seconds", secondsJson (report.statistics, run)},
-                    {"peak_memory_bytes", peakMemory ()},
-                    {"memory_limit", memoryLimitJson (line)},
-                    {"loop", report.loop},
-                    {"unused", report.unused},
-                    {"outliers", report.outliers},
-                    {"scatter", report.scatter},
-                    {"non_finite", report.non_finite},
-                    {"duplicates", report.duplicates}};
-  std::string text;
-  for (const auto& [key, value] : all.items ())
-    text += (text.empty () ? "{\n  " : ",\n  ") + dump (key) + ": " + dump (value);
-  return text + "\n}\n";
+  return {{"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
+          {"topology_reason", report.topology_reason},
+          {"viewpoint", viewpointJson (report)},
+          {"denoised", report.denoised},
+          {"check", checkJson (report.check, report.is_view)},
+          {"loop_decisions", loopDecisionsJson (report)},
+          {"facing_certainty", report.facing_certainty},
+          {"facing_parts", facingPartsJson (report)},
+          {"facing_decisions", facingDecisionsJson (report)},
+          {"statistics", statisticsJson (report.statistics)}};
 }
 
-std::string
-summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
+nlohmann::ordered_json
+secondsJson (const Statistics& statistics)
 {
-  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
-  return dump ({{"status", outcomeName (report, run)},
-                {"message", report.message},
-                {"points", run.input_points},
-                {"used_points", report.statistics.used_points},
-                {"triangles", report.statistics.triangles},
-                {"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
-                {"topology_reason", report.topology_reason},
-                {"components", report.check.components},
-                {"genus", report.check.genus},
-                {"loops", report.check.loops.size ()},
-                {"loop_points", report.statistics.loop_points},
-                {"viewpoint", viewpointJson (report)},
-                {"denoised", report.denoised},
-                {"outliers", report.outliers.size ()},
-                {"warnings", report.warnings.size ()},
-                {"recon_seconds", run.reconstruct_seconds},
-                {"read_seconds", run.read_seconds},
-                {"write_seconds", run.write_seconds},
-                {"peak_memory_bytes", peakMemory ()},
-                {"output", is_ok ? fileName (line.output) : Json ()}});
+  Json seconds = Json::object ();
+  for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage)
+    seconds[stageName (static_cast<Stage> (stage))] = statistics.seconds[stage];
+  return seconds;
 }
 
 } // namespace floater

@@ -3,7 +3,7 @@
 // What the tool prints at the end of a run.
 #pragma once
 
-#include "report_json.h"
+#include "run_report.h"
 
 namespace pcl
 {

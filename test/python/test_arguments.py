@@ -1,0 +1,201 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is refused, and in which words; and how a run fails."""
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pcl_floater
+import pytest
+
+SQUARE = np.zeros((9, 3))
+
+
+@pytest.mark.parametrize("points, kind, text", [
+    (np.zeros((5, 3), int), TypeError, "points must be an array of float32 or float64, not int64; "
+                                       "numpy.asarray(points, float) converts it"),
+    (np.zeros((5, 3), np.float16), TypeError, "not float16"),
+    (np.zeros((5, 3), np.longdouble), TypeError, "float128"),
+    (np.zeros((5, 3), ">f4"), TypeError, "not >f4"),
+    (np.zeros((5, 3), complex), TypeError, "not complex128"),
+    (None, TypeError, "not object"),
+    ("scan.pcd", TypeError, "not <U8"),
+    (np.zeros(5, [("x", "f4"), ("y", "f4"), ("z", "f4")]), TypeError,
+     "points is an array with the fields x, y, z; use numpy.column_stack"),
+    (np.ma.zeros((5, 3)), TypeError, "points is a masked array, whose mask would be lost"),
+    (np.zeros((5, 4)), ValueError, r"points must have the shape (n, 3), not (5, 4)"),
+    (np.zeros((3, 5)), ValueError, "not (3, 5)"),
+    (np.zeros(3), ValueError, "not (3,)"),
+    (np.zeros((2, 5, 3)), ValueError, "not (2, 5, 3)"),
+    (1.5, ValueError, "not ()"),
+])
+def test_wrong_points(points, kind, text):
+    with pytest.raises(kind) as raised:
+        pcl_floater.reconstruct(points)
+    assert text in str(raised.value)
+
+
+@pytest.mark.parametrize("arguments, kind, text", [
+    (dict(normals=np.zeros((9, 2))), ValueError, "normals must have the shape (n, 3), not (9, 2)"),
+    (dict(normals=np.zeros((8, 3))), ValueError, "there are 8 normals of 9 points"),
+    (dict(normals=np.zeros((9, 3), int)), TypeError, "normals must be an array of float32 or float64"),
+    (dict(normals=SQUARE, facing="up"), ValueError, "normals are given, but facing does not ask for them"),
+    (dict(use_input_normals=True), ValueError, "use_input_normals=True needs normals"),
+    (dict(facing="normals"), ValueError, "the points have no normals"),
+    (dict(facing="viewpoint", viewpoint="none"), ValueError, "no viewpoint is looked for"),
+    (dict(sensor_origin=(1, 2)), ValueError, "sensor_origin must be three numbers, not (1, 2)"),
+    (dict(sensor_origin=(1, 2, np.nan)), ValueError, "sensor_origin must have finite coordinates"),
+    (dict(sensor_origin="here"), TypeError, "sensor_origin must be three numbers, not 'here'"),
+    (dict(sensor_origin=5), TypeError, "sensor_origin must be three numbers, not 5"),
+    (dict(topology="ring"), ValueError, "topology must be one of 'auto', 'disc', 'surface', not 'ring'"),
+    (dict(holes="close_all"), ValueError, "'close-all'"),
+    (dict(holes=None), TypeError, "holes must be one of"),
+    (dict(viewpoint=None), TypeError, "'none' says that the cloud is no single scan"),
+    (dict(viewpoint="here"), ValueError, "viewpoint must be 'auto', 'none' or three numbers, not 'here'"),
+    (dict(viewpoint=(1, 2, 3, 4)), ValueError, "viewpoint must be three numbers"),
+    (dict(viewpoint=(1, 2, "3")), TypeError, "viewpoint must be three numbers"),
+    (dict(viewpoint=(1, 2, np.inf)), ValueError, "the viewpoint must have finite coordinates"),
+    (dict(viewpoint=(0, 0, 9), topology="disc"), ValueError, "a viewpoint is of no use for a disc"),
+    (dict(neighbors=5), ValueError, "the number of neighbours must be from 6 to 200"),
+    (dict(neighbors=20.0), TypeError, "neighbors must be a whole number, not 20.0"),
+    (dict(neighbors=True), TypeError, "neighbors must be a whole number, not True"),
+    (dict(neighbors="20"), TypeError, "neighbors must be a whole number, not '20'"),
+    (dict(threads=2**31), ValueError, "threads must be a number of 32 bits"),
+    (dict(threads=-2**100), ValueError, "threads must be a number of 32 bits"),
+    (dict(threads=-1), ValueError, "the number of threads must be 0 (all cores) or more"),
+    (dict(blocks=-1), ValueError, "the number of blocks"),
+    (dict(max_edge="1"), TypeError, "max_edge must be a number, not '1'"),
+    (dict(max_edge=False), TypeError, "max_edge must be a number, not False"),
+    (dict(max_edge=np.nan), ValueError, "the maximum edge length"),
+    (dict(max_edge_ratio=-1), ValueError, "the maximum edge ratio"),
+    (dict(min_component=-1), ValueError, "the minimum component size"),
+    (dict(holes="by-size"), ValueError, "need the size of the largest hole"),
+    (dict(holes="by-size", largest_hole=1, largest_hole_length=1), ValueError, "give one of them"),
+    (dict(kept_loops=-1), ValueError, "the number of kept loops must be 0 or more"),
+    (dict(ball_radius=0), ValueError, "the ball radius"),
+    (dict(denoise=1), TypeError, "denoise must be True or False, not 1"),
+    (dict(denoise="on"), TypeError, "denoise must be True or False, not 'on'"),
+    (dict(strict="yes"), TypeError, "strict must be True or False, not 'yes'"),
+    (dict(progress=1), TypeError, "progress must be a callable, not 1"),
+    (dict(opening_angle=360), ValueError, "the opening angle"),
+    (dict(cluster_tolerance=0), ValueError, "the cluster tolerance"),
+    (dict(cluster_neighbors=0), ValueError, "the number of cluster neighbours"),
+    (dict(sides=2), ValueError, "the number of polygon sides"),
+    (dict(tolerance=1), ValueError, "the tolerance must be above 0 and below 1"),
+    (dict(max_iterations=0), ValueError, "the number of iterations"),
+    (dict(ilut_fill=0), ValueError, "the fill of ILUT"),
+    (dict(ilut_drop=2), ValueError, "the drop tolerance of ILUT"),
+    (dict(solver="umfpack", ordering="colamd"), ValueError, "COLAMD"),
+    (dict(loop=[[0, 1, 2]]), ValueError, "not an array of the shape (1, 3)"),
+    (dict(loop=[0.0, 1.0, 2.0]), TypeError, "loop must be a list of whole numbers, not of float64"),
+    (dict(loop=[0, -1, 2]), ValueError, "loop has an index that is negative, or too large"),
+    (dict(loop=[0, 1, 2**32]), ValueError, "loop has an index that is negative, or too large"),
+    (dict(loop=[0, 1, 2], topology="surface"), ValueError, "a boundary loop can be given for a disc only"),
+    (dict(thread=1), TypeError, "thread"),
+])
+def test_wrong_arguments(arguments, kind, text):
+    with pytest.raises(kind) as raised:
+        pcl_floater.reconstruct(SQUARE, **arguments)
+    assert not isinstance(raised.value, pcl_floater.FloaterError)
+    assert text in str(raised.value)
+
+
+def test_only_the_points_have_no_name():
+    with pytest.raises(TypeError):
+        pcl_floater.reconstruct(SQUARE, SQUARE)
+
+
+def test_more_points_than_indices_can_number():
+    with pytest.raises(ValueError, match="more than 2147483647 points"):
+        pcl_floater.reconstruct(np.broadcast_to(np.zeros((1, 3)), (2**31, 3)))  # which takes no memory
+
+
+# The memory is limited after all libraries have been loaded.
+WITHOUT_MEMORY = """
+import resource
+import numpy as np
+import pcl_floater
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 2**28, used + 2**28))
+try:
+    pcl_floater.reconstruct(np.broadcast_to(np.zeros((1, 3)), (2**26, 3)))
+except MemoryError:
+    print("no memory")
+i, j = np.mgrid[:9, :9]
+print(len(pcl_floater.reconstruct(np.stack([i, j, 0.1 * i], -1).reshape(-1, 3), threads=1).triangles))
+"""
+
+
+def test_no_memory_for_the_points():
+    done = subprocess.run([sys.executable, "-c", WITHOUT_MEMORY], stdout=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stdout) == (0, "no memory\n128\n")
+
+
+def test_compiled_part_checks_what_it_gets():
+    """Nothing that Python can pass reaches memory that is not there."""
+    run = pcl_floater._core.run
+    with pytest.raises(TypeError, match="has no argument 'colour'"):
+        run(SQUARE, None, None, {"colour": 1}, None)
+    for array in (np.zeros((5, 2)), np.zeros(5), np.zeros((5, 3), np.int32), np.zeros((5, 3), np.int64),
+                  np.zeros((5, 3), np.complex64)):
+        with pytest.raises(ValueError, match=r"shape \(n, 3\)"):
+            run(array, None, None, {}, None)
+    with pytest.raises(TypeError):
+        run(7, None, None, {}, None)
+
+
+@pytest.mark.parametrize("points, arguments, status, text", [
+    (np.zeros((0, 3)), {}, "NO_INPUT", "the input cloud is empty"),
+    (np.zeros((0, 3), np.float32), {}, "NO_INPUT", "the input cloud is empty"),
+    (np.full((9, 3), np.nan), {}, "TOO_FEW_POINTS", ""),
+    (np.zeros((9, 3)), {}, "TOO_FEW_POINTS", ""),
+    (np.outer(np.arange(9.0), [1, 1, 1]), {}, "DEGENERATE", ""),
+    (np.zeros((9, 3)), dict(loop=[0, 1]), "INVALID_LOOP", "fewer than 3 points"),
+    (np.zeros((9, 3)), dict(loop=[]), "TOO_FEW_POINTS", ""),
+])
+def test_failures(points, arguments, status, text):
+    with pytest.raises(pcl_floater.FloaterError) as raised:
+        pcl_floater.reconstruct(points, **arguments)
+    error = raised.value
+    assert isinstance(error, RuntimeError) and error.status == status and text in str(error)
+    assert error.report["status"] == status and error.report["message"] == str(error) != ""
+    assert error.report["input"]["points"] == len(points)
+    assert error.report["non_finite"] == np.flatnonzero(np.isnan(points[:, 0])).tolist()
+    clone = pickle.loads(pickle.dumps(error))
+    assert (str(clone), clone.status, clone.report) == (str(error), status, error.report)
+
+
+def test_closed_surface_is_no_disc(torus_points):
+    with pytest.raises(pcl_floater.FloaterError) as raised:
+        pcl_floater.reconstruct(torus_points, topology="disc")
+    assert raised.value.status in ("NO_BOUNDARY", "NOT_A_DISC", "UNREACHABLE")
+
+
+def test_wrong_viewpoint_fails_in_the_run(terrain_points):
+    line = np.stack([np.zeros(50), np.zeros(50), np.arange(50.0)], -1) + [[0.0, 0.0, 1.0]]
+    with pytest.raises(pcl_floater.FloaterError) as raised:
+        pcl_floater.reconstruct(line, viewpoint=(0, 0, -5))
+    assert raised.value.status in ("INVALID_OPTION", "DEGENERATE")
+
+
+def test_strict_refuses_warnings(terrain_points):
+    assert pcl_floater.reconstruct(terrain_points, strict=True).report["strict"] is True
+    no_effect = dict(kept_loops=3)
+    mesh = pcl_floater.reconstruct(terrain_points, **no_effect)
+    assert len(mesh.warnings) == 1 and mesh.report["strict"] is False
+    assert mesh.report["warnings"] == list(mesh.warnings)
+    with pytest.raises(pcl_floater.FloaterError) as raised:
+        pcl_floater.reconstruct(terrain_points, strict=np.bool_(True), **no_effect)
+    assert raised.value.status == raised.value.report["status"] == "WARNINGS"
+    assert str(raised.value) == f"1 warning, which strict does not allow; the first: {mesh.warnings[0]}"
+
+
+def test_numbers_of_numpy_are_numbers(terrain_points):
+    mesh = pcl_floater.reconstruct(
+        terrain_points, neighbors=np.int64(15), max_edge=np.float32(4), denoise=np.bool_(False),
+        viewpoint=np.array([10, 10, 100.0]))
+    options = mesh.report["options"]
+    assert (options["neighbors"], options["max_edge"], options["denoise"]) == (15, 4.0, False)
+    assert options["viewpoint"] == [10, 10, 100]
+    assert pcl_floater.reconstruct(terrain_points, max_edge=4).report["options"]["max_edge"] == 4.0

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What comes out: the mesh of the tool, in memory that nobody has copied."""
+import copy
+import gc
+import json
+import pickle
+import tracemalloc
+
+import numpy as np
+import pcl_floater
+import pytest
+
+
+def without_times(report):
+    return {key: value for key, value in report.items() if key != "seconds"}
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_mesh_and_report_are_those_of_the_tool(torus_points, tool, dtype):
+    points = torus_points.astype(dtype)
+    triangles, report = tool(points)
+    mesh = pcl_floater.reconstruct(points)
+    assert np.array_equal(mesh.triangles, triangles)
+    of_files = {"tool", "output", "shift", "peak_memory_bytes", "memory_limit"}
+    assert set(report) - set(mesh.report) == of_files
+    for key in of_files:
+        del report[key]
+    for key in ("file", "fields"):
+        del report["input"][key]
+    del report["seconds"]["reading"]
+    assert list(report) == list(mesh.report)
+    assert list(report["seconds"]) == list(mesh.report["seconds"])
+    assert without_times(report) == without_times(mesh.report)
+
+
+def test_disc_is_that_of_the_tool(terrain_points, tool):
+    triangles, report = tool(terrain_points, "--topology", "disc", "--domain", "square", "-k", "15")
+    mesh = pcl_floater.reconstruct(terrain_points, topology="disc", domain="square", neighbors=15)
+    assert np.array_equal(mesh.triangles, triangles)
+    assert mesh.report["options"] == report["options"]
+    assert mesh.loop.tolist() == report["loop"] == mesh.report["loop"]
+
+
+def test_tw385_is_that_of_the_tool(terrain_points, tool):
+    triangles, report = tool(terrain_points, "--method", "tw385")
+    mesh = pcl_floater.reconstruct(terrain_points, method="tw385")
+    assert np.array_equal(mesh.triangles, triangles)
+    assert mesh.report["options"] == report["options"]
+    assert mesh.report["options"]["boundary"] == "two-segments"
+    assert mesh.report["options"]["ordering"] == "amd"
+    mesh = pcl_floater.reconstruct(terrain_points, method="tw385", boundary="consensus", ordering="metis")
+    assert mesh.report["options"]["boundary"] == "consensus"
+    assert mesh.report["options"]["ordering"] == "metis"
+
+
+def test_torus_is_one_closed_surface_with_a_handle(torus_points):
+    mesh = pcl_floater.reconstruct(torus_points)
+    assert mesh.triangles.dtype == np.int32 and mesh.triangles.shape == (2 * len(torus_points), 3)
+    assert np.array_equal(np.unique(mesh.triangles), np.arange(len(torus_points)))
+    corners = mesh.points[mesh.triangles]
+    volume = np.sum(np.cross(corners[:, 0], corners[:, 1]) * corners[:, 2]) / 6
+    assert volume == pytest.approx(2 * np.pi**2 * 5 * 2**2, rel=0.05)  # and it faces outwards
+    assert mesh.report["check"]["genus"] == 1 and mesh.loop.shape == (0,)
+    assert mesh.parameters is None and mesh.warnings == ()
+    assert repr(mesh) == "<pcl_floater.Mesh: 1440 points, 2880 triangles, 0 warnings>"
+
+
+LAYOUTS = {
+    "columns of a wider array": lambda p: np.hstack([p, p])[:, 3:],
+    "every other row": lambda p: np.repeat(p, 2, axis=0)[::2],
+    "column by column": np.asfortranarray,
+    "backwards": lambda p: np.ascontiguousarray(p[::-1, ::-1])[::-1, ::-1],
+    "a field of unaligned records": lambda p: np.rec.fromarrays(
+        [np.zeros(len(p), np.int8), p], dtype=[("ring", np.int8), ("xyz", p.dtype, 3)]).xyz,
+    "read only": lambda p: np.frombuffer(p.tobytes(), p.dtype).reshape(p.shape),
+}
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_layout_in_memory_does_not_matter(terrain_points, layout, dtype):
+    points = terrain_points.astype(dtype)
+    expected = pcl_floater.reconstruct(points)
+    other = LAYOUTS[layout](points)
+    assert np.array_equal(other, points)
+    assert np.array_equal(pcl_floater.reconstruct(other).triangles, expected.triangles)
+
+
+def test_list_is_taken_as_an_array(terrain_points):
+    expected = pcl_floater.reconstruct(terrain_points).triangles
+    assert np.array_equal(pcl_floater.reconstruct(terrain_points.tolist()).triangles, expected)
+
+
+def test_precision_is_that_of_doubles(terrain_points):
+    """Coordinates of a map, of which 32 bits keep only half a metre."""
+    mesh = pcl_floater.reconstruct(terrain_points + [500000.0, 5500000.0, 0.0])
+    assert np.array_equal(mesh.triangles, pcl_floater.reconstruct(terrain_points).triangles)
+
+
+def test_points_are_the_array_that_was_given(torus_points):
+    assert pcl_floater.reconstruct(torus_points).points is torus_points
+    wide = np.hstack([torus_points, torus_points])
+    assert np.shares_memory(pcl_floater.reconstruct(wide[:, :3]).points, wide)
+
+
+def test_numpy_allocates_nothing(terrain_points):
+    """Neither for the points nor for the triangles: NumPy tells tracemalloc what it allocates."""
+    points = np.tile(terrain_points, (100, 1))  # repeated points, so that this is quick
+    points = np.hstack([points, points])[:, 1:4]
+    tracemalloc.start()
+    try:
+        mesh = pcl_floater.reconstruct(points.astype(np.float32))  # counts itself, as a probe
+        assert tracemalloc.get_traced_memory()[1] >= points.size * 4
+        del mesh
+        gc.collect()
+        tracemalloc.reset_peak()
+        before = tracemalloc.get_traced_memory()[0]
+        mesh = pcl_floater.reconstruct(points)
+        assert tracemalloc.get_traced_memory()[1] - before < points.size * 4 // 10
+    finally:
+        tracemalloc.stop()
+    assert len(mesh.duplicates) == len(points) - len(terrain_points)
+
+
+def test_arrays_own_the_memory_of_the_run(terrain_points):
+    mesh = pcl_floater.reconstruct(terrain_points, topology="disc")
+    for name in ("triangles", "parameters", "loop"):
+        array = getattr(mesh, name)
+        assert not array.flags.owndata and array.flags.writeable and array.flags.c_contiguous
+        assert array.base is not None
+    triangles, expected = mesh.triangles, mesh.triangles.copy()
+    del mesh
+    gc.collect()
+    for _ in range(3):  # which would take the memory if it had been freed
+        pcl_floater.reconstruct(terrain_points[::-1])
+    assert np.array_equal(triangles, expected)
+    triangles[:] = triangles[:, ::-1]  # turns the mesh over
+    assert np.array_equal(triangles, expected[:, ::-1])
+
+
+def test_left_out_points_are_listed(torus_points):
+    points = np.vstack([torus_points, torus_points[:2], [[np.nan, 0, 0], [0, np.inf, 0], [1e3, 0, 0]]])
+    mesh = pcl_floater.reconstruct(points)
+    n = len(torus_points)
+    assert mesh.non_finite.tolist() == [n + 2, n + 3]
+    assert sorted(map(sorted, mesh.duplicates.tolist())) == [[0, n], [1, n + 1]]
+    assert mesh.outliers.tolist() == [n + 4]
+    assert mesh.triangles.max() < n + 2
+    for name in ("loop", "unused", "outliers", "scatter", "non_finite"):
+        assert getattr(mesh, name).ndim == 1 and getattr(mesh, name).dtype == np.int32
+    assert mesh.duplicates.dtype == np.int32
+    for name in ("loop", "unused", "outliers", "scatter", "non_finite", "duplicates"):
+        assert mesh.report[name] == getattr(mesh, name).tolist()
+
+
+def test_parameters_of_a_disc_are_without_flips(terrain_points):
+    points = np.vstack([terrain_points, [[np.nan] * 3]])
+    mesh = pcl_floater.reconstruct(points, topology="disc")
+    assert mesh.parameters.shape == (len(points), 2) and mesh.parameters.dtype == np.float64
+    assert np.isnan(mesh.parameters[-1]).all() and np.isfinite(mesh.parameters[:-1]).all()
+    a, b, c = (mesh.parameters[mesh.triangles[:, corner]] for corner in range(3))
+    assert (np.cross(b - a, c - a) >= 0).all()
+    # The loop is on the unit circle.
+    assert np.hypot(*mesh.parameters[mesh.loop].T) == pytest.approx(1)
+
+
+def test_report_is_made_of_what_json_has(terrain_points):
+    mesh = pcl_floater.reconstruct(terrain_points)
+    assert json.loads(json.dumps(mesh.report, allow_nan=False)) == mesh.report
+    assert mesh.report is mesh.report
+    assert mesh.report["version"] == pcl_floater.__version__
+
+
+@pytest.mark.parametrize("clone", [copy.deepcopy, lambda mesh: pickle.loads(pickle.dumps(mesh))])
+def test_mesh_can_be_copied_and_pickled(terrain_points, clone):
+    mesh = pcl_floater.reconstruct(terrain_points, topology="disc")
+    other = clone(mesh)
+    for name in ("points", "triangles", "parameters", "loop"):
+        assert np.array_equal(getattr(other, name), getattr(mesh, name))
+        assert not np.shares_memory(getattr(other, name), getattr(mesh, name))
+    assert other.report == mesh.report and other.warnings == mesh.warnings

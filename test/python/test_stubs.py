@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The stubs, the documentation and the tool say what the module does."""
+import ast
+import inspect
+import pathlib
+import re
+import typing
+
+import numpy as np
+import pcl_floater
+import pytest
+
+from conftest import ROOT
+
+STUB = pathlib.Path(pcl_floater.__file__).with_name("__init__.pyi")
+# Options of the tool that concern files, printing, or memory.
+OF_THE_TOOL_ONLY = {
+    "max_memory", "scratch",  # the arrays of a program are its own
+    "shift", "precision",  # the points stay as they are, in double precision
+    "report", "parameterization",  # of every Mesh
+    "json", "quiet", "help", "version"}
+
+
+@pytest.fixture(scope="module")
+def stub():
+    return {node.name: node for node in ast.parse(STUB.read_text()).body if hasattr(node, "name")}
+
+
+@pytest.fixture(scope="module")
+def annotations():
+    names = {}
+    exec(compile(STUB.read_text(), str(STUB), "exec"), names)  # all in it can be evaluated
+    return typing.get_type_hints(names["reconstruct"])
+
+
+SIGNATURE = inspect.signature(pcl_floater.reconstruct)
+
+
+def test_signature_is_that_of_the_stub(stub):
+    arguments = stub["reconstruct"].args
+    assert [a.arg for a in arguments.args] == ["points"]
+    assert SIGNATURE.parameters["points"].kind is inspect.Parameter.POSITIONAL_OR_KEYWORD
+    in_stub = {a.arg: ast.literal_eval(default) for a, default in zip(arguments.kwonlyargs, arguments.kw_defaults)}
+    in_module = {name: p.default for name, p in SIGNATURE.parameters.items()
+                 if p.kind is inspect.Parameter.KEYWORD_ONLY}
+    assert list(in_stub.items()) == list(in_module.items())
+    assert len(in_stub) + 1 == len(SIGNATURE.parameters)
+
+
+def test_classes_are_those_of_the_stub(stub, terrain_points):
+    assert {name for name in stub if not name.startswith("_")} == set(pcl_floater.__all__)
+    mesh = pcl_floater.reconstruct(terrain_points)
+    members = {getattr(node, "name", None) or node.target.id for node in stub["Mesh"].body}
+    members = {name for name in members if not name.startswith("_")}
+    assert members == {name for name in dir(mesh) if not name.startswith("_")}
+    attributes = inspect.getdoc(pcl_floater.Mesh)
+    for name in members:
+        assert re.search(rf"^{name} : ", attributes, re.MULTILINE), name
+    in_stub = [a.arg for node in stub["FloaterError"].body if isinstance(node, ast.FunctionDef) for a in node.args.args]
+    assert in_stub == list(inspect.signature(pcl_floater.FloaterError.__init__).parameters)
+
+
+def test_words_are_those_of_the_stub(annotations):
+    """The message on a wrong word has the right ones."""
+    found = 0
+    for name, annotation in annotations.items():
+        options = [annotation, *typing.get_args(annotation)]
+        literals = [typing.get_args(o) for o in options if typing.get_origin(o) is typing.Literal]
+        if not literals or name == "viewpoint":
+            continue
+        with pytest.raises(ValueError) as raised:
+            pcl_floater.reconstruct(np.zeros((9, 3)), **{name: "?"})
+        words = re.findall(r"'([\w-]+)'", str(raised.value))
+        assert tuple(words) == literals[0], name
+        found += 1
+    assert found == 12
+
+
+def test_every_option_of_the_tool_is_an_argument():
+    table = (ROOT / "tools/reconstruct/option_table.cpp").read_text()
+    options = {name.replace("-", "_") for name in re.findall(r'"(?:-\w,)?--([a-z][a-z-]+)"', table)}
+    arguments = set(SIGNATURE.parameters) - {"points", "normals", "sensor_origin", "progress"}
+    assert len(options) > 40
+    assert options - OF_THE_TOOL_ONLY == arguments
+    assert OF_THE_TOOL_ONLY <= options
+
+
+def test_defaults_are_those_of_the_core(terrain_points):
+    """A run is given all arguments, so that a report tells nothing of the defaults of the core."""
+    status, _, _, known, _ = pcl_floater._core.run(terrain_points, None, None, {}, None)
+    assert status == "SUCCESS"
+    of_core = known["options"]
+    del of_core["loop_given"]
+    arguments = {name: SIGNATURE.parameters[name].default for name in of_core}
+    assert (arguments.pop("boundary"), arguments.pop("ordering")) == (None, None)
+    assert (of_core.pop("boundary"), of_core.pop("ordering")) == ("spanning-tree", "automatic")
+    assert arguments == of_core
+
+
+def test_every_argument_is_documented(annotations):
+    text = inspect.getdoc(pcl_floater.reconstruct)
+    described = [name for line in re.findall(r"^(\w+(?:, \w+)*) : ", text, re.MULTILINE) for name in line.split(", ")]
+    assert described == list(SIGNATURE.parameters)
+    assert set(annotations) == set(SIGNATURE.parameters) | {"return"}
+
+
+def test_version_is_that_of_the_project():
+    version = re.search(r"project \(pcl_floater VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+    assert pcl_floater.__version__ == version
+    assert STUB.with_name("py.typed").is_file()

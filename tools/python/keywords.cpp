@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "keywords.h"
+
+#include "choices.h"
+
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace py = pybind11;
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+std::string
+shown (const py::handle& value)
+{
+  return std::string (py::repr (value));
+}
+
+py::type_error
+wrongType (const std::string& name, const char* wanted, const py::handle& value)
+{
+  return py::type_error (name + " must be " + wanted + ", not " + shown (value));
+}
+
+/// numpy.bool_ is a type of its own, whose name is bool from NumPy 2 on.
+bool
+isBool (const py::handle& value)
+{
+  const std::string type = py::str (py::type::of (value).attr ("__name__"));
+  return type == "bool" || type == "bool_";
+}
+
+/// Takes keyword arguments one by one, each under the name that the tool has for it.
+class Keywords
+{
+public:
+  explicit Keywords (const py::dict& given) : left_ (given.attr ("copy") ()) {}
+
+  void take (const char* name, bool& value)
+  {
+    if (const py::object given = take (name)) {
+      if (!isBool (given))
+        throw wrongType (name, "True or False", given);
+      value = given.cast<bool> ();
+    }
+  }
+
+  void take (const char* name, int& value)
+  {
+    const py::object given = take (name);
+    if (!given)
+      return;
+    if (isBool (given) || PyIndex_Check (given.ptr ()) == 0)
+      throw wrongType (name, "a whole number", given);
+    int is_too_large = 0;
+    const auto number = py::reinterpret_steal<py::object> (PyNumber_Index (given.ptr ()));
+    if (!number)
+      throw py::error_already_set ();
+    const long long wide = PyLong_AsLongLongAndOverflow (number.ptr (), &is_too_large);
+    if (is_too_large != 0 || wide > std::numeric_limits<int>::max () ||
+        wide < std::numeric_limits<int>::min ())
+      throw py::value_error (std::string (name) + " must be a number of 32 bits, not " +
+                             shown (given));
+    value = static_cast<int> (wide);
+  }
+
+  void take (const char* name, double& value)
+  {
+    if (const py::object given = take (name)) {
+      value = PyFloat_AsDouble (given.ptr ());
+      if (isBool (given) || PyErr_Occurred () != nullptr) {
+        PyErr_Clear ();
+        throw wrongType (name, "a number", given);
+      }
+    }
+  }
+
+  /// One of several words.
+  template <typename Enum, std::size_t N>
+  void take (const char* name, Enum& value, const Choices<Enum, N>& choices)
+  {
+    const py::object given = take (name);
+    if (!given)
+      return;
+    std::string words;
+    for (const auto& choice : choices)
+      words += (words.empty () ? "'" : ", '") + std::string (choice.first) + "'";
+    if (!py::isinstance<py::str> (given))
+      throw wrongType (name, ("one of " + words).c_str (), given);
+    const auto word = given.cast<std::string> ();
+    for (const auto& choice : choices)
+      if (word == choice.first) {
+        value = choice.second;
+        return;
+      }
+    throw py::value_error (std::string (name) + " must be one of " + words + ", not " +
+                           shown (given));
+  }
+
+  /// \return null if it is not given
+  py::object take (const char* name)
+  {
+    return left_.contains (name) ? py::object (left_.attr ("pop") (name)) : py::object ();
+  }
+
+  /// \throws pybind11::type_error if something was not taken
+  void finish () const
+  {
+    for (const auto& item : left_)
+      throw py::type_error ("reconstruct() has no argument " + shown (item.first));
+  }
+
+private:
+  py::dict left_;
+};
+
+void
+takeViewpoint (Keywords& keywords, ViewOptions& view)
+{
+  const py::object given = keywords.take ("viewpoint");
+  if (!given)
+    return;
+  if (given.is_none ())
+    throw py::type_error ("viewpoint must be 'auto', 'none' or three numbers; 'none' says that the "
+                          "cloud is no single scan");
+  if (!py::isinstance<py::str> (given)) {
+    view.use = ViewUse::GIVEN;
+    view.viewpoint = readPlace ("viewpoint", given);
+    return;
+  }
+  const auto word = given.cast<std::string> ();
+  if (word != "auto" && word != "none")
+    throw py::value_error ("viewpoint must be 'auto', 'none' or three numbers, not " +
+                           shown (given));
+  view.use = word == "auto" ? ViewUse::AUTO : ViewUse::NEVER;
+}
+
+void
+takeLargestHole (Keywords& keywords, HoleOptions& holes)
+{
+  double length = 0.0;
+  keywords.take ("largest_hole", holes.largest_hole);
+  keywords.take ("largest_hole_length", length);
+  if (length == 0.0)
+    return;
+  if (holes.largest_hole != 0.0)
+    throw py::value_error ("largest_hole and largest_hole_length are one size in two units; give "
+                           "one of them");
+  holes.largest_hole = length;
+  holes.unit = LengthUnit::CLOUD;
+}
+
+void
+takeDisc (Keywords& keywords, DiscOptions& disc)
+{
+  const DiscOptions published = DiscOptions::tw385 ();
+  keywords.take ("method", disc.as_published, METHOD_CHOICES);
+  keywords.take ("solver", disc.solver.method, SOLVER_CHOICES);
+  if (disc.as_published) {
+    disc.boundary.method = published.boundary.method;
+    if (disc.solver.method == published.solver.method)
+      disc.solver.ordering = published.solver.ordering;
+  }
+  keywords.take ("boundary", disc.boundary.method, BOUNDARY_CHOICES);
+  if (const py::object loop = keywords.take ("loop"))
+    for (const py::handle& index : loop)
+      disc.boundary.loop.push_back (index.cast<std::uint32_t> ());
+  keywords.take ("opening_angle", disc.boundary.opening_angle);
+  keywords.take ("cluster_tolerance", disc.boundary.cluster_tolerance);
+  keywords.take ("cluster_neighbors", disc.boundary.cluster_k);
+  keywords.take ("domain", disc.domain.curve, DOMAIN_CHOICES);
+  keywords.take ("sides", disc.domain.polygon_sides);
+  keywords.take ("spacing", disc.domain.loop_spacing, SPACING_CHOICES);
+  keywords.take ("weights", disc.weighting, WEIGHTING_CHOICES);
+  keywords.take ("ordering", disc.solver.ordering, ORDERING_CHOICES);
+  keywords.take ("tolerance", disc.solver.tolerance);
+  keywords.take ("max_iterations", disc.solver.max_iterations);
+  keywords.take ("ilut_fill", disc.solver.ilut_fill);
+  keywords.take ("ilut_drop", disc.solver.ilut_drop);
+}
+
+} // namespace
+
+std::array<double, 3>
+readPlace (const char* name, const py::handle& value)
+{
+  const auto wrong = [&] { return wrongType (name, "three numbers", value); };
+  if (PySequence_Check (value.ptr ()) == 0 || py::isinstance<py::str> (value))
+    throw wrong ();
+  const auto numbers = py::reinterpret_borrow<py::sequence> (value);
+  std::array<double, 3> place{};
+  if (numbers.size () != place.size ())
+    throw py::value_error (std::string (name) + " must be three numbers, not " + shown (value));
+  for (std::size_t axis = 0; axis < place.size (); ++axis) {
+    const py::object number = numbers[axis];
+    place[axis] = PyFloat_AsDouble (number.ptr ());
+    if (PyErr_Occurred () != nullptr) {
+      PyErr_Clear ();
+      throw wrong ();
+    }
+  }
+  return place;
+}
+
+GivenOptions
+readKeywords (const py::dict& keywords)
+{
+  GivenOptions asked;
+  Options& options = asked.options;
+  Keywords taken (keywords);
+  taken.take ("topology", options.topology, TOPOLOGY_CHOICES);
+  taken.take ("holes", options.holes.policy, HOLE_CHOICES);
+  taken.take ("kept_loops", options.holes.kept_loops);
+  takeLargestHole (taken, options.holes);
+  takeViewpoint (taken, options.view);
+  taken.take ("facing", options.facing, FACING_CHOICES);
+  taken.take ("max_edge", options.trimming.maximum_edge_length);
+  taken.take ("max_edge_ratio", options.trimming.maximum_edge_ratio);
+  taken.take ("min_component", options.trimming.minimum_component_size);
+  taken.take ("remove_outliers", options.remove_outliers);
+  taken.take ("scatter", options.scatter, SCATTER_CHOICES);
+  taken.take ("denoise", options.denoise);
+  taken.take ("flips", options.flip_edges);
+  taken.take ("uncross", options.remove_self_intersections);
+  taken.take ("open_crossings", options.trimming.open_self_intersections);
+  taken.take ("neighbors", options.neighbors.k);
+  taken.take ("neighborhood", options.neighbors.kind, NEIGHBORHOOD_CHOICES);
+  taken.take ("ball_radius", options.neighbors.ball_radius);
+  taken.take ("use_input_normals", asked.use_input_normals);
+  taken.take ("sheet_filter", options.filter_sheets);
+  takeDisc (taken, options.disc);
+  taken.take ("threads", options.threads);
+  taken.take ("blocks", options.blocks);
+  taken.finish ();
+  return asked;
+}
+
+} // namespace floater
+} // namespace pcl

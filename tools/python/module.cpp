@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The compiled part of the Python module pcl_floater. The part in Python checks what arrays it
+// gets, and makes exceptions and meshes of what this one returns.
+#include "check_input.h"
+#include "check_options.h"
+#include "keywords.h"
+#include "published_method.h"
+#include "report_json.h"
+#include "result_arrays.h"
+
+#include <nlohmann/json.hpp>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <numeric>
+
+namespace py = pybind11;
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+/// Numbers are signed and of 64 bits at least, as Python's are.
+py::object
+toPython (const nlohmann::ordered_json& json)
+{
+  if (json.is_boolean ())
+    return py::bool_ (json.get<bool> ());
+  if (json.is_number_integer ())
+    return py::int_ (json.get<std::int64_t> ());
+  if (json.is_number ())
+    return py::float_ (json.get<double> ());
+  if (json.is_string ())
+    return py::str (json.get<std::string> ());
+  if (json.is_array ()) {
+    py::list list;
+    for (const auto& item : json)
+      list.append (toPython (item));
+    return list;
+  }
+  if (json.is_object ()) {
+    py::dict dict;
+    for (const auto& [key, value] : json.items ())
+      dict[py::str (key)] = toPython (value);
+    return dict;
+  }
+  return py::none ();
+}
+
+/// Rows of three numbers in an array of NumPy, wherever they are in memory.
+/// \throws pybind11::value_error
+class Rows
+{
+public:
+  explicit Rows (const py::buffer& buffer) : info_ (buffer.request ())
+  {
+    // Memory that is not aligned has a sign before the letter.
+    const char type = info_.format.empty () ? ' ' : info_.format.back ();
+    const bool has_floats = (type == 'f' && info_.itemsize == sizeof (float)) ||
+                            (type == 'd' && info_.itemsize == sizeof (double));
+    if (info_.ndim != 2 || info_.shape[1] != 3 || !has_floats)
+      throw py::value_error ("an array of the shape (n, 3) of floats is expected");
+    if (info_.shape[0] > std::numeric_limits<std::int32_t>::max ())
+      throw py::value_error ("more than 2147483647 points; reconstruct parts of the cloud");
+  }
+
+  std::size_t size () const { return static_cast<std::size_t> (info_.shape[0]); }
+
+  /// The only copy of the points that is made. \tparam Vector of Eigen, with three elements
+  template <typename Vector>
+  std::vector<Vector> copy () const
+  {
+    return info_.itemsize == 4 ? copyOf<Vector, float> () : copyOf<Vector, double> ();
+  }
+
+private:
+  template <typename Vector, typename Number>
+  std::vector<Vector> copyOf () const
+  {
+    using To = typename Vector::Scalar;
+    std::vector<Vector> rows (size ());
+    const char* row = static_cast<const char*> (info_.ptr);
+    for (Vector& vector : rows) {
+      for (py::ssize_t axis = 0; axis < 3; ++axis) {
+        Number number; // the memory need not be aligned
+        std::memcpy (&number, row + axis * info_.strides[1], sizeof (number));
+        vector[axis] = static_cast<To> (number);
+      }
+      row += info_.strides[0];
+    }
+    return rows;
+  }
+
+  py::buffer_info info_;
+};
+
+/// Tells Python's caller how far a run is, and ends the run if the callable or a signal raised an
+/// exception. The run does not hold the lock of the interpreter (GIL) meanwhile.
+class Watch
+{
+public:
+  explicit Watch (py::object progress) : progress_ (std::move (progress))
+  {
+    // Signals are handled in the main thread only.
+    const auto threading = py::module_::import ("threading");
+    handles_signals_ = threading.attr ("current_thread") ().is (threading.attr ("main_thread") ());
+  }
+
+  void attachTo (Options& options)
+  {
+    options.cancelled_callback = [this] { return isCancelled (); };
+    if (progress_.is_none ())
+      return;
+    options.stage_callback = [this] (Stage stage) { stage_ = stageName (stage); };
+    options.progress_callback = [this] (double fraction) { tell (fraction); };
+  }
+
+  /// To be called with the lock. \throws what was raised during the run
+  void rethrow () const
+  {
+    if (raised_)
+      std::rethrow_exception (raised_);
+  }
+
+private:
+  void tell (double fraction)
+  {
+    if (raised_)
+      return;
+    const py::gil_scoped_acquire lock;
+    try {
+      progress_ (stage_, fraction);
+    }
+    catch (const py::error_already_set&) {
+      raised_ = std::current_exception ();
+    }
+  }
+
+  bool isCancelled ()
+  {
+    if (!raised_ && handles_signals_) {
+      const py::gil_scoped_acquire lock;
+      if (PyErr_CheckSignals () != 0)
+        raised_ = std::make_exception_ptr (py::error_already_set ());
+    }
+    return raised_ != nullptr;
+  }
+
+  py::object progress_;
+  bool handles_signals_ = false;
+  const char* stage_ = "";
+  std::exception_ptr raised_;
+};
+
+/// \throws pybind11::value_error
+Input
+makeInput (const Rows& rows, const py::object& normals, const py::object& sensor_origin,
+           const GivenOptions& asked)
+{
+  Input input;
+  if (!sensor_origin.is_none ()) {
+    input.sensor_origin = readPlace ("sensor_origin", sensor_origin);
+    for (const double coordinate : input.sensor_origin)
+      if (!std::isfinite (coordinate))
+        throw py::value_error ("sensor_origin must have finite coordinates");
+  }
+  const Facing facing = asked.options.facing;
+  const bool for_facing = facing == Facing::AUTO || facing == Facing::NORMALS;
+  if (normals.is_none ()) {
+    if (asked.use_input_normals)
+      throw py::value_error ("use_input_normals=True needs normals");
+  }
+  else {
+    if (!for_facing && !asked.use_input_normals)
+      throw py::value_error ("normals are given, but facing does not ask for them: leave them out, "
+                             "or set facing='normals' or use_input_normals=True");
+    const Rows given (normals.cast<py::buffer> ());
+    if (given.size () != rows.size ())
+      throw py::value_error ("there are " + std::to_string (given.size ()) + " normals of " +
+                             std::to_string (rows.size ()) + " points; give one for each point");
+    auto copy = given.copy<Eigen::Vector3f> ();
+    if (asked.use_input_normals)
+      input.normals = copy;
+    if (for_facing)
+      input.facing_normals = std::move (copy);
+  }
+  input.cloud_size = rows.size ();
+  {
+    const py::gil_scoped_release release;
+    input.positions = rows.copy<Eigen::Vector3d> ();
+    input.cloud_index.resize (rows.size ());
+    std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
+  }
+  return input;
+}
+
+/// \return status, message, warnings, the part of the report that the core knows, and the arrays
+py::tuple
+run (const py::buffer& points, const py::object& normals, const py::object& sensor_origin,
+     const py::dict& keywords, const py::object& progress)
+{
+  GivenOptions asked = readKeywords (keywords);
+  Options& options = asked.options;
+  const Problem problem = checkOptions (options);
+  if (problem.status == RunStatus::INVALID_OPTION)
+    throw py::value_error (problem.message);
+  const Rows rows (points);
+  Input input = makeInput (rows, normals, sensor_origin, asked);
+  if (const Problem facing = checkFacing (input, options))
+    throw py::value_error (facing.message);
+
+  Watch watch (progress);
+  watch.attachTo (options);
+  const auto result = std::make_shared<Result> ();
+  double seconds = 0.0;
+  {
+    const py::gil_scoped_release release;
+    const auto start = std::chrono::steady_clock::now ();
+    // The status of a cloud without points comes from the same function as for the class.
+    *result = rows.size () == 0 ? reconstruct (std::vector<Eigen::Vector3d> (), options)
+                                : reconstruct (std::move (input), options);
+    seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+  }
+  watch.rethrow ();
+
+  const Report& report = result->report;
+  nlohmann::ordered_json known;
+  known["options"] = optionsJson (effectiveOptions (options), asked.use_input_normals);
+  known.update (resultJson (report));
+  known["seconds"] = secondsJson (report.statistics);
+  known["seconds"]["reconstruction"] = seconds;
+  return py::make_tuple (statusName (report.status), report.message, report.warnings,
+                         toPython (known), arraysOfResult (result));
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
+
+PYBIND11_MODULE (_core, module)
+{
+  module.doc () = "The compiled part of pcl_floater.";
+  module.attr ("__version__") = PCL_FLOATER_VERSION;
+  pcl::floater::defineResultArray (module);
+  module.def ("run", &pcl::floater::run);
+}

@@ -1,0 +1,312 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surface reconstruction from point clouds.
+
+Turns an unorganized point cloud into a triangle mesh whose vertices are the points of the cloud. The
+surface may be open or closed, with holes, handles or several components, or a single scan of a depth
+camera or a lidar. It needs no normals and no tuning.
+
+    import numpy as np
+    import pcl_floater
+
+    mesh = pcl_floater.reconstruct(points)   # points: array of the shape (n, 3)
+    corners = mesh.points[mesh.triangles]    # (m, 3, 3): the three corners of each triangle
+"""
+import functools
+
+import numpy as np
+
+from . import _core
+from ._core import __version__
+
+__all__ = ["FloaterError", "Mesh", "reconstruct"]
+
+
+class FloaterError(RuntimeError):
+    """There is no mesh. The text names the cause, and what to do.
+
+    Attributes
+    ----------
+    status : str
+        The outcome in one word, such as "TOO_FEW_POINTS" or "NO_BOUNDARY"; "WARNINGS" if it was
+        `strict` that refused the mesh. doc/troubleshooting.md has all of them.
+    report : dict
+        The report on the run, as `Mesh.report`. Its "message" is the text of the exception.
+    """
+
+    def __init__(self, message, status, report):
+        super().__init__(message)
+        self.status = status
+        self.report = report
+
+    def __reduce__(self):
+        return type(self), (str(self), self.status, self.report)
+
+
+class Mesh:
+    """A triangle mesh, and the report on the run that made it. `reconstruct` makes them.
+
+    All indices count the points of the cloud, from 0. The arrays own the memory of the
+    reconstruction: nothing has been copied. All may be changed, and a mesh can be pickled.
+
+    Attributes
+    ----------
+    points : numpy.ndarray, shape (n, 3), float32 or float64
+        The cloud, as it was given: the same array, if it was one. Vertices of the mesh.
+    triangles : numpy.ndarray, shape (m, 3), int32
+        Points of each triangle, anti-clockwise as seen from the front.
+    warnings : tuple of str
+        What is odd about the cloud and the mesh, one sentence each. Empty if nothing is.
+    parameters : numpy.ndarray, shape (n, 2), float64, or None
+        Of a disc: the position of each point in the plane, NaN where it was not used. Triangles run
+        anti-clockwise there. None of other surfaces; see `topology="disc"`.
+    loop : numpy.ndarray, shape (k,), int32
+        The longest boundary loop, in order, each point once. Empty if the surface is closed.
+    unused : numpy.ndarray, shape (k,), int32
+        Finite points, neither duplicates nor outliers, that are in no triangle; ascending.
+    outliers : numpy.ndarray, shape (k,), int32
+        Points that were left out of the mesh as outliers; ascending.
+    scatter : numpy.ndarray, shape (k,), int32
+        Points of no surface, such as leaves; left out of the mesh with `scatter="drop"`; ascending.
+    non_finite : numpy.ndarray, shape (k,), int32
+        Points with a NaN or infinite coordinate, which are in no triangle; ascending.
+    duplicates : numpy.ndarray, shape (k, 2), int32
+        Repeated points, which are in no triangle, each with the equal point that is; ascending.
+    report : dict
+        The report on the run.
+    """
+
+    def __init__(self, points, arrays, warnings, report):
+        self.points = points
+        self.triangles = arrays["triangles"]
+        self.warnings = warnings
+        self.parameters = arrays["parameters"]
+        self.loop = arrays["loop"]
+        self.unused = arrays["unused"]
+        self.outliers = arrays["outliers"]
+        self.scatter = arrays["scatter"]
+        self.non_finite = arrays["non_finite"]
+        self.duplicates = arrays["duplicates"]
+        self._report = report
+
+    @functools.cached_property
+    def report(self):
+        """The report on the run: a dict with the keys of the JSON report of the tool, but for those
+        on files and memory. It holds numbers, strings, lists and dicts only, so that json.dump()
+        takes it. Made when it is first read: the lists of points become lists of Python."""
+        return _with_lists(self._report, vars(self))
+
+    def __repr__(self):
+        return (f"<pcl_floater.Mesh: {len(self.points)} points, {len(self.triangles)} triangles, "
+                f"{len(self.warnings)} warnings>")
+
+
+def _with_lists(report, arrays):
+    """The report with the lists of points."""
+    names = ("loop", "unused", "outliers", "scatter", "non_finite", "duplicates")
+    return {**report, **{name: arrays[name].tolist() for name in names}}
+
+
+def _rows(name, given):
+    """The array of three columns that was given, not copied, with what the compiled part relies on."""
+    if isinstance(given, np.ma.MaskedArray):
+        raise TypeError(f"{name} is a masked array, whose mask would be lost; use "
+                        f"{name}.filled(numpy.nan)")
+    array = np.asarray(given)
+    if array.dtype.names:
+        raise TypeError(f"{name} is an array with the fields {', '.join(array.dtype.names)}; use "
+                        f"numpy.column_stack(({name}['x'], {name}['y'], {name}['z'])), say")
+    if array.dtype not in (np.float32, np.float64):
+        raise TypeError(f"{name} must be an array of float32 or float64, not {array.dtype}; "
+                        f"numpy.asarray({name}, float) converts it if it can be")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name} must have the shape (n, 3), not {array.shape}")
+    return array
+
+
+def _loop(given):
+    """The indices as a list of int."""
+    array = np.asarray(given)
+    if array.ndim != 1:
+        raise ValueError(f"loop must be a list of indices, not an array of the shape {array.shape}")
+    if array.size > 0 and array.dtype.kind not in "iu":
+        raise TypeError(f"loop must be a list of whole numbers, not of {array.dtype}")
+    if array.size > 0 and not 0 <= array.min() <= array.max() < 2**32:
+        raise ValueError("loop has an index that is negative, or too large")
+    return array.tolist()
+
+
+def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", holes="auto",
+                kept_loops=1, largest_hole=0.0, largest_hole_length=0.0, viewpoint="auto",
+                facing="auto", max_edge=0.0, max_edge_ratio=0.0, min_component=0,
+                remove_outliers=True, scatter="keep", denoise=True, flips=True, uncross=True,
+                open_crossings=False, neighbors=20, neighborhood="nearest-delaunay",
+                ball_radius=2.25, use_input_normals=False, sheet_filter=True, method="auto",
+                boundary=None, loop=None, opening_angle=160.0, cluster_tolerance=0.05,
+                cluster_neighbors=10, domain="circle", sides=6, spacing="chord-length",
+                weights="mean-value", solver="umfpack", ordering=None, tolerance=1e-15,
+                max_iterations=1000, ilut_fill=15, ilut_drop=0.01, threads=0, blocks=0,
+                strict=False, progress=None):
+    """Reconstructs the surface on which points lie.
+
+    The names, values and defaults are those of the tool pcl_floater_reconstruct. The defaults need no
+    tuning. The result does not depend on the number of threads or on the order of the points. Other
+    threads of Python run meanwhile, and may call this function, too. The points are copied once, into
+    the double precision in which all is computed: 24 bytes per point, with up to some hundred more
+    during the run.
+
+    Parameters
+    ----------
+    points : array, shape (n, 3), float32 or float64
+        The cloud. It may have any strides, so that `scan[:, :3]` is not copied. Points with a NaN or
+        infinite coordinate, and repeated points, are in no triangle.
+    normals : array, shape (n, 3), float32 or float64, optional
+        Normals of the points, of any length. With `facing` "auto" or "normals" they tell where the
+        front is; see also `use_input_normals`. Where one is zero or not finite, it tells nothing.
+    sensor_origin : three numbers, optional
+        Where the sensor of a single scan was, if that is known but not sure to fit: it is used if the
+        spacing of the points confirms it. The mesh faces it where it can.
+
+    topology : {"auto", "disc", "surface"}
+        What the points are taken for: a disc (one component with one boundary loop, laid out in the
+        plane, so that the mesh has `parameters`) or any surface. "auto": a disc if `loop` is given.
+    holes : {"auto", "close-all", "keep-largest", "keep-count", "by-size"}
+        Boundary loops that stay open: those that look like boundaries, not like gaps of the sampling;
+        none; the largest of each component; `kept_loops` of them; or those above a size.
+    kept_loops : int
+        "keep-count": boundary loops that stay open, 0 or more.
+    largest_hole, largest_hole_length : float
+        "by-size": width of the widest hole to fill, in local spacings (mean distances of the points
+        there to their 6 nearest), or in units of the cloud. One of them.
+    viewpoint : "auto", "none" or three numbers
+        One scan: where its sensor was. Its points are connected as they were seen from there. "auto":
+        `sensor_origin`, or a place that is found, if the spacing of the points tells so. "none": the
+        cloud is no single scan.
+    facing : {"auto", "outwards", "up", "viewpoint", "normals"}
+        Which side of each component is its front.
+    max_edge, max_edge_ratio : float
+        Cut off triangles with a longer edge, in units of the cloud, or in local spacings. 0: no limit.
+    min_component : int
+        Cut off components of fewer points.
+    remove_outliers : bool
+        Leave points that lie off any surface out of the mesh.
+    scatter : {"keep", "drop"}
+        Points of no surface at any scale, such as leaves.
+    denoise : bool
+        Where noise is strong, connect the points as they lie when projected on local planes. The
+        points themselves are not moved.
+    flips : bool
+        Flip edges in space and repair folds at the end.
+    uncross : bool
+        Change the mesh where its triangles cross each other.
+    open_crossings : bool
+        Take triangles out until no two cross each other.
+
+    neighbors : int
+        Nearest neighbours of each point, 6 to 200.
+    neighborhood : {"nearest-delaunay", "nearest", "ball-delaunay", "ball"}
+        Points that a point of a disc is a mean of.
+    ball_radius : float
+        "ball", "ball-delaunay": radius, in mean distances of a point to its 6 nearest, 1 to 10.
+    use_input_normals : bool
+        Take `normals` for the tangent planes as well.
+    sheet_filter : bool
+        Drop neighbours on another sheet of the surface.
+
+    method : {"auto", "tw385"}
+        "tw385": a disc by the method of the report TW 385 and nothing else.
+    boundary : {"spanning-tree", "consensus", "two-segments"}, optional
+        How the boundary loop of a disc is found. None: "spanning-tree", and with `method="tw385"`
+        "two-segments".
+    loop : sequence of int, optional
+        The boundary loop: indices of points, in order. Makes a disc.
+    opening_angle, cluster_tolerance, cluster_neighbors : float, float, int
+        "two-segments": degrees, above 0 and below 360, of the sector without neighbours that a
+        boundary point has; the distance over which clusters grow, as a fraction of the bounding box
+        diagonal, above 0, at most 1; boundary points that a cluster takes in at a time, 1 or more.
+    domain : {"circle", "square", "polygon", "own-shape"}
+        Convex curve on which the loop is laid.
+    sides : int
+        Sides of the polygon, 3 or more.
+    spacing : {"chord-length", "centripetal", "uniform"}
+        How the points of the loop are spaced on that curve.
+    weights : {"uniform", "inverse-distance", "shape-preserving", "mean-value"}
+        Weights of the neighbours of a point.
+    solver : {"umfpack", "umfpack-unsymmetric", "superlu", "eigen-sparse-lu", "bicgstab-ilut", \
+"gauss-seidel"}
+        What solves the linear system.
+    ordering : {"automatic", "amd", "metis", "colamd", "reverse-cuthill-mckee", "natural"}, optional
+        Order of the unknowns. None: "automatic", and with `method="tw385"` and UMFPACK "amd".
+    tolerance, max_iterations : float, int
+        Iterative solvers: relative residual to reach, above 0 and below 1; iterations after which they
+        give up, 1 or more.
+    ilut_fill, ilut_drop : int, float
+        "bicgstab-ilut": entries kept in a row of each factor, 1 to 10000; those below this fraction of
+        their row are dropped, 0 to 1.
+
+    threads : int
+        Threads to use. 0: one for each core.
+    blocks : int
+        Blocks in which the nearest neighbours are searched. 0: chosen by the number of points. The
+        result is the same.
+    strict : bool
+        Take warnings for a failure: raise `FloaterError` with the status "WARNINGS".
+    progress : callable, optional
+        Called as progress(stage, fraction) by this thread, when a stage begins and up to 20 times a
+        second: the name of the stage, and the fraction of the run that is done, from 0 to 1. An
+        exception that it raises ends the run, and is raised here.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    FloaterError
+        There is no mesh; `status` tells why.
+    ValueError
+        An argument is out of its range, no word of those that are possible, of a wrong shape, or does
+        not fit the others.
+    TypeError
+        An argument is of a wrong type, or unknown.
+    KeyboardInterrupt
+        Ctrl-C ends the run, mostly within a tenth of a second. Only the solution of a linear system,
+        of a disc, is not interrupted.
+
+    Examples
+    --------
+    >>> mesh = reconstruct(points, holes="close-all")
+    >>> mesh.triangles.shape
+    (8000, 3)
+    >>> mesh.report["check"]["genus"]
+    1
+    """
+    options = dict(locals())
+    given = options.pop("points")
+    for name in ("normals", "sensor_origin", "strict", "progress"):
+        del options[name]
+    for name in ("boundary", "ordering", "loop"):
+        if options[name] is None:
+            del options[name]
+    if loop is not None:
+        options["loop"] = _loop(loop)
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a callable, not {progress!r}")
+    if not isinstance(strict, (bool, np.bool_)):
+        raise TypeError(f"strict must be True or False, not {strict!r}")
+    array = _rows("points", given)
+    status, message, warnings, known, arrays = _core.run(
+        array, None if normals is None else _rows("normals", normals), sensor_origin, options, progress)
+    arrays = {name: None if values is None else np.asarray(values) for name, values in arrays.items()}
+    if strict and status == "SUCCESS" and warnings:
+        status = "WARNINGS"
+        message = (f"{len(warnings)} warning{'' if len(warnings) == 1 else 's'}, which strict does not "
+                   f"allow; the first: {warnings[0]}")
+    report = {
+        "version": __version__,
+        "input": {"points": len(array), "coordinates": "float" if array.itemsize == 4 else "double"},
+        "options": known.pop("options"), "strict": bool(strict), "status": status, "message": message,
+        "warnings": list(warnings), **known}
+    if status != "SUCCESS":
+        raise FloaterError(message, status, _with_lists(report, arrays))
+    return Mesh(array, arrays, tuple(warnings), report)

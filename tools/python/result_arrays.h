@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arrays of a result, for Python without a copy.
+#pragma once
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+namespace pcl
+{
+namespace floater
+{
+/// One array of a result. NumPy takes it by the buffer protocol, so that the module depends on no
+/// version of NumPy's C interface. Keeps the whole result alive.
+struct ResultArray
+{
+  std::shared_ptr<const Result> result;
+  const void* first = nullptr;
+  const char* format = "i"; ///< of the elements: "i" or "d"
+  std::size_t rows = 0;
+  std::size_t columns = 0; ///< 0: an array of one dimension
+};
+
+/// Makes ResultArray known to Python.
+void
+defineResultArray (pybind11::module_& module);
+
+/// The arrays by the names of the report, and "triangles" and "parameters". The indices of the core
+/// are unsigned, and here signed: every cloud index is below 2^31.
+pybind11::dict
+arraysOfResult (const std::shared_ptr<const Result>& result);
+
+} // namespace floater
+} // namespace pcl

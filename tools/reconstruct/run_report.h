@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The report of the tool on a run, as JSON.
+#pragma once
+
+#include "cloud.h"
+#include "command_line.h"
+
+#include <pcl/surface/floater/report.h>
+
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+/// Figures of a run that the core does not know.
+struct RunFigures
+{
+  std::size_t input_points = 0;
+  std::vector<std::string> input_fields;            ///< fields of the points but the coordinates
+  bool writes_single = true;                        ///< whether those of the mesh are
+  bool single_precision = true;                     ///< whether the coordinates are 32-bit floats
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< subtracted from all coordinates
+  std::size_t vertices = 0;                         ///< vertices of the output
+  bool is_refused = false; ///< --strict: no mesh is written because of warnings
+  double read_seconds = 0.0;
+  double reconstruct_seconds = 0.0;
+  double write_seconds = 0.0;
+};
+
+/// Largest resident memory of this process so far, in bytes.
+std::size_t
+peakMemory ();
+
+/// Name of the status, or "WARNINGS" if the mesh is refused because of warnings.
+std::string
+outcomeName (const Report& report, const RunFigures& run);
+
+/// The whole report as a JSON object, with one line for each of its keys.
+std::string
+reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
+
+/// The most important figures as a JSON object on one line, without newline.
+std::string
+summaryLine (const CommandLine& command_line, const Report& report, const RunFigures& run);
+
+} // namespace floater
+} // namespace pcl
