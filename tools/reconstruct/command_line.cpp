@@ -72,6 +72,10 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
       return app.exit (error);
     throw UsageError (error.what ());
   }
+  if (command_line.compute_normals && command_line.meshFormat () == MeshFormat::STL)
+    command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
+                                        "triangles only, write .ply, .vtk or "
+                                        ".obj");
   if (app.count ("--largest-hole") > 0 && app.count ("--largest-hole-length") > 0)
     throw UsageError ("--largest-hole and --largest-hole-length are one size in two units; give "
                       "one of them");

@@ -35,6 +35,7 @@ optionsJson (const CommandLine& line)
                                                             : Json ("none")},
           {"facing", choiceName (FACING_CHOICES, options.facing)},
           {"use_input_normals", line.use_input_normals},
+          {"normals", line.compute_normals},
           {"remove_outliers", options.remove_outliers},
           {"scatter", choiceName (SCATTER_CHOICES, options.scatter)},
           {"denoise", options.denoise},

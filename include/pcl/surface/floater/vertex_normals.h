@@ -29,8 +29,8 @@ namespace floater
 /// \return one for each position, of length 1 in the precision of a float; (0, 0, 0) for points in
 /// no triangle that counts, and where the normals around a point cancel each other
 /// \throws std::out_of_range if a triangle names a point that is not in `positions`,
-/// std::length_error if there are 1.4e9 triangles or more, std::bad_alloc. A tenth of a microsecond
-/// and 24 bytes per point, beside the result
+/// std::length_error if there are 1.4e9 triangles or more, std::bad_alloc. Takes 0.6 microseconds
+/// per point and core, and 28 bytes per point beside the result
 PCL_FLOATER_EXPORT std::vector<Eigen::Vector3f>
 vertexNormals (const std::vector<Eigen::Vector3d>& positions,
                const std::vector<std::array<std::uint32_t, 3>>& triangles, int threads = 0);
