@@ -37,7 +37,7 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"-k", "99999999999999999999"}, "is not a whole number"},
       {{"-k", "5"}, "from 6 to 200"},
       {{"-k", ""}, "'' is not a whole number"},
-      {{"-k"}, "--neighbors"},
+      {{"-k"}, "-k needs a value"},
       {{"--threads", "-1"}, "threads must be 0"},
       {{"--blocks", "-1"}, "blocks must be 0"},
       {{"--opening-angle", "wide"}, "'wide' is not a number"},

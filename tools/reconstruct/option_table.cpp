@@ -329,6 +329,7 @@ addOptions (CLI::App& app, CommandLine& line)
   constexpr std::size_t NAME_COLUMN = 34;
   app.description (DESCRIPTION);
   app.get_formatter ()->column_width (NAME_COLUMN);
+  app.get_formatter ()->label ("Positionals", "Arguments");
   app.footer (FOOTER);
   app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
   app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,
