@@ -17,9 +17,12 @@ struct ReconstructionState::Data
   Options options;
   pcl::Indices prescribed_loop; // as given: may hold indices that the core's type cannot
   bool use_input_normals = false;
+  bool compute_normals = false;
   Report report;
   std::vector<int> parts;          // of each point; empty if there is no mesh
   std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
+  std::vector<Eigen::Vector3f>
+      normals; // of each point; empty if there is no mesh, or not asked for
 };
 
 } // namespace floater

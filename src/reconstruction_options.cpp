@@ -260,6 +260,18 @@ ReconstructionState::getUseInputNormals () const
 }
 
 void
+ReconstructionState::setComputeNormals (bool compute)
+{
+  data_->compute_normals = compute;
+}
+
+bool
+ReconstructionState::getComputeNormals () const
+{
+  return data_->compute_normals;
+}
+
+void
 ReconstructionState::setFilterSheets (bool filter_sheets)
 {
   data_->options.filter_sheets = filter_sheets;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pcl/surface/floater/reconstruction_state.h>
+#include <pcl/surface/floater/vertex_normals.h>
 
 #include "core/disjoint_sets.h"
 #include "pcl_neighborhoods.h"
@@ -146,6 +147,12 @@ ReconstructionState::getParameters () const
   return data_->report.parameters;
 }
 
+const std::vector<Eigen::Vector3f>&
+ReconstructionState::getNormals () const
+{
+  return data_->normals;
+}
+
 std::vector<int>
 ReconstructionState::getPartIDs () const
 {
@@ -199,6 +206,7 @@ ReconstructionState::beginRun ()
   data_->report = Report ();
   data_->parts.clear ();
   data_->states.clear ();
+  data_->normals.clear ();
 }
 
 void
@@ -213,6 +221,7 @@ ReconstructionState::failByException () noexcept
 {
   data_->parts.clear ();
   data_->states.clear ();
+  data_->normals.clear ();
   try {
     const Problem problem = problemOfException ();
     fail (problem.status, problem.message);
@@ -268,12 +277,21 @@ ReconstructionState::triangulatePoints (Input&& input)
     if (input.normals.empty ())
       input.normals = by_pcl->normals (options.neighbors.k);
   }
+  std::vector<Eigen::Vector3d>
+      positions; // of the whole cloud; reconstruct () takes those of the input
+  if (data_->compute_normals) {
+    positions.resize (input.cloud_size);
+    for (std::size_t i = 0; i < input.positions.size (); ++i)
+      positions[input.cloud_index[i]] = input.positions[i];
+  }
   Result result = reconstruct (std::move (input), options);
   data_->report = std::move (result.report);
   if (data_->report.status == RunStatus::SUCCESS) {
     data_->parts = componentsOf (result.triangles, is_selected.size ());
     data_->states =
         statesOf (result.triangles, data_->parts, is_selected, data_->report.non_finite);
+    if (!positions.empty ())
+      data_->normals = vertexNormals (positions, result.triangles, options.threads);
   }
   return std::move (result.triangles);
 }

@@ -8,7 +8,8 @@ set -euo pipefail
 usage () {
   cat <<'END'
 Usage: quickstart.sh [--build FOLDER] [CLOUD]
-Reconstructs a point cloud (.pcd, .ply or .obj; without one, the scan tools/sample/tum_rabbit.pcd).
+Reconstructs a point cloud (.pcd, .ply, .las, .xyz and others of doc/formats.md; without one, the scan
+tools/sample/tum_rabbit.pcd).
 Writes the mesh, a report and a picture to the folder floater_result in the working directory.
   --build FOLDER  use the programs in this build folder, instead of building them
 END

@@ -3,7 +3,10 @@
 // Normals of the input, and the method of TW 385 with PCL's own parts.
 #include "mesh_check.h"
 
+#include <pcl/PolygonMesh.h>
+#include <pcl/conversions.h>
 #include <pcl/search/kdtree.h>
+#include <pcl/surface/floater/vertex_normals.h>
 
 #include <cmath>
 
@@ -194,6 +197,85 @@ TEST_F (FloaterClass, TheMethodOfTheReportTakesIndicesAndASearchMethod)
   for (const pcl::Vertices& polygon : by_default)
     for (const pcl::index_t corner : polygon.vertices)
       EXPECT_TRUE (std::binary_search (indices->begin (), indices->end (), corner));
+}
+
+// The normals that the triangles of a cloud have, made by the core.
+std::vector<Eigen::Vector3f>
+normalsOf (const Cloud& cloud, const Polygons& polygons)
+{
+  std::vector<Eigen::Vector3d> positions;
+  for (const pcl::PointXYZ& point : cloud)
+    positions.emplace_back (point.x, point.y, point.z);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const pcl::Vertices& polygon : polygons)
+    triangles.push_back ({static_cast<std::uint32_t> (polygon.vertices[0]),
+                          static_cast<std::uint32_t> (polygon.vertices[1]),
+                          static_cast<std::uint32_t> (polygon.vertices[2])});
+  return vertexNormals (positions, triangles);
+}
+
+TEST_F (FloaterClass, NormalsOfTheMeshAreFieldsOfItsCloud)
+{
+  const Cloud::Ptr cloud = heightField ();
+  cloud->points[7].x = std::nanf (""); // in no triangle
+  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
+  floater.setInputCloud (cloud);
+  pcl::PolygonMesh plain, mesh;
+  floater.reconstruct (plain);
+  EXPECT_FALSE (floater.getComputeNormals ());
+  EXPECT_TRUE (floater.getNormals ().empty ());
+  floater.setComputeNormals (true);
+  EXPECT_TRUE (floater.getComputeNormals ());
+  floater.reconstruct (mesh);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+  EXPECT_EQ (trianglesOf (mesh.polygons), trianglesOf (plain.polygons));
+  EXPECT_EQ (plain.cloud.fields.size () + 3, mesh.cloud.fields.size ());
+  NormalCloud points;
+  pcl::fromPCLPointCloud2 (mesh.cloud, points);
+  ASSERT_EQ (points.size (), cloud->size ());
+  const std::vector<Eigen::Vector3f> normals = normalsOf (*cloud, mesh.polygons);
+  EXPECT_EQ (floater.getNormals (), normals);
+  for (std::size_t p = 0; p < points.size (); ++p) {
+    EXPECT_EQ (points[p].getNormalVector3fMap (), normals[p]);
+    if (p != 7) {
+      EXPECT_EQ (points[p].getVector3fMap (), (*cloud)[p].getVector3fMap ());
+    }
+    EXPECT_EQ (normals[p].norm () == 0.0F, p == 7) << p; // all others are in the mesh, facing up
+    EXPECT_GE (normals[p].z (), 0.0F);
+  }
+  // Nothing of them is left by a run that fails, or is not asked for them.
+  floater.setKSearch (1);
+  floater.reconstruct (mesh);
+  EXPECT_NE (floater.getStatus (), RunStatus::SUCCESS);
+  EXPECT_TRUE (floater.getNormals ().empty ());
+}
+
+TEST_F (FloaterClass, NormalsOfTheMeshReplaceThoseOfTheInput)
+{
+  const NormalCloud::Ptr cloud = bodyWithInwardNormals ();
+  for (pcl::PointNormal& point : *cloud)
+    point.curvature = 0.5F;
+  pcl::FloaterReconstruction<pcl::PointNormal> floater;
+  floater.setInputCloud (cloud);
+  floater.setComputeNormals (true);
+  NormalCloud points;
+  Polygons polygons;
+  floater.reconstruct (points, polygons);
+  pcl::PolygonMesh mesh;
+  floater.reconstruct (mesh);
+  ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
+  NormalCloud of_mesh;
+  pcl::fromPCLPointCloud2 (mesh.cloud, of_mesh);
+  ASSERT_EQ (points.size (), cloud->size ());
+  ASSERT_EQ (of_mesh.size (), cloud->size ());
+  for (std::size_t p = 0; p < points.size (); ++p) {
+    EXPECT_GT (points[p].getNormalVector3fMap ().dot (points[p].getVector3fMap ().normalized ()),
+               0.95F);
+    EXPECT_EQ (points[p].getNormalVector3fMap (), floater.getNormals ()[p]);
+    EXPECT_EQ (of_mesh[p].getNormalVector3fMap (), floater.getNormals ()[p]);
+    EXPECT_EQ (points[p].curvature, 0.5F);
+    EXPECT_LT ((*cloud)[p].getNormalVector3fMap ().dot ((*cloud)[p].getVector3fMap ()), 0.0F);
+  }
 }
 
 } // namespace

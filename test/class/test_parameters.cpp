@@ -118,6 +118,7 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (Facing, Facing::OUTWARDS),
       CHOICE (Facing, Facing::UP),
       CHOICE (RemoveSelfIntersections, false),
+      CHOICE (ComputeNormals, true),
       CHOICE (NumberOfThreads, 1U),
   };
   const Cloud::Ptr cloud = heightField ();

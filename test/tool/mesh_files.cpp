@@ -14,7 +14,10 @@
 #include <pcl/point_types.h>
 
 #include <vtkCellArray.h>
+#include <vtkCompositeDataIterator.h>
 #include <vtkDataArray.h>
+#include <vtkGLTFReader.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -267,6 +270,88 @@ readObj (const std::string& path)
 }
 
 MeshContent
+readOff (const std::string& path)
+{
+  MeshContent mesh;
+  mesh.is_double = true;
+  std::ifstream file (path);
+  std::string kind, text, line;
+  std::getline (file, kind);
+  while (std::getline (file, line))
+    if (line.rfind ('#', 0) != 0)
+      text += line + "\n";
+  std::istringstream words (text);
+  std::size_t points = 0, faces = 0, edges = 0;
+  words >> points >> faces >> edges;
+  for (std::size_t i = 0; i < points; ++i) {
+    Eigen::Vector3d p;
+    words >> p.x () >> p.y () >> p.z ();
+    mesh.points.push_back (p);
+    if (kind.find ('N') != std::string::npos) {
+      Eigen::Vector3f n;
+      words >> n.x () >> n.y () >> n.z ();
+      mesh.normals.push_back (n);
+    }
+    if (kind.find ('C') != std::string::npos) {
+      std::array<int, 4> color{};
+      words >> color[0] >> color[1] >> color[2] >> color[3];
+      mesh.colors.push_back ({static_cast<std::uint8_t> (color[0]),
+                              static_cast<std::uint8_t> (color[1]),
+                              static_cast<std::uint8_t> (color[2])});
+    }
+  }
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::size_t corners = 0;
+    std::array<std::size_t, 3> triangle{};
+    words >> corners >> triangle[0] >> triangle[1] >> triangle[2];
+    if (corners != 3)
+      throw std::runtime_error ("not a triangle");
+    mesh.triangles.push_back (triangle);
+  }
+  if (!words || (words >> kind))
+    throw std::runtime_error ("the file does not end where it should");
+  return mesh;
+}
+
+MeshContent
+readGlb (const std::string& path)
+{
+  vtkSmartPointer<vtkGLTFReader> reader = vtkSmartPointer<vtkGLTFReader>::New ();
+  reader->SetFileName (path.c_str ());
+  reader->ApplyDeformationsToGeometryOff ();
+  reader->Update ();
+  MeshContent mesh;
+  vtkSmartPointer<vtkCompositeDataIterator> parts;
+  parts.TakeReference (reader->GetOutput ()->NewIterator ());
+  for (parts->InitTraversal (); parts->IsDoneWithTraversal () == 0; parts->GoToNextItem ()) {
+    auto* const data = vtkPolyData::SafeDownCast (parts->GetCurrentDataObject ());
+    if (data == nullptr || !mesh.points.empty ())
+      throw std::runtime_error ("not one mesh");
+    copyPoints (*data, mesh);
+    copyTriangles (*data, mesh);
+    vtkDataArray* const colors = data->GetPointData ()->GetArray ("COLOR_0");
+    vtkDataArray* const normals = data->GetPointData ()->GetNormals ();
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints (); ++i) {
+      if (colors != nullptr) {
+        std::array<std::uint8_t, 3> color{};
+        for (int channel = 0; channel < 3; ++channel) {
+          const double value = colors->GetComponent (i, channel);
+          const bool is_share = colors->GetDataType () != VTK_UNSIGNED_CHAR;
+          color[static_cast<std::size_t> (channel)] =
+              static_cast<std::uint8_t> (std::lround (is_share ? 255.0 * value : value));
+        }
+        mesh.colors.push_back (color);
+      }
+      if (normals != nullptr)
+        mesh.normals.emplace_back (static_cast<float> (normals->GetComponent (i, 0)),
+                                   static_cast<float> (normals->GetComponent (i, 1)),
+                                   static_cast<float> (normals->GetComponent (i, 2)));
+    }
+  }
+  return mesh;
+}
+
+MeshContent
 readMesh (const std::string& path)
 {
   const std::string extension = path.substr (path.size () - 4);
@@ -274,6 +359,10 @@ readMesh (const std::string& path)
     return readVtk (path);
   if (extension == ".ply")
     return readPly (path);
+  if (extension == ".glb")
+    return readGlb (path);
+  if (extension == ".off")
+    return readOff (path);
   return extension == ".stl" ? readStl (path) : readObj (path);
 }
 

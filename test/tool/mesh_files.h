@@ -51,6 +51,14 @@ readStl (const std::string& path);
 MeshContent
 readObj (const std::string& path);
 
+/// Reads an OFF file line by line, because no library reads doubles and colours from it.
+MeshContent
+readOff (const std::string& path);
+
+/// VTK's glTF reader, without the transformation of its node. Vertices as the file has them.
+MeshContent
+readGlb (const std::string& path);
+
 /// Reads a file by the reader for its extension.
 MeshContent
 readMesh (const std::string& path);

@@ -74,10 +74,6 @@ badFiles ()
       {"PcdNoX", "in.pcd",
        "FIELDS a y z\nSIZE 4 4 4\nTYPE F F F\n" + two + "DATA ascii\n0 0 0\n1 1 1\n",
        "no coordinate 'x' (fields of the file: a, y, z)"},
-      {"PcdTwice", "in.pcd",
-       "FIELDS x y z i i\nSIZE 4 4 4 4 4\nTYPE F F F F F\n" + two +
-           "DATA ascii\n0 0 0 0 0\n1 1 1 0 0\n",
-       "two fields 'i'"},
       {"PcdType", "in.pcd",
        "FIELDS x y z\nSIZE 4 4 3\nTYPE F F Q\n" + two + "DATA ascii\n0 0 0\n1 1 1\n",
        "TYPE Q and SIZE 3"},
@@ -118,8 +114,16 @@ badFiles ()
       {"ObjNoPoints", "in.obj", "# nothing\nf 1 2 3\n", "no points"},
       {"ObjWord", "in.obj", "v 0 0 0\nv 1 2 high\n", "line 2: 'high' is not a number"},
       {"ObjFewNumbers", "in.obj", "v 0 0 0\nv 1 2\n", "line 2: a point has 3, 4 or 6 numbers"},
-      {"ObjColor", "in.obj", "v 0 0 0 255 255 255\n", "a colour must be from 0 to 1"},
-      {"Extension", "in.las", "LASF", "extension '.las' is unknown"},
+      {"ObjColor", "in.obj", "v 0 0 0 256 255 255\n", "a colour must be from 0 to 1"},
+      {"Extension", "in.e57", "ASTM-E57", "extension '.e57' is unknown"},
+      {"NotLas", "in.las", "PK", "not a LAS file"},
+      {"ShortLas", "in.las", "LASF", "its header is truncated"},
+      {"NotStl", "in.stl", "hello", "too short for a binary STL file"},
+      {"StlAbsurd", "in.stl", std::string (84, '\xff'), "truncated"},
+      {"NotXyz", "in.xyz", "hello\nworld\n", "no line has three numbers"},
+      {"XyzWord", "in.xyz", "0 0 0\n0 1 high\n", "line 2: 'high' is not a number"},
+      {"PtsAbsurd", "in.pts", "18446744073709551615\n0 0 0\n", "truncated"},
+      {"CsvHalfLine", "in.csv", "x,y,z\n0,0,0\n0,1", "line 3: it does not have 3 columns"},
   };
 }
 

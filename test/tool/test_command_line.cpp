@@ -37,7 +37,7 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"-k", "99999999999999999999"}, "is not a whole number"},
       {{"-k", "5"}, "from 6 to 200"},
       {{"-k", ""}, "'' is not a whole number"},
-      {{"-k"}, "--neighbors"},
+      {{"-k"}, "-k needs a value"},
       {{"--threads", "-1"}, "threads must be 0"},
       {{"--blocks", "-1"}, "blocks must be 0"},
       {{"--opening-angle", "wide"}, "'wide' is not a number"},
@@ -138,7 +138,7 @@ TEST_F (CommandLineTest, OutputsThatCannotBeWritten)
     expectFailure ({"in.pcd", "out.ply", "--parameterization", output}, OUTPUT_FAILED, cause);
   }
   expectFailure ({"in.pcd", "out.xyz"}, OUTPUT_FAILED, "its extension '.xyz' is unknown");
-  expectFailure ({"in.pcd", "out"}, OUTPUT_FAILED, "its extension '' is unknown");
+  expectFailure ({"in.pcd", "out"}, OUTPUT_FAILED, "it has no extension that tells its format");
   expectFailure ({"in.pcd", "out.ply", "--parameterization", "out.png"}, OUTPUT_FAILED,
                  "'.png' is unknown");
   EXPECT_TRUE (std::filesystem::is_symlink (path ("full.ply")));
@@ -156,7 +156,7 @@ TEST_F (CommandLineTest, OutputIsCheckedBeforeTheWork)
 TEST_F (CommandLineTest, WriteThatFailsHalfWay)
 {
   writeFile ("out.ply", "what was there before");
-  for (const std::string name : {"out.vtk", "out.ply", "out.obj", "out.stl"})
+  for (const std::string name : {"out.vtk", "out.ply", "out.obj", "out.stl", "out.off", "out.glb"})
     expectFailure ({"in.pcd", name, "--report", "out.json"}, OUTPUT_FAILED,
                    "cannot write '" + name + "': File too large", 1000);
   // The mesh fits, the flat mesh in double precision does not: neither appears.

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <iomanip>
 #include <sstream>
 
@@ -156,6 +158,7 @@ TEST_P (OutputFormats, TrianglesAreThoseOfVtk)
   const MeshContent vtk = reconstructTo ("out.vtk");
   EXPECT_EQ (reconstructTo ("out.ply").triangles, vtk.triangles);
   EXPECT_EQ (reconstructTo ("out.obj").triangles, vtk.triangles);
+  EXPECT_EQ (reconstructTo ("out.off").triangles, vtk.triangles);
   if (sample_.is_double)
     return; // see StlThatWouldLoseTrianglesIsRefused
   const MeshContent stl = reconstructTo ("out.stl");
@@ -166,18 +169,82 @@ TEST_P (OutputFormats, TrianglesAreThoseOfVtk)
                  sample_.points[vtk.triangles[t][c]].cast<float> ());
 }
 
-TEST_P (OutputFormats, ObjHoldsPositionsColorsAndNormals)
+TEST_P (OutputFormats, ObjAndOffHoldPositionsColorsAndNormals)
 {
-  const MeshContent mesh = reconstructTo ("out.obj");
-  ASSERT_EQ (mesh.points.size (), sample_.size ());
-  for (std::size_t i = 0; i < sample_.size (); ++i) {
-    if (sample_.is_double)
-      EXPECT_EQ (mesh.points[i], sample_.points[i]);
-    else
-      EXPECT_EQ (mesh.points[i].cast<float> (), sample_.points[i].cast<float> ());
+  for (const std::string name : {"out.obj", "out.off"}) {
+    const MeshContent mesh = reconstructTo (name);
+    ASSERT_EQ (mesh.points.size (), sample_.size ());
+    for (std::size_t i = 0; i < sample_.size (); ++i) {
+      if (sample_.is_double)
+        EXPECT_EQ (mesh.points[i], sample_.points[i]);
+      else
+        EXPECT_EQ (mesh.points[i].cast<float> (), sample_.points[i].cast<float> ());
+    }
+    EXPECT_EQ (mesh.colors, sample_.colors);
+    EXPECT_EQ (mesh.normals, sample_.normals);
   }
+  EXPECT_EQ (readFile ("out.off").rfind ("CNOFF\n# written by", 0), 0U);
+}
+
+TEST_P (OutputFormats, GlbHoldsTheBitsOfTheCloud)
+{
+  if (sample_.is_double) {
+    expectFailure ({"in.pcd", "out.glb"}, 4, "glTF holds 32-bit floats");
+    const Outcome shifted = run ({"in.pcd", "out.glb", "--shift", "600000,5000000,100"});
+    EXPECT_EQ (shifted.code, 0);
+    EXPECT_NE (shifted.err.find ("glTF holds single precision"), std::string::npos) << shifted.err;
+    EXPECT_NE (readFile ("out.glb").find ("\"shift\":\"600000 5000000 100\""), std::string::npos);
+    return;
+  }
+  const MeshContent mesh = reconstructTo ("out.glb");
+  EXPECT_EQ (mesh.points, sample_.points);
   EXPECT_EQ (mesh.colors, sample_.colors);
-  EXPECT_EQ (mesh.normals, sample_.normals);
+  EXPECT_EQ (mesh.normals, sample_.normals); // they have length 1
+  EXPECT_EQ (mesh.triangles, reconstructTo ("out.vtk").triangles);
+  const std::string bytes = readFile ("out.glb");
+  const auto numberAt = [&bytes] (std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy (&number, bytes.data () + at, sizeof number);
+    return number;
+  };
+  EXPECT_EQ (numberAt (8), bytes.size ());
+  EXPECT_EQ (numberAt (12) % 4, 0U);
+  EXPECT_EQ (20 + numberAt (12) + 8 + numberAt (20 + numberAt (12)), bytes.size ());
+}
+
+// Points in no triangle and equal points are vertices, too; normals are unit vectors.
+TEST_F (ToolTest, GlbHoldsEveryPoint)
+{
+  Sample sample = makeSample (false);
+  sample.points.push_back (sample.points[3]);
+  sample.points.emplace_back (0, 0, 1e5);
+  sample.colors.resize (sample.points.size ());
+  sample.normals.resize (sample.points.size (), Eigen::Vector3f (0, 0, 2));
+  sample.intensities.resize (sample.points.size ());
+  sample.normals[0] = Eigen::Vector3f (0, 3, -4);
+  sample.normals[1] = Eigen::Vector3f (0, 0, 0);
+  sample.normals[2].x () = std::nanf ("");
+  writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
+  ASSERT_EQ (run ({"in.pcd", "out.glb"}).code, 0);
+  const MeshContent mesh = readGlb (path ("out.glb"));
+  EXPECT_EQ (mesh.points, sample.points);
+  EXPECT_LT ((mesh.normals.at (0) - Eigen::Vector3f (0.0F, 0.6F, -0.8F)).norm (), 1e-6F);
+  for (const std::size_t p : {std::size_t{1}, std::size_t{2}, sample.points.size () - 1})
+    EXPECT_EQ (mesh.normals.at (p), Eigen::Vector3f (0, 0, 1));
+}
+
+TEST_P (OutputFormats, OffNamesWhatItHolds)
+{
+  writeFile ("plain.pcd", pcdText (makeSample (false).points));
+  ASSERT_EQ (run ({"plain.pcd", "plain.off"}).code, 0);
+  EXPECT_EQ (readFile ("plain.off").rfind ("OFF\n", 0), 0U);
+  EXPECT_EQ (readOff (path ("plain.off")).points.size (), sample_.size ());
+  ASSERT_EQ (run ({"plain.pcd", "plain.off", "--normals", "--shift", "1,2,3"}).code, 0);
+  EXPECT_EQ (readFile ("plain.off")
+                 .rfind ("NOFF\n# written by pcl_floater_reconstruct\n# shift 1 2 "
+                         "3\n",
+                         0),
+             0U);
 }
 
 // The points of the sample in doubles are nearer to each other than 32-bit floats so far out.
@@ -197,7 +264,7 @@ TEST_P (OutputFormats, StlThatWouldLoseTrianglesIsRefused)
 
 TEST_P (OutputFormats, ParameterizationIsTheMeshInThePlane)
 {
-  for (const std::string extension : {"vtk", "ply", "obj", "stl"}) {
+  for (const std::string extension : {"vtk", "ply", "obj", "stl", "off"}) {
     const std::string flat_name = "flat." + extension;
     ASSERT_EQ (run ({"in.pcd", "out.vtk", "--quiet", "--parameterization", flat_name}).code, 0);
     const MeshContent flat = readMesh (path (flat_name));

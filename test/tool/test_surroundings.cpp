@@ -3,6 +3,12 @@
 // Runs without room to print, and with few addresses.
 #include "command_line_test.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
 namespace pcl
 {
 namespace floater
@@ -57,6 +63,78 @@ TEST_F (RunSurroundings, FewAddressesDoNotKeepARunFromEnding)
     const int version = runIn (few, {"--version"}).code;
     EXPECT_TRUE (version == 0 || version == 127) << version;
   }
+}
+
+/// A terminal, from the side of the one who looks at it.
+class Terminal
+{
+public:
+  Terminal () : descriptor_ (::posix_openpt (O_RDWR | O_NOCTTY | O_NONBLOCK))
+  {
+    if (descriptor_ < 0 || ::grantpt (descriptor_) != 0 || ::unlockpt (descriptor_) != 0)
+      throw std::runtime_error ("there is no terminal");
+    name_ = ::ptsname (descriptor_);
+    other_side_ = ::open (name_.c_str (), O_RDWR | O_NOCTTY); // keeps what was written
+  }
+  ~Terminal ()
+  {
+    ::close (other_side_);
+    ::close (descriptor_);
+  }
+  Terminal (const Terminal&) = delete;
+  Terminal& operator= (const Terminal&) = delete;
+  Terminal (Terminal&&) = delete;
+  Terminal& operator= (Terminal&&) = delete;
+
+  const std::string& name () const { return name_; }
+
+  /// All that was written since the last call.
+  std::string read () const
+  {
+    std::string text;
+    std::array<char, 4096> bytes{};
+    for (ssize_t got = 0; (got = ::read (descriptor_, bytes.data (), bytes.size ())) > 0;)
+      text.append (bytes.data (), static_cast<std::size_t> (got));
+    return text;
+  }
+
+private:
+  int descriptor_, other_side_ = -1;
+  std::string name_;
+};
+
+TEST_F (RunSurroundings, ProgressIsShownOnTerminalsOnly)
+{
+  EXPECT_EQ (run ({"in.pcd", "out.ply"}).err, "");
+  const Terminal terminal;
+  Surroundings seen;
+  seen.standard_error = terminal.name ();
+  seen.environment = {{"TERM", "xterm"}};
+  ASSERT_EQ (runIn (seen, {"in.pcd", "out.ply"}).code, 0);
+  const std::string shown = terminal.read (), erase = "\r\033[K";
+  EXPECT_EQ (shown.rfind (erase + "reading ...", 0), 0U) << shown;
+  EXPECT_NE (shown.find (erase + "searching neighbours ..."), std::string::npos) << shown;
+  EXPECT_NE (shown.find (erase + "writing ..."), std::string::npos) << shown;
+  ASSERT_GE (shown.size (), erase.size ());
+  EXPECT_EQ (shown.substr (shown.size () - erase.size ()), erase); // nothing is left of it
+  ASSERT_EQ (runIn (seen, {"in.pcd", "out.ply", "--quiet"}).code, 0);
+  EXPECT_EQ (terminal.read (), "");
+  seen.environment = {{"TERM", "dumb"}}; // cannot erase a line
+  ASSERT_EQ (runIn (seen, {"in.pcd", "out.ply"}).code, 0);
+  EXPECT_EQ (terminal.read (), "");
+}
+
+TEST_F (RunSurroundings, AMeshIsNotWrittenToATerminal)
+{
+  const Terminal terminal;
+  Surroundings seen;
+  seen.standard_output = terminal.name ();
+  const Outcome outcome = runIn (seen, {"in.pcd", "-", "--output-format", "ply"});
+  EXPECT_EQ (outcome.code, OUTPUT_FAILED);
+  EXPECT_NE (outcome.err.find ("cannot write to the standard output: it is a terminal"),
+             std::string::npos)
+      << outcome.err;
+  EXPECT_EQ (terminal.read (), "");
 }
 
 TEST_F (RunSurroundings, OptionsWithoutEffectAreWarnedOf)

@@ -56,6 +56,7 @@ expectPlace (const Json& report, double x, double y, double z)
   const Json& viewpoint = report.at ("viewpoint");
   ASSERT_TRUE (viewpoint.is_object ());
   EXPECT_EQ (viewpoint.at ("is_far"), false);
+  EXPECT_EQ (viewpoint.at ("by_pixels"), false);
   EXPECT_NEAR (viewpoint.at ("place").at (0).get<double> (), x, 1e-6);
   EXPECT_NEAR (viewpoint.at ("place").at (1).get<double> (), y, 1e-6);
   EXPECT_NEAR (viewpoint.at ("place").at (2).get<double> (), z, 1e-6);

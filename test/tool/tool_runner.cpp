@@ -38,6 +38,29 @@ makeFolder ()
   return name;
 }
 
+/// Makes the standard input a pipe that another process writes a file into.
+bool
+pipeInto (const std::string& file)
+{
+  const std::string bytes = readWhole (file);
+  std::array<int, 2> ends{};
+  if (::pipe (ends.data ()) != 0)
+    return false;
+  const pid_t writer = ::fork ();
+  if (writer == 0) {
+    ::close (ends[0]);
+    for (std::size_t done = 0; done < bytes.size ();) {
+      const ssize_t put = ::write (ends[1], bytes.data () + done, bytes.size () - done);
+      if (put <= 0)
+        ::_exit (1);
+      done += static_cast<std::size_t> (put);
+    }
+    ::_exit (0);
+  }
+  return writer > 0 && ::close (ends[1]) == 0 && ::dup2 (ends[0], STDIN_FILENO) >= 0 &&
+         ::close (ends[0]) == 0;
+}
+
 /// In the child: never returns.
 [[noreturn]] void
 become (const std::vector<std::string>& arguments, const std::filesystem::path& folder,
@@ -51,7 +74,7 @@ become (const std::vector<std::string>& arguments, const std::filesystem::path& 
     argv.push_back (copy.data ());
   argv.push_back (nullptr);
   const auto redirect = [] (const std::filesystem::path& name, int to) {
-    const int file = ::open (name.c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int file = ::open (name.c_str (), O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0600);
     return file >= 0 && ::dup2 (file, to) >= 0;
   };
   const auto limitTo = [] (auto resource, const std::optional<std::size_t>& most) {
@@ -62,9 +85,14 @@ become (const std::vector<std::string>& arguments, const std::filesystem::path& 
   const std::filesystem::path out = surroundings.standard_output.empty ()
                                         ? logs / "out"
                                         : std::filesystem::path (surroundings.standard_output);
-  if (!redirect (out, STDOUT_FILENO) || !redirect (logs / "err", STDERR_FILENO) ||
+  const std::filesystem::path err = surroundings.standard_error.empty ()
+                                        ? logs / "err"
+                                        : std::filesystem::path (surroundings.standard_error);
+  if (!redirect (out, STDOUT_FILENO) || !redirect (err, STDERR_FILENO) ||
       ::chdir (folder.c_str ()) != 0 || !limitTo (RLIMIT_FSIZE, surroundings.file_limit) ||
       !limitTo (RLIMIT_AS, surroundings.address_limit))
+    ::_exit (NOT_STARTED);
+  if (!surroundings.standard_input.empty () && !pipeInto (surroundings.standard_input))
     ::_exit (NOT_STARTED);
   std::array<int, 2> ends{};
   if (surroundings.has_closed_pipe &&

@@ -31,6 +31,8 @@ struct Surroundings
   std::optional<std::size_t> file_limit;    ///< largest size of a file in bytes (RLIMIT_FSIZE)
   std::optional<std::size_t> address_limit; ///< bytes of addresses (RLIMIT_AS)
   std::string standard_output;              ///< file that takes it; empty: what is printed is kept
+  std::string standard_input;               ///< file that is piped into it; empty: nothing is
+  std::string standard_error;               ///< file or terminal that takes it, as standard_output
   bool has_closed_pipe = false;             ///< the standard output is a pipe that nobody reads
   std::vector<std::pair<std::string, std::string>> environment = {}; ///< variables and values
 };

@@ -3,6 +3,7 @@
 #include "atomic_file.h"
 
 #include "file_bytes.h"
+#include "format.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -86,7 +87,10 @@ forget (std::size_t slot)
 [[noreturn]] void
 failOn (const std::filesystem::path& path, const std::string& cause)
 {
-  throw WriteError ("cannot write '" + path.string () + "': " + cause);
+  throw WriteError (
+      "cannot write " +
+      (isStandardStream (path) ? "to the standard output" : "'" + path.string () + "'") + ": " +
+      cause);
 }
 
 /// The path with all symbolic links resolved.
@@ -94,6 +98,8 @@ std::filesystem::path
 resolve (const std::filesystem::path& path)
 {
   std::error_code error;
+  if (isStandardStream (path))
+    return std::filesystem::temp_directory_path (error) / "mesh"; // only its folder is used
   const std::filesystem::path resolved =
       std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
   return error ? path : resolved;
@@ -113,13 +119,17 @@ requireWritable (const std::filesystem::path& path)
   std::error_code error;
   const std::filesystem::path target = resolve (path);
   const std::filesystem::path folder = folderOf (target);
+  const bool is_stream = isStandardStream (path);
+  if (is_stream && ::isatty (STDOUT_FILENO) == 1)
+    failOn (path, "it is a terminal, which cannot show a mesh; redirect it to a file or a program");
   if (!std::filesystem::exists (folder, error))
     failOn (path, "there is no folder '" + folder.string () + "'; create it first");
   if (!std::filesystem::is_directory (folder, error))
     failOn (path, "'" + folder.string () + "' is not a folder");
-  if (std::filesystem::is_directory (target, error))
+  if (!is_stream && std::filesystem::is_directory (target, error))
     failOn (path, "it is a folder; give the name of a file");
-  if (std::filesystem::exists (target, error) && !std::filesystem::is_regular_file (target, error))
+  if (!is_stream && std::filesystem::exists (target, error) &&
+      !std::filesystem::is_regular_file (target, error))
     failOn (path, "it is a device or a pipe; give the name of a file");
   if (::access (folder.c_str (), W_OK | X_OK) != 0)
     failOn (path,
@@ -173,7 +183,7 @@ AtomicFile::AtomicFile (const std::filesystem::path& path)
   }
   struct stat status = {};
   constexpr mode_t PERMISSIONS = 07777;
-  if (::stat (target_.c_str (), &status) == 0)
+  if (!isStandardStream (path_) && ::stat (target_.c_str (), &status) == 0)
     ::fchmod (descriptor_, status.st_mode & PERMISSIONS);
 }
 
@@ -261,11 +271,44 @@ AtomicFile::close ()
 void
 AtomicFile::publish ()
 {
+  if (isStandardStream (path_)) {
+    copyToStandardOutput (); // the destructor removes the file
+    return;
+  }
   if (::rename (temporary_.c_str (), target_.c_str ()) != 0)
     fail (errno);
   temporary_.clear ();
   forget (slot_);
   slot_ = MOST_FILES;
+}
+
+void
+AtomicFile::copyToStandardOutput ()
+{
+  const int from = ::open (temporary_.c_str (), O_RDONLY | O_CLOEXEC);
+  if (from < 0)
+    fail (errno);
+  int error = 0;
+  while (error == 0) {
+    const ssize_t got = ::read (from, buffer_.data (), buffer_.size ());
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got < 0)
+      error = errno;
+    if (got == 0)
+      break;
+    for (ssize_t done = 0; done < got && error == 0;) {
+      const ssize_t put =
+          ::write (STDOUT_FILENO, buffer_.data () + done, static_cast<std::size_t> (got - done));
+      if (put >= 0)
+        done += put;
+      else if (errno != EINTR)
+        error = errno;
+    }
+  }
+  ::close (from);
+  if (error != 0)
+    fail (error);
 }
 
 void

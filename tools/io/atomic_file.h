@@ -24,7 +24,7 @@ public:
 
 /// Checks, without changing anything, that a file could be created or replaced.
 /// \throws WriteError if its folder does not exist or is not writable, or if the path names
-/// something other than a regular file
+/// something other than a regular file. "-" is the standard output, which must be no terminal
 void
 requireWritable (const std::filesystem::path& path);
 
@@ -36,7 +36,9 @@ handleSignals (int input_failed = 1);
 
 /// Writes a temporary file in the folder of the final one, and renames it at the end. If the object
 /// is destroyed before that, the temporary file is removed and an existing file is unchanged.
-/// Symbolic links are followed, and a file that is replaced keeps its permissions.
+/// Symbolic links are followed, and a file that is replaced keeps its permissions. "-" is the
+/// standard output: it gets the bytes of the complete file at the end, which until then is in the
+/// folder for temporary files.
 class AtomicFile
 {
 public:
@@ -68,7 +70,8 @@ public:
   /// Writes all bytes to the disk and checks that they arrived.
   void close ();
 
-  /// Gives the closed file its final name, which makes it visible.
+  /// Gives the closed file its final name, which makes it visible, or copies it to the standard
+  /// output.
   void publish ();
 
 private:
@@ -83,6 +86,8 @@ private:
   void flush ();
 
   void writeThrough (const char* bytes, std::size_t size);
+
+  void copyToStandardOutput ();
 
   [[noreturn]] void fail (int error) const;
 

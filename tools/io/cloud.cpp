@@ -39,8 +39,13 @@ listNames (const std::vector<Field>& fields)
 std::size_t
 coordinateField (const std::vector<Field>& fields, const std::string& name)
 {
-  const auto found = std::find_if (fields.begin (), fields.end (),
-                                   [&] (const Field& field) { return field.name == name; });
+  auto found = std::find_if (fields.begin (), fields.end (),
+                             [&] (const Field& field) { return field.name == name; });
+  if (found == fields.end ()) {
+    const std::string capital (1, static_cast<char> (name[0] - 'a' + 'A'));
+    found = std::find_if (fields.begin (), fields.end (),
+                          [&] (const Field& field) { return field.name == capital; });
+  }
   if (found == fields.end ())
     throw ReadError ("the points have no coordinate '" + name +
                      "' (fields of the file: " + listNames (fields) + ")");
@@ -80,6 +85,28 @@ commonName (const std::string& name)
   return name;
 }
 
+/// A name for the second and each further field of the same name, or of that of a coordinate.
+void
+renameRepeated (Cloud& cloud)
+{
+  std::set<std::string> names{"x", "y", "z"};
+  for (const Field& field : cloud.fields)
+    names.insert (field.name);
+  std::set<std::string> taken{"x", "y", "z"};
+  for (Field& field : cloud.fields) {
+    if (taken.insert (field.name).second)
+      continue;
+    std::string name;
+    for (std::size_t number = 2; name.empty () || names.count (name) > 0; ++number)
+      name = field.name + "_" + std::to_string (number);
+    cloud.warnings.push_back ("there are two fields '" + field.name +
+                              "': the second was renamed '" + name + "'");
+    field.name = name;
+    names.insert (name);
+    taken.insert (name);
+  }
+}
+
 } // namespace
 
 FieldTriple
@@ -113,24 +140,24 @@ makeCloud (std::vector<Field> fields, std::size_t size)
     cloud.coordinates[axis] = fields[columns[axis]];
     cloud.single_precision &= fields[columns[axis]].type == ScalarType::FLOAT32;
   }
-  std::set<std::string> names;
+  bool has_packed_color = false;
   for (std::size_t f = 0; f < fields.size (); ++f) {
-    if (!names.insert (fields[f].name).second)
-      throw ReadError ("there are two fields '" + fields[f].name + "'");
     if (std::find (columns.begin (), columns.end (), f) != columns.end ())
       continue;
     const bool is_rgb = fields[f].name == "rgb" || fields[f].name == "rgba";
     if (is_rgb && fields[f].pointBytes () == sizeof (std::uint32_t) && fields[f].count == 1) {
-      unpackColor (fields[f], fields[f].name == "rgba", cloud.fields);
+      if (has_packed_color)
+        cloud.warnings.push_back ("the points have their colour twice: the field '" +
+                                  fields[f].name + "' was left out");
+      else
+        unpackColor (fields[f], fields[f].name == "rgba", cloud.fields);
+      has_packed_color = true;
       continue;
     }
     cloud.fields.push_back (std::move (fields[f]));
     cloud.fields.back ().name = commonName (cloud.fields.back ().name);
   }
-  names.clear ();
-  for (const Field& field : cloud.fields)
-    if (!names.insert (field.name).second)
-      throw ReadError ("there are two fields for '" + field.name + "'");
+  renameRepeated (cloud);
   return cloud;
 }
 
@@ -142,8 +169,9 @@ Cloud::positions () const
     visitType (coordinates[axis].type, [&] (auto tag) {
       for (std::size_t i = 0; i < result.size (); ++i)
         result[i][static_cast<Eigen::Index> (axis)] =
-            static_cast<double> (coordinates[axis].value<decltype (tag)> (row (i))) -
-            shift[static_cast<Eigen::Index> (axis)];
+            static_cast<double> (coordinates[axis].value<decltype (tag)> (row (i))) *
+                coordinates[axis].scale +
+            coordinates[axis].offset - shift[static_cast<Eigen::Index> (axis)];
     });
   return result;
 }

@@ -25,8 +25,10 @@ namespace floater
 /// all rows of the file, also those of points that have been left out since.
 struct Cloud
 {
-  std::array<Field, 3> coordinates;                 ///< x, y, z; one value each
-  bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
+  std::array<Field, 3> coordinates; ///< x, y, z; one value each
+  bool single_precision = true;     ///< the coordinates were given as 32-bit floats
+  bool are_decimals =
+      false; ///< the coordinates are decimals of a text that does not tell their type
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates
@@ -47,8 +49,8 @@ struct Cloud
 
   Eigen::Vector3d positionOfRow (std::size_t row) const
   {
-    return Eigen::Vector3d (coordinates[0].asDouble (row), coordinates[1].asDouble (row),
-                            coordinates[2].asDouble (row)) -
+    return Eigen::Vector3d (coordinates[0].scaled (row), coordinates[1].scaled (row),
+                            coordinates[2].scaled (row)) -
            shift;
   }
 
@@ -79,9 +81,10 @@ colorFields (const Cloud& cloud);
 FieldTriple
 normalFields (const Cloud& cloud);
 
-/// Makes a cloud from the fields of a file: finds x, y and z, unpacks PCL's rgb and rgba, and names
-/// normals nx, ny and nz.
-/// \throws ReadError if there are no points or no coordinates, or two fields have the same name
+/// Makes a cloud from the fields of a file: finds x, y and z (or X, Y, Z), unpacks PCL's rgb and
+/// rgba, and names normals nx, ny and nz. A second field of a name gets another one, and a second
+/// colour is left out; warnings tell.
+/// \throws ReadError if there are no points or no coordinates
 Cloud
 makeCloud (std::vector<Field> fields, std::size_t size);
 

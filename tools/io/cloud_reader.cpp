@@ -8,27 +8,62 @@ namespace pcl
 {
 namespace floater
 {
-bool
-isCloudFile (const std::filesystem::path& path)
+std::optional<CloudFormat>
+cloudFormatOf (const std::filesystem::path& path)
 {
+  static constexpr std::array<std::pair<const char*, CloudFormat>, 10> KNOWN{
+      {{".pcd", CloudFormat::PCD},
+       {".ply", CloudFormat::PLY},
+       {".obj", CloudFormat::OBJ},
+       {".stl", CloudFormat::STL},
+       {".las", CloudFormat::LAS},
+       {".xyz", CloudFormat::XYZ},
+       {".txt", CloudFormat::XYZ},
+       {".csv", CloudFormat::XYZ},
+       {".asc", CloudFormat::XYZ},
+       {".pts", CloudFormat::PTS}}};
   const std::string extension = lowerExtension (path);
-  return extension == ".pcd" || extension == ".ply" || extension == ".obj";
+  for (const auto& [known, format] : KNOWN)
+    if (extension == known)
+      return format;
+  return std::nullopt;
 }
 
 Cloud
 readCloud (const std::filesystem::path& path, bool all_digits)
 {
-  const FileBytes file (path);
+  const std::optional<CloudFormat> format = cloudFormatOf (path);
+  if (lowerExtension (path) == ".laz")
+    throw ReadError (LAZ_ADVICE);
+  if (!format)
+    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
+                     CLOUD_EXTENSIONS);
+  return readCloud (path, *format, all_digits);
+}
+
+Cloud
+readCloud (const std::filesystem::path& path, CloudFormat format, bool all_digits)
+{
+  const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
   if (file.view ().empty ())
-    throw ReadError ("the file is empty");
-  const std::string extension = lowerExtension (path);
-  if (extension == ".pcd")
+    throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
+                                             : "the file is empty");
+  switch (format) {
+  case CloudFormat::PCD:
     return parsePcd (file, all_digits);
-  if (extension == ".ply")
+  case CloudFormat::PLY:
     return parsePly (file, all_digits);
-  if (extension == ".obj")
+  case CloudFormat::OBJ:
     return parseObj (file);
-  throw ReadError ("its extension '" + extension + "' is unknown; use .pcd, .ply or .obj");
+  case CloudFormat::STL:
+    return parseStl (file);
+  case CloudFormat::LAS:
+    return parseLas (file);
+  case CloudFormat::XYZ:
+  case CloudFormat::PTS:
+    break;
+  }
+  return parseTable (file, format == CloudFormat::PTS);
 }
 
 } // namespace floater

@@ -1,35 +1,63 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads point clouds: PCD, PLY, OBJ.
+// Reads point clouds: PCD, PLY, OBJ, STL, LAS, and text with a point in each line.
 //
-// PCL's own readers would do for most files. But they read a word that is no number as 0 without an
-// error, round the coordinates of OBJ to single precision, and need 2 s for a million points in
-// ASCII PLY or OBJ, against 0.2 s here. And libpcl_io loads VTK, which costs every start 20 ms and
-// 20 MB.
+// PCL's own readers would do for most PCD, PLY and OBJ files. But they read a word that is no
+// number as 0 without an error, round the coordinates of OBJ to single precision, and need 2 s for
+// a million points in ASCII PLY or OBJ, against 0.2 s here. And libpcl_io loads VTK, which costs
+// every start 20 ms and 20 MB. Debian has no library for LAS that is kept.
 #pragma once
 
 #include "cloud.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace pcl
 {
 namespace floater
 {
-/// Whether clouds can be read from files with this extension: .pcd, .ply, .obj, in any case.
-bool
-isCloudFile (const std::filesystem::path& path);
+/// Formats of clouds.
+enum class CloudFormat
+{
+  PCD,
+  PLY,
+  OBJ,
+  STL,
+  LAS,
+  XYZ, ///< text with a point in each line
+  PTS  ///< the same, as scanners write it: the intensity comes before the colour
+};
 
-/// Reads a cloud in the format given by the extension. The fields of uncompressed binary files stay
-/// in the mapped file.
+/// The extensions of clouds, for messages.
+constexpr const char* CLOUD_EXTENSIONS =
+    ".pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts";
+
+/// What to do with a compressed LAS file.
+constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read; decompress it: "
+                                   "laszip -i a.laz -o a.las, or pdal "
+                                   "translate a.laz a.las";
+
+/// The format that the extension of a file tells, in upper or lower case.
+std::optional<CloudFormat>
+cloudFormatOf (const std::filesystem::path& path);
+
+/// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
+/// \param path "-": the standard input
 /// \param all_digits read the coordinates of text files as doubles, also where the file says float;
 /// Cloud::single_precision is as the file says
 /// \throws ReadError if the file is not a complete and valid cloud
 Cloud
+readCloud (const std::filesystem::path& path, CloudFormat format, bool all_digits = false);
+
+/// The same, in the format that the extension tells.
+/// \throws ReadError if the extension is unknown
+Cloud
 readCloud (const std::filesystem::path& path, bool all_digits = false);
 
 /// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
-/// skipped. The origin of the viewpoint is read; coordinates are not transformed.
+/// skipped. The origin of the viewpoint is read; coordinates are not transformed. A header without
+/// SIZE, TYPE or COUNT is one of floats.
 Cloud
 parsePcd (const FileBytes& file, bool all_digits = false);
 
@@ -38,10 +66,30 @@ parsePcd (const FileBytes& file, bool all_digits = false);
 Cloud
 parsePly (const FileBytes& file, bool all_digits = false);
 
-/// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1). Normals
-/// are read if there are as many "vn" as "v" lines. All other lines are ignored.
+/// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
+/// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other
+/// lines are ignored. A line that ends with \ goes on in the next.
 Cloud
 parseObj (const FileBytes& file);
+
+/// STL, binary and text: the corners of the facets, equal ones once.
+Cloud
+parseStl (const FileBytes& file);
+
+/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity and colour. A colour
+/// is the higher 8 of its 16 bits, or the lower ones if none is above 255.
+Cloud
+parseLas (const FileBytes& file);
+
+/// Text with a point in each line, as many columns as in the first. They are separated by blanks,
+/// tabs, commas or semicolons, and named by a line before them, which may be a comment; columns
+/// without names are x, y, z, and others by what they hold. Lines before the first point that are
+/// no points are skipped, with a warning; a single whole number is how many points there are. Lines
+/// that begin with #, // or % are comments.
+/// \param is_intensity_first of columns without names, where a colour could begin in the fourth or
+/// the fifth
+Cloud
+parseTable (const FileBytes& file, bool is_intensity_first = false);
 
 } // namespace floater
 } // namespace pcl

@@ -77,6 +77,8 @@ struct Field
   std::shared_ptr<const char> first = {}; ///< first value of the first point; any alignment
   std::size_t stride = 0;                 ///< bytes from one point to the next
   ByteOrder order = HOST_BYTE_ORDER;
+  double scale = 1.0;   ///< of coordinates: they are value * scale + offset
+  double offset = -0.0; ///< so that the sign of a zero stays
 
   std::size_t pointBytes () const { return count * sizeOf (type); }
 
@@ -93,6 +95,9 @@ struct Field
     return visitType (
         type, [&] (auto tag) { return static_cast<double> (value<decltype (tag)> (point)); });
   }
+
+  /// Value of a point with scale and offset, as a double.
+  double scaled (std::size_t point) const { return asDouble (point) * scale + offset; }
 };
 
 /// Makes the fields views of rows: all fields of the first point from `first` on, then all fields

@@ -49,9 +49,8 @@ failOnErrno ()
 
 struct FileBytes::Holder
 {
-  explicit Holder (const std::filesystem::path& path)
+  explicit Holder (int opened) : descriptor (opened)
   {
-    descriptor = ::open (path.c_str (), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 || ::fstat (descriptor, &status) != 0)
       failOnErrno ();
   }
@@ -99,16 +98,18 @@ struct FileBytes::Holder
   void readAll ()
   {
     constexpr std::size_t STEP = 1U << 16U;
+    std::size_t used = 0;
     for (;;) {
-      const std::size_t used = own.size ();
-      own.resize (used + std::max (STEP, used));
+      if (used == own.size ())
+        own.resize (used + std::max (STEP, used));
       const ssize_t got = ::read (descriptor, own.data () + used, own.size () - used);
       if (got < 0 && errno != EINTR)
         failOnErrno ();
-      own.resize (used + static_cast<std::size_t> (std::max<ssize_t> (got, 0)));
       if (got == 0)
-        return;
+        break;
+      used += static_cast<std::size_t> (std::max<ssize_t> (got, 0));
     }
+    own.resize (used);
   }
 
   int descriptor = -1;
@@ -126,7 +127,21 @@ FileBytes::FileBytes (const std::filesystem::path& path)
     throw ReadError ("there is no such file; check its name");
   if (std::filesystem::is_directory (status))
     throw ReadError ("it is a folder, not a file");
-  const auto holder = std::make_shared<Holder> (path);
+  take (::open (path.c_str (), O_RDONLY | O_CLOEXEC));
+}
+
+FileBytes
+FileBytes::standardInput ()
+{
+  FileBytes bytes;
+  bytes.take (::fcntl (STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
+  return bytes;
+}
+
+void
+FileBytes::take (int descriptor)
+{
+  const auto holder = std::make_shared<Holder> (descriptor);
   if (holder->map ())
     bytes_ = {static_cast<const char*> (holder->mapped), holder->mapped_size};
   else {

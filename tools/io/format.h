@@ -22,5 +22,19 @@ lowerExtension (const std::filesystem::path& path)
   return extension;
 }
 
+/// Whether "-" stands in place of a file: for the standard input, or the standard output.
+inline bool
+isStandardStream (const std::filesystem::path& path)
+{
+  return path == "-";
+}
+
+/// An input in messages: 'its name', or the standard input.
+inline std::string
+inputName (const std::filesystem::path& path)
+{
+  return isStandardStream (path) ? "the standard input" : "'" + path.string () + "'";
+}
+
 } // namespace floater
 } // namespace pcl

@@ -18,7 +18,7 @@ namespace
 const std::string COMMENT = "written by pcl_floater_reconstruct";
 
 void
-writeObjTriple (AtomicFile& file, const FieldTriple& fields, std::size_t row)
+writeTriple (AtomicFile& file, const FieldTriple& fields, std::size_t row)
 {
   visitType (fields[0]->type, [&] (auto tag) {
     using T = decltype (tag);
@@ -37,6 +37,19 @@ writeObjTriple (AtomicFile& file, const FieldTriple& fields, std::size_t row)
   });
 }
 
+/// Each coordinate after a blank, with as many digits as tell it from its neighbours.
+void
+writePosition (AtomicFile& file, const Cloud& cloud, std::size_t point)
+{
+  for (const double coordinate : cloud.position (point)) {
+    file.write (" ");
+    if (cloud.single_precision)
+      file.writeDecimal (static_cast<float> (coordinate));
+    else
+      file.writeDecimal (coordinate);
+  }
+}
+
 /// Readers of STL merge equal corners: triangles that have two of them vanish there.
 std::size_t
 trianglesLostInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
@@ -52,45 +65,77 @@ trianglesLostInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
       }));
 }
 
+/// \throws WriteError if 32-bit floats make two corners of a triangle one
+void
+requireTrianglesInSinglePrecision (const std::filesystem::path& path, const char* format,
+                                   const Cloud& cloud, const Triangles& triangles)
+{
+  if (const std::size_t lost = trianglesLostInSinglePrecision (cloud, triangles))
+    throw WriteError ("cannot write '" + path.string () + "': " + format +
+                      " holds 32-bit floats, in which " + std::to_string (lost) + " of " +
+                      std::to_string (triangles.size ()) +
+                      " triangles have two equal corners; subtract an origin with --shift, or "
+                      "write .vtk, .ply, .obj or .off");
+}
+
 } // namespace
 
-bool
-isMeshFile (const std::filesystem::path& path)
+std::optional<MeshFormat>
+meshFormatOf (const std::filesystem::path& path)
 {
+  static constexpr std::array<std::pair<const char*, MeshFormat>, 6> KNOWN{
+      {{".vtk", MeshFormat::VTK},
+       {".ply", MeshFormat::PLY},
+       {".obj", MeshFormat::OBJ},
+       {".stl", MeshFormat::STL},
+       {".off", MeshFormat::OFF},
+       {".glb", MeshFormat::GLB}}};
   const std::string extension = lowerExtension (path);
-  return extension == ".vtk" || extension == ".ply" || extension == ".obj" || extension == ".stl";
+  for (const auto& [known, format] : KNOWN)
+    if (extension == known)
+      return format;
+  return std::nullopt;
 }
 
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles)
+           const Triangles& triangles, std::optional<MeshFormat> format)
 {
-  const std::string extension = lowerExtension (path);
+  if (!format)
+    format = meshFormatOf (path);
+  if (!format)
+    throw WriteError ("cannot write '" + path.string () + "': its extension is unknown; use " +
+                      MESH_EXTENSIONS);
   std::vector<std::string> losses;
-  if (extension == ".vtk")
+  switch (*format) {
+  case MeshFormat::VTK:
     writeVtk (file, cloud, triangles);
-  else if (extension == ".ply") {
+    break;
+  case MeshFormat::PLY:
     for (const std::string& name : writePly (file, cloud, triangles))
       losses.push_back ("PLY has no 64-bit integers: the field '" + name +
                         "' was written as double");
-  }
-  else if (extension == ".obj")
+    break;
+  case MeshFormat::OBJ:
     writeObj (file, cloud, triangles);
-  else if (extension == ".stl") {
-    if (const std::size_t lost = trianglesLostInSinglePrecision (cloud, triangles))
-      throw WriteError ("cannot write '" + path.string () +
-                        "': STL holds 32-bit floats, in which " + std::to_string (lost) + " of " +
-                        std::to_string (triangles.size ()) +
-                        " triangles have two equal corners; subtract an origin with --shift, or "
-                        "write .vtk, .ply or .obj");
+    break;
+  case MeshFormat::OFF:
+    writeOff (file, cloud, triangles);
+    break;
+  case MeshFormat::STL:
+    requireTrianglesInSinglePrecision (path, "STL", cloud, triangles);
     writeStl (file, cloud, triangles);
-    if (!cloud.single_precision)
-      losses.emplace_back ("STL holds single precision only: the coordinates were rounded; "
-                           "write .vtk or .ply to keep them");
+    break;
+  case MeshFormat::GLB:
+    requireTrianglesInSinglePrecision (path, "glTF", cloud, triangles);
+    writeGlb (file, cloud, triangles);
+    break;
   }
-  else
-    throw WriteError ("cannot write '" + path.string () +
-                      "': its extension is unknown; use .vtk, .ply, .obj or .stl");
+  const bool is_single = *format == MeshFormat::STL || *format == MeshFormat::GLB;
+  if (is_single && !cloud.single_precision)
+    losses.push_back (std::string (*format == MeshFormat::STL ? "STL" : "glTF") +
+                      " holds single precision only: the coordinates were rounded; write .vtk or "
+                      ".ply to keep them");
   return losses;
 }
 
@@ -104,13 +149,7 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
     file.write ("# shift " + shift + "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.write ("v");
-    for (const double coordinate : cloud.position (i)) {
-      file.write (" ");
-      if (cloud.single_precision)
-        file.writeDecimal (static_cast<float> (coordinate));
-      else
-        file.writeDecimal (coordinate);
-    }
+    writePosition (file, cloud, i);
     if (colors[0])
       for (const Field* channel : colors) {
         constexpr float WHITE = 255.0F;
@@ -123,7 +162,7 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   if (normals[0])
     for (std::size_t i = 0; i < cloud.size (); ++i) {
       file.write ("vn");
-      writeObjTriple (file, normals, cloud.row (i));
+      writeTriple (file, normals, cloud.row (i));
       file.write ("\n");
     }
   for (const auto& triangle : triangles) {
@@ -136,6 +175,39 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
         file.write ("//");
         file.writeDecimal (number);
       }
+    }
+    file.write ("\n");
+  }
+}
+
+void
+writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  const FieldTriple colors = colorFields (cloud);
+  const FieldTriple normals = normalFields (cloud);
+  file.write (std::string (colors[0] ? "C" : "") + (normals[0] ? "N" : "") + "OFF\n# " + COMMENT +
+              "\n");
+  if (const std::string shift = shiftText (cloud); !shift.empty ())
+    file.write ("# shift " + shift + "\n");
+  file.write (std::to_string (cloud.size ()) + " " + std::to_string (triangles.size ()) + " 0\n");
+  for (std::size_t i = 0; i < cloud.size (); ++i) {
+    writePosition (file, cloud, i);
+    if (normals[0])
+      writeTriple (file, normals, cloud.row (i));
+    if (colors[0]) {
+      for (const Field* channel : colors) {
+        file.write (" ");
+        file.writeDecimal (std::uint64_t{channel->value<std::uint8_t> (cloud.row (i))});
+      }
+      file.write (" 255"); // opaque
+    }
+    file.write ("\n");
+  }
+  for (const auto& triangle : triangles) {
+    file.write ("3");
+    for (const std::uint32_t corner : triangle) {
+      file.write (" ");
+      file.writeDecimal (std::uint64_t{corner});
     }
     file.write ("\n");
   }

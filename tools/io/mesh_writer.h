@@ -1,27 +1,44 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes triangle meshes whose vertices are the points of a cloud: VTK, PLY, OBJ, STL.
+// Writes triangle meshes whose vertices are the points of a cloud: VTK, PLY, OBJ, STL, OFF, GLB.
 #pragma once
 
 #include "atomic_file.h"
 #include "cloud.h"
 
+#include <optional>
+
 namespace pcl
 {
 namespace floater
 {
-/// Whether meshes can be written to files with this extension: .vtk, .ply, .obj, .stl, in any case.
-bool
-isMeshFile (const std::filesystem::path& path);
+/// Formats of meshes.
+enum class MeshFormat
+{
+  VTK,
+  PLY,
+  OBJ,
+  STL,
+  OFF,
+  GLB
+};
 
-/// Writes the mesh in the format given by the extension of `path`. All coordinates must be finite.
-/// All formats but STL tell the shift in a comment. As far as the format allows, vertex k is point
-/// k of the cloud with all its fields, and every number reads back exactly. \param path only its
-/// extension is used; the bytes are written to `file` \return losses of the format, one sentence
-/// each \throws WriteError
+/// The extensions of meshes, for messages.
+constexpr const char* MESH_EXTENSIONS = ".vtk, .ply, .obj, .stl, .off or .glb";
+
+/// The format that the extension of a file tells, in upper or lower case.
+std::optional<MeshFormat>
+meshFormatOf (const std::filesystem::path& path);
+
+/// Writes the mesh. All coordinates must be finite. All formats but STL tell the shift in a
+/// comment. As far as the format allows, vertex k is point k of the cloud with all its fields, and
+/// every number reads back exactly. \param path for messages; the bytes are written to `file`
+/// \param format by default that which the extension of the path tells
+/// \return losses of the format, one sentence each
+/// \throws WriteError
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles);
+           const Triangles& triangles, std::optional<MeshFormat> format = std::nullopt);
 
 /// Legacy VTK 3.0, binary, polydata. Colours are unsigned char scalars named "RGB", which viewers
 /// show unchanged and PCL reads by that name; normals are point normals; other fields are arrays.
@@ -37,6 +54,16 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 /// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
 void
 writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
+
+/// Geomview OFF, text: points with colours from 0 to 255, normals (0 0 0 where they are not
+/// finite), and faces. Its first word is OFF, COFF, NOFF or CNOFF.
+void
+writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
+
+/// Binary glTF 2.0: positions in single precision, colours, normals of length 1 (0 0 1 where there
+/// is none), and triangles. \throws WriteError also if it would have more than 4 GB
+void
+writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
 /// Binary STL: triangles in single precision, nothing else.
 void

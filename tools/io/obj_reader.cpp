@@ -30,12 +30,56 @@ addFields (std::vector<T>&& values, ScalarType type, const std::array<const char
   }
 }
 
-std::uint8_t
-colorByte (const TextScanner& scanner, double channel)
+constexpr double WHITE = 255.0;
+
+double
+colorChannel (const TextScanner& scanner, double channel)
 {
-  if (!(channel >= 0.0 && channel <= 1.0))
-    scanner.fail ("a colour must be from 0 to 1");
-  return static_cast<std::uint8_t> (std::lround (255.0 * channel));
+  if (!(channel >= 0.0 && channel <= WHITE))
+    scanner.fail ("a colour must be from 0 to 1, or to 255");
+  return channel;
+}
+
+/// Colours as bytes. They are from 0 to 1, but some programs write them from 0 to 255.
+std::vector<std::uint8_t>
+colorBytes (const std::vector<float>& channels, std::vector<std::string>& warnings)
+{
+  const bool are_bytes = std::any_of (channels.begin (), channels.end (),
+                                      [] (float channel) { return channel > 1.0F; });
+  if (are_bytes)
+    warnings.emplace_back (
+        "the colours of the input file go beyond 1: they were taken for 0 to 255");
+  std::vector<std::uint8_t> bytes (channels.size ());
+  for (std::size_t i = 0; i < bytes.size (); ++i)
+    bytes[i] = static_cast<std::uint8_t> (
+        std::lround ((are_bytes ? 1.0 : WHITE) * static_cast<double> (channels[i])));
+  return bytes;
+}
+
+/// The text with lines joined that go on in the next, as a backslash at their end tells. Empty
+/// lines follow them, so that those after them keep their numbers.
+std::string
+joinLines (std::string_view text)
+{
+  std::string joined;
+  joined.reserve (text.size ());
+  std::size_t owed = 0; // empty lines
+  for (std::size_t first = 0; first < text.size ();) {
+    const std::size_t newline = std::min (text.find ('\n', first), text.size ());
+    std::string_view line = text.substr (first, newline - first);
+    first = newline + 1;
+    if (!line.empty () && line.back () == '\r')
+      line.remove_suffix (1);
+    if (!line.empty () && line.back () == '\\' && line.front () != '#') {
+      line.remove_suffix (1);
+      joined.append (line).append (" ");
+      ++owed;
+      continue;
+    }
+    joined.append (line).append (owed + 1, '\n');
+    owed = 0;
+  }
+  return joined;
 }
 
 /// Reads the numbers in the rest of the line. \return how many
@@ -43,7 +87,8 @@ std::size_t
 readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
 {
   std::size_t count = 0;
-  for (std::string_view word = scanner.word (); !word.empty (); word = scanner.word ()) {
+  for (std::string_view word = scanner.word (); !word.empty () && word.front () != '#';
+       word = scanner.word ()) {
     if (count == numbers.size ())
       scanner.fail ("it has more than " + std::to_string (numbers.size ()) + " numbers");
     if (!parseNumber (word, numbers[count++]))
@@ -136,9 +181,12 @@ parseObj (const FileBytes& file)
   std::vector<double> coordinates;
   std::vector<double> normals;
   ObjFaces faces;
-  std::vector<std::uint8_t> colors;
+  std::vector<float> colors;
   std::array<double, WITH_COLOR> numbers{};
-  TextScanner scanner (file.view ());
+  const bool goes_on = file.view ().find ("\\\n") != std::string_view::npos ||
+                       file.view ().find ("\\\r\n") != std::string_view::npos;
+  const std::string joined = goes_on ? joinLines (file.view ()) : "";
+  TextScanner scanner (goes_on ? std::string_view (joined) : file.view ());
   while (scanner.nextLine ()) {
     const std::string_view key = scanner.word ();
     if (key == "v") {
@@ -148,7 +196,7 @@ parseObj (const FileBytes& file)
       coordinates.insert (coordinates.end (), numbers.begin (), numbers.begin () + 3);
       if (count == WITH_COLOR)
         for (std::size_t i = 3; i < WITH_COLOR; ++i)
-          colors.push_back (colorByte (scanner, numbers[i]));
+          colors.push_back (static_cast<float> (colorChannel (scanner, numbers[i])));
     }
     else if (key == "vn") {
       if (readNumbers (scanner, numbers) != 3)
@@ -165,7 +213,7 @@ parseObj (const FileBytes& file)
   std::vector<std::string> warnings;
   addFields (std::move (coordinates), ScalarType::FLOAT64, {"x", "y", "z"}, fields);
   if (colors.size () == 3 * size)
-    addFields (std::move (colors), ScalarType::UINT8, {"red", "green", "blue"}, fields);
+    addFields (colorBytes (colors, warnings), ScalarType::UINT8, {"red", "green", "blue"}, fields);
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
   if (std::vector<double> matched = matchNormals (normals, faces, size, warnings);
@@ -174,7 +222,8 @@ parseObj (const FileBytes& file)
   if (faces.count > 0)
     warnings.push_back (facesLeftOut (faces.count));
   Cloud cloud = makeCloud (std::move (fields), size);
-  cloud.warnings = std::move (warnings);
+  cloud.are_decimals = true;
+  cloud.warnings.insert (cloud.warnings.begin (), warnings.begin (), warnings.end ());
   return cloud;
 }
 

@@ -25,6 +25,7 @@ struct PcdHeader
   std::string_view data; ///< ascii, binary or binary_compressed
   std::array<double, 3> viewpoint{};
   std::size_t height = 1; ///< rows of an organized cloud
+  std::string missing;    ///< lines that were made up: the fields are floats
 };
 
 const std::string PADDING = "_";
@@ -64,6 +65,7 @@ struct HeaderLines
   std::vector<std::size_t> counts;
   std::optional<std::size_t> width, height, points;
   std::array<double, 3> viewpoint{};
+  std::string missing; ///< lines that were made up
 };
 
 template <typename Add>
@@ -87,11 +89,20 @@ readSizes (TextScanner& scanner, std::vector<std::size_t>& numbers, const char* 
 }
 
 std::vector<Field>
-makeFields (const TextScanner& scanner, const HeaderLines& lines)
+makeFields (const TextScanner& scanner, HeaderLines& lines)
 {
+  constexpr std::size_t FLOAT_BYTES = 4;
   const std::size_t n = lines.names.size ();
   if (n == 0)
     scanner.fail ("the header has no FIELDS");
+  if (lines.sizes.empty ()) {
+    lines.sizes.assign (n, FLOAT_BYTES);
+    lines.missing = "SIZE";
+  }
+  if (lines.types.empty ()) {
+    lines.types.assign (n, "F");
+    lines.missing += lines.missing.empty () ? "TYPE" : " and TYPE";
+  }
   if (lines.sizes.size () != n || lines.types.size () != n ||
       (!lines.counts.empty () && lines.counts.size () != n))
     scanner.fail ("FIELDS, SIZE, TYPE and COUNT of the header differ in length");
@@ -147,9 +158,11 @@ readHeader (TextScanner& scanner)
       lines.height = scanner.number<std::size_t> ();
     else if (key == "POINTS")
       lines.points = scanner.number<std::size_t> ();
-    else if (key == "DATA")
-      return {makeFields (scanner, lines), countPoints (scanner, lines), scanner.word (),
-              lines.viewpoint, lines.height.value_or (1)};
+    else if (key == "DATA") {
+      std::vector<Field> fields = makeFields (scanner, lines);
+      return {std::move (fields), countPoints (scanner, lines), scanner.word (),
+              lines.viewpoint,    lines.height.value_or (1),    lines.missing};
+    }
     else
       scanner.fail ("this is not a line of a PCD header");
   }
@@ -305,6 +318,9 @@ parsePcd (const FileBytes& file, bool all_digits)
   cloud.single_precision |= is_widened;
   if (header.data == "binary")
     cloud.file = file;
+  if (!header.missing.empty ())
+    cloud.warnings.push_back ("the PCD header has no " + header.missing +
+                              ": its fields were taken for floats of 4 bytes");
   if (header.height > 1) {
     cloud.lattice_width = header.points / header.height;
     cloud.warnings.push_back ("the input cloud is organized in " + counted (header.height, "row") +

@@ -280,7 +280,7 @@ parsePly (const FileBytes& file, bool all_digits)
   cloud.single_precision |= is_widened;
   if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())
     cloud.file = file;
-  cloud.warnings = std::move (warnings);
+  cloud.warnings.insert (cloud.warnings.begin (), warnings.begin (), warnings.end ());
   return cloud;
 }
 

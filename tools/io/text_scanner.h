@@ -42,12 +42,18 @@ parseNumber (std::string_view word, T& number)
   return false;
 }
 
-/// Scans a text. Lines end with \n or \r\n; words are separated by blanks and tabs.
+/// Scans a text. Lines end with \n or \r\n; words are separated by blanks and tabs. The mark that
+/// some programs put before UTF-8 is skipped.
 class TextScanner
 {
 public:
   /// \param text must outlive the scanner
-  explicit TextScanner (std::string_view text) : text_ (text) {}
+  explicit TextScanner (std::string_view text) : text_ (text)
+  {
+    constexpr std::string_view MARK = "\xef\xbb\xbf";
+    if (text.substr (0, MARK.size ()) == MARK)
+      next_ = MARK.size ();
+  }
 
   /// Goes to the next line. \return false at the end of the text
   bool nextLine ()

@@ -7,6 +7,8 @@
 #include "format.h"
 #include "mesh_writer.h"
 
+#include <utility>
+
 namespace pcl
 {
 namespace floater
@@ -27,14 +29,33 @@ areSame (const std::filesystem::path& a, const std::filesystem::path& b)
   return full (a) == full (b);
 }
 
+std::string
+unknownExtension (const std::filesystem::path& path)
+{
+  const std::string extension = lowerExtension (path);
+  return extension.empty () ? "it has no extension that tells its format"
+                            : "its extension '" + extension + "' is unknown";
+}
+
 } // namespace
 
 void
 checkPaths (const CommandLine& line)
 {
-  if (!isCloudFile (line.input))
-    throw ReadError ("its extension '" + lowerExtension (line.input) +
-                     "' is unknown; use .pcd, .ply or .obj");
+  if (!line.cloudFormat ()) {
+    if (isStandardStream (line.input))
+      throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
+                        "--input-format pcd");
+    if (lowerExtension (line.input) == ".laz")
+      throw ReadError (LAZ_ADVICE);
+    throw ReadError (unknownExtension (line.input) + "; use " + CLOUD_EXTENSIONS +
+                     ", or give its format by --input-format");
+  }
+  for (const auto& [name, path] :
+       {std::pair ("--report", &line.report), std::pair ("--loop", &line.loop),
+        std::pair ("--parameterization", &line.parameterization)})
+    if (isStandardStream (*path))
+      throw UsageError (std::string (name) + " takes the name of a file, not -");
   struct Named
   {
     const char* name;
@@ -49,14 +70,21 @@ checkPaths (const CommandLine& line)
   for (std::size_t i = 0; i < all.size (); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (all[i].is_output && !all[i].path->empty () && !all[j].path->empty () &&
+          !isStandardStream (*all[i].path) && !isStandardStream (*all[j].path) &&
           areSame (*all[i].path, *all[j].path))
         throw UsageError (std::string (all[j].name) + " and " + all[i].name +
                           " are the same file, '" + all[i].path->string () +
                           "'; give different ones");
-  for (const std::filesystem::path* path : {&line.output, &line.parameterization})
-    if (!path->empty () && !isMeshFile (*path))
-      throw WriteError ("cannot write '" + path->string () + "': its extension '" +
-                        lowerExtension (*path) + "' is unknown; use .vtk, .ply, .obj or .stl");
+  if (!line.meshFormat () && isStandardStream (line.output))
+    throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
+                      "--output-format ply");
+  if (!line.meshFormat ())
+    throw WriteError ("cannot write '" + line.output.string () +
+                      "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
+                      ", or give its format by --output-format");
+  if (!line.parameterization.empty () && !meshFormatOf (line.parameterization))
+    throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
+                      unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
   for (const Named& named : all)
     if (named.is_output && !named.path->empty ())
       requireWritable (*named.path);

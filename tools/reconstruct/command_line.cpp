@@ -6,6 +6,7 @@
 #include "memory_limit.h"
 #include "option_table.h"
 #include "published_method.h"
+#include "usage_message.h"
 
 #include <CLI/CLI.hpp>
 
@@ -63,6 +64,7 @@ std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line)
 {
   CLI::App app ("", "pcl_floater_reconstruct");
+  const std::vector<std::string> arguments (argv + (argc > 0 ? 1 : 0), argv + argc);
   addOptions (app, command_line);
   try {
     app.parse (argc, argv);
@@ -70,8 +72,12 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   catch (const CLI::ParseError& error) {
     if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
       return app.exit (error);
-    throw UsageError (error.what ());
+    throw UsageError (usageMessage (app, error, arguments));
   }
+  if (command_line.compute_normals && command_line.meshFormat () == MeshFormat::STL)
+    command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
+                                        "triangles only, write .ply, .vtk or "
+                                        ".obj");
   if (app.count ("--largest-hole") > 0 && app.count ("--largest-hole-length") > 0)
     throw UsageError ("--largest-hole and --largest-hole-length are one size in two units; give "
                       "one of them");
@@ -97,7 +103,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   if (needs_disc)
     topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
-    throw UsageError (problem.message);
+    throw UsageError (rangeMessage (app, problem.message, arguments));
   checkMemoryLimit (command_line);
   return std::nullopt;
 }

@@ -4,6 +4,8 @@
 #pragma once
 
 #include "choices.h"
+#include "cloud_reader.h"
+#include "mesh_writer.h"
 #include "precision.h"
 
 #include <pcl/surface/floater/options.h>
@@ -47,18 +49,33 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  std::filesystem::path scratch;         ///< folder; used with a limit only
-  std::size_t max_memory = 0;            ///< bytes; 0: no limit
-  std::optional<Eigen::Vector3d> shift;  ///< --shift x,y,z
-  bool auto_shift = false;               ///< --shift auto
-  Precision precision = Precision::AUTO; ///< of coordinates in outputs
-  bool as_published = false;             ///< --method tw385
-  bool use_input_normals = false;        ///< for tangent planes, and so for the facing
-  Options options;                       ///< without the loop, which has not been read yet
+  std::optional<CloudFormat> input_format; ///< nothing: that of its extension
+  std::optional<MeshFormat> output_format; ///< nothing: that of its extension
+  std::filesystem::path scratch;           ///< folder; used with a limit only
+  std::size_t max_memory = 0;              ///< bytes; 0: no limit
+  std::optional<Eigen::Vector3d> shift;    ///< --shift x,y,z
+  bool auto_shift = false;                 ///< --shift auto
+  Precision precision = Precision::AUTO;   ///< of coordinates in outputs
+  bool as_published = false;               ///< --method tw385
+  bool use_input_normals = false;          ///< for tangent planes, and so for the facing
+  bool compute_normals = false;            ///< of the vertices of the mesh
+  Options options;                         ///< without the loop, which has not been read yet
   bool quiet = false;
   bool json = false;
   bool strict = false;                 ///< write no mesh if there is a warning
   std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
+
+  /// The format of the input, if anything tells it.
+  std::optional<CloudFormat> cloudFormat () const
+  {
+    return input_format ? input_format : cloudFormatOf (input);
+  }
+
+  /// The format of the mesh, if anything tells it.
+  std::optional<MeshFormat> meshFormat () const
+  {
+    return output_format ? output_format : meshFormatOf (output);
+  }
 
   /// Whether the normals of the input are read to find the front of the mesh.
   bool usesNormalsForFacing () const
@@ -70,6 +87,23 @@ struct CommandLine
 
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
+
+constexpr Choices<std::optional<CloudFormat>, 8> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
+                                                                       {"pcd", CloudFormat::PCD},
+                                                                       {"ply", CloudFormat::PLY},
+                                                                       {"obj", CloudFormat::OBJ},
+                                                                       {"stl", CloudFormat::STL},
+                                                                       {"las", CloudFormat::LAS},
+                                                                       {"xyz", CloudFormat::XYZ},
+                                                                       {"pts", CloudFormat::PTS}}};
+
+constexpr Choices<std::optional<MeshFormat>, 7> MESH_FORMAT_CHOICES{{{"auto", std::nullopt},
+                                                                     {"vtk", MeshFormat::VTK},
+                                                                     {"ply", MeshFormat::PLY},
+                                                                     {"obj", MeshFormat::OBJ},
+                                                                     {"stl", MeshFormat::STL},
+                                                                     {"off", MeshFormat::OFF},
+                                                                     {"glb", MeshFormat::GLB}}};
 
 /// Parses the command line. Prints the help or the version if asked for.
 /// \return the exit code if there is nothing else to do

@@ -6,9 +6,11 @@
 #include "check_paths.h"
 #include "cloud_reader.h"
 #include "command_line.h"
+#include "format.h"
 #include "large_arrays.h"
 #include "loop_file.h"
 #include "memory_limit.h"
+#include "mesh_normals.h"
 #include "mesh_writer.h"
 #include "plural.h"
 #include "precision.h"
@@ -55,7 +57,7 @@ readNamed (const std::filesystem::path& path, Read&& read)
     return read ();
   }
   catch (const ReadError& error) {
-    throw ReadError ("cannot read '" + path.string () + "': " + error.what ());
+    throw ReadError ("cannot read " + inputName (path) + ": " + error.what ());
   }
 }
 
@@ -105,8 +107,8 @@ takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
   if (!fields[0])
     throw UsageError (
         std::string (line.use_input_normals ? "--use-input-normals on" : "--facing normals") +
-        ": the points of '" + line.input.string () +
-        "' have no normals (float fields normal_x, normal_y, normal_z, or nx, ny, "
+        ": the points of " + inputName (line.input) +
+        " have no normals (float fields normal_x, normal_y, normal_z, or nx, ny, "
         "nz); leave the option out, or add them");
   std::vector<Eigen::Vector3f> normals (cloud.size ());
   for (std::size_t p = 0; p < normals.size (); ++p)
@@ -144,7 +146,7 @@ reconstructInput (Input input, Options options, Progress& progress)
   const auto start = std::chrono::steady_clock::now ();
   RemainingTime remaining;
   std::string name;
-  options.stage_callback = [&name] (Stage stage) { name = stageName (stage); };
+  options.stage_callback = [&name] (Stage stage) { name = stageWords (stage); };
   options.progress_callback = [&] (double fraction) {
     remaining.update (secondsSince (start), fraction);
     const std::string text = remaining.text ();
@@ -232,15 +234,17 @@ void
 stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
 {
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
-                          const Triangles& triangles) {
+                          const Triangles& triangles, std::optional<MeshFormat> format) {
     AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (path));
-    for (std::string& loss : writeMesh (file, path, vertices, triangles))
+    for (std::string& loss : writeMesh (file, path, vertices, triangles, format))
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
+  if (line.compute_normals)
+    replaceNormals (cloud, result.triangles, line.options.threads);
   if (!line.parameterization.empty ()) {
     const auto [flat, triangles] = flatMesh (cloud, result, line.precision);
-    stage (line.parameterization, flat, triangles);
+    stage (line.parameterization, flat, triangles, std::nullopt);
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
     result.report.warnings.push_back (
@@ -251,7 +255,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
              : " without finite coordinates were left out of the output; the vertices after them "
                "moved up"));
   run.vertices = cloud.size ();
-  stage (line.output, cloud, result.triangles);
+  stage (line.output, cloud, result.triangles, line.output_format);
   if (cloud.file.hasChanged ())
     result.report.warnings.emplace_back (
         "the input file changed while it was in use, so that the mesh may mix old and new points; "
@@ -294,7 +298,8 @@ run (CommandLine line)
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   const bool is_shift_asked = line.auto_shift || line.shift; // all digits of a text count then
-  Cloud cloud = readNamed (line.input, [&] { return readCloud (line.input, is_shift_asked); });
+  Cloud cloud = readNamed (
+      line.input, [&] { return readCloud (line.input, *line.cloudFormat (), is_shift_asked); });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
@@ -306,8 +311,8 @@ run (CommandLine line)
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
-  cloud.single_precision = choosePrecision (line.precision, line.input, line.output,
-                                            input.positions, is_shift_asked, cloud);
+  cloud.single_precision =
+      choosePrecision (line.precision, *line.meshFormat (), input.positions, is_shift_asked, cloud);
   figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();

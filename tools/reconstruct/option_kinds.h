@@ -6,6 +6,7 @@
 
 #include "command_line.h"
 #include "format.h"
+#include "suggestion.h"
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
@@ -24,15 +25,19 @@ addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<En
            const std::string& description, const std::string& group)
 {
   std::string words;
-  for (const auto& choice : choices)
+  std::vector<std::string> known;
+  for (const auto& choice : choices) {
     words += (words.empty () ? "" : ", ") + std::string (choice.first);
-  const auto choose = [&value, choices, words, name] (const std::string& word) {
+    known.emplace_back (choice.first);
+  }
+  const auto choose = [&value, choices, words, known, name] (const std::string& word) {
     for (const auto& choice : choices)
       if (word == choice.first) {
         value = choice.second;
         return;
       }
-    throw CLI::ValidationError (name, "'" + word + "' is none of: " + words);
+    throw CLI::ValidationError (name,
+                                "'" + word + "' is none of: " + words + didYouMean (word, known));
   };
   app.add_option_function<std::string> (name, choose, description + ":\n" + words)
       ->option_text (std::string ("NAME (") + choiceName (choices, value) + ")")

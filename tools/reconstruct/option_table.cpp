@@ -32,7 +32,8 @@ Notes:
   With --shift, coordinates in the outputs and in messages are those after the origin was
   subtracted. The report has it, and all formats but .stl have it in a comment. Coordinates in text
   files are then read with all their digits, also where the file says float.
-  Input formats: .pcd, .ply, .obj. Output formats: .vtk (pcl_viewer opens it), .ply, .obj, .stl.
+  Of a mesh, only the points are read. pcl_viewer opens .vtk. With - for OUTPUT, the summary goes to
+  the standard error stream, and the mesh comes when it is complete.
   Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
   them move up. All other points are vertices of the output, also those that are in no triangle:
   outliers, repeated points, and points that could not be connected. The report lists them all.
@@ -65,10 +66,10 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
                                         "are\nnot in use are kept on disk; not for discs")
       ->option_text ("SIZE (no limit)")
       ->group (GENERAL);
-  addPath (
-      app, "--scratch", line.scratch,
-      "--max-memory: where the arrays are kept; these files\nhave no names and end with the run",
-      GENERAL, "FOLDER (that of OUTPUT)");
+  addPath (app, "--scratch", line.scratch,
+           "--max-memory: folder where the arrays are kept; these\nfiles have no names and end "
+           "with the run",
+           GENERAL, "FOLDER (that of OUTPUT)");
 }
 
 void
@@ -84,8 +85,8 @@ addShift (CLI::App& app, CommandLine& line)
   };
   app.add_option_function<std::string> (
          "--shift", parse,
-         "origin to subtract from all coordinates, for those\ntoo far from zero for 32 bits; auto: "
-         "the rounded\ncentre of the points, if they are")
+         "origin to subtract from all coordinates, where they are\ntoo far from zero for 32 bits; "
+         "auto: the rounded centre\nof the points, if they are so far")
       ->option_text ("X,Y,Z or auto (none)")
       ->group (GENERAL);
 }
@@ -160,13 +161,14 @@ addTopology (CLI::App& app, CommandLine& line)
   addNumber (app, "--max-edge", options.trimming.maximum_edge_length,
              "cut off triangles with a longer edge, in units of the\ncloud; 0: no limit", surface);
   addNumber (app, "--max-edge-ratio", options.trimming.maximum_edge_ratio,
-             "the same in local spacings", surface);
+             "the same in local spacings; 0: no limit", surface);
   addNumber (app, "--min-component", options.trimming.minimum_component_size,
              "cut off components of fewer points", surface);
   addChoice (app, "--remove-outliers", options.remove_outliers, SWITCH_CHOICES,
              "leave points that lie off any surface out of\nthe mesh", surface);
   addChoice (app, "--scatter", options.scatter, SCATTER_CHOICES,
-             "points of no surface at any scale, such as leaves", surface);
+             "what becomes of points that are on no surface at any\nscale, such as leaves",
+             surface);
   addChoice (app, "--denoise", options.denoise, SWITCH_CHOICES,
              "where noise is strong, connect points as they lie\nwhen projected on local planes",
              surface);
@@ -190,10 +192,11 @@ addGeneral (CLI::App& app, CommandLine& line)
              GENERAL);
   addMemoryLimit (app, line);
   addShift (app, line);
-  addChoice (app, "--precision", line.precision, PRECISION_CHOICES,
-             "of coordinates in outputs; auto: single if the input\nis, or if that is exact. PCL "
-             "reads doubles of a .ply\nas 0",
-             GENERAL);
+  addChoice (
+      app, "--precision", line.precision, PRECISION_CHOICES,
+      "precision of coordinates in outputs; auto: single if\nthat of the input is, or if that "
+      "is exact. PCL reads\ndoubles of a .ply as 0",
+      GENERAL);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);
@@ -211,9 +214,23 @@ addFiles (CLI::App& app, CommandLine& line)
         ->option_text (" ")
         ->required ();
   };
-  positional ("INPUT", line.input, "point cloud: .pcd, .ply or .obj");
-  positional ("OUTPUT", line.output, "mesh to write: .vtk, .ply, .obj or .stl");
+  positional (
+      "INPUT", line.input,
+      "point cloud: .pcd, .ply, .obj, .stl, .las, .xyz, .txt,\n.csv, .asc or .pts; - is the "
+      "standard input");
+  positional ("OUTPUT", line.output,
+              "mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; -\nis the standard output");
+  const std::string files = "Files";
+  addChoice (app, "--input-format", line.input_format, CLOUD_FORMAT_CHOICES,
+             "format of INPUT; auto: that of its extension; xyz: text\nwith a point in each line",
+             files);
+  addChoice (app, "--output-format", line.output_format, MESH_FORMAT_CHOICES,
+             "format of OUTPUT; auto: that of its extension", files);
   const std::string output = "More output";
+  app.add_flag (
+         "--normals", line.compute_normals,
+         "give the vertices normals, made from the triangles; those\nof the input are replaced")
+      ->group (output);
   addPath (app, "--report", line.report, "write a report on the run as JSON", output);
   addPath (app, "--parameterization", line.parameterization,
            "write the mesh laid out in the plane z = 0, in any of\nthe mesh formats; makes a disc",
@@ -312,6 +329,7 @@ addOptions (CLI::App& app, CommandLine& line)
   constexpr std::size_t NAME_COLUMN = 34;
   app.description (DESCRIPTION);
   app.get_formatter ()->column_width (NAME_COLUMN);
+  app.get_formatter ()->label ("Positionals", "Arguments");
   app.footer (FOOTER);
   app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
   app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,

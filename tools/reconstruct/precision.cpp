@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "precision.h"
 
-#include "format.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -49,15 +47,14 @@ fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_deci
 }
 
 bool
-choosePrecision (Precision wanted, const std::filesystem::path& input,
-                 const std::filesystem::path& output, const std::vector<Eigen::Vector3d>& positions,
+choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
                  bool is_shift_asked, Cloud& cloud)
 {
   if (wanted != Precision::AUTO)
     return wanted == Precision::SINGLE;
-  if (cloud.single_precision || fitSinglePrecision (positions, lowerExtension (input) == ".obj"))
+  if (cloud.single_precision || fitSinglePrecision (positions, cloud.are_decimals))
     return true;
-  if (lowerExtension (output) == ".ply")
+  if (output == MeshFormat::PLY)
     cloud.warnings.emplace_back (
         "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
         "as 0: use --precision single or another format for PCL, " +

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cloud.h"
+#include "mesh_writer.h"
 
 namespace pcl
 {
@@ -28,8 +29,7 @@ fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_deci
 /// \param positions of the cloud, after the shift
 /// \param is_shift_asked so that the warning does not advise it
 bool
-choosePrecision (Precision wanted, const std::filesystem::path& input,
-                 const std::filesystem::path& output, const std::vector<Eigen::Vector3d>& positions,
+choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
                  bool is_shift_asked, Cloud& cloud);
 
 } // namespace floater

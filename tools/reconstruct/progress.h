@@ -3,21 +3,60 @@
 // A status line on the terminal.
 #pragma once
 
+#include <pcl/surface/floater/options.h>
+
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 namespace pcl
 {
 namespace floater
 {
-/// Shows the current step on the standard error stream if that is a terminal. The line is erased at
-/// the end.
+/// What a stage does, for people.
+inline const char*
+stageWords (Stage stage)
+{
+  switch (stage) {
+  case Stage::WORKING_SET:
+    return "sorting points";
+  case Stage::NEIGHBORS:
+    return "searching neighbours";
+  case Stage::STARS:
+    return "fitting planes";
+  case Stage::CONSENSUS:
+    return "connecting points";
+  case Stage::BOUNDARY:
+    return "finding the boundary";
+  case Stage::WEIGHTS:
+    return "weighting neighbours";
+  case Stage::SOLVE:
+    return "solving the linear system";
+  case Stage::DELAUNAY:
+    return "triangulating";
+  case Stage::HOLES:
+    return "filling holes";
+  case Stage::FLIPS:
+    return "repairing the mesh";
+  case Stage::CHECK:
+    return "checking the mesh";
+  case Stage::COUNT:
+    break;
+  }
+  return "working";
+}
+
+/// Shows the current step on the standard error stream if that is a terminal that can erase a line.
+/// The line is erased at the end.
 class Progress
 {
 public:
-  explicit Progress (bool wanted) : is_shown_ (wanted && ::isatty (STDERR_FILENO) == 1) {}
+  explicit Progress (bool wanted)
+      : is_shown_ (wanted && ::isatty (STDERR_FILENO) == 1 && canErase (std::getenv ("TERM")))
+  {
+  }
   ~Progress () { clear (); }
   Progress (const Progress&) = delete;
   Progress& operator= (const Progress&) = delete;
@@ -43,6 +82,11 @@ public:
   }
 
 private:
+  static bool canErase (const char* terminal)
+  {
+    return terminal != nullptr && *terminal != '\0' && std::string (terminal) != "dumb";
+  }
+
   bool is_shown_;
   std::string shown_;
 };

@@ -65,6 +65,8 @@ std::string
 reportText (const CommandLine& line, const Report& report, const RunFigures& run)
 {
   const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
+  Json options = optionsJson (line.options, line.use_input_normals);
+  options["normals"] = line.compute_normals;
   Json all = {{"tool", "pcl_floater_reconstruct"},
               {"version", PCL_FLOATER_VERSION},
               {"input",
@@ -79,7 +81,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                                       {"triangles", report.statistics.triangles},
                                       {"parameterization", fileName (line.parameterization)}}
                                : Json ()},
-              {"options", optionsJson (line.options, line.use_input_normals)},
+              {"options", options},
               {"strict", line.strict},
               {"status", outcomeName (report, run)},
               {"message", report.message},

@@ -3,6 +3,7 @@
 // Passes the points of PCL's clouds to the core, and indices back.
 #pragma once
 
+#include <pcl/PCLPointCloud2.h>
 #include <pcl/search/search.h>
 #include <pcl/surface/floater_reconstruction.h>
 
@@ -10,8 +11,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <new>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl
 {
@@ -65,6 +69,48 @@ private:
   pcl::Indices found_;
   std::vector<float> sqr_distances_;
 };
+
+/// Writes normals into the fields normal_x, normal_y and normal_z of a cloud, which are appended to
+/// its points if they have none of float.
+/// \param normals as many as the cloud has points
+inline void
+writeNormals (const std::vector<Eigen::Vector3f>& normals, pcl::PCLPointCloud2& cloud)
+{
+  std::array<std::size_t, 3> offsets{};
+  const std::array<const char*, 3> names{"normal_x", "normal_y", "normal_z"};
+  std::size_t step = cloud.point_step;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto found = std::find_if (
+        cloud.fields.begin (), cloud.fields.end (), [&] (const pcl::PCLPointField& field) {
+          return field.name == names[axis] && field.datatype == pcl::PCLPointField::FLOAT32;
+        });
+    if (found != cloud.fields.end ()) {
+      offsets[axis] = found->offset;
+      continue;
+    }
+    pcl::PCLPointField field;
+    field.name = names[axis];
+    field.offset = static_cast<std::uint32_t> (step);
+    field.datatype = pcl::PCLPointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back (field);
+    offsets[axis] = step;
+    step += sizeof (float);
+  }
+  if (step != cloud.point_step) {
+    std::vector<std::uint8_t> data (normals.size () * step);
+    for (std::size_t p = 0; p < normals.size (); ++p)
+      std::copy_n (cloud.data.begin () + static_cast<std::ptrdiff_t> (p * cloud.point_step),
+                   cloud.point_step, data.begin () + static_cast<std::ptrdiff_t> (p * step));
+    cloud.data = std::move (data);
+    cloud.point_step = static_cast<std::uint32_t> (step);
+    cloud.row_step = cloud.point_step * cloud.width;
+  }
+  for (std::size_t p = 0; p < normals.size (); ++p)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      std::memcpy (cloud.data.data () + p * step + offsets[axis],
+                   &normals[p][static_cast<Eigen::Index> (axis)], sizeof (float));
+}
 
 } // namespace floater
 
@@ -136,6 +182,8 @@ void
 FloaterReconstruction<PointT>::performReconstruction (pcl::PolygonMesh& output)
 {
   triangulate (output.polygons); // the base class copies the cloud
+  if (!getNormals ().empty ())
+    floater::writeNormals (getNormals (), output.cloud);
 }
 
 template <typename PointT>
@@ -145,6 +193,13 @@ FloaterReconstruction<PointT>::performReconstruction (PointCloud& points,
 {
   triangulate (polygons);
   points = *input_;
+  if constexpr (pcl::traits::has_normal<PointT>::value)
+    for (std::size_t p = 0; p < getNormals ().size (); ++p) {
+      const Eigen::Vector3f& normal = getNormals ()[p];
+      points[p].normal_x = normal.x ();
+      points[p].normal_y = normal.y ();
+      points[p].normal_z = normal.z ();
+    }
 }
 
 template <typename PointT>

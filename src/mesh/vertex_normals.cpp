@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pcl/surface/floater/vertex_normals.h>
+
+#include "core/csr_lists.h"
+#include "core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// What a triangle adds to the normal of one of its corners.
+struct CornerTerm
+{
+  double angle; // 0: nothing
+  Eigen::Vector3d normal;
+};
+
+CornerTerm
+cornerTerm (const Eigen::Vector3d& corner, const Eigen::Vector3d& next,
+            const Eigen::Vector3d& previous)
+{
+  // Of unit vectors, no product overflows or vanishes. The edges of a triangle without an area give
+  // zero or NaN.
+  const Eigen::Vector3d u = (next - corner).stableNormalized ();
+  const Eigen::Vector3d v = (previous - corner).stableNormalized ();
+  const Eigen::Vector3d across = u.cross (v);
+  const double sine = across.norm ();
+  if (!(sine > 0.0))
+    return {0.0, Eigen::Vector3d::Zero ()};
+  return {std::atan2 (sine, u.dot (v)), across / sine};
+}
+
+// The sum of the terms in an order of their own, so that it is that of any order of the triangles.
+Eigen::Vector3f
+meanNormal (std::vector<CornerTerm>& terms)
+{
+  std::sort (terms.begin (), terms.end (), [] (const CornerTerm& a, const CornerTerm& b) {
+    return a.angle != b.angle
+               ? a.angle < b.angle
+               : std::lexicographical_compare (a.normal.data (), a.normal.data () + 3,
+                                               b.normal.data (), b.normal.data () + 3);
+  });
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // so that a zero in it is not negative
+  double angles = 0.0;
+  for (const CornerTerm& term : terms) {
+    sum += term.angle * term.normal;
+    angles += term.angle;
+  }
+  // Each term and each sum is rounded by half an epsilon of it; a sum below that is 0.
+  const double length = sum.norm ();
+  const double rounding =
+      static_cast<double> (terms.size ()) * angles * std::numeric_limits<double>::epsilon ();
+  if (!(length > rounding))
+    return Eigen::Vector3f::Zero ();
+  return (sum / length).cast<float> ();
+}
+
+} // namespace
+
+std::vector<Eigen::Vector3f>
+vertexNormals (const std::vector<Eigen::Vector3d>& positions,
+               const std::vector<std::array<std::uint32_t, 3>>& triangles, int threads)
+{
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t corner : triangle)
+      if (corner >= positions.size ())
+        throw std::out_of_range ("a triangle names point " + std::to_string (corner) + " of " +
+                                 std::to_string (positions.size ()));
+  const CsrLists around = makeCsrLists (positions.size (), [&triangles] (auto&& emit) {
+    for (std::size_t t = 0; t < triangles.size (); ++t)
+      for (const std::uint32_t corner : triangles[t])
+        emit (corner, static_cast<Index> (t));
+  });
+  std::vector<Eigen::Vector3f> normals (positions.size ());
+  const RunContext run (std::max (threads, 0));
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<CornerTerm> terms;
+    for (std::size_t p = first; p < last; ++p) {
+      terms.clear ();
+      for (const Index t : around.row (p)) {
+        const auto& triangle = triangles[t];
+        const auto c = static_cast<std::size_t> (
+            std::find (triangle.begin (), triangle.end (), static_cast<Index> (p)) -
+            triangle.begin ());
+        const CornerTerm term = cornerTerm (positions[p], positions[triangle[(c + 1) % 3]],
+                                            positions[triangle[(c + 2) % 3]]);
+        if (term.angle > 0.0)
+          terms.push_back (term);
+      }
+      normals[p] = meanNormal (terms);
+    }
+  });
+  return normals;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pcl/surface/floater/vertex_normals.h>
+
+#include "mesh/known_meshes.h"
+#include "random_stream.h"
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::Mesh;
+using samples::Positions;
+using samples::Triangles;
+
+constexpr float FLOAT_STEP = std::numeric_limits<float>::epsilon ();
+
+std::vector<Eigen::Vector3f>
+normalsOf (const Mesh& mesh, int threads = 1)
+{
+  return vertexNormals (mesh.positions, mesh.triangles, threads);
+}
+
+// The faces of a cube around the origin, each cut along one of its diagonals.
+// \param diagonals bit f: which one, of face f
+Mesh
+cube (unsigned diagonals)
+{
+  Mesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh.positions.emplace_back ((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                                 (corner & 4) != 0 ? 1 : -1);
+  const std::array<std::array<Index, 4>, 6> faces{
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (std::size_t f = 0; f < faces.size (); ++f) {
+    const auto& [a, b, c, d] = faces[f];
+    if ((diagonals >> f & 1U) != 0) {
+      mesh.triangles.push_back ({a, b, c});
+      mesh.triangles.push_back ({a, c, d});
+    }
+    else {
+      mesh.triangles.push_back ({a, b, d});
+      mesh.triangles.push_back ({b, c, d});
+    }
+  }
+  return mesh;
+}
+
+// The regular icosahedron, whose vertices are on a sphere around the origin.
+Mesh
+icosahedron ()
+{
+  const double golden = (1.0 + std::sqrt (5.0)) / 2.0;
+  Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double a : {-1.0, 1.0})
+      for (const double b : {-golden, golden}) {
+        Eigen::Vector3d p;
+        p[axis] = 0.0;
+        p[(axis + 1) % 3] = a;
+        p[(axis + 2) % 3] = b;
+        mesh.positions.push_back (p);
+      }
+  for (Index a = 0; a < 12; ++a) // all triples of points at the length of an edge, 2
+    for (Index b = a + 1; b < 12; ++b)
+      for (Index c = b + 1; c < 12; ++c) {
+        const Eigen::Vector3d &p = mesh.positions[a], &q = mesh.positions[b],
+                              &r = mesh.positions[c];
+        if ((p - q).norm () > 2.1 || (q - r).norm () > 2.1 || (r - p).norm () > 2.1)
+          continue;
+        if ((q - p).cross (r - p).dot (p) > 0.0)
+          mesh.triangles.push_back ({a, b, c});
+        else
+          mesh.triangles.push_back ({a, c, b});
+      }
+  EXPECT_EQ (mesh.triangles.size (), 20U);
+  return mesh;
+}
+
+void
+expectNear (const Eigen::Vector3f& normal, const Eigen::Vector3d& expected, float tolerance)
+{
+  EXPECT_LE ((normal - expected.normalized ().cast<float> ()).norm (), tolerance)
+      << normal.transpose () << " is not " << expected.transpose ();
+}
+
+TEST (VertexNormals, OfAPlaneAreThatOfThePlane)
+{
+  const Mesh mesh = samples::sheet (40);
+  for (const Eigen::Vector3f& normal : normalsOf (mesh))
+    EXPECT_EQ (normal, Eigen::Vector3f (0.0F, 0.0F, 1.0F));
+  Mesh turned = mesh;
+  for (Triangle& t : turned.triangles)
+    std::swap (t[1], t[2]);
+  for (const Eigen::Vector3f& normal : normalsOf (turned))
+    EXPECT_EQ (normal, Eigen::Vector3f (0.0F, 0.0F, -1.0F));
+}
+
+// Weights by area, or none, would tell how the faces are cut.
+TEST (VertexNormals, OfACubeAreItsDiagonalsHoweverItsFacesAreCut)
+{
+  for (unsigned diagonals = 0; diagonals < 64; ++diagonals) {
+    const Mesh mesh = cube (diagonals);
+    const std::vector<Eigen::Vector3f> normals = normalsOf (mesh);
+    for (std::size_t p = 0; p < 8; ++p)
+      expectNear (normals[p], mesh.positions[p], FLOAT_STEP);
+  }
+}
+
+TEST (VertexNormals, OfAnIcosahedronAreThoseOfItsSphere)
+{
+  const Mesh mesh = icosahedron ();
+  const std::vector<Eigen::Vector3f> normals = normalsOf (mesh);
+  for (std::size_t p = 0; p < mesh.positions.size (); ++p)
+    expectNear (normals[p], mesh.positions[p], FLOAT_STEP);
+}
+
+// Each triangle in four, new points on the sphere: the error falls with the length of the edges.
+TEST (VertexNormals, OfAFinerSphereComeNearerToItsOwn)
+{
+  Mesh mesh = icosahedron ();
+  for (Eigen::Vector3d& p : mesh.positions)
+    p.normalize ();
+  double last = 1.0;
+  for (int step = 0; step < 4; ++step) {
+    std::map<std::pair<Index, Index>, Index> middles;
+    const auto middle = [&] (Index a, Index b) {
+      const auto [found, is_new] =
+          middles.try_emplace (std::minmax (a, b), static_cast<Index> (mesh.positions.size ()));
+      if (is_new) {
+        const Eigen::Vector3d between = mesh.positions[a] + mesh.positions[b];
+        mesh.positions.push_back (between.normalized ());
+      }
+      return found->second;
+    };
+    Triangles finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Index ab = middle (a, b), bc = middle (b, c), ca = middle (c, a);
+      finer.insert (finer.end (), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    mesh.triangles = finer;
+    const std::vector<Eigen::Vector3f> normals = normalsOf (mesh);
+    double error = 0.0;
+    for (std::size_t p = 0; p < normals.size (); ++p)
+      error = std::max (error, (normals[p].cast<double> () - mesh.positions[p]).norm ());
+    if (step < 2) // as symmetric as the icosahedron
+      EXPECT_LT (error, 0.02);
+    else
+      EXPECT_LT (error, 0.6 * last);
+    last = error;
+  }
+  EXPECT_LT (last, 3e-3);
+}
+
+TEST (VertexNormals, PointsThatNoTriangleTellsOfHaveNone)
+{
+  const double nan = std::nan ("");
+  const Positions positions{{0, 0, 0}, {1, 0, 0},     {0, 1, 0}, {5, 5, 5}, {1, 0, 0},
+                            {2, 0, 0}, {nan, nan, 0}, {1, 1, 0}, {9, 0, 0}, {9, 9, 0}};
+  const Triangles triangles{{0, 1, 2}, // one that counts
+                            {1, 4, 2}, // two equal corners
+                            {0, 1, 5}, // on one line
+                            {1, 6, 2}, // not finite
+                            {7, 8, 9}, // twice, from both sides
+                            {7, 9, 8}, {3, 3, 3}};
+  const std::vector<Eigen::Vector3f> normals = vertexNormals (positions, triangles, 1);
+  for (const std::size_t p : {0, 1, 2})
+    EXPECT_EQ (normals[p], Eigen::Vector3f (0, 0, 1)) << p;
+  for (const std::size_t p : {3, 4, 5, 6, 7, 8, 9})
+    EXPECT_EQ (normals[p], Eigen::Vector3f (0, 0, 0)) << p;
+  EXPECT_TRUE (vertexNormals ({}, {}).empty ());
+  EXPECT_THROW (vertexNormals (positions, {{0, 1, 10}}), std::out_of_range);
+}
+
+// A needle has hardly an angle at its foot, and a hair of it at its tip.
+TEST (VertexNormals, NeedlesWeighWhatTheirAnglesAre)
+{
+  const Positions positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-9, 0, 1}};
+  const std::vector<Eigen::Vector3f> normals = vertexNormals (positions, {{0, 1, 2}, {0, 2, 3}}, 1);
+  // At point 0 both have a right angle, at point 2 both have 45 degrees.
+  expectNear (normals[0], {1, 0, 1}, 1e-6F);
+  const std::vector<Eigen::Vector3f> thin =
+      vertexNormals ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1e-9}}, {{0, 1, 2}, {0, 3, 1}}, 1);
+  expectNear (thin[0], {0, 0, 1}, 1e-6F);
+}
+
+TEST (VertexNormals, AreTheSameAtAnyScale)
+{
+  const Mesh mesh = icosahedron ();
+  for (const double scale : {1e-300, 1e-200, 1e200, 1e300}) {
+    Mesh scaled = mesh;
+    for (Eigen::Vector3d& p : scaled.positions)
+      p *= scale;
+    const std::vector<Eigen::Vector3f> normals = normalsOf (scaled);
+    for (std::size_t p = 0; p < mesh.positions.size (); ++p)
+      expectNear (normals[p], mesh.positions[p], FLOAT_STEP);
+  }
+}
+
+TEST (VertexNormals, DoNotDependOnThreadsOrOrder)
+{
+  Mesh mesh = samples::torus (90, 40);
+  RandomStream random (7);
+  for (Eigen::Vector3d& p : mesh.positions)
+    for (double& coordinate : p)
+      coordinate += 0.01 * random.uniform ();
+  const std::vector<Eigen::Vector3f> normals = normalsOf (mesh, 1);
+  const auto expectSame = [&normals] (const std::vector<Eigen::Vector3f>& others) {
+    ASSERT_EQ (others.size (), normals.size ());
+    EXPECT_EQ (std::memcmp (others.data (), normals.data (), normals.size () * sizeof (normals[0])),
+               0);
+  };
+  for (const int threads : {0, 2, 7})
+    expectSame (normalsOf (mesh, threads));
+  for (std::size_t t = mesh.triangles.size () - 1; t > 0; --t) {
+    std::swap (mesh.triangles[t], mesh.triangles[random.below (t + 1)]);
+    std::rotate (mesh.triangles[t].begin (),
+                 mesh.triangles[t].begin () + static_cast<std::ptrdiff_t> (random.below (3)),
+                 mesh.triangles[t].end ());
+  }
+  expectSame (normalsOf (mesh, 2));
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Binary glTF 2.0. The libraries for it in Debian 12 do not fit: assimp puts equal points together
+// and leaves out those in no triangle, VTK writes what a window shows, and tinygltf takes the whole
+// file in memory. The file is three numbers, a text in JSON and the arrays.
+#include "mesh_writer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Json = nlohmann::json;
+
+// Numbers of the specification.
+constexpr int FLOAT = 5126, UNSIGNED_BYTE = 5121, UNSIGNED_INT = 5125;
+constexpr int VERTICES = 34962, INDICES = 34963, TRIANGLES = 4;
+constexpr std::uint32_t MAGIC = 0x46546C67, JSON_CHUNK = 0x4E4F534A, BINARY_CHUNK = 0x004E4942;
+constexpr std::size_t ALIGNMENT = 4;
+
+/// The arrays of the file, one after the other.
+class Arrays
+{
+public:
+  /// \return the number of the array
+  std::size_t add (const char* type, int component, std::size_t count, std::size_t bytes_each,
+                   int target)
+  {
+    views.push_back (Json{{"buffer", 0},
+                          {"byteOffset", bytes},
+                          {"byteLength", count * bytes_each},
+                          {"target", target}});
+    accessors.push_back (Json{{"bufferView", views.size () - 1},
+                              {"componentType", component},
+                              {"count", count},
+                              {"type", type}});
+    bytes += count * bytes_each;
+    return accessors.size () - 1;
+  }
+
+  Json views = Json::array (), accessors = Json::array ();
+  std::size_t bytes = 0;
+};
+
+/// Normals must have length 1. Others are scaled, and those that are none point up.
+Eigen::Vector3f
+unitNormal (const FieldTriple& fields, std::size_t row)
+{
+  constexpr double ROUNDING = 1e-4; // of the square, of numbers of four digits
+  Eigen::Vector3d normal (fields[0]->asDouble (row), fields[1]->asDouble (row),
+                          fields[2]->asDouble (row));
+  if (std::abs (normal.squaredNorm () - 1.0) > ROUNDING)
+    normal.stableNormalize ();
+  if (!normal.allFinite () || normal.isZero (0.0))
+    return Eigen::Vector3f::UnitZ ();
+  return normal.cast<float> ();
+}
+
+void
+writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
+{
+  for (const float coordinate : vector)
+    file.writeNumber (coordinate, ByteOrder::LITTLE);
+}
+
+/// The smallest and largest coordinates of all points.
+std::array<Eigen::Vector3f, 2>
+boundsOf (const Cloud& cloud)
+{
+  constexpr float LARGEST = std::numeric_limits<float>::max ();
+  std::array<Eigen::Vector3f, 2> bounds{Eigen::Vector3f::Constant (LARGEST),
+                                        Eigen::Vector3f::Constant (-LARGEST)};
+  for (std::size_t i = 0; i < cloud.size (); ++i) {
+    const Eigen::Vector3f position = cloud.position (i).cast<float> ();
+    bounds[0] = bounds[0].cwiseMin (position);
+    bounds[1] = bounds[1].cwiseMax (position);
+  }
+  return bounds;
+}
+
+Json
+asArray (const Eigen::Vector3f& vector)
+{
+  return Json::array ({vector.x (), vector.y (), vector.z ()});
+}
+
+} // namespace
+
+void
+writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  const FieldTriple colors = colorFields (cloud);
+  const FieldTriple normals = normalFields (cloud);
+  const Field* const alpha = cloud.find ("alpha");
+  const bool has_alpha = alpha != nullptr && alpha->type == ScalarType::UINT8 && alpha->count == 1;
+  constexpr std::size_t VECTOR = 3 * sizeof (float), TRIANGLE = 3 * sizeof (std::uint32_t);
+  Arrays arrays;
+  Json attributes;
+  const std::size_t positions = arrays.add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
+  attributes["POSITION"] = positions;
+  const std::array<Eigen::Vector3f, 2> bounds = boundsOf (cloud);
+  arrays.accessors[positions]["min"] = asArray (bounds[0]);
+  arrays.accessors[positions]["max"] = asArray (bounds[1]);
+  if (normals[0])
+    attributes["NORMAL"] = arrays.add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
+  if (colors[0]) {
+    attributes["COLOR_0"] = arrays.add ("VEC4", UNSIGNED_BYTE, cloud.size (), ALIGNMENT, VERTICES);
+    arrays.accessors.back ()["normalized"] = true;
+  }
+  const std::size_t indices =
+      arrays.add ("SCALAR", UNSIGNED_INT, 3 * triangles.size (), TRIANGLE / 3, INDICES);
+
+  constexpr double HALF_ROOT = 0.70710678118654752440;
+  Json asset{{"version", "2.0"}, {"generator", "pcl_floater_reconstruct"}};
+  if (const std::string shift = shiftText (cloud); !shift.empty ())
+    asset["extras"] = Json{{"shift", shift}};
+  const Json primitive{
+      {"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", TRIANGLES}};
+  const Json material{{"doubleSided", true},
+                      {"pbrMetallicRoughness", Json{{"metallicFactor", 0.0}}}};
+  // Up is +y for viewers, and +z in most clouds. The arrays have the coordinates of the cloud.
+  const Json node{{"mesh", 0}, {"rotation", Json::array ({-HALF_ROOT, 0.0, 0.0, HALF_ROOT})}};
+  Json all;
+  all["asset"] = asset;
+  all["scene"] = 0;
+  all["scenes"] = Json::array ({Json{{"nodes", Json::array ({0})}}});
+  all["nodes"] = Json::array ({node});
+  all["meshes"] = Json::array ({Json{{"primitives", Json::array ({primitive})}}});
+  all["materials"] = Json::array ({material});
+  all["buffers"] = Json::array ({Json{{"byteLength", arrays.bytes}}});
+  all["bufferViews"] = arrays.views;
+  all["accessors"] = arrays.accessors;
+  std::string text = all.dump ();
+  text.resize ((text.size () + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
+
+  constexpr std::size_t HEADER = 12, CHUNK_HEADER = 8;
+  const std::size_t size = HEADER + 2 * CHUNK_HEADER + text.size () + arrays.bytes;
+  if (size > std::numeric_limits<std::uint32_t>::max ())
+    throw WriteError (
+        "cannot write the mesh as .glb, which holds 4 GB at most; write .ply or .vtk");
+  const auto write = [&file] (std::size_t number) {
+    file.writeNumber (static_cast<std::uint32_t> (number), ByteOrder::LITTLE);
+  };
+  write (MAGIC);
+  write (2); // version
+  write (size);
+  write (text.size ());
+  write (JSON_CHUNK);
+  file.write (text);
+  write (arrays.bytes);
+  write (BINARY_CHUNK);
+  for (std::size_t i = 0; i < cloud.size (); ++i)
+    writeVector (file, cloud.position (i).cast<float> ());
+  if (normals[0])
+    for (std::size_t i = 0; i < cloud.size (); ++i)
+      writeVector (file, unitNormal (normals, cloud.row (i)));
+  if (colors[0])
+    for (std::size_t i = 0; i < cloud.size (); ++i) {
+      for (const Field* channel : colors)
+        file.writeNumber (channel->value<std::uint8_t> (cloud.row (i)), ByteOrder::LITTLE);
+      constexpr std::uint8_t OPAQUE = 255;
+      file.writeNumber (has_alpha ? alpha->value<std::uint8_t> (cloud.row (i)) : OPAQUE,
+                        ByteOrder::LITTLE);
+    }
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t corner : triangle)
+      file.writeNumber (corner, ByteOrder::LITTLE);
+}
+
+} // namespace floater
+} // namespace pcl

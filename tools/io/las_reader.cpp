@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ASPRS LAS 1.0 to 1.4, from its specification (LAS Specification 1.4 - R15, 2019).
+#include "byte_order.h"
+#include "cloud_reader.h"
+#include "plural.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+/// Where the header has what is read of it. Its numbers are little endian.
+constexpr std::size_t VERSION_AT = 24;
+constexpr std::size_t HEADER_SIZE_AT = 94;
+constexpr std::size_t POINTS_AT = 96;
+constexpr std::size_t FORMAT_AT = 104;
+constexpr std::size_t RECORD_SIZE_AT = 105;
+constexpr std::size_t LEGACY_COUNT_AT = 107;
+constexpr std::size_t SCALES_AT = 131;
+constexpr std::size_t OFFSETS_AT = 155;
+constexpr std::size_t HEADER_BYTES = 227;
+constexpr std::size_t COUNT_AT = 247; ///< in LAS 1.4
+constexpr std::size_t HEADER_BYTES_14 = 375;
+constexpr std::size_t INTENSITY_AT = 12; ///< in a point
+
+/// A format of points: the size of one, and where it has its colour, if it has one.
+struct PointFormat
+{
+  std::size_t size;
+  std::size_t color_at;
+};
+constexpr std::array<PointFormat, 11> FORMATS{{{20, 0},
+                                               {28, 0},
+                                               {26, 20},
+                                               {34, 28},
+                                               {57, 0},
+                                               {63, 28},
+                                               {30, 0},
+                                               {36, 30},
+                                               {38, 30},
+                                               {59, 0},
+                                               {67, 30}}};
+
+struct LasHeader
+{
+  std::size_t points_at = 0;
+  std::size_t record_size = 0;
+  PointFormat format{};
+  std::uint64_t count = 0;
+  std::array<double, 3> scales{}, offsets{};
+};
+
+template <typename T>
+T
+numberAt (std::string_view bytes, std::size_t at)
+{
+  return readNumber<T> (bytes.data () + at, ByteOrder::LITTLE);
+}
+
+LasHeader
+readHeader (std::string_view bytes)
+{
+  constexpr std::string_view SIGNATURE = "LASF";
+  if (bytes.substr (0, SIGNATURE.size ()) != SIGNATURE)
+    throw ReadError ("it does not begin with 'LASF', so it is not a LAS file");
+  if (bytes.size () < HEADER_BYTES)
+    throw ReadError ("its header is truncated");
+  const int major = numberAt<std::uint8_t> (bytes, VERSION_AT);
+  const int minor = numberAt<std::uint8_t> (bytes, VERSION_AT + 1);
+  if (major != 1 || minor > 4)
+    throw ReadError ("it is of version " + std::to_string (major) + "." + std::to_string (minor) +
+                     " of LAS; 1.0 to 1.4 can be read");
+  const std::size_t header_size = numberAt<std::uint16_t> (bytes, HEADER_SIZE_AT);
+  const std::size_t least = minor >= 4 ? HEADER_BYTES_14 : HEADER_BYTES;
+  if (header_size < least || bytes.size () < least)
+    throw ReadError ("its header has " + counted (std::min (header_size, bytes.size ()), "byte") +
+                     ", fewer than the " + std::to_string (least) + " that it must have");
+  LasHeader header;
+  header.points_at = numberAt<std::uint32_t> (bytes, POINTS_AT);
+  if (header.points_at < header_size || header.points_at > bytes.size ())
+    throw ReadError ("its header tells that the points begin at byte " +
+                     std::to_string (header.points_at) +
+                     ", where there are none; the file is "
+                     "truncated or its header is wrong");
+  const unsigned format = numberAt<std::uint8_t> (bytes, FORMAT_AT);
+  constexpr unsigned COMPRESSED = 0xC0; // the bits that compressors set
+  if ((format & COMPRESSED) != 0)
+    throw ReadError (LAZ_ADVICE);
+  if (format >= FORMATS.size ())
+    throw ReadError ("its points are of format " + std::to_string (format) +
+                     "; 0 to 10 can be read");
+  header.format = FORMATS[format];
+  header.record_size = numberAt<std::uint16_t> (bytes, RECORD_SIZE_AT);
+  if (header.record_size < header.format.size)
+    throw ReadError ("its header gives each point " + counted (header.record_size, "byte") +
+                     ", fewer than the " + std::to_string (header.format.size) +
+                     " of point format " + std::to_string (format));
+  header.count = numberAt<std::uint32_t> (bytes, LEGACY_COUNT_AT);
+  if (minor >= 4)
+    if (const auto count = numberAt<std::uint64_t> (bytes, COUNT_AT); count > 0)
+      header.count = count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    header.scales[axis] = numberAt<double> (bytes, SCALES_AT + axis * sizeof (double));
+    header.offsets[axis] = numberAt<double> (bytes, OFFSETS_AT + axis * sizeof (double));
+    if (!std::isfinite (header.scales[axis]) || header.scales[axis] == 0.0 ||
+        !std::isfinite (header.offsets[axis]))
+      throw ReadError ("the scale or the offset of its coordinates is no number of use; its header "
+                       "is wrong");
+  }
+  return header;
+}
+
+/// The three channels, of 16 bits by the specification. Many programs write 8 bits into them, so
+/// that no value is above 255.
+void
+addColors (const FileBytes& file, const LasHeader& header, std::vector<Field>& fields,
+           std::vector<std::string>& warnings)
+{
+  constexpr unsigned LARGEST_BYTE = 255;
+  const auto count = static_cast<std::size_t> (header.count);
+  const char* const first = file.view ().data () + header.points_at + header.format.color_at;
+  unsigned largest = 0;
+  for (std::size_t p = 0; p < count && largest <= LARGEST_BYTE; ++p)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      largest = std::max<unsigned> (largest,
+                                    readNumber<std::uint16_t> (first + p * header.record_size +
+                                                                   channel * sizeof (std::uint16_t),
+                                                               ByteOrder::LITTLE));
+  if (largest == 0) {
+    warnings.emplace_back ("all colours of the input file are black: they were left out");
+    return;
+  }
+  const std::size_t byte = largest > LARGEST_BYTE ? 1 : 0; // of the two of a channel
+  constexpr std::array<const char*, 3> NAMES{"red", "green", "blue"};
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    Field field{NAMES[channel], ScalarType::UINT8};
+    field.first = file.at (header.points_at + header.format.color_at +
+                           channel * sizeof (std::uint16_t) + byte);
+    field.stride = header.record_size;
+    fields.push_back (std::move (field));
+  }
+}
+
+} // namespace
+
+Cloud
+parseLas (const FileBytes& file)
+{
+  const std::string_view bytes = file.view ();
+  const LasHeader header = readHeader (bytes);
+  if (header.count == 0)
+    throw ReadError ("it has no points");
+  const std::size_t most = (bytes.size () - header.points_at) / header.record_size;
+  if (header.count > most)
+    throw ReadError ("the header promises " + std::to_string (header.count) + " points of " +
+                     counted (header.record_size, "byte") + " each, but the file has only " +
+                     std::to_string (most) + "; it is truncated or its header is wrong");
+  std::vector<Field> fields;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Field field{std::string (1, "xyz"[axis]), ScalarType::INT32};
+    field.first = file.at (header.points_at + axis * sizeof (std::int32_t));
+    field.stride = header.record_size;
+    field.order = ByteOrder::LITTLE;
+    field.scale = header.scales[axis];
+    field.offset = header.offsets[axis];
+    fields.push_back (std::move (field));
+  }
+  Field intensity{"intensity", ScalarType::UINT16};
+  intensity.first = file.at (header.points_at + INTENSITY_AT);
+  intensity.stride = header.record_size;
+  intensity.order = ByteOrder::LITTLE;
+  fields.push_back (std::move (intensity));
+  std::vector<std::string> warnings;
+  if (header.format.color_at > 0)
+    addColors (file, header, fields, warnings);
+  Cloud cloud = makeCloud (std::move (fields), static_cast<std::size_t> (header.count));
+  cloud.warnings.insert (cloud.warnings.begin (), warnings.begin (), warnings.end ());
+  cloud.file = file;
+  return cloud;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "byte_order.h"
+#include "cloud_reader.h"
+#include "plural.h"
+#include "text_scanner.h"
+
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t HEADER_BYTES = 80;
+constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
+
+/// Distinct points in the order in which they come first. Corners that have the same coordinates
+/// are one point.
+template <typename Number>
+class DistinctPoints
+{
+public:
+  using Point = std::array<Number, 3>;
+
+  void add (Point point)
+  {
+    for (Number& coordinate : point)
+      coordinate += Number{0}; // -0 is 0
+    if (2 * (points_.size () + 1) > slots_.size ())
+      grow ();
+    std::uint32_t& slot = slots_[slotOf (point)];
+    if (slot != FREE)
+      return;
+    if (points_.size () == FREE)
+      throw ReadError ("it has more points than a mesh file can number (2147483647); split it");
+    slot = static_cast<std::uint32_t> (points_.size ());
+    points_.push_back (point);
+  }
+
+  std::vector<Point> take () { return std::move (points_); }
+
+private:
+  static constexpr std::uint32_t FREE = std::numeric_limits<std::uint32_t>::max ();
+
+  /// The slot of a point, or a free one for it. Equal bits are equal, also those of a NaN.
+  std::size_t slotOf (const Point& point) const
+  {
+    std::uint64_t hash = 0;
+    for (const Number& coordinate : point) {
+      std::uint64_t bits = 0;
+      std::memcpy (&bits, &coordinate, sizeof coordinate);
+      hash = (hash ^ bits) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
+      hash ^= hash >> 32U;
+    }
+    std::size_t at = static_cast<std::size_t> (hash) & (slots_.size () - 1);
+    while (slots_[at] != FREE && std::memcmp (&points_[slots_[at]], &point, sizeof point) != 0)
+      at = (at + 1) & (slots_.size () - 1);
+    return at;
+  }
+
+  void grow ()
+  {
+    constexpr std::size_t FIRST = 1024;
+    slots_.assign (slots_.empty () ? FIRST : 2 * slots_.size (), FREE);
+    for (std::size_t p = 0; p < points_.size (); ++p)
+      slots_[slotOf (points_[p])] = static_cast<std::uint32_t> (p);
+  }
+
+  std::vector<Point> points_;
+  std::vector<std::uint32_t> slots_; // a power of two of them, at most half of them taken
+};
+
+template <typename Number>
+Cloud
+cloudOf (DistinctPoints<Number>& distinct, std::size_t facets)
+{
+  const auto points = std::make_shared<const std::vector<std::array<Number, 3>>> (distinct.take ());
+  if (points->empty ())
+    throw ReadError ("it has no points");
+  std::vector<Field> fields;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Field field{std::string (1, "xyz"[axis]),
+                sizeof (Number) == sizeof (float) ? ScalarType::FLOAT32 : ScalarType::FLOAT64};
+    field.first = {points, reinterpret_cast<const char*> (points->front ().data () + axis)};
+    field.stride = sizeof (std::array<Number, 3>);
+    fields.push_back (std::move (field));
+  }
+  Cloud cloud = makeCloud (std::move (fields), points->size ());
+  cloud.are_decimals = sizeof (Number) == sizeof (double);
+  cloud.warnings.push_back (facesLeftOut (facets));
+  return cloud;
+}
+
+Cloud
+parseBinary (std::string_view bytes)
+{
+  const std::size_t facets =
+      readNumber<std::uint32_t> (bytes.data () + HEADER_BYTES, ByteOrder::LITTLE);
+  bytes.remove_prefix (HEADER_BYTES + sizeof (std::uint32_t));
+  if (facets > bytes.size () / FACET_BYTES)
+    throw ReadError ("the header promises " + counted (facets, "facet") +
+                     ", but the file has only " + std::to_string (bytes.size () / FACET_BYTES) +
+                     "; it is truncated or its header is wrong");
+  DistinctPoints<float> points;
+  for (std::size_t f = 0; f < facets; ++f)
+    for (std::size_t corner = 1; corner <= 3; ++corner) {
+      std::array<float, 3> point{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        point[axis] = readNumber<float> (bytes.data () + f * FACET_BYTES +
+                                             (3 * corner + axis) * sizeof (float),
+                                         ByteOrder::LITTLE);
+      points.add (point);
+    }
+  Cloud cloud = cloudOf (points, facets);
+  if (bytes.size () > facets * FACET_BYTES)
+    cloud.warnings.push_back ("the input file has more data than the " + counted (facets, "facet") +
+                              " of its header; the rest was ignored");
+  return cloud;
+}
+
+Cloud
+parseText (std::string_view text)
+{
+  DistinctPoints<double> points;
+  std::size_t corners = 0;
+  bool has_ended = false;
+  TextScanner scanner (text);
+  while (scanner.nextFilledLine ()) {
+    const std::string_view key = scanner.word ();
+    has_ended = key == "endsolid" || (key == "end" && scanner.word () == "solid");
+    if (key != "vertex")
+      continue;
+    std::array<double, 3> point{};
+    for (double& coordinate : point)
+      coordinate = scanner.number<double> ();
+    points.add (point);
+    ++corners;
+  }
+  if (!has_ended || corners % 3 != 0)
+    throw ReadError ("it does not end with 'endsolid' after a whole facet; it is truncated");
+  return cloudOf (points, corners / 3);
+}
+
+} // namespace
+
+Cloud
+parseStl (const FileBytes& file)
+{
+  const std::string_view bytes = file.view ();
+  const bool is_long = bytes.size () >= HEADER_BYTES + sizeof (std::uint32_t);
+  // Some programs begin binary files with "solid", too: then only the length tells.
+  const bool fits_binary =
+      is_long && (bytes.size () - HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
+                     readNumber<std::uint32_t> (bytes.data () + HEADER_BYTES, ByteOrder::LITTLE);
+  TextScanner scanner (bytes);
+  const bool is_solid = scanner.nextFilledLine () && scanner.word () == "solid";
+  if (is_solid && !fits_binary)
+    return parseText (bytes);
+  if (!is_long)
+    throw ReadError ("it is too short for a binary STL file, and a text does not begin with "
+                     "'solid'");
+  return parseBinary (bytes);
+}
+
+} // namespace floater
+} // namespace pcl

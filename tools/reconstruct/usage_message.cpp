@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "usage_message.h"
+
+#include "suggestion.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Words = std::vector<std::string>;
+
+/// "-k" and "--neighbors".
+Words
+namesOf (const CLI::Option& option)
+{
+  Words names;
+  for (const std::string& name : option.get_snames ())
+    names.push_back ("-" + name);
+  for (const std::string& name : option.get_lnames ())
+    names.push_back ("--" + name);
+  return names;
+}
+
+bool
+isFlag (const CLI::Option& option)
+{
+  return option.get_items_expected () == 0;
+}
+
+/// Whether an argument gives an option by this name: "-k", "-k20", "--neighbors=20".
+bool
+gives (const std::string& argument, const std::string& name)
+{
+  const bool is_short = name.size () == 2;
+  return argument.compare (0, name.size (), name) == 0 &&
+         (argument.size () == name.size () || is_short || argument[name.size ()] == '=');
+}
+
+/// The name by which an option was typed last.
+std::string
+typedName (const CLI::Option& option, const Words& arguments)
+{
+  std::string typed = option.get_name ();
+  for (const std::string& argument : arguments)
+    for (const std::string& name : namesOf (option))
+      if (gives (argument, name))
+        typed = name;
+  return typed;
+}
+
+/// The option that a message begins with, by any of its names or all of them.
+const CLI::Option*
+optionOf (const CLI::App& app, const std::string& message)
+{
+  const auto begins = [&message] (const std::string& name) {
+    return !name.empty () && message.compare (0, name.size (), name) == 0 &&
+           (message.size () == name.size () || message[name.size ()] == ':' ||
+            message[name.size ()] == ' ');
+  };
+  for (const CLI::Option* const option : app.get_options ()) {
+    const Words names = namesOf (*option);
+    if (begins (option->get_name (false, true)) ||
+        std::any_of (names.begin (), names.end (), begins))
+      return option;
+  }
+  return nullptr;
+}
+
+/// An argument that looks like an option and is none; empty if there is none such.
+std::string
+unknownOption (const CLI::App& app)
+{
+  for (const std::string& word : app.remaining ())
+    if (word.size () > 1 && word.front () == '-' && word != "--")
+      return word.substr (0, word.find ('='));
+  return "";
+}
+
+std::string
+valueOf (const std::string& name, const Words& arguments)
+{
+  for (const std::string& argument : arguments)
+    if (argument.compare (0, name.size () + 1, name + "=") == 0)
+      return argument.substr (name.size () + 1);
+  return "";
+}
+
+/// An option with a value that has none, one with several, or a flag with a value.
+std::string
+mismatchMessage (const CLI::Option& option, const Words& arguments)
+{
+  const std::string typed = typedName (option, arguments);
+  if (isFlag (option))
+    return typed + " takes no value, but has '" + valueOf (typed, arguments) + "'";
+  const Words names = namesOf (option);
+  const auto times =
+      std::count_if (arguments.begin (), arguments.end (), [&names] (const std::string& argument) {
+        return std::any_of (names.begin (), names.end (), [&argument] (const std::string& name) {
+          return gives (argument, name);
+        });
+      });
+  if (times > 1)
+    return typed + " is given " + std::to_string (times) + " times; give it once";
+  const std::string& text = option.get_option_text ();
+  return typed + " needs a value, " + text.substr (0, text.find (" ("));
+}
+
+} // namespace
+
+std::string
+usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
+{
+  const std::string message = error.what ();
+  const auto kind = static_cast<CLI::ExitCodes> (error.get_exit_code ());
+  // A mistyped option may leave its value where INPUT should be: so it is told first.
+  if (const std::string unknown = unknownOption (app); !unknown.empty ()) {
+    Words names;
+    for (const CLI::Option* const option : app.get_options ())
+      for (std::string& name : namesOf (*option))
+        names.push_back (std::move (name));
+    return "there is no option " + unknown + didYouMean (unknown, names);
+  }
+  if (kind == CLI::ExitCodes::ExtrasError)
+    return "'" + app.remaining ().front () +
+           "' is one file too many: there are one INPUT and one OUTPUT";
+  if (kind == CLI::ExitCodes::RequiredError)
+    return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
+  const CLI::Option* const option = optionOf (app, message);
+  if (kind == CLI::ExitCodes::ConversionError) // only flags are converted by the parser itself
+    for (const CLI::Option* const flag : app.get_options ())
+      if (isFlag (*flag) && !valueOf (typedName (*flag, arguments), arguments).empty ())
+        return mismatchMessage (*flag, arguments);
+  if (option == nullptr)
+    return message;
+  if (kind == CLI::ExitCodes::ArgumentMismatch)
+    return mismatchMessage (*option, arguments);
+  return typedName (*option, arguments) +
+         message.substr (std::min (message.find (": "), message.size ()));
+}
+
+std::string
+rangeMessage (const CLI::App& app, const std::string& refusal, const Words& arguments)
+{
+  // Words of the core, and the options that they are about.
+  static constexpr std::array<std::pair<const char*, const char*>, 22> KNOWN{
+      {{"number of kept loops", "--kept-loops"},
+       {"size of the largest hole must", "--largest-hole"},
+       {"size of the largest hole must", "--largest-hole-length"},
+       {"holes chosen by their size", "--holes"},
+       {"a disc has one boundary loop", "--holes"},
+       {"maximum edge length", "--max-edge"},
+       {"maximum edge ratio", "--max-edge-ratio"},
+       {"minimum component size", "--min-component"},
+       {"a viewpoint is of no use", "--viewpoint"},
+       {"number of neighbours", "--neighbors"},
+       {"ball radius", "--ball-radius"},
+       {"opening angle", "--opening-angle"},
+       {"cluster tolerance", "--cluster-tolerance"},
+       {"number of cluster neighbours", "--cluster-neighbors"},
+       {"number of polygon sides", "--sides"},
+       {"the tolerance must", "--tolerance"},
+       {"number of iterations", "--max-iterations"},
+       {"fill of ILUT", "--ilut-fill"},
+       {"drop tolerance of ILUT", "--ilut-drop"},
+       {"does not take the ordering", "--ordering"},
+       {"number of threads", "--threads"},
+       {"number of blocks", "--blocks"}}};
+  for (const auto& [words, name] : KNOWN)
+    if (refusal.find (words) != std::string::npos && app.count (name) > 0)
+      return typedName (*app.get_option (name), arguments) + ": " + refusal;
+  return refusal;
+}
+
+} // namespace floater
+} // namespace pcl

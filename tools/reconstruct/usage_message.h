@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is wrong with a command line, in words of the user.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI // NOLINT(readability-identifier-naming)
+{
+class App;
+class ParseError;
+} // namespace CLI
+
+namespace pcl
+{
+namespace floater
+{
+/// The message for a command line that could not be parsed. Options are named as they were typed.
+/// \param app that has refused it
+/// \param arguments as they were typed
+std::string
+usageMessage (const CLI::App& app, const CLI::ParseError& error,
+              const std::vector<std::string>& arguments);
+
+/// The message for an option that is out of its range.
+/// \param refusal of checkOptions (), which does not know the names of the tool's options
+std::string
+rangeMessage (const CLI::App& app, const std::string& refusal,
+              const std::vector<std::string>& arguments);
+
+} // namespace floater
+} // namespace pcl
