@@ -108,7 +108,7 @@ ${what_it_is}
 This package has the tools: pcl_floater_reconstruct makes a mesh of a cloud,
 pcl_floater_picture draws it, and pcl_floater_generate writes sample clouds.")
 
-# The module has the core within, and needs no other of these packages. It is for one version of Python.
+# The module contains the core, and needs no other of these packages. It is for one version of Python.
 # Python's own scripts make its byte code, and remove it.
 foreach (script postinst prerm)
   configure_file ("${PROJECT_SOURCE_DIR}/cmake/debian_python_${script}" "${debian_folder}/python/${script}" @ONLY

@@ -146,7 +146,6 @@ def test_what_a_handler_raises_ends_the_run():
         with alarms(handler):
             calls.clear()
             pcl_floater.reconstruct(points)
-    assert len(calls) == 4
 
 
 def test_other_threads_run_meanwhile():
