@@ -66,7 +66,7 @@ TEST_P (NormalsTest, AreInEveryFormatThatHasThem)
     if (extension == "ply" || extension == "vtk") {
       EXPECT_EQ (mesh.fields, plain.fields);
     }
-    EXPECT_TRUE (Json::parse (readFile ("r.json")).at ("options").at ("normals"));
+    EXPECT_TRUE (Json::parse (readFile ("r.json")).at ("output").at ("normals"));
   }
 }
 

@@ -65,8 +65,6 @@ std::string
 reportText (const CommandLine& line, const Report& report, const RunFigures& run)
 {
   const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
-  Json options = optionsJson (line.options, line.use_input_normals);
-  options["normals"] = line.compute_normals;
   Json all = {{"tool", "pcl_floater_reconstruct"},
               {"version", PCL_FLOATER_VERSION},
               {"input",
@@ -78,10 +76,11 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
               {"output", is_ok ? Json{{"file", fileName (line.output)},
                                       {"coordinates", run.writes_single ? "float" : "double"},
                                       {"vertices", run.vertices},
+                                      {"normals", line.compute_normals},
                                       {"triangles", report.statistics.triangles},
                                       {"parameterization", fileName (line.parameterization)}}
                                : Json ()},
-              {"options", options},
+              {"options", optionsJson (line.options, line.use_input_normals)},
               {"strict", line.strict},
               {"status", outcomeName (report, run)},
               {"message", report.message},
