@@ -48,7 +48,8 @@ log=$build/package.log
 echo "Building the packages (the first time takes minutes) ..."
 if ! {
   cmake --preset release -B "$build" -D CMAKE_INSTALL_PREFIX=/usr -D PCL_FLOATER_PACKAGES=ON \
-    -D PCL_FLOATER_WITH_SUPERLU=ON -D PCL_FLOATER_WITH_LZF=ON -D PCL_FLOATER_WITH_PICTURE=ON \
+    -D PCL_FLOATER_WITH_SUPERLU=ON -D PCL_FLOATER_WITH_LZF=ON -D PCL_FLOATER_WITH_ZLIB=ON \
+    -D PCL_FLOATER_WITH_PICTURE=ON \
     -D CMAKE_CXX_FLAGS="$flags" -D CMAKE_SHARED_LINKER_FLAGS="$link_flags" \
     -D CMAKE_EXE_LINKER_FLAGS="$link_flags" &&
     cmake --build "$build" --parallel "$jobs" &&

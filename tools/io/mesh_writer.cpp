@@ -61,12 +61,26 @@ isMeshFile (const std::filesystem::path& path)
   return extension == ".vtk" || extension == ".ply" || extension == ".obj" || extension == ".stl";
 }
 
+bool
+canHaveTexture (const std::filesystem::path& path)
+{
+  return isMeshFile (path) && lowerExtension (path) != ".stl";
+}
+
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles)
+           const Triangles& triangles, const MeshTexture* texture)
 {
   const std::string extension = lowerExtension (path);
   std::vector<std::string> losses;
+  if (texture != nullptr && (extension == ".vtk" || extension == ".ply")) {
+    Triangles renumbered = triangles;
+    const Cloud doubled = doubleSeamPoints (cloud, *texture, renumbered);
+    if (extension == ".ply")
+      return writeMesh (file, path, doubled, renumbered);
+    writeVtk (file, doubled, renumbered, true);
+    return losses;
+  }
   if (extension == ".vtk")
     writeVtk (file, cloud, triangles);
   else if (extension == ".ply") {
@@ -75,7 +89,7 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
                         "' was written as double");
   }
   else if (extension == ".obj")
-    writeObj (file, cloud, triangles);
+    writeObj (file, cloud, triangles, texture);
   else if (extension == ".stl") {
     if (const std::size_t lost = trianglesLostInSinglePrecision (cloud, triangles))
       throw WriteError ("cannot write '" + path.string () +
@@ -95,13 +109,16 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
 }
 
 void
-writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
+          const MeshTexture* texture)
 {
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
   file.write ("# " + COMMENT + "\n");
   if (const std::string shift = shiftText (cloud); !shift.empty ())
     file.write ("# shift " + shift + "\n");
+  if (texture != nullptr)
+    file.write ("mtllib " + texture->materials + "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.write ("v");
     for (const double coordinate : cloud.position (i)) {
@@ -126,14 +143,28 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
       writeObjTriple (file, normals, cloud.row (i));
       file.write ("\n");
     }
-  for (const auto& triangle : triangles) {
+  if (texture != nullptr) {
+    for (const Eigen::Vector2f& uv : texture->coordinates) {
+      file.write ("vt ");
+      file.writeDecimal (uv.x ());
+      file.write (" ");
+      file.writeDecimal (uv.y ());
+      file.write ("\n");
+    }
+    file.write ("usemtl surface\n");
+  }
+  for (std::size_t t = 0; t < triangles.size (); ++t) {
     file.write ("f");
-    for (const std::uint32_t corner : triangle) {
-      const std::uint64_t number = corner + std::uint64_t{1};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t number = triangles[t][i] + std::uint64_t{1};
       file.write (" ");
       file.writeDecimal (number);
+      if (texture != nullptr) {
+        file.write ("/");
+        file.writeDecimal (texture->corners[t][i] + std::uint64_t{1});
+      }
       if (normals[0]) {
-        file.write ("//");
+        file.write (texture != nullptr ? "/" : "//");
         file.writeDecimal (number);
       }
     }

@@ -6,6 +6,7 @@
 #include "memory_limit.h"
 #include "option_table.h"
 #include "published_method.h"
+#include "texture_output.h"
 
 #include <CLI/CLI.hpp>
 
@@ -98,6 +99,9 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
     topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
     throw UsageError (problem.message);
+  command_line.texture_coordinates =
+      command_line.texture_coordinates || !command_line.texture.empty ();
+  checkTextureOptions (command_line);
   checkMemoryLimit (command_line);
   return std::nullopt;
 }

@@ -48,6 +48,9 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
+  std::filesystem::path texture;         ///< image of the colours of the points
+  int texture_size = 0;                  ///< of its side, in pixels; 0: chosen by the points
+  bool texture_coordinates = false;      ///< --uv; also if a texture is asked for
   std::filesystem::path scratch;         ///< folder; used with a limit only
   std::size_t max_memory = 0;            ///< bytes; 0: no limit
   std::optional<Eigen::Vector3d> shift;  ///< --shift x,y,z

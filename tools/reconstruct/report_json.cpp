@@ -146,6 +146,23 @@ checkJson (const MeshCheck& check, bool is_view)
           {"loops", loops}};
 }
 
+// Null if no texture coordinates were asked for.
+Json
+textureJson (const CommandLine& line, const RunFigures& run)
+{
+  const TextureCoordinates& texture = run.texture;
+  if (texture.status != RunStatus::SUCCESS)
+    return {};
+  return {{"file", line.texture.empty () ? Json () : Json (line.texture.string ())},
+          {"charts", texture.chart_count},
+          {"stretch", texture.stretch},
+          {"largest_stretch", texture.largest_stretch},
+          {"area_used", texture.area_used},
+          {"seam_length", texture.seam_length},
+          {"gutter", texture.gutter},
+          {"flipped", texture.flipped}};
+}
+
 Json
 loopDecisionsJson (const Report& report)
 {
@@ -191,6 +208,8 @@ secondsJson (const Statistics& statistics, const RunFigures& run)
   for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage)
     seconds[stageName (static_cast<Stage> (stage))] = statistics.seconds[stage];
   seconds["reconstruction"] = run.reconstruct_seconds;
+  if (run.texture.status != RunStatus::NOT_RUN)
+    seconds["texture"] = run.texture_seconds;
   return seconds;
 }
 
@@ -271,6 +290,7 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                     {"facing_parts", facingPartsJson (report)},
                     {"facing_decisions", facingDecisionsJson (report)},
                     {"statistics", statisticsJson (report.statistics)},
+                    {"texture", is_ok ? textureJson (line, run) : Json ()},
                     {"seconds", secondsJson (report.statistics, run)},
                     {"peak_memory_bytes", peakMemory ()},
                     {"memory_limit", memoryLimitJson (line)},

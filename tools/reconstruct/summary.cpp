@@ -130,6 +130,11 @@ printSummary (const CommandLine& line, const Report& report, const RunFigures& r
                static_cast<double> (peakMemory ()) / MEGABYTE);
   std::printf ("warnings   %zu\n", report.warnings.size ());
   std::printf ("mesh       %s\n", line.output.c_str ());
+  if (run.texture.status == RunStatus::SUCCESS)
+    std::printf ("texture    %s, stretch %.3f, %.0f %% of the square used, %.3f s%s%s\n",
+                 counted (run.texture.chart_count, "chart").c_str (), run.texture.stretch,
+                 100.0 * run.texture.area_used, run.texture_seconds,
+                 line.texture.empty () ? "" : ": ", line.texture.c_str ());
   if (!line.parameterization.empty ())
     std::printf ("flat mesh  %s\n", line.parameterization.c_str ());
   if (!line.report.empty ())
