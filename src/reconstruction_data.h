@@ -18,7 +18,10 @@ struct ReconstructionState::Data
   pcl::Indices prescribed_loop; // as given: may hold indices that the core's type cannot
   bool use_input_normals = false;
   bool compute_normals = false;
+  bool computes_texture = false;
+  double largest_stretch = TextureOptions ().largest_stretch;
   Report report;
+  TextureCoordinates texture;
   std::vector<int> parts;          // of each point; empty if there is no mesh
   std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
   std::vector<Eigen::Vector3f>

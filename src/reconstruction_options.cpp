@@ -34,6 +34,30 @@ ReconstructionState::getHolePolicy () const
 }
 
 void
+ReconstructionState::setComputeTextureCoordinates (bool compute)
+{
+  data_->computes_texture = compute;
+}
+
+bool
+ReconstructionState::getComputeTextureCoordinates () const
+{
+  return data_->computes_texture;
+}
+
+void
+ReconstructionState::setLargestStretch (double stretch)
+{
+  data_->largest_stretch = stretch;
+}
+
+double
+ReconstructionState::getLargestStretch () const
+{
+  return data_->largest_stretch;
+}
+
+void
 ReconstructionState::setKeptLoops (int loops)
 {
   data_->options.holes.kept_loops = loops;

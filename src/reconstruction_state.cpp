@@ -8,6 +8,8 @@
 #include "problem_of_exception.h"
 #include "reconstruction_data.h"
 
+#include <pcl/PolygonMesh.h>
+#include <pcl/TextureMesh.h>
 #include <pcl/console/print.h>
 
 #include <algorithm>
@@ -87,6 +89,78 @@ statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
   return states;
 }
 
+// The texture coordinates, as the second part of a run that asks for them.
+class TexturePart
+{
+public:
+  // Copies the positions, and makes the progress of the reconstruction that of the first part.
+  TexturePart (bool is_wanted, double largest_stretch, const Input& input, Options& options)
+      : is_wanted_ (is_wanted)
+  {
+    if (!is_wanted)
+      return;
+    positions_.assign (input.cloud_size,
+                       Eigen::Vector3d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+    for (std::size_t i = 0; i < input.positions.size (); ++i)
+      positions_[input.cloud_index[i]] = input.positions[i];
+    texture_options_.largest_stretch = largest_stretch;
+    texture_options_.cancelled_callback = options.cancelled_callback;
+    const std::function<void (double)> tell = options.progress_callback;
+    if (!tell)
+      return;
+    constexpr double FIRST_PART = 0.5;
+    options.progress_callback = [tell] (double done) { tell (FIRST_PART * done); };
+    texture_options_.progress_callback = [tell] (double done) {
+      tell (FIRST_PART + (1.0 - FIRST_PART) * done);
+    };
+  }
+
+  // A failure is one of the run.
+  TextureCoordinates compute (int threads, Result& result)
+  {
+    Report& report = result.report;
+    if (!is_wanted_ || report.status != RunStatus::SUCCESS)
+      return {};
+    texture_options_.threads = threads;
+    texture_options_.whole_discs = report.topology == Topology::DISC;
+    TextureCoordinates texture =
+        computeTextureCoordinates (positions_, result.triangles, texture_options_);
+    if (texture.status != RunStatus::SUCCESS) {
+      result.triangles.clear ();
+      report.status = texture.status;
+      report.message = "texture coordinates: " + texture.message;
+    }
+    else if (texture.flipped > 0)
+      report.warnings.push_back (std::to_string (texture.flipped) +
+                                 " triangles are upside down in the texture: they are too small "
+                                 "beside the mesh for 32 bits");
+    return texture;
+  }
+
+private:
+  bool is_wanted_;
+  std::vector<Eigen::Vector3d> positions_; // of the whole cloud
+  TextureOptions texture_options_;
+};
+
+// PCL has TextureMesh::tex_coord_indices from 1.12.1 on.
+template <typename Mesh>
+auto
+setCoordinateIndices (Mesh& mesh, int) -> decltype (mesh.tex_coord_indices, void ())
+{
+  mesh.tex_coord_indices.assign (1, mesh.tex_polygons.front ());
+  pcl::index_t next = 0;
+  for (pcl::Vertices& polygon : mesh.tex_coord_indices.front ())
+    for (auto& index : polygon.vertices)
+      index = next++;
+}
+
+template <typename Mesh>
+void
+setCoordinateIndices (Mesh&, long)
+{
+}
+
 } // namespace
 
 ReconstructionState::ReconstructionState () : data_ (std::make_unique<Data> ()) {}
@@ -133,6 +207,36 @@ const MeshCheck&
 ReconstructionState::getMeshCheck () const
 {
   return data_->report.check;
+}
+
+const TextureCoordinates&
+ReconstructionState::getTextureCoordinates () const
+{
+  return data_->texture;
+}
+
+void
+ReconstructionState::makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& output) const
+{
+  output = pcl::TextureMesh ();
+  output.header = mesh.header;
+  output.cloud = std::move (mesh.cloud);
+  output.tex_polygons.push_back (std::move (mesh.polygons));
+  // One for each corner, in order: so PCL writes OBJ files, all versions of it.
+  output.tex_coordinates.emplace_back ();
+  for (const std::array<std::uint32_t, 3>& corners : data_->texture.corners)
+    for (const std::uint32_t corner : corners)
+      output.tex_coordinates.front ().push_back (data_->texture.coordinates[corner]);
+  setCoordinateIndices (output, 0);
+  pcl::TexMaterial material;
+  material.tex_name = "surface";
+  material.tex_Ka = {};
+  material.tex_Kd.r = material.tex_Kd.g = material.tex_Kd.b = 1.0F;
+  material.tex_Ks = {};
+  material.tex_d = 1.0F;
+  material.tex_Ns = 0.0F;
+  material.tex_illum = 1;
+  output.tex_materials.push_back (material);
 }
 
 pcl::Indices
@@ -204,6 +308,7 @@ void
 ReconstructionState::beginRun ()
 {
   data_->report = Report ();
+  data_->texture = TextureCoordinates ();
   data_->parts.clear ();
   data_->states.clear ();
   data_->normals.clear ();
@@ -222,6 +327,7 @@ ReconstructionState::failByException () noexcept
   data_->parts.clear ();
   data_->states.clear ();
   data_->normals.clear ();
+  data_->texture = TextureCoordinates ();
   try {
     const Problem problem = problemOfException ();
     fail (problem.status, problem.message);
@@ -266,7 +372,7 @@ ReconstructionState::checkCloud (std::size_t size, const pcl::Indices& indices)
 std::vector<std::array<std::uint32_t, 3>>
 ReconstructionState::triangulatePoints (Input&& input)
 {
-  const Options options = data_->options; // a callback may set options for the next run
+  Options options = data_->options; // a callback may set options for the next run
   std::vector<bool> is_selected (input.cloud_size, false);
   for (const std::uint32_t p : input.cloud_index)
     is_selected[p] = true;
@@ -284,7 +390,9 @@ ReconstructionState::triangulatePoints (Input&& input)
     for (std::size_t i = 0; i < input.positions.size (); ++i)
       positions[input.cloud_index[i]] = input.positions[i];
   }
+  TexturePart texture (data_->computes_texture, data_->largest_stretch, input, options);
   Result result = reconstruct (std::move (input), options);
+  data_->texture = texture.compute (options.threads, result);
   data_->report = std::move (result.report);
   if (data_->report.status == RunStatus::SUCCESS) {
     data_->parts = componentsOf (result.triangles, is_selected.size ());

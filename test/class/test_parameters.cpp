@@ -48,6 +48,8 @@ TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
   EXPECT_EQ (floater.getFlipEdges (), defaults.flip_edges);
   EXPECT_EQ (floater.getFacing (), defaults.facing);
   EXPECT_EQ (floater.getRemoveSelfIntersections (), defaults.remove_self_intersections);
+  EXPECT_FALSE (floater.getComputeTextureCoordinates ());
+  EXPECT_EQ (floater.getLargestStretch (), TextureOptions ().largest_stretch);
   EXPECT_EQ (floater.getNumberOfThreads (), 0U);
   EXPECT_EQ (floater.getNumberOfBlocks (), defaults.blocks);
   EXPECT_TRUE (floater.getPrescribedLoop ().empty ());
@@ -83,6 +85,8 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       CHOICE (RemoveOutliers, false),
       CHOICE (ScatterPolicy, ScatterPolicy::DROP),
       CHOICE (OpenSelfIntersections, true),
+      CHOICE (ComputeTextureCoordinates, true),
+      CHOICE (LargestStretch, 1.5),
       CHOICE (Denoise, false),
       DISC_CHOICE (boundary.method, BoundaryMethod::CONSENSUS),
       CHOICE (KSearch, 12),

@@ -19,7 +19,7 @@ OF_THE_TOOL_ONLY = {
     "max_memory", "scratch",  # the arrays of a program are its own
     "shift", "precision",  # the points stay as they are, in double precision
     "report", "parameterization",  # of every Mesh
-    "input_format", "output_format", "normals",  # of files
+    "input_format", "output_format", "normals", "uv", "texture", "texture_size",  # of files
     "json", "quiet", "help", "version"}
 
 

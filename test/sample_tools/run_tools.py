@@ -20,6 +20,9 @@ draws = unittest.skipUnless(PICTURE, "pcl_floater_picture or Xvfb is missing")
 
 SQUARE = ("# vtk DataFile Version 3.0\nsquare\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
           "0 0 0\n1 0 0\n1 1 0\n0 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\n")
+SQUARE_PLY = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+              "property float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n3 0 1 2\n3 0 2 3\n")
 NO_MESH = SQUARE[:SQUARE.index("POLYGONS")]
 
 
@@ -104,6 +107,28 @@ class Tools(unittest.TestCase):
         self.assertGreater(values, 16)
         self.picture(0, mesh, mesh, self.path("two.png"), "--height", "100")
         self.assertEqual(self.pixels("two.png")[:2], (200, 100))
+
+    @draws
+    def test_picture_draws_textures(self):
+        vtk = self.write("square.vtk", SQUARE + "POINT_DATA 4\nTEXTURE_COORDINATES TCoords 2 float\n"
+                                                "0 0\n1 0\n1 1\n0 1\n")
+        ply = self.write("square.ply", SQUARE_PLY)
+        for mesh, name in ((vtk, "vtk.png"), (ply, "ply.png")):
+            self.picture(0, mesh, self.path(name), "--checkerboard", "--height", "200")
+            width, height, values = self.pixels(name)
+            self.assertEqual((width, height), (400, 200))
+            self.assertGreater(values, 40)
+        self.assertEqual(self.read("vtk.png"), self.read("ply.png"))
+        # A picture is an image as any other.
+        self.picture(0, vtk, self.path("again.png"), "--texture", self.path("vtk.png"), "--height", "200")
+        self.assertNotEqual(self.read("again.png"), self.read("vtk.png"))
+        out = self.path("out.png")
+        plain = self.write("plain.vtk", SQUARE)
+        self.picture(2, plain, out, "--checkerboard", says="has no texture coordinates")
+        self.picture(2, vtk, out, "--texture", vtk, says="no PNG file")
+        self.picture(1, vtk, out, "--texture", self.path("vtk.png"), "--checkerboard", says="--checkerboard")
+        self.picture(1, vtk, plain, out, "--checkerboard", says="not both")
+        self.assertFalse(os.path.exists(out))
 
     @draws
     def test_picture_refuses_what_is_not_a_mesh(self):

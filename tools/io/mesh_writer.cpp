@@ -97,9 +97,15 @@ meshFormatOf (const std::filesystem::path& path)
   return std::nullopt;
 }
 
+bool
+canHaveTexture (MeshFormat format)
+{
+  return format == MeshFormat::VTK || format == MeshFormat::PLY || format == MeshFormat::OBJ;
+}
+
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, std::optional<MeshFormat> format)
+           const Triangles& triangles, std::optional<MeshFormat> format, const MeshTexture* texture)
 {
   if (!format)
     format = meshFormatOf (path);
@@ -107,6 +113,14 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
     throw WriteError ("cannot write '" + path.string () + "': its extension is unknown; use " +
                       MESH_EXTENSIONS);
   std::vector<std::string> losses;
+  if (texture != nullptr && (*format == MeshFormat::VTK || *format == MeshFormat::PLY)) {
+    Triangles renumbered = triangles;
+    const Cloud doubled = doubleSeamPoints (cloud, *texture, renumbered);
+    if (*format == MeshFormat::PLY)
+      return writeMesh (file, path, doubled, renumbered, format);
+    writeVtk (file, doubled, renumbered, true);
+    return losses;
+  }
   switch (*format) {
   case MeshFormat::VTK:
     writeVtk (file, cloud, triangles);
@@ -117,7 +131,7 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
                         "' was written as double");
     break;
   case MeshFormat::OBJ:
-    writeObj (file, cloud, triangles);
+    writeObj (file, cloud, triangles, texture);
     break;
   case MeshFormat::OFF:
     writeOff (file, cloud, triangles);
@@ -140,13 +154,16 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
 }
 
 void
-writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
+          const MeshTexture* texture)
 {
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
   file.write ("# " + COMMENT + "\n");
   if (const std::string shift = shiftText (cloud); !shift.empty ())
     file.write ("# shift " + shift + "\n");
+  if (texture != nullptr)
+    file.write ("mtllib " + texture->materials + "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.write ("v");
     writePosition (file, cloud, i);
@@ -165,14 +182,28 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
       writeTriple (file, normals, cloud.row (i));
       file.write ("\n");
     }
-  for (const auto& triangle : triangles) {
+  if (texture != nullptr) {
+    for (const Eigen::Vector2f& uv : texture->coordinates) {
+      file.write ("vt ");
+      file.writeDecimal (uv.x ());
+      file.write (" ");
+      file.writeDecimal (uv.y ());
+      file.write ("\n");
+    }
+    file.write ("usemtl surface\n");
+  }
+  for (std::size_t t = 0; t < triangles.size (); ++t) {
     file.write ("f");
-    for (const std::uint32_t corner : triangle) {
-      const std::uint64_t number = corner + std::uint64_t{1};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t number = triangles[t][i] + std::uint64_t{1};
       file.write (" ");
       file.writeDecimal (number);
+      if (texture != nullptr) {
+        file.write ("/");
+        file.writeDecimal (texture->corners[t][i] + std::uint64_t{1});
+      }
       if (normals[0]) {
-        file.write ("//");
+        file.write (texture != nullptr ? "/" : "//");
         file.writeDecimal (number);
       }
     }

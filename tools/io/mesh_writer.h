@@ -5,6 +5,7 @@
 
 #include "atomic_file.h"
 #include "cloud.h"
+#include "mesh_texture.h"
 
 #include <optional>
 
@@ -34,16 +35,25 @@ meshFormatOf (const std::filesystem::path& path);
 /// comment. As far as the format allows, vertex k is point k of the cloud with all its fields, and
 /// every number reads back exactly. \param path for messages; the bytes are written to `file`
 /// \param format by default that which the extension of the path tells
+/// \param texture if it is not nullptr, the texture coordinates are written as well: as vt of OBJ,
+/// s and t of PLY, TCoords of VTK. In PLY and VTK, points on seams are doubled (doubleSeamPoints)
 /// \return losses of the format, one sentence each
 /// \throws WriteError
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, std::optional<MeshFormat> format = std::nullopt);
+           const Triangles& triangles, std::optional<MeshFormat> format = std::nullopt,
+           const MeshTexture* texture = nullptr);
+
+/// Whether meshes of this format can have texture coordinates: VTK, PLY, OBJ.
+bool
+canHaveTexture (MeshFormat format);
 
 /// Legacy VTK 3.0, binary, polydata. Colours are unsigned char scalars named "RGB", which viewers
 /// show unchanged and PCL reads by that name; normals are point normals; other fields are arrays.
+/// \param with_texture the float fields s and t are texture coordinates
 void
-writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
+writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
+          bool with_texture = false);
 
 /// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
 /// ... \return names of the 64-bit integer fields, which are written as double, because PLY has no
@@ -53,7 +63,8 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
 /// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
 void
-writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
+writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
+          const MeshTexture* texture = nullptr);
 
 /// Geomview OFF, text: points with colours from 0 to 255, normals (0 0 0 where they are not
 /// finite), and faces. Its first word is OFF, COFF, NOFF or CNOFF.

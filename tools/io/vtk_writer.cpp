@@ -86,7 +86,7 @@ writeArray (AtomicFile& file, const Field& field, const Cloud& cloud)
 } // namespace
 
 void
-writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool with_texture)
 {
   const std::string size = std::to_string (cloud.size ());
   const std::string shift = shiftText (cloud);
@@ -111,9 +111,12 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
+  const std::array<const Field*, 2> texture{with_texture ? cloud.find ("s") : nullptr,
+                                            with_texture ? cloud.find ("t") : nullptr};
   std::vector<const Field*> others;
   for (const Field& field : cloud.fields)
-    if (std::find (colors.begin (), colors.end (), &field) == colors.end () &&
+    if (std::find (texture.begin (), texture.end (), &field) == texture.end () &&
+        std::find (colors.begin (), colors.end (), &field) == colors.end () &&
         std::find (normals.begin (), normals.end (), &field) == normals.end ())
       others.push_back (&field);
   if (!cloud.fields.empty ())
@@ -125,6 +128,13 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   if (normals[0]) {
     file.write (std::string ("NORMALS Normals ") + vtkTypeName (normals[0]->type) + "\n");
     writeTriple (file, normals, cloud);
+  }
+  if (with_texture) {
+    file.write ("TEXTURE_COORDINATES TCoords 2 float\n");
+    for (std::size_t i = 0; i < cloud.size (); ++i)
+      for (const Field* field : texture)
+        file.writeNumber (field->value<float> (cloud.row (i)), ByteOrder::BIG);
+    file.write ("\n");
   }
   if (!others.empty ()) {
     file.write ("FIELD FieldData " + std::to_string (others.size ()) + "\n");

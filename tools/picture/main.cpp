@@ -5,6 +5,7 @@
 #include "mesh_picture.h"
 
 #include <CLI/CLI.hpp>
+#include <vtkPointData.h>
 
 #include <exception>
 #include <iostream>
@@ -41,6 +42,8 @@ main (int argc, char** argv)
       "drawn, 4 the output cannot be written.",
       "pcl_floater_picture"};
   std::vector<std::string> files;
+  std::string texture;
+  bool has_checkerboard = false;
   int height = 700;
   app.add_option ("files", files, "meshes as .vtk or .ply, and the picture to write")
       ->option_text ("MESH [PARAMETERIZATION] OUT.png")
@@ -49,11 +52,25 @@ main (int argc, char** argv)
   app.add_option ("--height", height, "height of the picture in pixels")
       ->capture_default_str ()
       ->check (CLI::Range (16, 4000));
+  CLI::Option* checkerboard = app.add_flag (
+      "--checkerboard", has_checkerboard,
+      "put a checkerboard on the mesh, by its texture coordinates, and show it beside");
+  app.add_option ("--texture", texture, "put this image on the mesh, as .png")
+      ->option_text ("FILE")
+      ->excludes (checkerboard);
   try {
     app.parse (argc, argv);
   }
   catch (const CLI::ParseError& error) {
     return app.exit (error) == 0 ? DONE : USAGE;
+  }
+
+  const bool has_texture = has_checkerboard || !texture.empty ();
+  if (has_texture && files.size () == 3) {
+    std::cerr
+        << "pcl_floater_picture: give a PARAMETERIZATION, or --checkerboard or --texture, not "
+           "both\n";
+    return USAGE;
   }
 
   pcl::floater::handleSignals ();
@@ -64,8 +81,16 @@ main (int argc, char** argv)
     return fail (CANNOT_WRITE, error.what ());
   }
   vtkSmartPointer<vtkPolyData> mesh, parameterization;
+  vtkSmartPointer<vtkImageData> image;
   try {
     mesh = pcl::floater::readMesh (files[0]);
+    if (has_texture && mesh->GetPointData ()->GetTCoords () == nullptr)
+      throw std::runtime_error ("'" + files[0] +
+                                "' has no texture coordinates; pcl_floater_reconstruct --uv writes "
+                                "some");
+    if (has_texture)
+      image =
+          has_checkerboard ? pcl::floater::makeCheckerboard () : pcl::floater::readPng (texture);
     if (files.size () == 3)
       parameterization = pcl::floater::readMesh (files[1]);
   }
@@ -80,6 +105,7 @@ main (int argc, char** argv)
   try {
     pcl::floater::PictureOptions options;
     options.parameterization = parameterization;
+    options.texture = image;
     png = pcl::floater::toPng (pcl::floater::drawMesh (mesh, height, options));
   }
   catch (const std::exception& error) {

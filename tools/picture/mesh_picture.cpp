@@ -2,22 +2,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_picture.h"
 
+#include "cloud_reader.h"
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkFeatureEdges.h>
+#include <vtkFloatArray.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkImageShrink3D.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPLYReader.h>
+#include <vtkPNGReader.h>
 #include <vtkPNGWriter.h>
+#include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkPolyDataReader.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -206,6 +212,60 @@ addSurface (vtkRenderer* renderer, vtkPolyData* mesh, bool flat_shading)
   addBoundary (renderer, mesh);
 }
 
+// The mesh with an image on it, both sides alike.
+// \param is_lit false: the image as it is
+void
+addTextured (vtkRenderer* renderer, vtkPolyData* mesh, vtkImageData* image, bool is_lit)
+{
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData (mesh);
+  normals->SplittingOff ();
+  normals->ConsistencyOff ();
+  normals->AutoOrientNormalsOff ();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection (normals->GetOutputPort ());
+  const vtkSmartPointer<vtkActor> surface = makeActor (mapper, PAPER);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData (image);
+  texture->InterpolateOn ();
+  texture->MipmapOn ();
+  surface->SetTexture (texture);
+  if (!is_lit)
+    surface->GetProperty ()->LightingOff ();
+  renderer->AddActor (surface);
+}
+
+// The mesh as its texture coordinates place it.
+vtkSmartPointer<vtkPolyData>
+flattened (vtkPolyData* mesh)
+{
+  vtkNew<vtkPolyData> flat;
+  flat->DeepCopy (mesh);
+  vtkDataArray* coordinates = mesh->GetPointData ()->GetTCoords ();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints (); ++i) {
+    const double* uv = coordinates->GetTuple2 (i);
+    flat->GetPoints ()->SetPoint (i, std::max (uv[0], 0.0), std::max (uv[1], 0.0), 0.0);
+  }
+  return flat;
+}
+
+// VTK does not know s and t of PLY files.
+void
+readCoordinatesOfPly (const std::string& path, vtkPolyData* mesh)
+{
+  const Cloud cloud = readCloud (path);
+  const Field *s = cloud.find ("s"), *t = cloud.find ("t");
+  if (s == nullptr || t == nullptr ||
+      cloud.size () != static_cast<std::size_t> (mesh->GetNumberOfPoints ()))
+    return;
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents (2);
+  coordinates->SetNumberOfTuples (mesh->GetNumberOfPoints ());
+  for (std::size_t i = 0; i < cloud.size (); ++i)
+    coordinates->SetTuple2 (static_cast<vtkIdType> (i), s->asDouble (i), t->asDouble (i));
+  mesh->GetPointData ()->SetTCoords (coordinates);
+}
+
 void
 addWireframe (vtkRenderer* renderer, vtkPolyData* mesh)
 {
@@ -324,6 +384,9 @@ readMesh (const std::string& path)
     reader->SetFileName (path.c_str ());
     reader->Update ();
     mesh = reader->GetOutput ();
+    if (mesh != nullptr && mesh->GetNumberOfPolys () > 0 &&
+        mesh->GetPointData ()->GetTCoords () == nullptr)
+      readCoordinatesOfPly (path, mesh);
   }
   else if (extension == ".vtk") {
     vtkNew<vtkPolyDataReader> reader;
@@ -339,9 +402,44 @@ readMesh (const std::string& path)
 }
 
 vtkSmartPointer<vtkImageData>
+makeCheckerboard ()
+{
+  constexpr int SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
+  constexpr int SIDE = SQUARES * PIXELS;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions (SIDE, SIDE, 1);
+  image->AllocateScalars (VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < SIDE; ++y)
+    for (int x = 0; x < SIDE; ++x) {
+      const int field_x = x * FIELDS / SIDE, field_y = y * FIELDS / SIDE;
+      const bool is_dark = (x / PIXELS + y / PIXELS) % 2 != 0;
+      const std::array<double, 3> colour{0.35 + 0.65 * field_x / (FIELDS - 1),
+                                         0.35 + 0.65 * field_y / (FIELDS - 1),
+                                         1.0 - 0.5 * (field_x + field_y) / (2.0 * (FIELDS - 1))};
+      auto* pixel = static_cast<unsigned char*> (image->GetScalarPointer (x, y, 0));
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        pixel[channel] =
+            static_cast<unsigned char> (255.0 * colour[channel] * (is_dark ? 0.45 : 1.0));
+    }
+  return image;
+}
+
+vtkSmartPointer<vtkImageData>
+readPng (const std::string& path)
+{
+  vtkNew<vtkPNGReader> reader;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file (path, error) || reader->CanReadFile (path.c_str ()) == 0)
+    throw std::runtime_error ("cannot read '" + path + "': it is no PNG file");
+  reader->SetFileName (path.c_str ());
+  reader->Update ();
+  return reader->GetOutput ();
+}
+
+vtkSmartPointer<vtkImageData>
 drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
 {
-  const int panels = options.parameterization != nullptr ? 2 : 1;
+  const int panels = options.parameterization != nullptr || options.texture != nullptr ? 2 : 1;
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering (1);
   window->SetMultiSamples (0);
@@ -354,7 +452,10 @@ drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
     renderer->SetBackground (PAPER[0], PAPER[1], PAPER[2]);
     window->AddRenderer (renderer);
     if (panel == 0) {
-      addSurface (renderer, mesh, options.flat_shading);
+      if (options.texture != nullptr)
+        addTextured (renderer, mesh, options.texture, true);
+      else
+        addSurface (renderer, mesh, options.flat_shading);
       if (options.marked_edges != nullptr)
         addLines (renderer, options.marked_edges, MARK);
       addLights (renderer);
@@ -363,6 +464,12 @@ drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
           !aimFromViewpoint (renderer, Eigen::Map<const Eigen::Vector3d> (options.viewpoint),
                              points))
         aimCamera (renderer, chooseView (mesh, points), points);
+    }
+    else if (options.texture != nullptr) {
+      const vtkSmartPointer<vtkPolyData> flat = flattened (mesh);
+      addTextured (renderer, flat, options.texture, false);
+      aimCamera (renderer, {Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()},
+                 {Eigen::Vector3d::Zero (), Eigen::Vector3d (1.0, 1.0, 0.0)});
     }
     else {
       addWireframe (renderer, options.parameterization);

@@ -14,7 +14,8 @@ namespace pcl
 {
 namespace floater
 {
-/// Reads a triangle mesh from a .vtk or .ply file.
+/// Reads a triangle mesh from a .vtk or .ply file, with texture coordinates if it has some: TCoords
+/// of VTK, s and t of PLY.
 /// \throw std::runtime_error that names the file if it cannot be read or has no polygons
 vtkSmartPointer<vtkPolyData>
 readMesh (const std::string& path);
@@ -23,12 +24,23 @@ readMesh (const std::string& path);
 struct PictureOptions
 {
   vtkPolyData* parameterization =
-      nullptr;                         ///< mesh in the plane whose edges are drawn beside the mesh
+      nullptr;                     ///< mesh in the plane whose edges are drawn beside the mesh
+  vtkImageData* texture = nullptr; ///< image on the mesh, by its texture coordinates; beside it,
+                                   ///< the same in the square of the texture
   vtkPolyData* marked_edges = nullptr; ///< lines on the mesh, drawn in magenta
   bool flat_shading = false;           ///< one shade for each triangle, which shows bumps
   const double* viewpoint = nullptr;   ///< x, y, z: from where the mesh is seen, if it lies within
                                        ///< 60 degrees of one direction from there
 };
+
+/// A checkerboard of 32 x 32 squares, of another colour in each of 8 x 8 fields: shows stretch, and
+/// what lies where.
+vtkSmartPointer<vtkImageData>
+makeCheckerboard ();
+
+/// Reads a PNG file. \throw std::runtime_error that names the file if it cannot be read
+vtkSmartPointer<vtkImageData>
+readPng (const std::string& path);
 
 /// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
 /// are few. It is seen from the side to which most of it faces. Needs an X display. \param height

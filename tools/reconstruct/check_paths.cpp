@@ -6,6 +6,7 @@
 #include "cloud_reader.h"
 #include "format.h"
 #include "mesh_writer.h"
+#include "texture_output.h"
 
 #include <utility>
 
@@ -62,11 +63,14 @@ checkPaths (const CommandLine& line)
     const std::filesystem::path* path;
     bool is_output;
   };
-  const std::array<Named, 5> all{{{"INPUT", &line.input, false},
+  const std::filesystem::path materials = materialsOf (line);
+  const std::array<Named, 7> all{{{"INPUT", &line.input, false},
                                   {"--loop", &line.loop, false},
                                   {"OUTPUT", &line.output, true},
                                   {"--parameterization", &line.parameterization, true},
-                                  {"--report", &line.report, true}}};
+                                  {"--report", &line.report, true},
+                                  {"the file of materials", &materials, true},
+                                  {"--texture", &line.texture, true}}};
   for (std::size_t i = 0; i < all.size (); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (all[i].is_output && !all[i].path->empty () && !all[j].path->empty () &&

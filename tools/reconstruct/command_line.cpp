@@ -6,6 +6,7 @@
 #include "memory_limit.h"
 #include "option_table.h"
 #include "published_method.h"
+#include "texture_output.h"
 #include "usage_message.h"
 
 #include <CLI/CLI.hpp>
@@ -104,6 +105,9 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
     topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
     throw UsageError (rangeMessage (app, problem.message, arguments));
+  command_line.texture_coordinates =
+      command_line.texture_coordinates || !command_line.texture.empty ();
+  checkTextureOptions (command_line);
   checkMemoryLimit (command_line);
   return std::nullopt;
 }

@@ -49,6 +49,9 @@ struct CommandLine
   std::filesystem::path report;
   std::filesystem::path parameterization;
   std::filesystem::path loop;
+  std::filesystem::path texture;           ///< image of the colours of the points
+  int texture_size = 0;                    ///< of its side, in pixels; 0: chosen by the points
+  bool texture_coordinates = false;        ///< --uv; also if a texture is asked for
   std::optional<CloudFormat> input_format; ///< nothing: that of its extension
   std::optional<MeshFormat> output_format; ///< nothing: that of its extension
   std::filesystem::path scratch;           ///< folder; used with a limit only

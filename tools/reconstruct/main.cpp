@@ -19,6 +19,7 @@
 #include "run_report.h"
 #include "shift.h"
 #include "summary.h"
+#include "texture_output.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -234,9 +235,10 @@ void
 stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
 {
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
-                          const Triangles& triangles, std::optional<MeshFormat> format) {
+                          const Triangles& triangles, std::optional<MeshFormat> format,
+                          const MeshTexture* texture = nullptr) {
     AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (path));
-    for (std::string& loss : writeMesh (file, path, vertices, triangles, format))
+    for (std::string& loss : writeMesh (file, path, vertices, triangles, format, texture))
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
@@ -255,7 +257,17 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
              : " without finite coordinates were left out of the output; the vertices after them "
                "moved up"));
   run.vertices = cloud.size ();
-  stage (line.output, cloud, result.triangles, line.output_format);
+  if (line.texture_coordinates) {
+    const MeshTexture texture = takeMeshTexture (line, cloud, run.texture);
+    for (std::string& note :
+         stageTexture (line, cloud, result.triangles, texture, run.texture.area_used, files))
+      result.report.warnings.push_back (std::move (note));
+    stage (line.output, cloud, result.triangles, line.output_format, &texture);
+    if (line.meshFormat () != MeshFormat::OBJ)
+      run.vertices = countVertices (cloud, texture);
+  }
+  else
+    stage (line.output, cloud, result.triangles, line.output_format);
   if (cloud.file.hasChanged ())
     result.report.warnings.emplace_back (
         "the input file changed while it was in use, so that the mesh may mix old and new points; "
@@ -303,6 +315,7 @@ run (CommandLine line)
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
+  checkTextureColours (line, cloud);
   shiftOrigin (line, cloud, input);
   RunFigures figures;
   figures.shift = cloud.shift;
@@ -325,6 +338,12 @@ run (CommandLine line)
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
   reportMemory (line, report);
 
+  if (line.texture_coordinates) {
+    progress.show ("texture");
+    start = std::chrono::steady_clock::now ();
+    figures.texture = computeTexture (line, cloud, result);
+    figures.texture_seconds = secondsSince (start);
+  }
   progress.show ("writing");
   start = std::chrono::steady_clock::now ();
   Files files;

@@ -37,6 +37,8 @@ Notes:
   Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
   them move up. All other points are vertices of the output, also those that are in no triangle:
   outliers, repeated points, and points that could not be connected. The report lists them all.
+  With --uv, points on seams are several vertices in .ply and .vtk: the others follow after all
+  points. An .obj has a file of materials beside it, with its name and .mtl.
   An output file appears when it is complete, and replaces an existing one. After a failure there is
   no new mesh, and existing files are unchanged.
 
@@ -235,6 +237,20 @@ addFiles (CLI::App& app, CommandLine& line)
   addPath (app, "--parameterization", line.parameterization,
            "write the mesh laid out in the plane z = 0, in any of\nthe mesh formats; makes a disc",
            output);
+  app.add_flag ("--uv", line.texture_coordinates,
+                "write texture coordinates with the mesh: vt of .obj,\ns and t of .ply, TCoords of "
+                ".vtk")
+      ->group (output);
+  addPath (app, "--texture", line.texture,
+           "write a texture of the colours of the points, as .png,\nand --uv; an .obj names it in "
+           "its .mtl",
+           output);
+  app.add_option ("--texture-size", line.texture_size,
+                  "side of the texture in pixels, 16 to 16384; by default\na power of two, two "
+                  "pixels for an edge")
+      ->option_text ("N")
+      ->check (CLI::Range (16, 16384))
+      ->group (output);
 }
 
 void

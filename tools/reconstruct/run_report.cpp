@@ -44,6 +44,19 @@ memoryLimitJson (const CommandLine& line)
           {"dropped_bytes", use.dropped}};
 }
 
+/// Null if no texture coordinates were asked for.
+Json
+textureJson (const CommandLine& line, const RunFigures& run)
+{
+  const TextureCoordinates& texture = run.texture;
+  if (texture.status != RunStatus::SUCCESS)
+    return {};
+  return {{"file", fileName (line.texture)}, {"charts", texture.chart_count},
+          {"stretch", texture.stretch},      {"largest_stretch", texture.largest_stretch},
+          {"area_used", texture.area_used},  {"seam_length", texture.seam_length},
+          {"gutter", texture.gutter},        {"flipped", texture.flipped}};
+}
+
 } // namespace
 
 std::size_t
@@ -89,6 +102,9 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
   all["seconds"] = {{"reading", run.read_seconds}};
   all["seconds"].update (secondsJson (report.statistics));
   all["seconds"]["reconstruction"] = run.reconstruct_seconds;
+  if (run.texture.status != RunStatus::NOT_RUN)
+    all["seconds"]["texture"] = run.texture_seconds;
+  all["texture"] = is_ok ? textureJson (line, run) : Json ();
   all["peak_memory_bytes"] = peakMemory ();
   all["memory_limit"] = memoryLimitJson (line);
   all["loop"] = report.loop;

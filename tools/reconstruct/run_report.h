@@ -7,6 +7,7 @@
 #include "command_line.h"
 
 #include <pcl/surface/floater/report.h>
+#include <pcl/surface/floater/texture_coordinates.h>
 
 #include <string>
 
@@ -27,6 +28,8 @@ struct RunFigures
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;
   double write_seconds = 0.0;
+  double texture_seconds = 0.0;
+  TextureCoordinates texture{}; ///< its figures; NOT_RUN if none was asked for
 };
 
 /// Largest resident memory of this process so far, in bytes.

@@ -140,6 +140,11 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
   std::fprintf (to, "warnings   %zu\n", report.warnings.size ());
   std::fprintf (to, "mesh       %s\n",
                 isStandardStream (line.output) ? "to the standard output" : line.output.c_str ());
+  if (run.texture.status == RunStatus::SUCCESS)
+    std::fprintf (to, "texture    %s, stretch %.3f, %.0f %% of the square used, %.3f s%s%s\n",
+                  counted (run.texture.chart_count, "chart").c_str (), run.texture.stretch,
+                  100.0 * run.texture.area_used, run.texture_seconds,
+                  line.texture.empty () ? "" : ": ", line.texture.c_str ());
   if (!line.parameterization.empty ())
     std::fprintf (to, "flat mesh  %s\n", line.parameterization.c_str ());
   if (!line.report.empty ())

@@ -3,6 +3,7 @@
 // Surface reconstruction from unorganized points, as a class of PCL.
 #pragma once
 
+#include <pcl/TextureMesh.h>
 #include <pcl/surface/floater/reconstruction_state.h>
 #include <pcl/surface/reconstruction.h>
 #include <pcl_floater/export.h>
@@ -98,6 +99,13 @@ public:
    * \param[out] points the whole input cloud; not the object given to setInputCloud()
    * \param[out] polygons the triangles, as indices of the whole cloud */
   void reconstruct (PointCloud& points, std::vector<pcl::Vertices>& polygons) override;
+
+  /** \brief Reconstructs the surface of setInputCloud() and setIndices(), with texture coordinates,
+   * whether or not setComputeTextureCoordinates() asks for them.
+   * \param[out] output the whole input cloud; one list of polygons; three coordinates for each of
+   * them, in the order of their corners; and one white material without a file: set its tex_file.
+   * pcl::io::saveOBJFile() of PCL writes it if the points have normals. Empty after a failure */
+  void reconstruct (pcl::TextureMesh& output);
 
   /** \brief Reconstructs the surface of setInputCloud() and setIndices(), without a copy of the
    * cloud.

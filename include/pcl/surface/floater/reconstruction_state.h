@@ -6,6 +6,7 @@
 #include <pcl/surface/floater/options.h>
 #include <pcl/surface/floater/reconstruct.h>
 #include <pcl/surface/floater/report.h>
+#include <pcl/surface/floater/texture_coordinates.h>
 #include <pcl/types.h>
 #include <pcl_floater/export.h>
 
@@ -19,6 +20,9 @@
 
 namespace pcl
 {
+struct PolygonMesh;
+struct TextureMesh;
+
 namespace floater
 {
 /** \brief The options of FloaterReconstruction and the results of its last run.
@@ -216,6 +220,19 @@ public:
   void setComputeNormals (bool compute);
   /** \brief Whether the mesh gets normals of its vertices. */
   bool getComputeNormals () const;
+  /** \brief Whether texture coordinates of the mesh are computed; default false.
+   * getTextureCoordinates() has them, and reconstruct() of a pcl::TextureMesh in any case. A disc
+   * (Topology::DISC) is laid out in one piece, any other mesh in charts with little stretch. Takes
+   * about as long as the reconstruction. */
+  void setComputeTextureCoordinates (bool compute);
+  /** \brief Whether texture coordinates of the mesh are computed. */
+  bool getComputeTextureCoordinates () const;
+
+  /** \brief Mean stretch above which a chart of the texture is cut, 1 or more; see
+   * TextureOptions::largest_stretch, also for the default. */
+  void setLargestStretch (double stretch);
+  /** \brief Mean stretch above which a chart of the texture is cut. */
+  double getLargestStretch () const;
 
   /** \brief Number of threads; default 0: one for each core. The result is the same. */
   void setNumberOfThreads (unsigned int nr_threads = 0);
@@ -279,6 +296,9 @@ public:
   /** \brief The normal of each point of the whole cloud in the mesh, (0, 0, 0) for points in no
    * triangle. Empty if there is no mesh, or if setComputeNormals() did not ask for them. */
   const std::vector<Eigen::Vector3f>& getNormals () const;
+  /** \brief Texture coordinates of the mesh of the last run, parallel to its triangles; its status
+   * is NOT_RUN if none were asked for. Points are indices of the whole cloud. */
+  const TextureCoordinates& getTextureCoordinates () const;
 
   /** \brief The component of the mesh that each point of the whole cloud is in: they are numbered
    * from 0 in the order of their first points; -1 for points in no triangle. Empty if there is no
@@ -335,6 +355,10 @@ protected:
   /** \brief Reconstructs with the options. Records the report, and what each point is in the mesh.
    * \return the triangles, none after a failure */
   std::vector<std::array<std::uint32_t, 3>> triangulatePoints (Input&& input);
+
+  /** \brief The mesh with the texture coordinates of the last run.
+   * \param[in,out] mesh of that run; moved from */
+  void makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& output) const;
 
   /** \brief Prints a failure or the warnings.
    * \param class_name of whom they are */

@@ -179,6 +179,28 @@ FloaterReconstruction<PointT>::reconstruct (std::vector<pcl::Vertices>& polygons
 
 template <typename PointT>
 void
+FloaterReconstruction<PointT>::reconstruct (pcl::TextureMesh& output)
+{
+  const bool is_asked_for = getComputeTextureCoordinates ();
+  setComputeTextureCoordinates (true);
+  pcl::PolygonMesh mesh;
+  reconstruct (mesh);
+  setComputeTextureCoordinates (is_asked_for);
+  output = pcl::TextureMesh ();
+  output.header = mesh.header;
+  if (getStatus () != floater::RunStatus::SUCCESS)
+    return;
+  try {
+    makeTextureMesh (mesh, output);
+  }
+  catch (const std::bad_alloc&) {
+    output = pcl::TextureMesh ();
+    failByException ();
+  }
+}
+
+template <typename PointT>
+void
 FloaterReconstruction<PointT>::performReconstruction (pcl::PolygonMesh& output)
 {
   triangulate (output.polygons); // the base class copies the cloud

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texture coordinates of a triangle mesh. Uses no types of PCL.
+#pragma once
+
+#include <pcl/surface/floater/report.h>
+#include <pcl_floater/export.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Options of computeTextureCoordinates (). The defaults need no tuning.
+struct TextureOptions
+{
+  /// Mean stretch above which a chart is cut further, where that helps; 1 or more. More gives fewer
+  /// and larger charts. The default is that of half a sphere.
+  double largest_stretch = 1.06;
+
+  /// Components that are discs are one chart each, however much that stretches them: this is the
+  /// parameterization of the disc. Other components are cut as always.
+  bool whole_discs = false;
+
+  int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
+
+  /// Called with the fraction that is done, and asked whether to end, as in Options.
+  std::function<void (double)> progress_callback;
+  std::function<bool ()> cancelled_callback;
+};
+
+/// Texture coordinates and what they are worth, or why there are none. A chart is a part of the
+/// mesh that is laid out in one piece; an edge between two charts is a seam. A point on a seam has
+/// several coordinates.
+struct TextureCoordinates
+{
+  RunStatus status = RunStatus::NOT_RUN; ///< SUCCESS, INVALID_OPTION, INVALID_INDICES (also for
+                                         ///< positions that are not finite, and triangles that are
+                                         ///< no oriented manifold), CANCELLED, OUT_OF_MEMORY or
+                                         ///< INTERNAL_ERROR
+  std::string message; ///< one sentence: the cause and what to do; empty after SUCCESS
+  std::vector<Eigen::Vector2f> coordinates; ///< u and v, 0 to 1; v goes up, as in OBJ files
+  std::vector<std::uint32_t> points;        ///< parallel to coordinates: the point of each
+  std::vector<std::array<std::uint32_t, 3>> corners; ///< parallel to the triangles: coordinates of
+                                                     ///< their corners; all run anti-clockwise
+  std::vector<std::uint32_t> charts;                 ///< parallel to the triangles: from 0 on
+  std::vector<std::array<std::uint32_t, 2>> seams;   ///< edges between charts: two points each
+
+  std::size_t chart_count = 0;  ///< number of charts
+  std::size_t flipped = 0;      ///< triangles that do not run anti-clockwise in the texture, by the
+                                ///< exact sign of their area. Always 0 unless the triangles are so
+                                ///< small beside the mesh that single precision cannot tell
+  double stretch = 1.0;         ///< of the whole texture, relative to lengths in it: root mean
+                                ///< square (L2 stretch of Sander et al. 2001); 1: none
+  double largest_stretch = 1.0; ///< of the worst triangle (L-infinity stretch)
+  double area_used = 0.0;       ///< share of the square that triangles cover
+  double seam_length = 0.0;     ///< in units of the positions
+  double gutter = 0.0;          ///< least distance of two charts, in sides of the square
+};
+
+/// Lays a triangle mesh out in the unit square, without overlaps.
+///
+/// The surface is cut into charts, each a disc: compact, and ended by creases where there are some.
+/// A chart is laid out by its projection or by a convex-combination map (Floater 1997, with the
+/// mean value weights of Floater 2003) whose stretch is evened out, and which is then relaxed to
+/// lower distortion in such a way that no triangle is flipped. Charts are scaled by their areas and
+/// stretch, and packed.
+///
+/// Does not throw: a failure is a status and a message. The same for any number of threads. Takes
+/// about 5 microseconds per triangle with two cores, and 1 kB per triangle of the largest charts.
+/// \param positions of all points; those that are in no triangle get no coordinates
+/// \param triangles an oriented manifold, such as the result of a reconstruction; corners
+///                  anti-clockwise seen from the front
+PCL_FLOATER_EXPORT TextureCoordinates
+computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
+                           const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                           const TextureOptions& options = {});
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/chart_layout.h"
+
+#include "core/geometry.h"
+#include "texture/convex_layout.h"
+#include "texture/stretch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+bool
+isLayout (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)
+{
+  return isUpright (chart.mesh.triangles, uv) && isSimple (chart.loop, uv);
+}
+
+// Seen from the side to which most of the chart faces.
+std::vector<Eigen::Vector2d>
+project (const ChartMesh& chart)
+{
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero (), middle = Eigen::Vector3d::Zero ();
+  for (const Triangle& t : chart.mesh.triangles)
+    normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
+  for (const Eigen::Vector3d& p : chart.positions)
+    middle += p / static_cast<double> (chart.positions.size ());
+  normal.normalize ();
+  const Eigen::Vector3d u = normal.unitOrthogonal (), v = normal.cross (u);
+  std::vector<Eigen::Vector2d> uv;
+  uv.reserve (chart.positions.size ());
+  for (const Eigen::Vector3d& p : chart.positions)
+    uv.emplace_back (u.dot (p - middle), v.dot (p - middle));
+  return uv;
+}
+
+// Of the whole, and of the triangle in the middle by area.
+void
+measure (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv, ChartLayout& layout)
+{
+  StretchSums sums;
+  std::vector<std::pair<double, double>> by_stretch; // squared stretch, area
+  for (const Triangle& t : chart.mesh.triangles) {
+    StretchSums one;
+    one.add ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
+             {uv[t[0]], uv[t[1]], uv[t[2]]});
+    sums.add (one);
+    if (one.area () > 0.0)
+      by_stretch.emplace_back (one.meanSquare (), one.area ());
+  }
+  layout.stretch = layout.median_stretch = sums.mean ();
+  std::sort (by_stretch.begin (), by_stretch.end ());
+  double area = 0.0;
+  for (const auto& [square, of_one] : by_stretch)
+    if ((area += of_one) >= 0.5 * sums.area ()) {
+      layout.median_stretch = std::sqrt (square * sums.planeArea () / sums.area ());
+      break;
+    }
+}
+
+// The first that is a layout of: the projection; its boundary, with the inside by convex
+// combinations; a convex-combination map on the circle. Empty if none is.
+std::vector<Eigen::Vector2d>
+beginLayout (const ChartMesh& chart, const RestShapes& rest, const RunContext& run)
+{
+  std::vector<Eigen::Vector2d> uv = project (chart);
+  if (isSimple (chart.loop, uv)) {
+    if (isUpright (chart.mesh.triangles, uv))
+      return uv;
+    if (layOutWithin (chart, run, uv) && isUpright (chart.mesh.triangles, uv))
+      return uv;
+  }
+  uv = layOutOnCircle (chart, rest, run).uv;
+  return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
+}
+
+} // namespace
+
+ChartLayout
+layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_triangles,
+             const std::vector<Eigen::Vector3d>& positions, const DescentLimits& limits,
+             const RunContext& run)
+{
+  run.poll ();
+  ChartLayout layout;
+  ChartMesh chart = makeChartMesh (triangles, chart_triangles, positions);
+  layout.triangles = std::move (chart_triangles);
+  if (!chart.loop.empty ()) {
+    const RestShapes rest = makeRestShapes (chart);
+    layout.area = rest.area;
+    std::vector<Eigen::Vector2d> uv = beginLayout (chart, rest, run);
+    if (!uv.empty ()) {
+      std::vector<Eigen::Vector2d> even = uv;
+      descendDistortion (chart, rest, limits, run, even);
+      if (isLayout (chart, even))
+        uv = std::move (even);
+      measure (chart, uv, layout);
+      layout.uv = std::move (uv);
+    }
+  }
+  layout.points = std::move (chart.points);
+  layout.corners = std::move (chart.mesh.triangles);
+  layout.loop = std::move (chart.loop);
+  return layout;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/charts.h"
+#include "texture/texture_method.h"
+
+#include "core/parallel.h"
+#include "floater/solvers/single_blas_thread.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Layouts = std::vector<ChartLayout>;
+
+// One triangle more than once is no disc to be cut; one triangle always has a layout.
+class ChartCutter
+{
+public:
+  ChartCutter (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               double largest_stretch, const TextureLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), largest_stretch_ (largest_stretch), limits_ (limits),
+        run_ (run)
+  {
+  }
+
+  ChartLayout layOut (std::vector<Index> chart) const
+  {
+    return layOutChart (mesh_.triangles, std::move (chart), positions_, limits_.descent, run_);
+  }
+
+  // Cuts a chart that stretches too much, or has no layout, where that helps.
+  // \param deviation that of its parts is to be less
+  void layOutParts (ChartLayout chart, double deviation, Layouts& result) const
+  {
+    const bool has_layout = !chart.uv.empty ();
+    if (has_layout && (chart.stretch <= largest_stretch_ || chart.triangles.size () == 1)) {
+      result.push_back (std::move (chart));
+      return;
+    }
+    Layouts parts;
+    for (std::vector<Index>& part : cut (chart.triangles, deviation))
+      parts.push_back (layOut (std::move (part)));
+    if (has_layout && (parts.size () == 1 || (isEven (chart) && !isWorthwhile (chart, parts)))) {
+      result.push_back (std::move (chart));
+      return;
+    }
+    chart = {};
+    for (ChartLayout& part : parts)
+      layOutParts (std::move (part), deviation, result);
+  }
+
+private:
+  bool isWorthwhile (const ChartLayout& chart, const Layouts& parts) const
+  {
+    // If each is scaled by its area times its stretch, that of all is their mean.
+    double area = 0.0, sum = 0.0;
+    for (const ChartLayout& part : parts) {
+      if (part.uv.empty ())
+        return true; // not known yet
+      area += part.area;
+      sum += part.area * part.stretch;
+    }
+    return sum / area - 1.0 < limits_.worthwhile * (chart.stretch - 1.0);
+  }
+
+  // Whether it stretches about as much everywhere, as noise does.
+  bool isEven (const ChartLayout& chart) const
+  {
+    return chart.median_stretch - 1.0 > limits_.even * (chart.stretch - 1.0);
+  }
+
+  // At least two parts, if a chart has two triangles that can be parted.
+  // \param[in,out] deviation that of the parts
+  std::vector<std::vector<Index>> cut (const std::vector<Index>& chart, double& deviation) const
+  {
+    const ChartMesh part = makeChartMesh (mesh_.triangles, chart, positions_);
+    MeshParts parts;
+    for (int halving = 0; halving < limits_.halvings && parts.count < 2; ++halving) {
+      deviation *= 0.5;
+      parts = findCharts (part.mesh, part.positions, {deviation, 1}, limits_.charts, run_);
+    }
+    if (parts.count < 2)
+      parts = findCharts (part.mesh, part.positions, {std::numeric_limits<double>::infinity (), 2},
+                          limits_.charts, run_);
+    std::vector<std::vector<Index>> lists (parts.count);
+    for (std::size_t t = 0; t < chart.size (); ++t)
+      lists[parts.of_triangle[t]].push_back (chart[t]);
+    return lists;
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  double largest_stretch_;
+  const TextureLimits& limits_;
+  RunContext run_;
+};
+
+std::vector<std::vector<Index>>
+listsOf (const MeshParts& parts)
+{
+  std::vector<std::vector<Index>> lists (parts.count);
+  for (std::size_t t = 0; t < parts.of_triangle.size (); ++t)
+    lists[parts.of_triangle[t]].push_back (static_cast<Index> (t));
+  return lists;
+}
+
+} // namespace
+
+Layouts
+layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              bool whole_discs, double largest_stretch, const TextureLimits& limits,
+              const RunContext& run)
+{
+  const SingleBlasThread single; // more cost time on small matrices, and change the last digits
+  const RunContext within = run.withThreads (1).withinStage ();
+  const ChartCutter cutter (mesh, positions, largest_stretch, limits, within);
+  Layouts result;
+  std::vector<std::uint8_t> is_done (mesh.triangles.size (), 0);
+  if (whole_discs) {
+    const MeshComponents components = findComponents (mesh, run);
+    const std::vector<std::vector<Index>> lists =
+        listsOf ({components.of_triangle, components.count});
+    Layouts discs (lists.size ());
+    parallelTasks (run, lists.size (),
+                   [&] (std::size_t c) { discs[c] = cutter.layOut (lists[c]); });
+    for (ChartLayout& disc : discs)
+      if (!disc.uv.empty ()) {
+        for (const Index t : disc.triangles)
+          is_done[t] = 1;
+        result.push_back (std::move (disc));
+      }
+  }
+  run.beginStep (0.1);
+  const MeshParts parts =
+      findCharts (mesh, positions, {limits.charts.deviation, 1}, limits.charts, run);
+  run.beginStep (0.95);
+  const std::vector<std::vector<Index>> lists = listsOf (parts);
+  std::vector<Layouts> layouts (lists.size ());
+  parallelTasks (run, lists.size (), [&] (std::size_t c) {
+    if (is_done[lists[c].front ()] == 0)
+      cutter.layOutParts (cutter.layOut (lists[c]), limits.charts.deviation, layouts[c]);
+  });
+  for (Layouts& of_part : layouts)
+    std::move (of_part.begin (), of_part.end (), std::back_inserter (result));
+  std::sort (result.begin (), result.end (), [] (const ChartLayout& a, const ChartLayout& b) {
+    return a.triangles.front () < b.triangles.front ();
+  });
+  return result;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,443 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/charts.h"
+
+#include "core/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <unordered_map>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// What two charts have in common.
+struct Contact
+{
+  double length = 0.0;  // of the seam between them
+  double crease = 0.0;  // integral of 1 - cos of the angle across it
+  double offered = 0.0; // cost of the last offer to join them
+};
+
+// Directions spread evenly: vertices of an icosahedron and middles of its edges.
+using Directions = std::array<Eigen::Vector3d, 42>;
+
+Directions
+makeDirections ()
+{
+  Directions directions;
+  std::size_t count = 0;
+  const double golden = 0.5 * (1.0 + std::sqrt (5.0));
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double a : {-1.0, 1.0})
+      for (const double b : {-golden, golden}) {
+        Eigen::Vector3d vertex = Eigen::Vector3d::Zero ();
+        vertex[(axis + 1) % 3] = a;
+        vertex[(axis + 2) % 3] = b;
+        directions[count++] = vertex;
+      }
+  for (std::size_t i = 0; i < 12; ++i)
+    for (std::size_t j = i + 1; j < 12; ++j)
+      if ((directions[i] - directions[j]).squaredNorm () < 4.1) // edges have a length of 2
+        directions[count++] = directions[i] + directions[j];
+  for (Eigen::Vector3d& direction : directions)
+    direction.normalize ();
+  return directions;
+}
+
+using Histogram = Eigen::Array<float, 42, 1>; // of area over directions
+
+struct Chart
+{
+  Histogram facing = Histogram::Zero ();          // area by the direction that it faces
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // of the area vectors
+  double area = 0.0;         // of its facets, each seen along its own normal, without its roughness
+  double seam = 0.0;         // length of the seams around it
+  std::size_t triangles = 0; // how many
+  std::vector<MeshEdge> border; // its boundary edges, and some that are inside by now
+  std::unordered_map<Index, Contact> contacts; // with the charts beside it
+};
+
+double
+oneMinusCosine (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  const double lengths = std::sqrt (a.squaredNorm () * b.squaredNorm ());
+  return lengths > 0.0 ? 1.0 - a.dot (b) / lengths : 0.0;
+}
+
+// Numbers parts in the order of their first triangles.
+void
+renumber (MeshParts& parts)
+{
+  std::vector<Index> number (parts.count, NONE);
+  parts.count = 0;
+  for (Index& part : parts.of_triangle) {
+    if (number[part] == NONE)
+      number[part] = parts.count++;
+    part = number[part];
+  }
+}
+
+class ChartMerger
+{
+public:
+  ChartMerger (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const std::vector<Eigen::Vector3d>& area_vectors, const MeshParts& facets,
+               const ChartLimits& limits)
+      : mesh_ (mesh), facets_ (facets), limits_ (limits), charts_ (facets.count),
+        part_of_ (facets.count)
+  {
+    std::iota (part_of_.begin (), part_of_.end (), Index{0});
+    for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
+      Chart& chart = charts_[facets.of_triangle[t]];
+      chart.sum += 0.5 * area_vectors[t];
+      ++chart.triangles;
+    }
+    for (Chart& chart : charts_) {
+      chart.area = chart.sum.norm ();
+      std::size_t nearest = 0;
+      for (std::size_t d = 1; d < directions_.size (); ++d)
+        if (directions_[d].dot (chart.sum) > directions_[nearest].dot (chart.sum))
+          nearest = d;
+      chart.facing[static_cast<Eigen::Index> (nearest)] = static_cast<float> (chart.area);
+    }
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index other = mesh.neighbors[t][side];
+        const Index own = facets.of_triangle[t];
+        const MeshEdge edge{t, side};
+        if (other == NONE)
+          charts_[own].border.push_back (edge);
+        else if (facets.of_triangle[other] != own) {
+          charts_[own].border.push_back (edge);
+          const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
+          const Index beside = facets.of_triangle[other];
+          Contact& contact = charts_[own].contacts[beside];
+          contact.length += length;
+          contact.crease += length * oneMinusCosine (charts_[own].sum, charts_[beside].sum);
+          charts_[own].seam += length;
+        }
+      }
+  }
+
+  void merge (const ChartGrowth& growth, const RunContext& run)
+  {
+    growth_ = growth;
+    left_ = charts_.size ();
+    for (Index a = 0; a < charts_.size (); ++a)
+      offerAll (a);
+    takeOffers (run);
+    // Crumbs that nothing fits join what costs least.
+    is_for_crumbs_ = true;
+    for (Index a = 0; a < charts_.size (); ++a)
+      if (charts_[a].triangles <= limits_.most_in_crumb)
+        offerAll (a);
+    takeOffers (run);
+  }
+
+  MeshParts parts ()
+  {
+    MeshParts parts;
+    parts.of_triangle.resize (mesh_.triangles.size ());
+    for (std::size_t t = 0; t < mesh_.triangles.size (); ++t)
+      parts.of_triangle[t] = chartOf (static_cast<Index> (t));
+    parts.count = facets_.count;
+    return parts;
+  }
+
+private:
+  struct Offer
+  {
+    double cost;
+    Index a, b; // a < b
+
+    bool operator<(const Offer& other) const // the queue has the largest first
+    {
+      if (cost != other.cost)
+        return cost > other.cost;
+      return a != other.a ? a > other.a : b > other.b;
+    }
+  };
+
+  Index find (Index facet)
+  {
+    while (part_of_[facet] != facet)
+      facet = part_of_[facet] = part_of_[part_of_[facet]];
+    return facet;
+  }
+
+  Index chartOf (Index t) { return find (facets_.of_triangle[t]); }
+
+  // Deviation and creases.
+  double bendOf (Index a, Index b) const
+  {
+    const Chart &one = charts_[a], &other = charts_[b];
+    const double area = one.area + other.area;
+    const Eigen::Vector3d sum = one.sum + other.sum;
+    const double deviation = area > 0.0 ? 1.0 - sum.norm () / area : 0.0;
+    const Contact& contact = one.contacts.at (b);
+    const double crease = contact.length > 0.0 ? contact.crease / contact.length : 0.0;
+    return deviation + limits_.crease_weight * crease +
+           limits_.away_weight * shareAway (one.facing + other.facing, sum, area);
+  }
+
+  // Of the area, what is turned away from the sum.
+  double shareAway (const Histogram& facing, const Eigen::Vector3d& sum, double area) const
+  {
+    const double level = limits_.away_cosine * sum.norm ();
+    double away = 0.0;
+    for (std::size_t d = 0; d < directions_.size (); ++d)
+      if (directions_[d].dot (sum) < level)
+        away += static_cast<double> (facing[static_cast<Eigen::Index> (d)]);
+    return area > 0.0 ? away / area : 0.0;
+  }
+
+  double costOf (Index a, Index b) const
+  {
+    const Chart &one = charts_[a], &other = charts_[b];
+    const double area = one.area + other.area;
+    const double seam = one.seam + other.seam - 2.0 * one.contacts.at (b).length;
+    const double roundness = area > 0.0 ? seam / (2.0 * std::sqrt (PI * area)) : 0.0;
+    return bendOf (a, b) + limits_.seam_weight * roundness;
+  }
+
+  bool isAllowed (Index a, Index b) const
+  {
+    const Chart &one = charts_[a], &other = charts_[b];
+    const std::size_t triangles = one.triangles + other.triangles;
+    if (triangles > limits_.most_triangles)
+      return false;
+    if (growth_.charts > 1)
+      return true;
+    if (is_for_crumbs_) {
+      const Chart& small = one.area < other.area ? one : other;
+      return small.triangles <= limits_.most_in_crumb &&
+             small.area <= limits_.crumb_share * (one.area + other.area);
+    }
+    return bendOf (a, b) <= (triangles <= limits_.large
+                                 ? growth_.deviation
+                                 : std::min (growth_.deviation, limits_.deviation_of_large));
+  }
+
+  void takeOffers (const RunContext& run)
+  {
+    ProgressLoop progress (run, charts_.size ());
+    while (!offers_.empty () && left_ > growth_.charts) {
+      const Offer offer = offers_.top ();
+      offers_.pop ();
+      if (!isCurrent (offer))
+        continue;
+      // Charts have grown since, which mostly makes it dearer.
+      if (costOf (offer.a, offer.b) > offer.cost)
+        this->offer (offer.a, offer.b);
+      else if (isAllowed (offer.a, offer.b) && makesDisc (offer.a, offer.b)) {
+        join (offer.a, offer.b);
+        --left_;
+        progress.next ();
+      }
+    }
+    offers_ = {};
+  }
+
+  void offerAll (Index a)
+  {
+    for (const auto& [b, contact] : charts_[a].contacts)
+      offer (a, b);
+  }
+
+  void offer (Index a, Index b)
+  {
+    const double cost = costOf (a, b);
+    charts_[a].contacts.at (b).offered = charts_[b].contacts.at (a).offered = cost;
+    offers_.push ({cost, std::min (a, b), std::max (a, b)});
+  }
+
+  // Not so if a chart has been joined to another one, or there is a later offer for the two.
+  bool isCurrent (const Offer& offer) const
+  {
+    const auto contact = charts_[offer.a].contacts.find (offer.b);
+    return contact != charts_[offer.a].contacts.end () && contact->second.offered == offer.cost;
+  }
+
+  // Of two discs: what they share must be connected and no circle, so it has one vertex more than
+  // edges. O(boundary of the shorter one).
+  bool makesDisc (Index a, Index b)
+  {
+    if (charts_[a].border.size () > charts_[b].border.size ())
+      std::swap (a, b);
+    std::vector<MeshEdge>& border = charts_[a].border;
+    std::size_t points = 0, edges = 0, kept = 0;
+    for (const MeshEdge edge : border) {
+      const Index other = mesh_.neighbors[edge.triangle][edge.side];
+      const Index beyond = other == NONE ? NONE : chartOf (other);
+      if (beyond == a)
+        continue;
+      border[kept++] = edge;
+      edges += beyond == b ? 1 : 0;
+      mesh_.fan (mesh_.from (edge), fan_);
+      points +=
+          std::any_of (fan_.begin (), fan_.end (), [this, b] (Index t) { return chartOf (t) == b; })
+              ? 1
+              : 0;
+    }
+    border.resize (kept);
+    return points == edges + 1;
+  }
+
+  // The chart with fewer neighbours becomes a part of the other one, whose name stays.
+  void join (Index a, Index b)
+  {
+    if (charts_[a].contacts.size () > charts_[b].contacts.size ())
+      std::swap (a, b);
+    part_of_[a] = b;
+    Chart small = std::move (charts_[a]);
+    charts_[a] = {};
+    Chart& large = charts_[b];
+    large.seam += small.seam - 2.0 * small.contacts.at (b).length;
+    large.sum += small.sum;
+    large.facing += small.facing;
+    large.area += small.area;
+    large.triangles += small.triangles;
+    if (small.border.size () > large.border.size ())
+      small.border.swap (large.border);
+    large.border.insert (large.border.end (), small.border.begin (), small.border.end ());
+    small.contacts.erase (b);
+    large.contacts.erase (a);
+    for (const auto& [c, contact] : small.contacts) {
+      Contact& to = large.contacts[c];
+      to.length += contact.length;
+      to.crease += contact.crease;
+      charts_[c].contacts.erase (a);
+      charts_[c].contacts[b] = to;
+    }
+    for (const auto& [c, contact] : small.contacts)
+      offer (b, c);
+  }
+
+  const TriangleMesh& mesh_;
+  const MeshParts& facets_;
+  const ChartLimits& limits_;
+  Directions directions_ = makeDirections ();
+  ChartGrowth growth_;
+  std::vector<Chart> charts_;
+  std::vector<Index> part_of_; // per facet: the chart that it was joined to, by steps
+  std::priority_queue<Offer> offers_;
+  std::size_t left_ = 0; // charts
+  bool is_for_crumbs_ = false;
+  std::vector<Index> fan_;
+};
+
+// One sweep of straightenSeams ().
+class SeamStraightener
+{
+public:
+  SeamStraightener (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                    const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
+                    MeshParts& charts)
+      : mesh_ (mesh), positions_ (positions), area_vectors_ (area_vectors), limits_ (limits),
+        charts_ (charts)
+  {
+  }
+
+  // \return whether the triangle was moved
+  bool tryMove (Index t)
+  {
+    const Index own = charts_.of_triangle[t];
+    std::uint8_t inner = 3; // the side beyond which its chart goes on
+    Index to = NONE;
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh_.neighbors[t][side];
+      const Index beyond = other == NONE ? NONE : charts_.of_triangle[other];
+      if (beyond == own) {
+        if (inner != 3)
+          return false;
+        inner = side;
+      }
+      else if (beyond == NONE || (to != NONE && to != beyond))
+        return false;
+      else
+        to = beyond;
+    }
+    if (inner == 3 || to == NONE)
+      return false;
+    const double gain = weight ({t, TriangleMesh::next (inner)}) +
+                        weight ({t, TriangleMesh::previous (inner)}) - weight ({t, inner});
+    if (!(gain > 0.0))
+      return false;
+    // Without the triangle, its chart must not go through the corner that moves.
+    mesh_.fan (mesh_.corner ({t, inner}), fan_);
+    for (const Index around : fan_)
+      if (around != t && charts_.of_triangle[around] == own)
+        return false;
+    charts_.of_triangle[t] = to;
+    return true;
+  }
+
+private:
+  // Of a seam along an edge.
+  double weight (MeshEdge edge) const
+  {
+    const double length = (positions_[mesh_.to (edge)] - positions_[mesh_.from (edge)]).norm ();
+    const Index other = mesh_.neighbors[edge.triangle][edge.side];
+    const double cosine = 1.0 - oneMinusCosine (area_vectors_[edge.triangle], area_vectors_[other]);
+    return length * std::max (limits_.least_seam_weight, cosine);
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const std::vector<Eigen::Vector3d>& area_vectors_;
+  const ChartLimits& limits_;
+  MeshParts& charts_;
+  std::vector<Index> fan_;
+};
+
+} // namespace
+
+void
+straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
+                 const RunContext& run, MeshParts& charts)
+{
+  SeamStraightener straightener (mesh, positions, area_vectors, limits, charts);
+  std::vector<Index> waiting;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (const Index other : mesh.neighbors[t])
+      if (other != NONE && charts.of_triangle[other] != charts.of_triangle[t]) {
+        waiting.push_back (t);
+        break;
+      }
+  for (int round = 0; round < limits.straightening_rounds && !waiting.empty (); ++round) {
+    ProgressLoop progress (run, waiting.size ());
+    std::vector<Index> next;
+    for (const Index t : waiting) {
+      if (straightener.tryMove (t))
+        for (const Index other : mesh.neighbors[t])
+          if (other != NONE)
+            next.push_back (other);
+      progress.next ();
+    }
+    waiting = std::move (next);
+  }
+}
+
+MeshParts
+findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const ChartGrowth& growth, const ChartLimits& limits, const RunContext& run)
+{
+  const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
+  const MeshParts facets = growFacets (mesh, positions, area_vectors, limits, run);
+  ChartMerger merger (mesh, positions, area_vectors, facets, limits);
+  merger.merge (growth, run);
+  MeshParts charts = merger.parts ();
+  straightenSeams (mesh, positions, area_vectors, limits, run, charts);
+  renumber (charts);
+  return charts;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,402 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/distortion_descent.h"
+
+#include "core/geometry.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_2_algorithms.h>
+#include <Eigen/CholmodSupport>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+// CHOLMOD, which prints nothing. A matrix that rounding has made indefinite is told by info ().
+class Cholesky : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>
+{
+public:
+  Cholesky () { cholmod ().print = 0; }
+};
+
+using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2>; // one row for each vertex
+
+constexpr double MEAN_WEIGHT = 1e-8; // of all vertices in the Laplacian: it must not be singular
+constexpr std::size_t MEMORY = 6;    // steps that the direction is made from
+constexpr double SUFFICIENT = 1e-4;  // of the decrease that the slope promises (Armijo)
+constexpr double SHORTEST = 1e-6;    // of a step that is worth it
+constexpr int STEPS_PER_LOOK = 8;    // at the boundary
+
+Eigen::Matrix2d
+edgesOf (const Plane& x, const Triangle& c)
+{
+  Eigen::Matrix2d edges;
+  edges.col (0) = (x.row (c[1]) - x.row (c[0])).transpose ();
+  edges.col (1) = (x.row (c[2]) - x.row (c[0])).transpose ();
+  return edges;
+}
+
+class Descent
+{
+public:
+  Descent (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits)
+      : chart_ (chart), rest_ (rest), limits_ (limits)
+  {
+  }
+
+  void run (const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+  {
+    Plane x (static_cast<Eigen::Index> (uv.size ()), 2);
+    for (std::size_t i = 0; i < uv.size (); ++i)
+      x.row (static_cast<Eigen::Index> (i)) = uv[i].transpose ();
+    scale (x);
+    const auto accept = [&] {
+      std::vector<Eigen::Vector2d> next (uv.size ());
+      for (std::size_t i = 0; i < uv.size (); ++i)
+        next[i] = x.row (static_cast<Eigen::Index> (i)).transpose ();
+      if (!isSimple (chart_.loop, next))
+        return false;
+      uv = std::move (next);
+      return true;
+    };
+    if (!accept ())
+      return;
+    factorize ();
+    if (solver_.info () != Eigen::Success)
+      return;
+    double energy = energyOf (x);
+    descend (run, x, energy, accept);
+    if (energy > limits_.enough && rest_.shapes.size () <= limits_.most_newton_triangles) {
+      newton (run, x, energy);
+      if (accept ())
+        descend (run, x, energy, accept);
+    }
+    accept ();
+  }
+
+private:
+  // To the size at which the energy is least.
+  void scale (Plane& x) const
+  {
+    double direct = 0.0, inverse = 0.0;
+    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
+      const Eigen::Matrix2d map = edgesOf (x, chart_.mesh.triangles[t]) * rest_.shapes[t].to_unit;
+      const double squares = map.squaredNorm (), determinant = map.determinant ();
+      direct += rest_.shapes[t].area * squares;
+      inverse += rest_.shapes[t].area * squares / (determinant * determinant);
+    }
+    const double factor = std::sqrt (std::sqrt (inverse / direct));
+    if (std::isfinite (factor) && factor > 0.0)
+      x *= factor;
+  }
+
+  // The length of a step that lowers the energy enough; 0 if there is none.
+  // \param[in,out] x, energy afterwards at the end of the step
+  double goAlong (const Plane& direction, double slope, Plane& x, double& energy) const
+  {
+    double length = std::min (1.0, limits_.safe_share * reach (x, direction));
+    for (; length > SHORTEST; length *= 0.5) {
+      Plane next = x + length * direction;
+      const double next_energy = energyOf (next);
+      if (next_energy <= energy + SUFFICIENT * length * slope && next_energy < energy) {
+        x = std::move (next);
+        energy = next_energy;
+        return length;
+      }
+    }
+    return 0.0;
+  }
+
+  // L-BFGS. Looks at the boundary now and then, and returns if it crosses itself.
+  template <typename Accept>
+  void descend (const RunContext& run, Plane& x, double& energy, const Accept& accept)
+  {
+    changes_.clear ();
+    Plane gradient = gradientOf (x);
+    for (int step = 1; step <= limits_.steps; ++step) {
+      run.poll ();
+      Plane direction = directionOf (gradient);
+      double slope = gradient.cwiseProduct (direction).sum ();
+      if (!(slope < 0.0)) {
+        changes_.clear ();
+        direction = -solver_.solve (gradient);
+        slope = gradient.cwiseProduct (direction).sum ();
+      }
+      const Plane last = x;
+      const double last_energy = energy;
+      if (!(slope < 0.0) || goAlong (direction, slope, x, energy) == 0.0)
+        return;
+      Plane next_gradient = gradientOf (x);
+      remember (x - last, next_gradient - gradient);
+      gradient = std::move (next_gradient);
+      if (last_energy - energy <= limits_.least_progress * (energy - 4.0))
+        return;
+      if (step % STEPS_PER_LOOK == 0 && !accept ())
+        return;
+    }
+  }
+
+  // Newton's method, with the Hessian of each triangle made positive: its eigenvectors are known
+  // (Smith, de Goes, Kim 2019). Slower for each step, but it gets on where triangles are so
+  // compressed that the Laplacian tells nothing of them.
+  void newton (const RunContext& run, Plane& x, double& energy) const
+  {
+    Cholesky solver;
+    bool is_analyzed = false;
+    for (int step = 0; step < limits_.newton_steps; ++step) {
+      run.poll ();
+      const Eigen::SparseMatrix<double> hessian = hessianOf (x);
+      if (!is_analyzed)
+        solver.analyzePattern (hessian);
+      is_analyzed = true;
+      solver.factorize (hessian);
+      if (solver.info () != Eigen::Success)
+        return;
+      const Plane gradient = gradientOf (x);
+      // Coordinates of a vertex follow each other.
+      Eigen::VectorXd right (2 * x.rows ());
+      for (Eigen::Index i = 0; i < x.rows (); ++i)
+        right.segment<2> (2 * i) = -gradient.row (i).transpose ();
+      const Eigen::VectorXd solution = solver.solve (right);
+      Plane direction (x.rows (), 2);
+      for (Eigen::Index i = 0; i < x.rows (); ++i)
+        direction.row (i) = solution.segment<2> (2 * i).transpose ();
+      const double slope = gradient.cwiseProduct (direction).sum ();
+      const double last_energy = energy;
+      if (!(slope < 0.0) || goAlong (direction, slope, x, energy) == 0.0)
+        return;
+      if (energy < limits_.enough ||
+          last_energy - energy <= limits_.least_newton_progress * (energy - 4.0))
+        return;
+    }
+  }
+
+  Eigen::SparseMatrix<double> hessianOf (const Plane& x) const
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    constexpr std::size_t PER_TRIANGLE = 21;
+    entries.reserve (PER_TRIANGLE * rest_.shapes.size () +
+                     2 * static_cast<std::size_t> (x.rows ()));
+    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
+      const RestShape& shape = rest_.shapes[t];
+      const Triangle& c = chart_.mesh.triangles[t];
+      const Eigen::JacobiSVD<Eigen::Matrix2d> svd (edgesOf (x, c) * shape.to_unit,
+                                                   Eigen::ComputeFullU | Eigen::ComputeFullV);
+      const Eigen::Matrix2d &u = svd.matrixU (), &v = svd.matrixV ();
+      const double p = svd.singularValues ()[0], q = svd.singularValues ()[1];
+      const auto slopeOf = [] (double s) { return 2.0 * s - 2.0 / (s * s * s); };
+      const auto curvatureOf = [] (double s) { return 2.0 + 6.0 / (s * s * s * s); };
+      const double half = std::sqrt (0.5), cube = p * q * p * q * p * q;
+      const std::array<double, 4> values{curvatureOf (p), curvatureOf (q),
+                                         std::max (0.0, (slopeOf (p) + slopeOf (q)) / (p + q)),
+                                         2.0 + 2.0 * (p * p + p * q + q * q) / cube};
+      std::array<Eigen::Matrix2d, 4> modes;
+      modes[0] << 1.0, 0.0, 0.0, 0.0;
+      modes[1] << 0.0, 0.0, 0.0, 1.0;
+      modes[2] << 0.0, -half, half, 0.0;
+      modes[3] << 0.0, half, half, 0.0;
+      Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero ();
+      const Eigen::Matrix<double, 3, 2> slopes = slopesOf (shape);
+      for (std::size_t m = 0; m < 4; ++m) {
+        // Change of the energy's argument in this mode with each coordinate of the corners.
+        const Eigen::Matrix<double, 2, 3> change =
+            u * modes[m] * v.transpose () * slopes.transpose ();
+        const Eigen::Map<const Eigen::Matrix<double, 6, 1>> change_of (change.data ());
+        block += shape.area * values[m] * change_of * change_of.transpose ();
+      }
+      for (Eigen::Index i = 0; i < 6; ++i)
+        for (Eigen::Index j = 0; j < 6; ++j) {
+          const int row =
+              2 * static_cast<int> (c[static_cast<std::size_t> (i / 2)]) + static_cast<int> (i % 2);
+          const int column =
+              2 * static_cast<int> (c[static_cast<std::size_t> (j / 2)]) + static_cast<int> (j % 2);
+          if (row >= column)
+            entries.emplace_back (row, column, block (i, j));
+        }
+    }
+    for (int i = 0; i < 2 * static_cast<int> (x.rows ()); ++i)
+      entries.emplace_back (i, i, MEAN_WEIGHT);
+    Eigen::SparseMatrix<double> matrix (2 * x.rows (), 2 * x.rows ());
+    matrix.setFromTriplets (entries.begin (), entries.end ());
+    return matrix;
+  }
+
+  // Gradients of the three hat functions of a triangle, in rows.
+  static Eigen::Matrix<double, 3, 2> slopesOf (const RestShape& shape)
+  {
+    Eigen::Matrix<double, 3, 2> slopes;
+    slopes.bottomRows<2> () = shape.to_unit;
+    slopes.row (0) = -slopes.row (1) - slopes.row (2);
+    return slopes;
+  }
+
+  // The Laplacian of the shapes: what the energy is near its least but for a factor.
+  void factorize ()
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve (9 * rest_.shapes.size () + chart_.positions.size ());
+    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
+      const Eigen::Matrix<double, 3, 2> slopes = slopesOf (rest_.shapes[t]);
+      const Eigen::Matrix3d block = rest_.shapes[t].area * slopes * slopes.transpose ();
+      const Triangle& c = chart_.mesh.triangles[t];
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (c[i] >= c[j])
+            entries.emplace_back (
+                static_cast<int> (c[i]), static_cast<int> (c[j]),
+                block (static_cast<Eigen::Index> (i), static_cast<Eigen::Index> (j)));
+    }
+    const auto size = static_cast<Eigen::Index> (chart_.positions.size ());
+    for (Eigen::Index i = 0; i < size; ++i)
+      entries.emplace_back (static_cast<int> (i), static_cast<int> (i), MEAN_WEIGHT);
+    Eigen::SparseMatrix<double> matrix (size, size);
+    matrix.setFromTriplets (entries.begin (), entries.end ());
+    solver_.compute (matrix);
+  }
+
+  // Infinite if a triangle has no area.
+  double energyOf (const Plane& x) const
+  {
+    double energy = 0.0;
+    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
+      const Eigen::Matrix2d map = edgesOf (x, chart_.mesh.triangles[t]) * rest_.shapes[t].to_unit;
+      const double determinant = map.determinant ();
+      if (!(determinant > 0.0))
+        return std::numeric_limits<double>::infinity ();
+      energy +=
+          rest_.shapes[t].area * map.squaredNorm () * (1.0 + 1.0 / (determinant * determinant));
+    }
+    return energy;
+  }
+
+  Plane gradientOf (const Plane& x) const
+  {
+    Plane gradient = Plane::Zero (x.rows (), 2);
+    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
+      const RestShape& shape = rest_.shapes[t];
+      const Triangle& c = chart_.mesh.triangles[t];
+      const Eigen::Matrix2d map = edgesOf (x, c) * shape.to_unit;
+      const double determinant = map.determinant (), squares = map.squaredNorm ();
+      const double inverse = 1.0 / (determinant * determinant);
+      Eigen::Matrix2d cofactors;
+      cofactors << map (1, 1), -map (1, 0), -map (0, 1), map (0, 0);
+      const Eigen::Matrix2d of_map =
+          shape.area *
+          (2.0 * (1.0 + inverse) * map - (2.0 * squares * inverse / determinant) * cofactors);
+      const Eigen::Matrix2d of_edges = of_map * shape.to_unit.transpose ();
+      gradient.row (c[1]) += of_edges.col (0).transpose ();
+      gradient.row (c[2]) += of_edges.col (1).transpose ();
+      gradient.row (c[0]) -= (of_edges.col (0) + of_edges.col (1)).transpose ();
+    }
+    return gradient;
+  }
+
+  // How many times the direction can be gone until a triangle has no area.
+  double reach (const Plane& x, const Plane& direction) const
+  {
+    double least = std::numeric_limits<double>::infinity ();
+    for (const Triangle& triangle : chart_.mesh.triangles) {
+      const Eigen::Matrix2d e = edgesOf (x, triangle), d = edgesOf (direction, triangle);
+      // Area a t^2 + b t + c, positive at 0.
+      const double a = d.determinant (), c = e.determinant ();
+      const double b = cross (Eigen::Vector2d (e.col (0)), Eigen::Vector2d (d.col (1))) +
+                       cross (Eigen::Vector2d (d.col (0)), Eigen::Vector2d (e.col (1)));
+      const double discriminant = b * b - 4.0 * a * c;
+      if (discriminant < 0.0)
+        continue;
+      const double root = std::sqrt (discriminant);
+      // The smaller positive root, without cancellation.
+      const double q = -0.5 * (b + (b < 0.0 ? -root : root));
+      for (const double t : {q / a, c / q})
+        if (t > 0.0)
+          least = std::min (least, t);
+    }
+    return least;
+  }
+
+  struct Change
+  {
+    Plane step, gradient;
+    double product;
+  };
+
+  void remember (Plane step, Plane gradient)
+  {
+    const double product = step.cwiseProduct (gradient).sum ();
+    if (!(product > 0.0))
+      return;
+    changes_.push_back ({std::move (step), std::move (gradient), product});
+    if (changes_.size () > MEMORY)
+      changes_.pop_front ();
+  }
+
+  // Two loops of L-BFGS (Nocedal 1980).
+  Plane directionOf (const Plane& gradient) const
+  {
+    Plane q = gradient;
+    std::vector<double> factors (changes_.size ());
+    for (std::size_t i = changes_.size (); i-- > 0;) {
+      factors[i] = changes_[i].step.cwiseProduct (q).sum () / changes_[i].product;
+      q -= factors[i] * changes_[i].gradient;
+    }
+    Plane direction = solver_.solve (q);
+    for (std::size_t i = 0; i < changes_.size (); ++i) {
+      const double factor =
+          factors[i] - changes_[i].gradient.cwiseProduct (direction).sum () / changes_[i].product;
+      direction += factor * changes_[i].step;
+    }
+    return -direction;
+  }
+
+  const ChartMesh& chart_;
+  const RestShapes& rest_;
+  const DescentLimits& limits_;
+  Cholesky solver_;
+  std::deque<Change> changes_;
+};
+
+} // namespace
+
+void
+descendDistortion (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
+                   const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+{
+  Descent (chart, rest, limits).run (run, uv);
+}
+
+bool
+isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv)
+{
+  // Exact arithmetic has no NaN.
+  if (!std::all_of (loop.begin (), loop.end (), [&uv] (Index p) { return uv[p].allFinite (); }))
+    return false;
+  std::vector<Kernel::Point_2> polygon;
+  polygon.reserve (loop.size ());
+  for (const Index p : loop)
+    polygon.emplace_back (uv[p].x (), uv[p].y ());
+  return CGAL::is_simple_2 (polygon.begin (), polygon.end (), Kernel ());
+}
+
+bool
+isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
+{
+  if (!std::all_of (uv.begin (), uv.end (), [] (const auto& p) { return p.allFinite (); }))
+    return false; // exact arithmetic has no NaN
+  const auto place = [&uv] (Index p) { return Kernel::Point_2 (uv[p].x (), uv[p].y ()); };
+  return std::all_of (triangles.begin (), triangles.end (), [&] (const Triangle& t) {
+    return CGAL::orientation (place (t[0]), place (t[1]), place (t[2])) == CGAL::LEFT_TURN;
+  });
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/texture_method.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
+#include "texture/rounding.h"
+#include "texture/smoothing.h"
+#include "texture/stretch.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+Problem
+checkMesh (const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles)
+{
+  for (const Triangle& t : triangles)
+    for (const Index p : t) {
+      if (p >= positions.size ())
+        return {RunStatus::INVALID_INDICES, "a triangle names point " + std::to_string (p) +
+                                                ", but there are only " +
+                                                std::to_string (positions.size ()) + " points"};
+      if (!positions[p].allFinite ())
+        return {RunStatus::INVALID_INDICES, "point " + std::to_string (p) +
+                                                " of a triangle has no finite position; texture "
+                                                "coordinates need one for each vertex"};
+    }
+  return {};
+}
+
+Problem
+checkTextureOptions (const TextureOptions& options)
+{
+  if (!(options.largest_stretch >= 1.0))
+    return {RunStatus::INVALID_OPTION, "the largest stretch of a chart must be 1 or more"};
+  if (options.threads < 0)
+    return {RunStatus::INVALID_OPTION, "the number of threads must be 0 or more"};
+  return {};
+}
+
+// Coordinates by point, then by chart, so that those of a point follow each other.
+void
+takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std::size_t triangles,
+                 TextureCoordinates& result)
+{
+  std::vector<Index> first (points + 1, 0); // coordinate of each point
+  for (const ChartLayout& chart : charts)
+    for (const Index p : chart.points)
+      ++first[p + 1];
+  for (std::size_t p = 0; p < points; ++p)
+    first[p + 1] += first[p];
+  result.coordinates.resize (first.back ());
+  result.points.resize (first.back ());
+  result.corners.resize (triangles);
+  result.charts.resize (triangles);
+  for (std::size_t c = 0; c < charts.size (); ++c) {
+    const ChartLayout& chart = charts[c];
+    std::vector<Index> numbers;
+    numbers.reserve (chart.points.size ());
+    for (std::size_t i = 0; i < chart.points.size (); ++i) {
+      const Index number = first[chart.points[i]]++;
+      numbers.push_back (number);
+      result.points[number] = chart.points[i];
+      result.coordinates[number] = chart.uv[i].cast<float> ().cwiseMax (0.0F).cwiseMin (1.0F);
+    }
+    for (std::size_t i = 0; i < chart.triangles.size (); ++i) {
+      const Index t = chart.triangles[i];
+      result.charts[t] = static_cast<Index> (c);
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        result.corners[t][corner] = numbers[chart.corners[i][corner]];
+    }
+  }
+}
+
+void
+findSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           TextureCoordinates& result)
+{
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh.neighbors[t][side];
+      if (other == NONE || other < t || result.charts[other] == result.charts[t])
+        continue;
+      const MeshEdge edge{t, side};
+      result.seams.push_back ({mesh.from (edge), mesh.to (edge)});
+      result.seam_length += (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
+    }
+}
+
+void
+measure (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+         TextureCoordinates& result)
+{
+  StretchSums sums;
+  for (std::size_t t = 0; t < triangles.size (); ++t) {
+    const auto uv = [&] (std::size_t i) -> Eigen::Vector2d {
+      return result.coordinates[result.corners[t][i]].cast<double> ();
+    };
+    sums.add ({positions[triangles[t][0]], positions[triangles[t][1]], positions[triangles[t][2]]},
+              {uv (0), uv (1), uv (2)});
+  }
+  result.stretch = sums.mean ();
+  result.largest_stretch = sums.largest ();
+  result.area_used = sums.planeArea ();
+}
+
+} // namespace
+
+Problem
+makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
+                        const std::vector<Triangle>& triangles, const TextureOptions& options,
+                        const TextureLimits& limits, const RunContext& run,
+                        TextureCoordinates& result)
+{
+  if (Problem problem = checkTextureOptions (options))
+    return problem;
+  if (Problem problem = checkMesh (positions, triangles))
+    return problem;
+  TriangleMesh mesh;
+  mesh.triangles = triangles;
+  if (!mesh.connect (positions.size (), run))
+    return {RunStatus::INVALID_INDICES,
+            "the triangles are no oriented manifold: an edge has more than two triangles or two of "
+            "opposite orientation, or a point has several fans; repair the mesh first"};
+
+  // Charts, each a disc, and their layouts, of the surface without its noise.
+  std::vector<ChartLayout> charts =
+      layOutCharts (mesh, smoothNoise (mesh, positions, limits.smoothing, run), options.whole_discs,
+                    options.largest_stretch, limits, run);
+
+  // All of them in one square, in single precision.
+  result.gutter = packCharts (charts, limits.atlas, run).gutter;
+  takeCoordinates (charts, positions.size (), triangles.size (), result);
+  result.chart_count = charts.size ();
+  result.flipped = repairRounding (result.corners, result.coordinates);
+  findSeams (mesh, positions, result);
+  measure (triangles, positions, result);
+  return {};
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texture coordinates of a mesh: charts, their layout, the atlas.
+#pragma once
+
+#include "core/problem.h"
+#include "core/run_context.h"
+#include "texture/atlas.h"
+#include "texture/chart_limits.h"
+#include "texture/distortion_descent.h"
+#include "texture/smoothing.h"
+
+#include <pcl/surface/floater/texture_coordinates.h>
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+struct TextureLimits
+{
+  SmoothingLimits smoothing;
+  ChartLimits charts;
+  DescentLimits descent;
+  AtlasLimits atlas;
+
+  /// A chart that stretches too much, and about as much everywhere, is cut only if its parts,
+  /// taken together, stretch so much less, above 1. What curvature costs falls to a quarter with
+  /// half of the area; what roughness costs does not fall.
+  double worthwhile = 0.7;
+
+  /// It stretches about as much everywhere if half of its area stretches so much as this share of
+  /// the mean, above 1. Of noise, normals that scatter by 20 to 40 degrees, it is 0.4 and more;
+  /// where a small part sticks out, near 0.
+  double even = 0.25;
+
+  /// Times the deviation of the parts is halved to cut a chart, before it is just cut in two.
+  int halvings = 4;
+};
+
+/// Cuts a mesh into charts and lays them out, on all threads of the run.
+/// \param triangles an oriented manifold; may have any number of components
+/// \param whole_discs components that are discs are not cut, however much they stretch
+/// \param largest_stretch mean stretch above which a chart is cut (see TextureOptions)
+/// \return the charts, in the order of their first triangles; none is left without a layout
+std::vector<ChartLayout>
+layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              bool whole_discs, double largest_stretch, const TextureLimits& limits,
+              const RunContext& run);
+
+/// The whole way. Sets all but the status and the message.
+/// \return the status and message: INVALID_INDICES or INVALID_OPTION for bad input
+Problem
+makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
+                        const std::vector<Triangle>& triangles, const TextureOptions& options,
+                        const TextureLimits& limits, const RunContext& run,
+                        TextureCoordinates& result);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Charts, their layouts, and how these are measured.
+#include "core/geometry.h"
+#include "mesh/facing_cases.h"
+#include "mesh/known_meshes.h"
+#include "texture/chart_layout.h"
+#include "texture/charts.h"
+#include "texture/convex_layout.h"
+#include "texture/smoothing.h"
+#include "texture/stretch.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using samples::Mesh;
+
+std::vector<Index>
+allOf (const std::vector<Triangle>& triangles)
+{
+  return samples::indices (triangles.size ());
+}
+
+// Half a tube of radius 1, which can be laid out without stretch.
+Mesh
+halfTube (Index side)
+{
+  Mesh mesh = samples::sheet (side);
+  for (Eigen::Vector3d& p : mesh.positions) {
+    const double angle = PI * p.x () / (0.1 * side);
+    p = Eigen::Vector3d (-std::cos (angle), p.y (), std::sin (angle));
+  }
+  return mesh;
+}
+
+TEST (Stretch, OfKnownMaps)
+{
+  const std::array<Eigen::Vector3d, 3> place{{{0, 0, 5}, {2, 0, 5}, {0, 2, 5}}};
+  StretchSums same;
+  same.add (place, {{{0, 0}, {1, 0}, {0, 1}}});
+  EXPECT_DOUBLE_EQ (same.mean (), 1.0);
+  EXPECT_DOUBLE_EQ (same.largest (), 1.0);
+  EXPECT_DOUBLE_EQ (same.area (), 2.0);
+  EXPECT_DOUBLE_EQ (same.planeArea (), 0.5);
+  // Twice as wide in the plane as it is: singular values 1 and 1/2 of what they were.
+  StretchSums wide;
+  wide.add (place, {{{0, 0}, {2, 0}, {0, 1}}});
+  EXPECT_DOUBLE_EQ (wide.mean (), std::sqrt (0.5 * (1.0 + 4.0) / 2.0));
+  EXPECT_DOUBLE_EQ (wide.largest (), std::sqrt (2.0));
+  // Sheared by one.
+  StretchSums sheared;
+  sheared.add (place, {{{0, 0}, {1, 0}, {1, 1}}});
+  EXPECT_DOUBLE_EQ (sheared.mean (), std::sqrt (1.5));
+  EXPECT_NEAR (sheared.largest (), 0.5 * (1.0 + std::sqrt (5.0)), 1e-12);
+  // One triangle is four times as large in the plane as another one.
+  StretchSums both = same;
+  StretchSums other;
+  other.add (place, {{{0, 0}, {2, 0}, {0, 2}}});
+  both.add (other);
+  EXPECT_DOUBLE_EQ (both.mean (), std::sqrt (0.5 * (4.0 + 1.0) * 2.5 / 4.0));
+  // Flipped: infinite. Without an area in space: not counted.
+  StretchSums flipped;
+  flipped.add (place, {{{0, 0}, {0, 1}, {1, 0}}});
+  EXPECT_TRUE (std::isinf (flipped.mean ()));
+  StretchSums line;
+  line.add ({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, {{{0, 0}, {1, 0}, {0, 1}}});
+  EXPECT_EQ (line.mean (), 1.0);
+}
+
+TEST (ChartMesh, LoopOfADiscOnly)
+{
+  const Mesh sheet = samples::sheet (4);
+  const ChartMesh chart = makeChartMesh (sheet.triangles, allOf (sheet.triangles), sheet.positions);
+  EXPECT_EQ (chart.loop.size (), 16U);
+  EXPECT_EQ (chart.loop.front (), 0U);
+  EXPECT_EQ (chart.loop[1], 1U);
+  for (const Mesh& none : {samples::annulus (8), samples::torus (9, 7), samples::tetrahedron ()})
+    EXPECT_TRUE (
+        makeChartMesh (none.triangles, allOf (none.triangles), none.positions).loop.empty ());
+  // Two triangles that meet at a point.
+  EXPECT_TRUE (makeChartMesh (sheet.triangles, {0, 10}, sheet.positions).loop.empty ());
+}
+
+TEST (ConvexLayout, IsUprightInTheCircle)
+{
+  for (const double share : {0.3, 0.7, 0.95}) {
+    const facing_cases::FacingCase bowl = facing_cases::makeBowl (share);
+    const ChartMesh chart =
+        makeChartMesh (bowl.mesh.triangles, allOf (bowl.mesh.triangles), bowl.positions);
+    ASSERT_FALSE (chart.loop.empty ());
+    const PlaneLayout layout = layOutOnCircle (chart, makeRestShapes (chart), 1);
+    ASSERT_EQ (layout.uv.size (), chart.positions.size ());
+    EXPECT_TRUE (isUpright (chart.mesh.triangles, layout.uv));
+    EXPECT_TRUE (isSimple (chart.loop, layout.uv));
+    for (const Index p : chart.loop)
+      EXPECT_NEAR (layout.uv[p].norm (), 1.0, 1e-9);
+  }
+}
+
+TEST (DistortionDescent, DevelopsWhatCanBeDeveloped)
+{
+  const Mesh tube = halfTube (12);
+  const ChartMesh chart = makeChartMesh (tube.triangles, allOf (tube.triangles), tube.positions);
+  const RestShapes rest = makeRestShapes (chart);
+  std::vector<Eigen::Vector2d> uv = layOutOnCircle (chart, rest, 1).uv;
+  DescentLimits limits;
+  limits.steps = 500;
+  limits.least_progress = 1e-9;
+  descendDistortion (chart, rest, limits, 1, uv);
+  StretchSums sums;
+  for (const Triangle& t : chart.mesh.triangles)
+    sums.add ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
+              {uv[t[0]], uv[t[1]], uv[t[2]]});
+  EXPECT_NEAR (sums.mean (), 1.0, 1e-4);
+  EXPECT_TRUE (isUpright (chart.mesh.triangles, uv));
+}
+
+TEST (DistortionDescent, ExactChecks)
+{
+  const std::vector<Eigen::Vector2d> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_TRUE (isSimple ({0, 1, 2, 3}, square));
+  EXPECT_FALSE (isSimple ({0, 2, 1, 3}, square));
+  EXPECT_TRUE (isUpright ({{0, 1, 2}, {0, 2, 3}}, square));
+  EXPECT_FALSE (isUpright ({{0, 1, 2}, {0, 3, 2}}, square));
+  const double nan = std::nan ("");
+  EXPECT_FALSE (isUpright ({{0, 1, 2}}, {{0, 0}, {1, 0}, {nan, 1}}));
+  EXPECT_FALSE (isSimple ({0, 1, 2}, {{0, 0}, {1, 0}, {nan, 1}}));
+  // A sliver that only exact arithmetic can tell from a line: the last corner is one step above it.
+  const double above = std::nextafter (0.1, 1.0);
+  EXPECT_TRUE (isUpright ({{0, 1, 2}}, {{0.1, 0.1}, {0.3, 0.3}, {0.1, above}}));
+  EXPECT_FALSE (isUpright ({{0, 1, 2}}, {{0.1, 0.1}, {0.3, 0.3}, {0.2, 0.2}}));
+}
+
+TEST (ChartLayout, FlatAndCurved)
+{
+  const Mesh sheet = samples::sheet (8);
+  const ChartLayout flat =
+      layOutChart (sheet.triangles, allOf (sheet.triangles), sheet.positions, {}, 1);
+  EXPECT_NEAR (flat.stretch, 1.0, 1e-6);
+  EXPECT_NEAR (flat.area, 0.64, 1e-9);
+  const Mesh tube = halfTube (16);
+  EXPECT_LT (layOutChart (tube.triangles, allOf (tube.triangles), tube.positions, {}, 1).stretch,
+             1.01);
+  // No disc: no layout.
+  const Mesh ring = samples::annulus (8);
+  const ChartLayout none =
+      layOutChart (ring.triangles, allOf (ring.triangles), ring.positions, {}, 1);
+  EXPECT_TRUE (none.uv.empty ());
+  EXPECT_TRUE (none.loop.empty ());
+}
+
+// A flat spiral staircase of one and a half turns: its projection lies above itself.
+TEST (ChartLayout, NothingLiesAboveItself)
+{
+  Mesh stairs = samples::grid (
+      60, 4, 61 * 5, [] (Index x, Index y) { return y * 61 + x; },
+      [] (Index x, Index y) {
+        const double angle = 3.0 * PI * x / 60.0, radius = 2.0 - 0.3 * y;
+        return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.02 * x);
+      });
+  const ChartLayout layout =
+      layOutChart (stairs.triangles, allOf (stairs.triangles), stairs.positions, {}, 1);
+  ASSERT_FALSE (layout.uv.empty ());
+  EXPECT_TRUE (isSimple (layout.loop, layout.uv));
+  EXPECT_TRUE (isUpright (layout.corners, layout.uv));
+}
+
+TEST (Charts, AreDiscsAndEndAtCreases)
+{
+  // A roof: two slopes of 45 degrees.
+  Mesh roof = samples::sheet (10);
+  for (Eigen::Vector3d& p : roof.positions)
+    p.z () = -std::abs (p.x () - 0.5);
+  TriangleMesh mesh;
+  mesh.triangles = roof.triangles;
+  ASSERT_TRUE (mesh.connect (roof.positions.size (), 1));
+  const MeshParts charts = findCharts (mesh, roof.positions, {}, {}, 1);
+  EXPECT_EQ (charts.count, 2U);
+  for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
+    double x = 0.0;
+    for (const Index p : mesh.triangles[t])
+      x += roof.positions[p].x () / 3.0;
+    EXPECT_EQ (charts.of_triangle[t], x < 0.5 ? charts.of_triangle[0] : 1 - charts.of_triangle[0]);
+  }
+  // If it has to be cut all the same, in two.
+  const Mesh sheet = samples::sheet (10);
+  mesh.triangles = sheet.triangles;
+  ASSERT_TRUE (mesh.connect (sheet.positions.size (), 1));
+  EXPECT_EQ (findCharts (mesh, sheet.positions, {0.5, 1}, {}, 1).count, 1U);
+  EXPECT_EQ (findCharts (mesh, sheet.positions, {0.5, 2}, {}, 1).count, 2U);
+}
+
+TriangleMesh
+connect (const Mesh& mesh)
+{
+  TriangleMesh connected;
+  connected.triangles = mesh.triangles;
+  EXPECT_TRUE (connected.connect (mesh.positions.size (), 1));
+  return connected;
+}
+
+TEST (Smoothing, MovesNoiseOnly)
+{
+  // Bodies, saddles and creases stay to the last bit.
+  Mesh roof = samples::sheet (10);
+  for (Eigen::Vector3d& p : roof.positions)
+    p.z () = std::abs (p.x () - 0.5) - std::abs (p.y () - 0.5);
+  for (const Mesh& mesh : {samples::torus (40, 16), samples::tetrahedron (), roof})
+    EXPECT_EQ (smoothNoise (connect (mesh), mesh.positions, {}, 1), mesh.positions);
+
+  Mesh noisy = samples::sheet (20);
+  RandomStream random (1);
+  for (Eigen::Vector3d& p : noisy.positions)
+    p.z () = 0.05 * random.normal ();
+  const auto roughness = [] (const samples::Positions& positions) {
+    double sum = 0.0;
+    for (const Eigen::Vector3d& p : positions)
+      sum += p.z () * p.z ();
+    return std::sqrt (sum / static_cast<double> (positions.size ()));
+  };
+  const samples::Positions smooth = smoothNoise (connect (noisy), noisy.positions, {}, 1);
+  EXPECT_LT (roughness (smooth), 0.5 * roughness (noisy.positions));
+  EXPECT_EQ (smoothNoise (connect (noisy), noisy.positions, {}, 3), smooth);
+  // So it is one chart, or few.
+  const TriangleMesh mesh = connect (noisy);
+  EXPECT_LE (findCharts (mesh, smooth, {}, {}, 1).count, 2U);
+  EXPECT_GT (findCharts (mesh, noisy.positions, {}, {}, 1).count, 10U);
+}
+
+// Facets of several triangles, as large meshes have them.
+TEST (Charts, FacetsAreDiscs)
+{
+  const facing_cases::FacingCase body =
+      facing_cases::makeFacingCase (facing_cases::Family::WINGED_BODY, 3);
+  ChartLimits limits;
+  limits.facets = 200;
+  const MeshParts facets =
+      growFacets (body.mesh, body.positions, areaVectors (body.mesh, body.positions, 1), limits, 1);
+  EXPECT_GT (facets.count, body.mesh.triangles.size () / limits.most_in_facet);
+  std::vector<std::vector<Index>> lists (facets.count);
+  for (std::size_t t = 0; t < facets.of_triangle.size (); ++t)
+    lists[facets.of_triangle[t]].push_back (static_cast<Index> (t));
+  for (const std::vector<Index>& facet : lists) {
+    EXPECT_LE (facet.size (), limits.most_in_facet);
+    EXPECT_FALSE (makeChartMesh (body.mesh.triangles, facet, body.positions).loop.empty ());
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Rows of the file, in the order of new points.
+void
+copyRows (const Field& from, const std::vector<std::size_t>& rows, const Field& to)
+{
+  auto* bytes = const_cast<char*> (to.first.get ()); // just allocated
+  visitType (from.type, [&] (auto tag) {
+    using T = decltype (tag);
+    for (std::size_t i = 0; i < rows.size (); ++i)
+      for (std::size_t c = 0; c < from.count; ++c) {
+        const T value = from.value<T> (rows[i], c);
+        std::memcpy (bytes + i * to.stride + c * sizeof (T), &value, sizeof (T));
+      }
+  });
+}
+
+void
+setFloats (const Field& to, const std::vector<float>& values)
+{
+  auto* bytes = const_cast<char*> (to.first.get ());
+  for (std::size_t i = 0; i < values.size (); ++i)
+    std::memcpy (bytes + i * to.stride, &values[i], sizeof (float));
+}
+
+using Colour = Eigen::Vector3d;
+
+// Pixels whose middles are in the triangle, or within half a pixel of it.
+template <typename Paint>
+void
+visitPixels (const std::array<Eigen::Vector2d, 3>& corners, std::size_t side, const Paint& paint)
+{
+  const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
+  const double area = a.x () * b.y () - a.y () * b.x ();
+  if (!(area > 0.0))
+    return;
+  const Eigen::Vector2d low = corners[0].cwiseMin (corners[1]).cwiseMin (corners[2]);
+  const Eigen::Vector2d high = corners[0].cwiseMax (corners[1]).cwiseMax (corners[2]);
+  const auto pixelOf = [side] (double x) {
+    return static_cast<std::size_t> (std::clamp (x, 0.0, static_cast<double> (side - 1)));
+  };
+  for (std::size_t y = pixelOf (low.y () - 1.0); y <= pixelOf (high.y () + 1.0); ++y)
+    for (std::size_t x = pixelOf (low.x () - 1.0); x <= pixelOf (high.x () + 1.0); ++x) {
+      const Eigen::Vector2d p =
+          Eigen::Vector2d (static_cast<double> (x) + 0.5, static_cast<double> (y) + 0.5) -
+          corners[0];
+      const double v = (p.x () * b.y () - p.y () * b.x ()) / area;
+      const double w = (a.x () * p.y () - a.y () * p.x ()) / area;
+      if (v >= 0.0 && w >= 0.0 && v + w <= 1.0)
+        paint (x, y, Eigen::Vector3d (1.0 - v - w, v, w));
+    }
+}
+
+// Every pixel that has none gets the colour of the nearest that has, by steps to the side, up and
+// down.
+void
+spread (ColourImage& image, std::vector<std::uint8_t>& is_painted)
+{
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < is_painted.size (); ++i)
+    if (is_painted[i] != 0)
+      reached.push_back (i);
+  for (std::size_t next = 0; next < reached.size (); ++next) {
+    const std::size_t i = reached[next], x = i % image.side, y = i / image.side;
+    const auto visit = [&] (std::size_t other) {
+      if (is_painted[other] != 0)
+        return;
+      is_painted[other] = 1;
+      image.pixels[other] = image.pixels[i];
+      reached.push_back (other);
+    };
+    if (x > 0)
+      visit (i - 1);
+    if (x + 1 < image.side)
+      visit (i + 1);
+    if (y > 0)
+      visit (i - image.side);
+    if (y + 1 < image.side)
+      visit (i + image.side);
+  }
+}
+
+} // namespace
+
+Cloud
+doubleSeamPoints (const Cloud& cloud, const MeshTexture& texture, Triangles& triangles)
+{
+  constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max ();
+  const std::size_t points = cloud.size ();
+  std::vector<std::size_t> rows (points);
+  for (std::size_t p = 0; p < points; ++p)
+    rows[p] = cloud.row (p);
+  std::vector<float> s (points, -1.0F), t (points, -1.0F);
+  std::vector<std::uint32_t> number (texture.coordinates.size (), NONE); // of each coordinate
+  for (std::size_t c = 0; c < number.size (); ++c) {
+    const std::uint32_t point = texture.points[c];
+    if (c == 0 || texture.points[c - 1] != point)
+      number[c] = point;
+    else {
+      number[c] = static_cast<std::uint32_t> (rows.size ());
+      rows.push_back (rows[point]);
+      s.push_back (0.0F);
+      t.push_back (0.0F);
+    }
+    s[number[c]] = texture.coordinates[c].x ();
+    t[number[c]] = texture.coordinates[c].y ();
+  }
+  for (std::size_t i = 0; i < triangles.size (); ++i)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      triangles[i][corner] = number[texture.corners[i][corner]];
+
+  Cloud doubled;
+  doubled.coordinates = cloud.coordinates;
+  doubled.single_precision = cloud.single_precision;
+  doubled.shift = cloud.shift;
+  doubled.sensor_origin = cloud.sensor_origin;
+  doubled.rows = rows.size ();
+  for (const Field& field : cloud.fields)
+    if (field.name != "s" && field.name != "t")
+      doubled.fields.push_back (field);
+  const std::vector<Field> sources (doubled.fields);
+  for (const char* name : {"s", "t"}) {
+    Field field;
+    field.name = name;
+    doubled.fields.push_back (field);
+  }
+  std::vector<Field*> fields;
+  for (Field& field : doubled.coordinates)
+    fields.push_back (&field);
+  for (Field& field : doubled.fields)
+    fields.push_back (&field);
+  allocateRows (fields, rows.size ());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    copyRows (cloud.coordinates[axis], rows, doubled.coordinates[axis]);
+  for (std::size_t f = 0; f < sources.size (); ++f)
+    copyRows (sources[f], rows, doubled.fields[f]);
+  setFloats (doubled.fields[sources.size ()], s);
+  setFloats (doubled.fields[sources.size () + 1], t);
+  return doubled;
+}
+
+std::size_t
+imageSideFor (std::size_t points, double area_used)
+{
+  constexpr std::size_t SMALLEST = 256, LARGEST = 8192;
+  constexpr double PIXELS_PER_POINT = 4.0;
+  const double wanted =
+      std::sqrt (PIXELS_PER_POINT * static_cast<double> (points) / std::max (area_used, 0.01));
+  std::size_t side = SMALLEST;
+  while (side < LARGEST && static_cast<double> (side) < wanted)
+    side *= 2;
+  return side;
+}
+
+ColourImage
+bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& texture,
+             std::size_t side)
+{
+  constexpr std::uint8_t GREY = 128;
+  ColourImage image;
+  image.side = side;
+  image.pixels.assign (side * side, {GREY, GREY, GREY});
+  std::vector<std::uint8_t> is_painted (side * side, 0);
+  const FieldTriple fields = colorFields (cloud);
+  const auto colourOf = [&] (std::uint32_t point) -> Colour {
+    Colour colour;
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      colour[channel] = static_cast<double> (
+          fields[static_cast<std::size_t> (channel)]->value<std::uint8_t> (cloud.row (point)));
+    return colour;
+  };
+  const auto length = static_cast<double> (side);
+  const auto put = [&] (std::size_t x, std::size_t y, const Colour& colour) {
+    std::array<std::uint8_t, 3>& pixel = image.pixels[y * side + x];
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      pixel[channel] =
+          static_cast<std::uint8_t> (std::lround (colour[static_cast<Eigen::Index> (channel)]));
+    is_painted[y * side + x] = 1;
+  };
+  for (std::size_t t = 0; t < triangles.size (); ++t) {
+    std::array<Eigen::Vector2d, 3> corners;
+    std::array<Colour, 3> colours;
+    for (std::size_t i = 0; i < 3; ++i) {
+      // The image has its first row at the top, and so the corners run clockwise in it.
+      const Eigen::Vector2d uv = texture.coordinates[texture.corners[t][2 - i]].cast<double> ();
+      corners[i] = length * Eigen::Vector2d (uv.x (), 1.0 - uv.y ());
+      colours[i] = colourOf (triangles[t][2 - i]);
+    }
+    visitPixels (corners, side, [&] (std::size_t x, std::size_t y, const Eigen::Vector3d& shares) {
+      put (x, y, shares[0] * colours[0] + shares[1] * colours[1] + shares[2] * colours[2]);
+    });
+    // Triangles between the middles of pixels leave their colours at their corners.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto x = std::min (static_cast<std::size_t> (std::max (corners[i].x (), 0.0)),
+                               side - 1),
+                 y = std::min (static_cast<std::size_t> (std::max (corners[i].y (), 0.0)),
+                               side - 1);
+      if (is_painted[y * side + x] == 0)
+        put (x, y, colours[i]);
+    }
+  }
+  spread (image, is_painted);
+  return image;
+}
+
+std::string
+materialsText (const std::string& image)
+{
+  return "newmtl surface\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1\n" +
+         (image.empty () ? "" : "map_Kd " + image + "\n");
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texture coordinates of a mesh, and an image of the colours of its points.
+#pragma once
+
+#include "cloud.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Texture coordinates of the corners of a mesh. A point on a seam has several.
+struct MeshTexture
+{
+  std::vector<Eigen::Vector2f> coordinates; ///< 0 to 1, v upwards
+  std::vector<std::uint32_t> points;        ///< parallel: the point of each, ascending
+  Triangles corners;                        ///< parallel to the triangles
+  std::string materials;                    ///< OBJ: name of the file of materials
+};
+
+/// The cloud with as many rows for each point as it has texture coordinates, and these as the
+/// fields s and t, of 32 bits: the first of a point in its own row, the others after all points. A
+/// point without one has -1. All fields are copied. Triangles are renumbered.
+Cloud
+doubleSeamPoints (const Cloud& cloud, const MeshTexture& texture, Triangles& triangles);
+
+/// Vertices that the doubled cloud has.
+inline std::size_t
+countVertices (const Cloud& cloud, const MeshTexture& texture)
+{
+  std::size_t doubled = 0;
+  for (std::size_t c = 1; c < texture.points.size (); ++c)
+    doubled += texture.points[c] == texture.points[c - 1] ? 1 : 0;
+  return cloud.size () + doubled;
+}
+
+/// An image of 8-bit colours, row by row from the top.
+struct ColourImage
+{
+  std::size_t side = 0; ///< in pixels; it is square
+  std::vector<std::array<std::uint8_t, 3>> pixels;
+};
+
+/// Side of the image at which an edge of the mesh is about two pixels long: a power of two from 256
+/// to 8192.
+/// \param area_used share of the square that the mesh covers
+std::size_t
+imageSideFor (std::size_t points, double area_used);
+
+/// Paints every triangle with the colours of its corners, which are averaged linearly in between.
+/// Pixels that no triangle covers get the colour of the nearest that one does, so that nothing
+/// shows at seams, at any level of a mipmap. O(pixels).
+/// \param cloud with colours (see colorFields)
+ColourImage
+bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& texture,
+             std::size_t side);
+
+/// Whether this build can write PNG files: that takes zlib.
+bool
+canWritePng ();
+
+/// The bytes of a PNG file.
+/// \throws std::runtime_error if this build cannot write one; std::bad_alloc
+std::vector<unsigned char>
+pngOf (const ColourImage& image);
+
+/// A file of materials for OBJ: one, named "surface", white, or with an image.
+/// \param image name of the image as the file of materials is to tell it; may be empty
+std::string
+materialsText (const std::string& image);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture_output.h"
+
+#include "format.h"
+#include "mesh_writer.h"
+#include "plural.h"
+
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+bool
+isObj (const CommandLine& line)
+{
+  return line.meshFormat () == MeshFormat::OBJ;
+}
+
+// The image as the file of materials names it: relative to its own folder, as readers expect it.
+std::string
+imageName (const CommandLine& line)
+{
+  if (line.texture.empty ())
+    return {};
+  const std::filesystem::path folder =
+      std::filesystem::absolute (line.output).parent_path ().lexically_normal ();
+  return std::filesystem::absolute (line.texture)
+      .lexically_normal ()
+      .lexically_proximate (folder)
+      .generic_string ();
+}
+
+} // namespace
+
+std::filesystem::path
+materialsOf (const CommandLine& line)
+{
+  std::filesystem::path path = line.output;
+  return line.texture_coordinates && isObj (line) ? path.replace_extension (".mtl")
+                                                  : std::filesystem::path ();
+}
+
+void
+checkTextureOptions (const CommandLine& line)
+{
+  const std::optional<MeshFormat> format = line.meshFormat ();
+  if (line.texture_coordinates && format && !canHaveTexture (*format))
+    throw UsageError ("STL, OFF and GLB are written without texture coordinates; write .vtk, .ply "
+                      "or .obj, or leave --uv and --texture out");
+  if (line.texture_coordinates && isObj (line) && isStandardStream (line.output))
+    throw UsageError ("the file of materials beside an OBJ file has no place on the standard "
+                      "output; write .ply or .vtk there, or leave --uv and --texture out");
+  if (!line.texture.empty () && lowerExtension (line.texture) != ".png")
+    throw UsageError ("--texture: '" + line.texture.string () +
+                      "' is no PNG file; give a name that ends with .png");
+  if (!line.texture.empty () && !canWritePng ())
+    throw UsageError ("--texture: this program was built without zlib, and cannot write PNG files; "
+                      "leave it out, or build pcl_floater where zlib is installed");
+  if (line.texture_size != 0 && line.texture.empty ())
+    throw UsageError ("--texture-size is of no use without --texture");
+  if (line.texture_coordinates && line.max_memory > 0)
+    throw UsageError ("--max-memory cannot limit the memory of --uv and --texture; leave one of "
+                      "them out");
+}
+
+void
+checkTextureColours (const CommandLine& line, const Cloud& cloud)
+{
+  if (!line.texture.empty () && !colorFields (cloud)[0])
+    throw UsageError (
+        "--texture: the points of '" + line.input.string () +
+        "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for texture "
+        "coordinates alone");
+}
+
+TextureCoordinates
+computeTexture (const CommandLine& line, const Cloud& cloud, Result& result)
+{
+  if (!line.texture_coordinates || result.report.status != RunStatus::SUCCESS)
+    return {};
+  TextureOptions options;
+  options.threads = line.options.threads;
+  options.whole_discs = result.report.topology == Topology::DISC;
+  TextureCoordinates texture =
+      computeTextureCoordinates (cloud.positions (), result.triangles, options);
+  if (texture.status != RunStatus::SUCCESS) {
+    result.report.status = texture.status;
+    result.report.message = "texture coordinates: " + texture.message;
+    result.triangles.clear ();
+  }
+  else if (texture.flipped > 0)
+    result.report.warnings.push_back (
+        counted (texture.flipped, "triangle") + (texture.flipped == 1 ? " is" : " are") +
+        " upside down in the texture: too small beside the mesh for 32 bits");
+  return texture;
+}
+
+MeshTexture
+takeMeshTexture (const CommandLine& line, const Cloud& cloud, TextureCoordinates& texture)
+{
+  MeshTexture result;
+  result.coordinates = std::move (texture.coordinates);
+  result.points = std::move (texture.points);
+  result.corners = std::move (texture.corners);
+  for (std::uint32_t& point : result.points)
+    point = cloud.kept.number (point);
+  result.materials = materialsOf (line).filename ().string ();
+  return result;
+}
+
+std::vector<std::string>
+stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
+              const MeshTexture& texture, double area_used,
+              std::vector<std::unique_ptr<AtomicFile>>& files)
+{
+  std::vector<std::string> notes;
+  const auto stage = [&files] (const std::filesystem::path& path) -> AtomicFile& {
+    return *files.emplace_back (std::make_unique<AtomicFile> (path));
+  };
+  if (isObj (line)) {
+    AtomicFile& file = stage (materialsOf (line));
+    file.write (materialsText (imageName (line)));
+    file.close ();
+    if ((materialsOf (line).filename ().string () + imageName (line)).find (' ') !=
+        std::string::npos)
+      notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
+                          "which many readers of OBJ files do not take");
+  }
+  if (!line.texture.empty ()) {
+    const std::size_t side = line.texture_size > 0
+                                 ? static_cast<std::size_t> (line.texture_size)
+                                 : imageSideFor (texture.coordinates.size (), area_used);
+    const std::vector<unsigned char> png = pngOf (bakeColours (cloud, triangles, texture, side));
+    AtomicFile& file = stage (line.texture);
+    file.write (png.data (), png.size ());
+    file.close ();
+  }
+  return notes;
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texture coordinates of the mesh, the texture, and the file of materials that names it.
+#pragma once
+
+#include "atomic_file.h"
+#include "command_line.h"
+#include "mesh_texture.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+#include <pcl/surface/floater/texture_coordinates.h>
+
+#include <memory>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Checks what the command line asks for.
+/// \throws UsageError
+void
+checkTextureOptions (const CommandLine& line);
+
+/// \throws UsageError if the points have no colours for the texture that is asked for
+void
+checkTextureColours (const CommandLine& line, const Cloud& cloud);
+
+/// Computes the coordinates that are asked for. If that fails, the result has no mesh any more, and
+/// says why.
+TextureCoordinates
+computeTexture (const CommandLine& line, const Cloud& cloud, Result& result);
+
+/// The coordinates for the writers, which are moved from.
+/// \param cloud the cloud, from which points without finite coordinates have been removed
+MeshTexture
+takeMeshTexture (const CommandLine& line, const Cloud& cloud, TextureCoordinates& texture);
+
+/// Writes the file of materials of an OBJ file and the image, under temporary names.
+/// \return what is odd about them, one sentence each
+std::vector<std::string>
+stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
+              const MeshTexture& texture, double area_used,
+              std::vector<std::unique_ptr<AtomicFile>>& files);
+
+/// The file of materials of an OBJ file, beside it.
+std::filesystem::path
+materialsOf (const CommandLine& line);
+
+} // namespace floater
+} // namespace pcl
