@@ -87,23 +87,6 @@ checkJson (const MeshCheck& check, bool is_view)
           {"loops", loops}};
 }
 
-// Null if no texture coordinates were asked for.
-Json
-textureJson (const CommandLine& line, const RunFigures& run)
-{
-  const TextureCoordinates& texture = run.texture;
-  if (texture.status != RunStatus::SUCCESS)
-    return {};
-  return {{"file", line.texture.empty () ? Json () : Json (line.texture.string ())},
-          {"charts", texture.chart_count},
-          {"stretch", texture.stretch},
-          {"largest_stretch", texture.largest_stretch},
-          {"area_used", texture.area_used},
-          {"seam_length", texture.seam_length},
-          {"gutter", texture.gutter},
-          {"flipped", texture.flipped}};
-}
-
 Json
 loopDecisionsJson (const Report& report)
 {
