@@ -22,7 +22,7 @@ def test_mesh_and_report_are_those_of_the_tool(torus_points, tool, dtype):
     triangles, report = tool(points)
     mesh = pcl_floater.reconstruct(points)
     assert np.array_equal(mesh.triangles, triangles)
-    of_files = {"tool", "output", "shift", "peak_memory_bytes", "memory_limit"}
+    of_files = {"tool", "output", "shift", "texture", "peak_memory_bytes", "memory_limit"}
     assert set(report) - set(mesh.report) == of_files
     for key in of_files:
         del report[key]
