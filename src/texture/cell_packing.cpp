@@ -66,13 +66,16 @@ public:
   // than the strip.
   CellPlace findPlace (const CellMask& shape, CellPlace from = {}) const
   {
-    for (CellPlace place = from;; ++place.y, place.x = 0)
-      while (place.x + shape.width <= width_ && isWideEnough (shape, place.y)) {
+    for (CellPlace place = from;; ++place.y, place.x = 0) {
+      if (!isWideEnough (shape, place.y))
+        continue;
+      while (place.x + shape.width <= width_) {
         const Index next = nextToTry (shape, place);
         if (next == place.x)
           return place;
         place.x = next;
       }
+    }
   }
 
   void occupy (const CellMask& shape, const CellPlace& place)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/charts.h"
+#include "texture/stretch.h"
 #include "texture/texture_method.h"
 
 #include "core/parallel.h"
@@ -18,7 +19,6 @@ namespace
 {
 using Layouts = std::vector<ChartLayout>;
 
-// One triangle more than once is no disc to be cut; one triangle always has a layout.
 class ChartCutter
 {
 public:
@@ -72,7 +72,8 @@ private:
   // Whether it stretches about as much everywhere, as noise does.
   bool isEven (const ChartLayout& chart) const
   {
-    return chart.median_stretch - 1.0 > limits_.even * (chart.stretch - 1.0);
+    return chart.stretch < limits_.too_much &&
+           chart.median_stretch - 1.0 > limits_.even * (chart.stretch - 1.0);
   }
 
   // At least two parts, if a chart has two triangles that can be parted.
@@ -110,16 +111,32 @@ listsOf (const MeshParts& parts)
   return lists;
 }
 
+double
+stretchOf (const ChartLayout& chart, const std::vector<Eigen::Vector3d>& positions)
+{
+  StretchSums sums;
+  for (const Triangle& t : chart.corners)
+    sums.add ({positions[chart.points[t[0]]], positions[chart.points[t[1]]],
+               positions[chart.points[t[2]]]},
+              {chart.uv[t[0]], chart.uv[t[1]], chart.uv[t[2]]});
+  return sums.mean ();
+}
+
 } // namespace
 
 Layouts
 layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              bool whole_discs, double largest_stretch, const TextureLimits& limits,
-              const RunContext& run)
+              const std::vector<Eigen::Vector3d>& smooth, bool whole_discs, double largest_stretch,
+              const TextureLimits& limits, const RunContext& run)
 {
   const SingleBlasThread single; // more cost time on small matrices, and change the last digits
   const RunContext within = run.withThreads (1).withinStage ();
-  const ChartCutter cutter (mesh, positions, largest_stretch, limits, within);
+  const ChartCutter by_smooth (mesh, smooth, largest_stretch, limits, within);
+  const ChartCutter by_true (mesh, positions, largest_stretch, limits, within);
+  // Where smoothing has taken away more than noise, it is done without.
+  const auto isRight = [&] (const ChartLayout& chart) {
+    return stretchOf (chart, positions) <= std::max (limits.too_much, chart.stretch);
+  };
   Layouts result;
   std::vector<std::uint8_t> is_done (mesh.triangles.size (), 0);
   if (whole_discs) {
@@ -127,8 +144,11 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     const std::vector<std::vector<Index>> lists =
         listsOf ({components.of_triangle, components.count});
     Layouts discs (lists.size ());
-    parallelTasks (run, lists.size (),
-                   [&] (std::size_t c) { discs[c] = cutter.layOut (lists[c]); });
+    parallelTasks (run, lists.size (), [&] (std::size_t c) {
+      discs[c] = by_smooth.layOut (lists[c]);
+      if (discs[c].uv.empty () || !isRight (discs[c]))
+        discs[c] = by_true.layOut (lists[c]);
+    });
     for (ChartLayout& disc : discs)
       if (!disc.uv.empty ()) {
         for (const Index t : disc.triangles)
@@ -137,14 +157,21 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
       }
   }
   run.beginStep (0.1);
-  const MeshParts parts =
-      findCharts (mesh, positions, {limits.charts.deviation, 1}, limits.charts, run);
+  const double deviation = limits.charts.deviation;
+  const MeshParts parts = findCharts (mesh, smooth, {deviation, 1}, limits.charts, run);
   run.beginStep (0.95);
   const std::vector<std::vector<Index>> lists = listsOf (parts);
   std::vector<Layouts> layouts (lists.size ());
   parallelTasks (run, lists.size (), [&] (std::size_t c) {
-    if (is_done[lists[c].front ()] == 0)
-      cutter.layOutParts (cutter.layOut (lists[c]), limits.charts.deviation, layouts[c]);
+    if (is_done[lists[c].front ()] != 0)
+      return;
+    Layouts by_parts;
+    by_smooth.layOutParts (by_smooth.layOut (lists[c]), deviation, by_parts);
+    for (ChartLayout& chart : by_parts)
+      if (isRight (chart))
+        layouts[c].push_back (std::move (chart));
+      else
+        by_true.layOutParts (by_true.layOut (chart.triangles), deviation, layouts[c]);
   });
   for (Layouts& of_part : layouts)
     std::move (of_part.begin (), of_part.end (), std::back_inserter (result));

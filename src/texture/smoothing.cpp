@@ -31,42 +31,53 @@ bendAt (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   return turn.dot (along) >= 0.0 ? angle : -angle;
 }
 
+// The angles at the edges of a vertex, or of several.
+struct Bends
+{
+  double outwards = 0.0, inwards = 0.0; // sums
+  std::size_t edges = 0;                // that are inside
+};
+
 // What is around a vertex.
 struct Surroundings
 {
-  double outwards = 0.0, inwards = 0.0; // sums of the angles at its edges
-  std::size_t edges = 0;                // that are inside
-  std::vector<Index> neighbors;         // in order
-  bool is_boundary = false;             // then the first and the last neighbour are on it
+  std::vector<Index> neighbors; // in order
+  bool is_boundary = false;     // then the first and the last neighbour are on it
 };
 
 void
-lookAround (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const std::vector<Eigen::Vector3d>& area_vectors, Index point, std::vector<Index>& fan,
-            Surroundings& around)
+lookAround (const TriangleMesh& mesh, Index point, std::vector<Index>& fan, Surroundings& around)
 {
-  around.outwards = around.inwards = 0.0;
-  around.edges = 0;
   around.neighbors.clear ();
   mesh.fan (point, fan);
+  const auto corner = [&] (Index t, std::uint8_t (*side) (std::uint8_t)) {
+    return mesh.triangles[t][side (mesh.sideOf (t, point))];
+  };
+  for (const Index t : fan)
+    around.neighbors.push_back (corner (t, TriangleMesh::next));
+  const Index last = corner (fan.back (), TriangleMesh::previous);
+  around.is_boundary = last != around.neighbors.front ();
+  if (around.is_boundary)
+    around.neighbors.push_back (last);
+}
+
+// Of the edges at a vertex.
+Bends
+bendsOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+         const std::vector<Eigen::Vector3d>& area_vectors, Index point, std::vector<Index>& fan)
+{
+  Bends bends;
+  mesh.fan (point, fan);
   for (const Index t : fan) {
-    const std::uint8_t corner = mesh.sideOf (t, point);
-    const std::uint8_t after = TriangleMesh::next (corner),
-                       before = TriangleMesh::previous (corner);
-    around.neighbors.push_back (mesh.triangles[t][after]);
-    // The edge to that neighbour is the side opposite to the corner before.
-    if (mesh.neighbors[t][before] == NONE)
+    // The edge that leaves the point in this triangle is the side opposite to the corner before.
+    const std::uint8_t side = TriangleMesh::previous (mesh.sideOf (t, point));
+    if (mesh.neighbors[t][side] == NONE)
       continue;
-    const double bend = bendAt (mesh, positions, area_vectors, {t, before});
-    (bend > 0.0 ? around.outwards : around.inwards) += std::abs (bend);
-    ++around.edges;
+    const double bend = bendAt (mesh, positions, area_vectors, {t, side});
+    (bend > 0.0 ? bends.outwards : bends.inwards) += std::abs (bend);
+    ++bends.edges;
   }
-  around.is_boundary = around.edges < fan.size ();
-  if (around.is_boundary) {
-    const Index last = fan.back ();
-    around.neighbors.push_back (
-        mesh.triangles[last][TriangleMesh::previous (mesh.sideOf (last, point))]);
-  }
+  return bends;
 }
 
 Eigen::Vector3d
@@ -88,36 +99,65 @@ smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
              const SmoothingLimits& limits, const RunContext& run)
 {
   std::vector<Eigen::Vector3d> current = positions, next = positions;
+  std::vector<double> reach (positions.size (), 0.0);
+  std::vector<Bends> bends (positions.size ());
   std::vector<std::uint8_t> bends_both_ways (positions.size ());
+  // Calls work (p, scratch) for every vertex.
+  const auto visit = [&] (const auto& work) {
+    parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+      std::vector<Index> fan;
+      for (std::size_t p = first; p < last; ++p)
+        if (mesh.triangle_of[p] != NONE)
+          work (static_cast<Index> (p), fan);
+    });
+  };
+  visit ([&] (Index p, std::vector<Index>& fan) {
+    Surroundings around;
+    lookAround (mesh, p, fan, around);
+    double sum = 0.0;
+    for (const Index q : around.neighbors)
+      sum += (positions[q] - positions[p]).norm ();
+    reach[p] = limits.farthest * sum / static_cast<double> (around.neighbors.size ());
+  });
   for (int round = 0; round < limits.rounds; ++round) {
     const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, current, run);
-    const auto visit = [&] (const auto& work) {
-      parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-        std::vector<Index> fan;
-        Surroundings around;
-        for (std::size_t p = first; p < last; ++p)
-          if (mesh.triangle_of[p] != NONE) {
-            lookAround (mesh, current, area_vectors, static_cast<Index> (p), fan, around);
-            work (p, around);
-          }
-      });
-    };
-    visit ([&] (std::size_t p, const Surroundings& around) {
-      bends_both_ways[p] = std::min (around.outwards, around.inwards) >
-                                   limits.bend * static_cast<double> (around.edges)
-                               ? 1
-                               : 0;
+    visit ([&] (Index p, std::vector<Index>& fan) {
+      bends[p] = bendsOf (mesh, current, area_vectors, p, fan);
+    });
+    visit ([&] (Index p, std::vector<Index>& fan) {
+      // A peak alone bends one way only; so the vertices beside it count as well.
+      bends_both_ways[p] = 0;
+      const double all = bends[p].outwards + bends[p].inwards;
+      if (all <= limits.bend * static_cast<double> (bends[p].edges))
+        return;
+      Surroundings around;
+      lookAround (mesh, p, fan, around);
+      Bends sum = bends[p];
+      for (const Index q : around.neighbors) {
+        sum.outwards += bends[q].outwards;
+        sum.inwards += bends[q].inwards;
+        sum.edges += bends[q].edges;
+      }
+      const double least = limits.bend * static_cast<double> (sum.edges);
+      bends_both_ways[p] = std::min (sum.outwards, sum.inwards) > least ? 1 : 0;
     });
     next = current;
     std::atomic<bool> has_moved{false};
-    visit ([&] (std::size_t p, const Surroundings& around) {
-      // Where creases of both kinds meet, only one vertex bends both ways.
-      const auto beside = std::count_if (around.neighbors.begin (), around.neighbors.end (),
-                                         [&] (Index q) { return bends_both_ways[q] != 0; });
-      if (bends_both_ways[p] == 0 ||
-          2 * static_cast<std::size_t> (beside) < around.neighbors.size ())
+    visit ([&] (Index p, std::vector<Index>& fan) {
+      if (bends_both_ways[p] == 0)
         return;
-      next[p] = meanOf (current, around);
+      Surroundings around;
+      lookAround (mesh, p, fan, around);
+      // Where creases of both kinds meet, only one vertex bends both ways.
+      const auto beside = static_cast<std::size_t> (
+          std::count_if (around.neighbors.begin (), around.neighbors.end (),
+                         [&] (Index q) { return bends_both_ways[q] != 0; }));
+      if (2 * beside < around.neighbors.size ())
+        return;
+      const Eigen::Vector3d way = meanOf (current, around) - positions[p];
+      const double length = way.norm ();
+      next[p] = length > reach[p] ? Eigen::Vector3d (positions[p] + reach[p] / length * way)
+                                  : Eigen::Vector3d (positions[p] + way);
       has_moved = true;
     });
     if (!has_moved)

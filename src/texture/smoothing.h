@@ -14,13 +14,18 @@ namespace floater
 /// What counts as noise.
 struct SmoothingLimits
 {
-  /// Mean over the edges at a vertex of the angles at which the surface bends outwards, and of
-  /// those at which it bends inwards; rough is where both are larger. Bodies, however coarse, and
-  /// creases bend one way. A vertex is rough if half of those beside it bend both ways, too. Noise
-  /// of a tenth of the spacing bends both ways by 10 degrees; in radians.
+  /// Mean over the edges at a vertex and at those beside it of the angles at which the surface
+  /// bends outwards, and of those at which it bends inwards, in radians; where both are larger, it
+  /// bends both ways. Bodies, however coarse, and creases bend one way. With angles that scatter by
+  /// 20 degrees, as noise of a tenth of the spacing makes them, it is 0.14. A vertex is rough if it
+  /// and half of those beside it bend both ways.
   double bend = 0.14;
 
   int rounds = 20; ///< at most; noise as large as the spacing takes 10
+
+  /// How far a vertex may be moved, in mean lengths of its edges: as far as noise that can still be
+  /// connected. Without this, thin parts would shrink to lines.
+  double farthest = 0.5;
 };
 
 /// Moves rough vertices to the mean of their neighbours, on the boundary to that of the two along

@@ -47,12 +47,16 @@ StretchSums::add (const StretchSums& other)
 double
 StretchSums::mean () const
 {
+  if (std::isinf (squares_)) // also if the area in the plane is negative
+    return squares_;
   return area_ > 0.0 ? std::sqrt (squares_ * plane_area_) / area_ : 1.0;
 }
 
 double
 StretchSums::largest () const
 {
+  if (std::isinf (largest_))
+    return largest_;
   return area_ > 0.0 ? largest_ * std::sqrt (plane_area_ / area_) : 1.0;
 }
 

@@ -130,8 +130,8 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
 
   // Charts, each a disc, and their layouts, of the surface without its noise.
   std::vector<ChartLayout> charts =
-      layOutCharts (mesh, smoothNoise (mesh, positions, limits.smoothing, run), options.whole_discs,
-                    options.largest_stretch, limits, run);
+      layOutCharts (mesh, positions, smoothNoise (mesh, positions, limits.smoothing, run),
+                    options.whole_discs, options.largest_stretch, limits, run);
 
   // All of them in one square, in single precision.
   result.gutter = packCharts (charts, limits.atlas, run).gutter;

@@ -35,19 +35,24 @@ struct TextureLimits
   /// where a small part sticks out, near 0.
   double even = 0.25;
 
+  /// A chart that stretches more than this is cut in any case: roughness that is left after
+  /// smoothing does not stretch so much.
+  double too_much = 1.5;
+
   /// Times the deviation of the parts is halved to cut a chart, before it is just cut in two.
   int halvings = 4;
 };
 
 /// Cuts a mesh into charts and lays them out, on all threads of the run.
 /// \param triangles an oriented manifold; may have any number of components
+/// \param smooth      positions without noise (smoothNoise)
 /// \param whole_discs components that are discs are not cut, however much they stretch
 /// \param largest_stretch mean stretch above which a chart is cut (see TextureOptions)
 /// \return the charts, in the order of their first triangles; none is left without a layout
 std::vector<ChartLayout>
 layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              bool whole_discs, double largest_stretch, const TextureLimits& limits,
-              const RunContext& run);
+              const std::vector<Eigen::Vector3d>& smooth, bool whole_discs, double largest_stretch,
+              const TextureLimits& limits, const RunContext& run);
 
 /// The whole way. Sets all but the status and the message.
 /// \return the status and message: INVALID_INDICES or INVALID_OPTION for bad input

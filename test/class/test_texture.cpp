@@ -144,7 +144,7 @@ TEST_F (FloaterClass, TextureFailuresAreThoseOfTheRun)
   EXPECT_EQ (std::count (fractions.begin (), fractions.end (), 1.0), 1);
   double reached = 0.0;
   floater.setProgressCallback ([&reached] (double done) { reached = done; });
-  floater.setCancelledCallback ([&reached] { return reached > 0.5; });
+  floater.setCancelledCallback ([&reached] { return reached >= 0.5; });
   floater.reconstruct (polygons);
   EXPECT_EQ (floater.getStatus (), RunStatus::CANCELLED);
   EXPECT_TRUE (polygons.empty ());

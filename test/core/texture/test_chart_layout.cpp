@@ -67,6 +67,7 @@ TEST (Stretch, OfKnownMaps)
   StretchSums flipped;
   flipped.add (place, {{{0, 0}, {0, 1}, {1, 0}}});
   EXPECT_TRUE (std::isinf (flipped.mean ()));
+  EXPECT_TRUE (std::isinf (flipped.largest ()));
   StretchSums line;
   line.add ({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, {{{0, 0}, {1, 0}, {0, 1}}});
   EXPECT_EQ (line.mean (), 1.0);
@@ -229,7 +230,7 @@ TEST (Smoothing, MovesNoiseOnly)
   // So it is one chart, or few.
   const TriangleMesh mesh = connect (noisy);
   EXPECT_LE (findCharts (mesh, smooth, {}, {}, 1).count, 2U);
-  EXPECT_GT (findCharts (mesh, noisy.positions, {}, {}, 1).count, 10U);
+  EXPECT_GT (findCharts (mesh, noisy.positions, {}, {}, 1).count, 4U);
 }
 
 // Facets of several triangles, as large meshes have them.
