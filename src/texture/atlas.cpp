@@ -42,6 +42,7 @@ longSideOfBox (const ChartLayout& chart)
     places.emplace_back (chart.uv[p].x (), chart.uv[p].y ());
   CGAL::convex_hull_2 (places.begin (), places.end (), std::back_inserter (corners));
   std::vector<Eigen::Vector2d> hull;
+  hull.reserve (corners.size ());
   for (const Kernel::Point_2& p : corners)
     hull.emplace_back (p.x (), p.y ());
   Eigen::Vector2d best = Eigen::Vector2d::UnitX ();

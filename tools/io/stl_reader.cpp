@@ -44,18 +44,29 @@ public:
 private:
   static constexpr std::uint32_t FREE = std::numeric_limits<std::uint32_t>::max ();
 
+  static std::uint64_t bitsOf (Number coordinate)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy (&bits, &coordinate, sizeof coordinate);
+    return bits;
+  }
+
+  static bool haveEqualBits (const Point& a, const Point& b)
+  {
+    return std::equal (a.begin (), a.end (), b.begin (),
+                       [] (Number p, Number q) { return bitsOf (p) == bitsOf (q); });
+  }
+
   /// The slot of a point, or a free one for it. Equal bits are equal, also those of a NaN.
   std::size_t slotOf (const Point& point) const
   {
     std::uint64_t hash = 0;
     for (const Number& coordinate : point) {
-      std::uint64_t bits = 0;
-      std::memcpy (&bits, &coordinate, sizeof coordinate);
-      hash = (hash ^ bits) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
+      hash = (hash ^ bitsOf (coordinate)) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
       hash ^= hash >> 32U;
     }
     std::size_t at = static_cast<std::size_t> (hash) & (slots_.size () - 1);
-    while (slots_[at] != FREE && std::memcmp (&points_[slots_[at]], &point, sizeof point) != 0)
+    while (slots_[at] != FREE && !haveEqualBits (points_[slots_[at]], point))
       at = (at + 1) & (slots_.size () - 1);
     return at;
   }

@@ -14,8 +14,9 @@ if ! command -v Xvfb >/dev/null; then
   exit 1
 fi
 
-# Xvfb chooses a free display, and writes its number when it is ready.
-coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null; }
+# Xvfb chooses a free display, and writes its number when it is ready. Without -noreset, it starts anew
+# when its last client leaves, and the next connection of the same program may fail.
+coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp -noreset 2>/dev/null; }
 server_id=$!
 # Waits for the end of the server, which would else remove the socket of the next one that takes its
 # number.
