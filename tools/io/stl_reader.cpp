@@ -5,6 +5,7 @@
 #include "plural.h"
 #include "text_scanner.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace pcl
