@@ -283,6 +283,7 @@ Table::fields (std::vector<std::string>& warnings)
         *to++ = static_cast<char> (std::lround (scale.factor * number));
     }
   std::vector<Field*> all;
+  all.reserve (fields.size ());
   for (Field& field : fields)
     all.push_back (&field);
   viewRows (all, {values_, bytes}, HOST_BYTE_ORDER);

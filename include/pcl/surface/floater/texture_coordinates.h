@@ -31,8 +31,10 @@ struct TextureOptions
 
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
 
-  /// Called with the fraction that is done, and asked whether to end, as in Options.
+  /// Called with the fraction that is done, as in Options.
   std::function<void (double)> progress_callback;
+
+  /// Asked whether to end, as in Options.
   std::function<bool ()> cancelled_callback;
 };
 
