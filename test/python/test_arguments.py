@@ -24,10 +24,12 @@ SQUARE = np.zeros((9, 3))
     (np.zeros(5, [("x", "f4"), ("y", "f4"), ("z", "f4")]), TypeError,
      "points is an array with the fields x, y, z; use numpy.column_stack"),
     (np.ma.zeros((5, 3)), TypeError, "points is a masked array, whose mask would be lost"),
-    (np.zeros((5, 4)), ValueError, r"points must have the shape (n, 3), not (5, 4)"),
+    (np.zeros((5, 4)), ValueError, r"points must have the shape (n, 3) or (rows, columns, 3), not (5, 4)"),
     (np.zeros((3, 5)), ValueError, "not (3, 5)"),
     (np.zeros(3), ValueError, "not (3,)"),
-    (np.zeros((2, 5, 3)), ValueError, "not (2, 5, 3)"),
+    (np.zeros((2, 3, 5)), ValueError, "not (2, 3, 5)"),
+    (np.zeros((2, 2, 5, 3)), ValueError, "not (2, 2, 5, 3)"),
+    (np.zeros((2, 5, 3), int), TypeError, "not int64"),
     (1.5, ValueError, "not ()"),
 ])
 def test_wrong_points(points, kind, text):
@@ -37,7 +39,7 @@ def test_wrong_points(points, kind, text):
 
 
 @pytest.mark.parametrize("arguments, kind, text", [
-    (dict(normals=np.zeros((9, 2))), ValueError, "normals must have the shape (n, 3), not (9, 2)"),
+    (dict(normals=np.zeros((9, 2))), ValueError, "normals must have the shape (n, 3) or (rows, columns, 3), not (9, 2)"),
     (dict(normals=np.zeros((8, 3))), ValueError, "there are 8 normals of 9 points"),
     (dict(normals=np.zeros((9, 3), int)), TypeError, "normals must be an array of float32 or float64"),
     (dict(normals=SQUARE, facing="up"), ValueError, "normals are given, but facing does not ask for them"),
@@ -136,13 +138,22 @@ def test_compiled_part_checks_what_it_gets():
     """Nothing that Python can pass reaches memory that is not there."""
     run = pcl_floater._core.run
     with pytest.raises(TypeError, match="has no argument 'colour'"):
-        run(SQUARE, None, None, {"colour": 1}, None)
+        run(SQUARE, 0, None, None, {"colour": 1}, None)
     for array in (np.zeros((5, 2)), np.zeros(5), np.zeros((5, 3), np.int32), np.zeros((5, 3), np.int64),
                   np.zeros((5, 3), np.complex64)):
         with pytest.raises(ValueError, match=r"shape \(n, 3\)"):
-            run(array, None, None, {}, None)
+            run(array, 0, None, None, {}, None)
     with pytest.raises(TypeError):
-        run(7, None, None, {}, None)
+        run(7, 0, None, None, {}, None)
+    assert run(SQUARE, 2, None, None, {}, None)[0] == "INVALID_INDICES"  # 9 points in rows of 2
+    for function in (pcl_floater._core.vertex_normals,
+                     lambda *mesh: pcl_floater._core.texture_coordinates(*mesh[:2], 1.06, False, 1, None)):
+        for triangles in (np.zeros((2, 2), np.uint32), np.zeros(3, np.uint32), np.zeros((2, 3), np.int64),
+                          np.zeros((2, 3), np.float32), np.zeros((4, 6), np.uint32)[:, ::2]):
+            with pytest.raises(ValueError, match=r"shape \(m, 3\)"):
+                function(SQUARE, triangles, 1)
+    with pytest.raises(IndexError):
+        pcl_floater._core.vertex_normals(SQUARE, np.full((1, 3), 9, np.uint32), 1)
 
 
 @pytest.mark.parametrize("points, arguments, status, text", [

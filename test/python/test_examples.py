@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pcl_floater
+import pcl_floater._on_meshes
 import pytest
 
 from conftest import ROOT, torus
@@ -23,8 +24,9 @@ def test_example_ends_well(example, tmp_path):
 
 def test_documentation_is_true():
     names = {**vars(pcl_floater), "points": torus(100, 40)}
-    assert doctest.testmod(pcl_floater, extraglobs=names).attempted == 3
-    assert doctest.testmod(pcl_floater, extraglobs=names).failed == 0
+    for module, examples in ((pcl_floater, 3), (pcl_floater._on_meshes, 6)):
+        tested = doctest.testmod(module, extraglobs=names)
+        assert (tested.attempted, tested.failed) == (examples, 0)
 
 
 def test_examples_were_found():

@@ -98,6 +98,43 @@ def test_precision_is_that_of_doubles(terrain_points):
     assert np.array_equal(mesh.triangles, pcl_floater.reconstruct(terrain_points).triangles)
 
 
+def depth_image(rows=60, columns=80):
+    """A wall and a ball in front of it, from a camera in the origin that sees nothing in one corner."""
+    v, u = np.mgrid[:rows, :columns]
+    rays = np.stack([(u - columns / 2) / columns, (v - rows / 2) / columns, np.ones_like(u, float)], -1)
+    ball = np.array([0.1, 0.05, 1.5])
+    along, square = rays @ ball, np.sum(rays**2, -1)
+    under_root = along**2 - square * (ball @ ball - 0.3**2)
+    depth = np.where(under_root > 0, (along - np.sqrt(np.maximum(under_root, 0))) / square, 3.0)
+    depth[:10, :10] = np.nan
+    return (rays * depth[..., None]).astype(np.float32)
+
+
+def test_organized_cloud_is_connected_by_its_pixels():
+    image = depth_image()
+    mesh = pcl_floater.reconstruct(image, sensor_origin=(0, 0, 0))
+    as_list = pcl_floater.reconstruct(image.reshape(-1, 3), sensor_origin=(0, 0, 0))
+    assert mesh.report["viewpoint"]["by_pixels"] and not as_list.report["viewpoint"]["by_pixels"]
+    assert len(mesh.triangles) > 8000 and np.array_equal(mesh.triangles, as_list.triangles)
+    assert mesh.points.shape == (4800, 3) and np.shares_memory(mesh.points, image)
+    assert len(mesh.non_finite) == 100
+
+
+def test_one_row_of_an_organized_cloud_is_a_list(terrain_points):
+    expected = pcl_floater.reconstruct(terrain_points).triangles
+    for shape in ((1, -1, 3), (-1, 1, 3)):
+        assert np.array_equal(pcl_floater.reconstruct(terrain_points.reshape(shape)).triangles, expected)
+
+
+def test_normals_of_an_organized_cloud():
+    image = depth_image()
+    towards = -image / np.linalg.norm(image, axis=-1, keepdims=True)
+    mesh = pcl_floater.reconstruct(image, normals=towards, facing="normals", sensor_origin=(0, 0, 0))
+    corners = mesh.points[mesh.triangles].astype(float)
+    facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.sum(facing * corners[:, 0], axis=1).max() < 0
+
+
 def test_points_are_the_array_that_was_given(torus_points):
     assert pcl_floater.reconstruct(torus_points).points is torus_points
     wide = np.hstack([torus_points, torus_points])

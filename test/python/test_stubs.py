@@ -19,7 +19,8 @@ OF_THE_TOOL_ONLY = {
     "max_memory", "scratch",  # the arrays of a program are its own
     "shift", "precision",  # the points stay as they are, in double precision
     "report", "parameterization",  # of every Mesh
-    "input_format", "output_format", "normals", "uv", "texture", "texture_size",  # of files
+    "input_format", "output_format", "texture", "texture_size",  # of files
+    "normals", "uv",  # functions of their own: vertex_normals, texture_coordinates
     "json", "quiet", "help", "version"}
 
 
@@ -36,28 +37,32 @@ def annotations():
 
 
 SIGNATURE = inspect.signature(pcl_floater.reconstruct)
+FUNCTIONS = ("reconstruct", "texture_coordinates", "vertex_normals")
 
 
-def test_signature_is_that_of_the_stub(stub):
-    arguments = stub["reconstruct"].args
-    assert [a.arg for a in arguments.args] == ["points"]
-    assert SIGNATURE.parameters["points"].kind is inspect.Parameter.POSITIONAL_OR_KEYWORD
+@pytest.mark.parametrize("function", FUNCTIONS)
+def test_signature_is_that_of_the_stub(stub, function):
+    arguments = stub[function].args
+    parameters = inspect.signature(getattr(pcl_floater, function)).parameters
+    assert [a.arg for a in arguments.args] == [name for name, p in parameters.items()
+                                               if p.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD]
     in_stub = {a.arg: ast.literal_eval(default) for a, default in zip(arguments.kwonlyargs, arguments.kw_defaults)}
-    in_module = {name: p.default for name, p in SIGNATURE.parameters.items()
-                 if p.kind is inspect.Parameter.KEYWORD_ONLY}
-    assert list(in_stub.items()) == list(in_module.items())
-    assert len(in_stub) + 1 == len(SIGNATURE.parameters)
+    in_module = {name: p.default for name, p in parameters.items() if p.kind is inspect.Parameter.KEYWORD_ONLY}
+    assert in_module and list(in_stub.items()) == list(in_module.items())
+    assert len(arguments.args) + len(in_stub) == len(parameters)
 
 
 def test_classes_are_those_of_the_stub(stub, terrain_points):
     assert {name for name in stub if not name.startswith("_")} == set(pcl_floater.__all__)
     mesh = pcl_floater.reconstruct(terrain_points)
-    members = {getattr(node, "name", None) or node.target.id for node in stub["Mesh"].body}
-    members = {name for name in members if not name.startswith("_")}
-    assert members == {name for name in dir(mesh) if not name.startswith("_")}
-    attributes = inspect.getdoc(pcl_floater.Mesh)
-    for name in members:
-        assert re.search(rf"^{name} : ", attributes, re.MULTILINE), name
+    texture = pcl_floater.texture_coordinates(mesh.points, mesh.triangles)
+    for made in (mesh, texture):
+        members = {getattr(node, "name", None) or node.target.id for node in stub[type(made).__name__].body}
+        members = {name for name in members if not name.startswith("_")}
+        assert members == {name for name in dir(made) if not name.startswith("_")}
+        attributes = inspect.getdoc(type(made))
+        for name in members:
+            assert re.search(rf"^{name} : ", attributes, re.MULTILINE), name
     in_stub = [a.arg for node in stub["FloaterError"].body if isinstance(node, ast.FunctionDef) for a in node.args.args]
     assert in_stub == list(inspect.signature(pcl_floater.FloaterError.__init__).parameters)
 
@@ -89,7 +94,7 @@ def test_every_option_of_the_tool_is_an_argument():
 
 def test_defaults_are_those_of_the_core(terrain_points):
     """A run is given all arguments, so that a report tells nothing of the defaults of the core."""
-    status, _, _, known, _ = pcl_floater._core.run(terrain_points, None, None, {}, None)
+    status, _, _, known, _ = pcl_floater._core.run(terrain_points, 0, None, None, {}, None)
     assert status == "SUCCESS"
     of_core = known["options"]
     del of_core["loop_given"]
@@ -99,10 +104,14 @@ def test_defaults_are_those_of_the_core(terrain_points):
     assert arguments == of_core
 
 
-def test_every_argument_is_documented(annotations):
-    text = inspect.getdoc(pcl_floater.reconstruct)
+@pytest.mark.parametrize("function", FUNCTIONS)
+def test_every_argument_is_documented(function):
+    text = inspect.getdoc(getattr(pcl_floater, function)).partition("\nReturns\n")[0]
     described = [name for line in re.findall(r"^(\w+(?:, \w+)*) : ", text, re.MULTILINE) for name in line.split(", ")]
-    assert described == list(SIGNATURE.parameters)
+    assert described == list(inspect.signature(getattr(pcl_floater, function)).parameters)
+
+
+def test_every_argument_has_a_type(annotations):
     assert set(annotations) == set(SIGNATURE.parameters) | {"return"}
 
 

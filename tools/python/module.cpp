@@ -5,9 +5,12 @@
 #include "check_input.h"
 #include "check_options.h"
 #include "keywords.h"
+#include "mesh_functions.h"
 #include "published_method.h"
 #include "report_json.h"
 #include "result_arrays.h"
+#include "rows.h"
+#include "watch.h"
 
 #include <nlohmann/json.hpp>
 #include <pybind11/pybind11.h>
@@ -15,9 +18,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
-#include <exception>
-#include <limits>
 #include <numeric>
 
 namespace py = pybind11;
@@ -54,111 +54,6 @@ toPython (const nlohmann::ordered_json& json)
   }
   return py::none ();
 }
-
-/// Rows of three numbers in an array of NumPy, wherever they are in memory.
-/// \throws pybind11::value_error
-class Rows
-{
-public:
-  explicit Rows (const py::buffer& buffer) : info_ (buffer.request ())
-  {
-    // Memory that is not aligned has a sign before the letter.
-    const char type = info_.format.empty () ? ' ' : info_.format.back ();
-    const bool has_floats = (type == 'f' && info_.itemsize == sizeof (float)) ||
-                            (type == 'd' && info_.itemsize == sizeof (double));
-    if (info_.ndim != 2 || info_.shape[1] != 3 || !has_floats)
-      throw py::value_error ("an array of the shape (n, 3) of floats is expected");
-    if (info_.shape[0] > std::numeric_limits<std::int32_t>::max ())
-      throw py::value_error ("more than 2147483647 points; reconstruct parts of the cloud");
-  }
-
-  std::size_t size () const { return static_cast<std::size_t> (info_.shape[0]); }
-
-  /// The only copy of the points that is made. \tparam Vector of Eigen, with three elements
-  template <typename Vector>
-  std::vector<Vector> copy () const
-  {
-    return info_.itemsize == 4 ? copyOf<Vector, float> () : copyOf<Vector, double> ();
-  }
-
-private:
-  template <typename Vector, typename Number>
-  std::vector<Vector> copyOf () const
-  {
-    using To = typename Vector::Scalar;
-    std::vector<Vector> rows (size ());
-    const char* row = static_cast<const char*> (info_.ptr);
-    for (Vector& vector : rows) {
-      for (py::ssize_t axis = 0; axis < 3; ++axis) {
-        Number number; // the memory need not be aligned
-        std::memcpy (&number, row + axis * info_.strides[1], sizeof (number));
-        vector[axis] = static_cast<To> (number);
-      }
-      row += info_.strides[0];
-    }
-    return rows;
-  }
-
-  py::buffer_info info_;
-};
-
-/// Tells Python's caller how far a run is, and ends the run if the callable or a signal raised an
-/// exception. The run does not hold the lock of the interpreter (GIL) meanwhile.
-class Watch
-{
-public:
-  explicit Watch (py::object progress) : progress_ (std::move (progress))
-  {
-    // Signals are handled in the main thread only.
-    const auto threading = py::module_::import ("threading");
-    handles_signals_ = threading.attr ("current_thread") ().is (threading.attr ("main_thread") ());
-  }
-
-  void attachTo (Options& options)
-  {
-    options.cancelled_callback = [this] { return isCancelled (); };
-    if (progress_.is_none ())
-      return;
-    options.stage_callback = [this] (Stage stage) { stage_ = stageName (stage); };
-    options.progress_callback = [this] (double fraction) { tell (fraction); };
-  }
-
-  /// To be called with the lock. \throws what was raised during the run
-  void rethrow () const
-  {
-    if (raised_)
-      std::rethrow_exception (raised_);
-  }
-
-private:
-  void tell (double fraction)
-  {
-    if (raised_)
-      return;
-    const py::gil_scoped_acquire lock;
-    try {
-      progress_ (stage_, fraction);
-    }
-    catch (const py::error_already_set&) {
-      raised_ = std::current_exception ();
-    }
-  }
-
-  bool isCancelled ()
-  {
-    if (!raised_ && handles_signals_) {
-      const py::gil_scoped_acquire lock;
-      if (PyErr_CheckSignals () != 0)
-        raised_ = std::make_exception_ptr (py::error_already_set ());
-    }
-    return raised_ != nullptr;
-  }
-
-  py::object progress_;
-  bool handles_signals_ = false;
-  const char* stage_ = "";
-  std::exception_ptr raised_;
-};
 
 /// \throws pybind11::value_error
 Input
@@ -202,10 +97,11 @@ makeInput (const Rows& rows, const py::object& normals, const py::object& sensor
   return input;
 }
 
+/// \param lattice_width of an organized cloud: points of a row; else 0
 /// \return status, message, warnings, the part of the report that the core knows, and the arrays
 py::tuple
-run (const py::buffer& points, const py::object& normals, const py::object& sensor_origin,
-     const py::dict& keywords, const py::object& progress)
+run (const py::buffer& points, std::size_t lattice_width, const py::object& normals,
+     const py::object& sensor_origin, const py::dict& keywords, const py::object& progress)
 {
   GivenOptions asked = readKeywords (keywords);
   Options& options = asked.options;
@@ -214,6 +110,7 @@ run (const py::buffer& points, const py::object& normals, const py::object& sens
     throw py::value_error (problem.message);
   const Rows rows (points);
   Input input = makeInput (rows, normals, sensor_origin, asked);
+  input.lattice_width = lattice_width;
   if (const Problem facing = checkFacing (input, options))
     throw py::value_error (facing.message);
 
@@ -251,4 +148,5 @@ PYBIND11_MODULE (_core, module)
   module.attr ("__version__") = PCL_FLOATER_VERSION;
   pcl::floater::defineResultArray (module);
   module.def ("run", &pcl::floater::run);
+  pcl::floater::defineMeshFunctions (module);
 }

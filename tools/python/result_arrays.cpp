@@ -14,6 +14,7 @@ py::buffer_info
 bufferOf (const ResultArray& array)
 {
   static_assert (sizeof (int) == sizeof (std::uint32_t), "the format of the indices is i");
+  static_assert (sizeof (int) == sizeof (float), "the sizes of the formats i and f");
   const auto size =
       static_cast<py::ssize_t> (array.format[0] == 'd' ? sizeof (double) : sizeof (int));
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t> (array.rows)};

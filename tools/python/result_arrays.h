@@ -17,9 +17,9 @@ namespace floater
 /// version of NumPy's C interface. Keeps the whole result alive.
 struct ResultArray
 {
-  std::shared_ptr<const Result> result;
+  std::shared_ptr<const void> owner;
   const void* first = nullptr;
-  const char* format = "i"; ///< of the elements: "i" or "d"
+  const char* format = "i"; ///< of the elements: "i", "f" or "d"
   std::size_t rows = 0;
   std::size_t columns = 0; ///< 0: an array of one dimension
 };

@@ -17,30 +17,12 @@ import functools
 import numpy as np
 
 from . import _core
+from ._arrays import as_rows as _rows
 from ._core import __version__
+from ._errors import FloaterError
+from ._on_meshes import Texture, texture_coordinates, vertex_normals
 
-__all__ = ["FloaterError", "Mesh", "reconstruct"]
-
-
-class FloaterError(RuntimeError):
-    """There is no mesh. The text names the cause, and what to do.
-
-    Attributes
-    ----------
-    status : str
-        The outcome in one word, such as "TOO_FEW_POINTS" or "NO_BOUNDARY"; "WARNINGS" if it was
-        `strict` that refused the mesh. doc/troubleshooting.md has all of them.
-    report : dict
-        The report on the run, as `Mesh.report`. Its "message" is the text of the exception.
-    """
-
-    def __init__(self, message, status, report):
-        super().__init__(message)
-        self.status = status
-        self.report = report
-
-    def __reduce__(self):
-        return type(self), (str(self), self.status, self.report)
+__all__ = ["FloaterError", "Mesh", "Texture", "reconstruct", "texture_coordinates", "vertex_normals"]
 
 
 class Mesh:
@@ -52,7 +34,7 @@ class Mesh:
     Attributes
     ----------
     points : numpy.ndarray, shape (n, 3), float32 or float64
-        The cloud, as it was given: the same array, if it was one. Vertices of the mesh.
+        The cloud, as it was given: the same array, if it was one of this shape. Vertices of the mesh.
     triangles : numpy.ndarray, shape (m, 3), int32
         Points of each triangle, anti-clockwise as seen from the front.
     warnings : tuple of str
@@ -107,21 +89,13 @@ def _with_lists(report, arrays):
     return {**report, **{name: arrays[name].tolist() for name in names}}
 
 
-def _rows(name, given):
-    """The array of three columns that was given, not copied, with what the compiled part relies on."""
-    if isinstance(given, np.ma.MaskedArray):
-        raise TypeError(f"{name} is a masked array, whose mask would be lost; use "
-                        f"{name}.filled(numpy.nan)")
-    array = np.asarray(given)
-    if array.dtype.names:
-        raise TypeError(f"{name} is an array with the fields {', '.join(array.dtype.names)}; use "
-                        f"numpy.column_stack(({name}['x'], {name}['y'], {name}['z'])), say")
-    if array.dtype not in (np.float32, np.float64):
-        raise TypeError(f"{name} must be an array of float32 or float64, not {array.dtype}; "
-                        f"numpy.asarray({name}, float) converts it if it can be")
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{name} must have the shape (n, 3), not {array.shape}")
-    return array
+def _as_list(name, given):
+    """The rows of a list, or of an organized cloud, and the number of columns of that, else 0."""
+    array = np.asanyarray(given)
+    if array.ndim != 3 or array.shape[2] != 3:
+        return _rows(name, given, "(n, 3) or (rows, columns, 3)"), 0
+    rows, columns = array.shape[:2]
+    return _rows(name, array.reshape(-1, 3)), columns if rows > 1 and columns > 1 else 0
 
 
 def _loop(given):
@@ -157,10 +131,12 @@ def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", ho
 
     Parameters
     ----------
-    points : array, shape (n, 3), float32 or float64
+    points : array, shape (n, 3) or (rows, columns, 3), float32 or float64
         The cloud. It may have any strides, so that `scan[:, :3]` is not copied. Points with a NaN or
-        infinite coordinate, and repeated points, are in no triangle.
-    normals : array, shape (n, 3), float32 or float64, optional
+        infinite coordinate, and repeated points, are in no triangle. Of an organized cloud, as a depth
+        camera gives it, the points are counted row by row; one that was seen from `sensor_origin` is
+        connected in less time by its rows and columns, with the same mesh.
+    normals : array, of the shape of the points, float32 or float64, optional
         Normals of the points, of any length. With `facing` "auto" or "normals" they tell where the
         front is; see also `use_input_normals`. Where one is zero or not finite, it tells nothing.
     sensor_origin : three numbers, optional
@@ -294,9 +270,10 @@ def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", ho
         raise TypeError(f"progress must be a callable, not {progress!r}")
     if not isinstance(strict, (bool, np.bool_)):
         raise TypeError(f"strict must be True or False, not {strict!r}")
-    array = _rows("points", given)
+    array, columns = _as_list("points", given)
     status, message, warnings, known, arrays = _core.run(
-        array, None if normals is None else _rows("normals", normals), sensor_origin, options, progress)
+        array, columns, None if normals is None else _as_list("normals", normals)[0], sensor_origin,
+        options, progress)
     arrays = {name: None if values is None else np.asarray(values) for name, values in arrays.items()}
     if strict and status == "SUCCESS" and warnings:
         status = "WARNINGS"

@@ -35,6 +35,30 @@ class Mesh:
     @cached_property
     def report(self) -> Dict[str, Any]: ...
 
+class Texture:
+    coordinates: NDArray[np.float32]
+    points: NDArray[np.int32]
+    corners: NDArray[np.int32]
+    charts: NDArray[np.int32]
+    seams: NDArray[np.int32]
+    report: Dict[str, Any]
+    def __init__(self, arrays: Dict[str, Any], report: Dict[str, Any]) -> None: ...
+
+def vertex_normals(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    *,
+    threads: int = 0,
+) -> NDArray[np.float32]: ...
+def texture_coordinates(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    *,
+    largest_stretch: float = 1.06,
+    whole_discs: bool = False,
+    threads: int = 0,
+    progress: Optional[Callable[[str, float], object]] = None,
+) -> Texture: ...
 def reconstruct(
     points: ArrayLike,
     *,

@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Normals and texture coordinates of meshes."""
+import pickle
+
+import numpy as np
+import pcl_floater
+import pytest
+
+CORNERS = np.array([[0, 1, 2]])
+POINTS = np.eye(3)
+
+
+@pytest.fixture(scope="module")
+def torus_mesh(torus_points):
+    return pcl_floater.reconstruct(torus_points)
+
+
+def test_normals_of_a_torus(torus_points, torus_mesh):
+    normals = pcl_floater.vertex_normals(torus_points, torus_mesh.triangles)
+    assert normals.dtype == np.float32 and normals.shape == torus_points.shape
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-6)
+    x, y, z = torus_points.T
+    ring = 5 / np.hypot(x, y)
+    outwards = np.stack([x - ring * x, y - ring * y, z], -1) / 2
+    assert np.sum(normals * outwards, axis=1).min() > 0.99
+
+
+def test_normal_of_a_point_without_triangles_is_zero():
+    normals = pcl_floater.vertex_normals(np.vstack([POINTS, [[9, 9, 9]]]), CORNERS)
+    assert np.array_equal(normals[3], [0, 0, 0])
+    assert np.allclose(normals[:3], 3**-0.5)
+
+
+def signed_areas(texture):
+    a, b, c = (texture.coordinates[texture.corners[:, corner]].astype(float) for corner in range(3))
+    return (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+
+
+def test_texture_of_a_torus(torus_points, torus_mesh):
+    texture = pcl_floater.texture_coordinates(torus_points, torus_mesh.triangles)
+    assert np.array_equal(texture.points[texture.corners], torus_mesh.triangles)
+    assert texture.coordinates.min() >= 0 and texture.coordinates.max() <= 1
+    assert signed_areas(texture).min() > 0
+    report = texture.report
+    assert report["flipped"] == 0 and 1 <= report["stretch"] < 1.1
+    assert report["charts"] == texture.charts.max() + 1 >= 2
+    assert report["area_used"] == pytest.approx(signed_areas(texture).sum() / 2, rel=1e-3)
+    lengths = np.linalg.norm(np.subtract(*torus_points[texture.seams.T]), axis=1)
+    assert report["seam_length"] == pytest.approx(lengths.sum())
+    assert repr(texture).startswith(f"<pcl_floater.Texture: {report['charts']} charts, ")
+    again = pickle.loads(pickle.dumps(texture))
+    assert np.array_equal(again.coordinates, texture.coordinates) and again.report == report
+
+
+def test_terrain_is_one_chart(terrain_points):
+    mesh = pcl_floater.reconstruct(terrain_points)
+    texture = pcl_floater.texture_coordinates(terrain_points, mesh.triangles, whole_discs=True, threads=1)
+    assert texture.report["charts"] == 1 and len(texture.seams) == 0
+    assert np.array_equal(np.sort(texture.points), np.arange(len(terrain_points)))
+
+
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint8, list])
+def test_triangles_of_any_kind(kind):
+    triangles = CORNERS.tolist() if kind is list else CORNERS.astype(kind)
+    assert pcl_floater.texture_coordinates(POINTS, triangles).report["charts"] == 1
+    assert np.allclose(pcl_floater.vertex_normals(POINTS.astype(np.float32), triangles), 3**-0.5)
+
+
+def test_mesh_without_triangles():
+    assert np.array_equal(pcl_floater.vertex_normals(POINTS, np.zeros((0, 3), int)), np.zeros((3, 3)))
+    texture = pcl_floater.texture_coordinates(POINTS, np.zeros((0, 3), int))
+    assert texture.coordinates.shape == (0, 2) and texture.report["charts"] == 0
+
+
+WRONG = [
+    ((POINTS[:, :2], CORNERS), ValueError, "points must have the shape (n, 3), not (3, 2)"),
+    ((POINTS.astype(int), CORNERS), TypeError, "points must be an array of float32 or float64"),
+    ((POINTS, CORNERS[0]), ValueError, "triangles must have the shape (m, 3), not (3,)"),
+    ((POINTS, CORNERS.astype(float)), TypeError, "triangles must be an array of whole numbers, not of float64"),
+    ((POINTS, CORNERS - 1), ValueError, "triangles have an index that is negative, or too large"),
+    ((POINTS, CORNERS + 1), ValueError, "a triangle names point 3, and there are 3 points"),
+]
+
+
+@pytest.mark.parametrize("function", [pcl_floater.vertex_normals, pcl_floater.texture_coordinates])
+@pytest.mark.parametrize("mesh, kind, text", WRONG)
+def test_wrong_meshes(function, mesh, kind, text):
+    with pytest.raises(kind) as raised:
+        function(*mesh)
+    assert text in str(raised.value)
+
+
+@pytest.mark.parametrize("arguments, kind, text", [
+    (dict(threads=-1), ValueError, "the number of threads must be 0 (all cores) or more"),
+    (dict(threads=2.0), TypeError, "threads must be a whole number, not 2.0"),
+    (dict(largest_stretch=0.5), ValueError, "stretch"),
+    (dict(largest_stretch=np.nan), ValueError, "stretch"),
+    (dict(largest_stretch="1"), TypeError, "largest_stretch must be a number, not '1'"),
+    (dict(whole_discs=1), TypeError, "whole_discs must be True or False, not 1"),
+    (dict(progress=1), TypeError, "progress must be a callable, not 1"),
+])
+def test_wrong_arguments(arguments, kind, text):
+    with pytest.raises(kind) as raised:
+        pcl_floater.texture_coordinates(POINTS, CORNERS, **arguments)
+    assert text in str(raised.value)
+
+
+@pytest.mark.parametrize("points, triangles", [
+    (np.vstack([POINTS, [[1, 1, 1]], [[2, 1, 0]]]), [[0, 1, 2], [1, 0, 3], [0, 1, 4]]),  # three at an edge
+    (np.where(POINTS > 0, np.nan, POINTS), CORNERS),
+])
+def test_what_is_no_surface_has_no_texture(points, triangles):
+    with pytest.raises(pcl_floater.FloaterError) as raised:
+        pcl_floater.texture_coordinates(points, triangles)
+    assert raised.value.status == "INVALID_INDICES" and str(raised.value)
+
+
+def test_progress_of_the_texture(torus_points, torus_mesh):
+    told = []
+    pcl_floater.texture_coordinates(torus_points, torus_mesh.triangles,
+                                    progress=lambda stage, fraction: told.append((stage, fraction)))
+    assert told and {stage for stage, _ in told} == {"texture"}
+    fractions = [fraction for _, fraction in told]
+    assert fractions == sorted(fractions) and fractions[-1] == 1
+
+    def end(stage, fraction):
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        pcl_floater.texture_coordinates(torus_points, torus_mesh.triangles, progress=end)
