@@ -12,7 +12,7 @@ namespace pcl
 namespace floater
 {
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count, const RunContext& run)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
   constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
@@ -21,6 +21,7 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
   std::size_t looked_at = 0, in_rows = 0;
   Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
   for (std::size_t p = step / 2; p < positions.size (); p += step) {
+    run.beginTask (); // each touches other memory
     const Row row = neighbors.row (p);
     if (row.size () < 2)
       continue;

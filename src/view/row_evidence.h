@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/csr_lists.h"
+#include "core/run_context.h"
 #include "points/points.h"
 
 namespace pcl
@@ -21,7 +22,8 @@ struct RowEvidence
 /// \param neighbors nearest first
 /// \param count number of points that are looked at, spread evenly over their order. O(count).
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count);
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
+          const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

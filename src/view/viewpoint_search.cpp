@@ -367,7 +367,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   if (!filled)
     return {};
   ViewpointSearch search (points, neighbors, samples, limits, *filled, run);
-  const RowEvidence rows = findRows (points, neighbors, limits.samples);
+  const RowEvidence rows = findRows (points, neighbors, limits.samples, run);
   if (rows.share > limits.rows && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;
