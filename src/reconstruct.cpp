@@ -9,6 +9,7 @@
 #include "check_options.h"
 #include "cloud_geometry.h"
 #include "finished_mesh.h"
+#include "given_viewpoint.h"
 #include "input_cleaning.h"
 #include "local/star_agreement.h"
 #include "mesh/mesh_spacing.h"
@@ -211,6 +212,20 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                   request, result);
 }
 
+// The same from a viewpoint that is given or told by the file; a given one may be wrong.
+std::optional<Problem>
+reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Request& request,
+                      Result& result)
+{
+  std::optional<Viewpoint> other;
+  if (request.options.view.use == ViewUse::GIVEN)
+    other = contradictingViewpoint (points, viewpoint, request);
+  std::optional<Problem> problem = reconstructView (points, viewpoint, request, result);
+  if (problem && !*problem && other)
+    reportOtherViewpoint (points, *other, result.report);
+  return problem;
+}
+
 // A cloud of which nobody tells where it was seen from, or that is no scan.
 Problem
 reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request& request,
@@ -312,7 +327,7 @@ reconstructAny (Input& input, const Request& request, Result& result)
     if (const std::optional<Viewpoint> viewpoint =
             knownViewpoint (points, input.sensor_origin, request))
       if (const std::optional<Problem> problem =
-              reconstructView (points, *viewpoint, request, result))
+              reconstructKnownView (points, *viewpoint, request, result))
         return *problem;
   return reconstructByNeighbors (points, input.search, request, result);
 }

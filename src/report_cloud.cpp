@@ -34,6 +34,17 @@ addOutliers (const std::vector<Index>& outliers, const std::string& what, Report
   report.statistics.outlier_points = report.outliers.size ();
 }
 
+// A place in the frame of the cloud, or the direction to a sensor far away.
+Eigen::Vector3d
+inCloud (const Points& points, const Viewpoint& viewpoint)
+{
+  constexpr double ROUNDING = 1e-14; // of the scale, as a place is moved to the box and back
+  const Eigen::Vector3d place =
+      viewpoint.is_far ? viewpoint.place
+                       : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
+  return (place.array ().abs () < ROUNDING * points.scale).select (0.0, place);
+}
+
 } // namespace
 
 void
@@ -143,12 +154,7 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
   report.is_view = true;
   report.is_far_view = viewpoint.is_far;
   report.is_view_by_pixels = surface.is_by_pixels;
-  constexpr double ROUNDING = 1e-14; // of the scale, as a place is moved to the box and back
-  Eigen::Vector3d place = viewpoint.is_far
-                              ? viewpoint.place
-                              : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
-  place = (place.array ().abs () < ROUNDING * points.scale).select (0.0, place);
-  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = place;
+  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = inCloud (points, viewpoint);
   report.statistics.view_steps = surface.steps;
   report.statistics.view_gaps = surface.gaps;
 }
@@ -159,6 +165,19 @@ reportDoubtfulView (const Points& points, std::size_t unused, Report& report)
   report.warnings.push_back (std::to_string (unused) + " of " + std::to_string (points.size ()) +
                              " points are in no triangle of the view: the sensor may not have been "
                              "at the given viewpoint");
+}
+
+void
+reportOtherViewpoint (const Points& points, const Viewpoint& other, Report& report)
+{
+  const Eigen::Vector3d place = inCloud (points, other);
+  std::ostringstream text;
+  text << "the points are spaced as seen from "
+       << (other.is_far ? "far away in the direction (" : "the place (") << place[0] << ", "
+       << place[1] << ", " << place[2]
+       << "), and not as seen from the given viewpoint: that may be wrong; if none is given, the "
+          "place is found";
+  report.warnings.push_back (text.str ());
 }
 
 void

@@ -58,6 +58,10 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 void
 reportDoubtfulView (const Points& points, std::size_t unused, Report& report);
 
+/// The points look evenly spaced from this place, and not from the given viewpoint.
+void
+reportOtherViewpoint (const Points& points, const Viewpoint& other, Report& report);
+
 /// Points of a view that are in no triangle, as outliers; a warning on them.
 /// \param unused ascending
 void
