@@ -4,14 +4,18 @@
 
 #include "core/geometry.h"
 
+#include <algorithm>
+
 namespace pcl
 {
 namespace floater
 {
 namespace
 {
-constexpr double LEAST_AREA = 1e-9; // doubled, by the sum of the squared edges: so that the costs
-                                    // of needles stay finite and comparable
+constexpr double LEAST_AREA = 1e-9;  // doubled, by the sum of the squared edges: so that the costs
+                                     // of needles stay finite and comparable
+constexpr double LARGEST_AREA = 1e9; // doubled, by the squared spacing, which may be 0: so that the
+                                     // costs of large triangles do, too
 } // namespace
 
 TriangleCost::Value
@@ -30,7 +34,10 @@ TriangleCost::value (Index a, Index b, Index c) const
   const double double_area = area_vector.norm ();
   const double sqr_lengths = ab.squaredNorm () + ac.squaredNorm () + bc.squaredNorm ();
   // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area).
-  const double cotangents = sqr_lengths / (2.0 * std::max (double_area, LEAST_AREA * sqr_lengths));
+  // Squares of lengths below 1e-154 are 0: such a triangle counts for a needle.
+  const double cotangents =
+      sqr_lengths > 0.0 ? sqr_lengths / (2.0 * std::max (double_area, LEAST_AREA * sqr_lengths))
+                        : 0.5 / LEAST_AREA;
   const double turned =
       limits_.turned_cost *
       std::max (0.0, limits_.turned_cosine - agreement (a, b, c, area_vector, double_area));
@@ -39,8 +46,8 @@ TriangleCost::value (Index a, Index b, Index c) const
     result.unit_normal /= double_area;
   if (spacing_ != nullptr) {
     const double spacing = (spacing_[a] + spacing_[b] + spacing_[c]) / 3.0;
-    result.cost +=
-        limits_.large_cost * std::max (0.0, double_area / (spacing * spacing) - limits_.large_area);
+    const double area = std::min (double_area / (spacing * spacing), LARGEST_AREA);
+    result.cost += limits_.large_cost * std::max (0.0, area - limits_.large_area);
   }
   return result;
 }

@@ -260,6 +260,28 @@ TEST (TriangleCost, DoesNotDependOnTheFirstCorner)
   }
 }
 
+// Points that differ by less than squares can tell, and whose spacing is 0 as a float.
+TEST (TriangleCost, IsFiniteHoweverNearThePointsAre)
+{
+  const Positions positions{{0.0, 0.0, 0.0},     {1e-200, 0.0, 0.0}, {0.0, 1e-200, 0.0},
+                            {2e-200, 3e-200, 0}, {1.0, 0.0, 0.0},    {0.0, 1.0, 0.0}};
+  const std::vector<Eigen::Vector3f> normals = upward (positions.size ());
+  const std::vector<float> spacing (positions.size (), 0.0F);
+  const TriangleCost cost (positions, normals, &spacing);
+  for (Index a = 0; a < positions.size (); ++a)
+    for (Index b = 0; b < positions.size (); ++b)
+      for (Index c = 0; c < positions.size (); ++c)
+        if (a != b && b != c && c != a) {
+          EXPECT_TRUE (std::isfinite (cost (a, b, c))) << a << b << c;
+          EXPECT_GT (cost (a, b, c), 0.0) << a << b << c;
+        }
+  // Flips end there, too.
+  TriangleMesh mesh;
+  mesh.triangles = {{0, 1, 2}, {2, 1, 3}, {3, 1, 4}, {2, 3, 5}, {3, 4, 5}};
+  ASSERT_TRUE (mesh.connect (positions.size (), 1));
+  EXPECT_LT (flipEdges (mesh, cost, 1), 10U);
+}
+
 } // namespace
 } // namespace floater
 } // namespace pcl
