@@ -12,6 +12,8 @@ namespace floater
 {
 namespace
 {
+constexpr std::size_t TESTS_PER_EXACT = 9; // that take as long as what it takes longer
+
 bool
 contains (const std::vector<Index>& ascending, Index t)
 {
@@ -127,15 +129,15 @@ void
 CrossingTable::findPartners (Index t, std::vector<Index>& partners)
 {
   partners.clear ();
-  std::size_t tests = 0;
+  std::size_t tests = 0, exact_tests = 0;
   const Triangle& own = mesh_.triangles[t];
   tree_.forOverlaps (boxOf (own, positions_), [&] (std::size_t i) {
     const Index u = order_[i];
     ++tests;
-    if (u != t && doCross (own, mesh_.triangles[u], positions_))
+    if (u != t && doCross (own, mesh_.triangles[u], positions_, &exact_tests))
       partners.push_back (u);
   });
-  tests_ += tests;
+  tests_ += tests + TESTS_PER_EXACT * exact_tests;
 }
 
 } // namespace floater

@@ -26,7 +26,8 @@ public:
 
   std::size_t pairs () const { return pairs_; }
 
-  /// Pairs of triangles whose boxes overlap that were tested since the table was made.
+  /// Pairs of triangles whose boxes overlap that were tested since the table was made, with weights
+  /// for the time that a test takes.
   std::size_t tests () const { return tests_; }
 
   /// Triangles that cross others, ascending.

@@ -110,6 +110,57 @@ private:
   double sqr_precision_;
 };
 
+// Two triangles with a common corner, which is the first of both.
+class TrianglesAtCorner
+{
+public:
+  TrianglesAtCorner (const Triangle& one, const Triangle& other, const Positions& positions)
+  {
+    for (std::size_t i = 0; i < 2; ++i) {
+      one_[i] = positions[one[i + 1]] - positions[one[0]];
+      other_[i] = positions[other[i + 1]] - positions[one[0]];
+    }
+  }
+
+  // Whether they are sure to have nothing in common but the corner: the plane of one of them, or
+  // one through its edges at the corner and across it, has the other one on one side.
+  bool areSeparate () const { return isBeside (one_, other_) || isBeside (other_, one_); }
+
+  // Whether the last corner of the other one is surely not in the plane of the first.
+  bool areNotCoplanar () const
+  {
+    return sideOf (one_[0].cross (one_[1]), one_[0].norm () * one_[1].norm (), other_[1]) != 0;
+  }
+
+private:
+  using Edges = std::array<Eigen::Vector3d, 2>; // from the common corner
+
+  static bool isBeside (const Edges& own, const Edges& other)
+  {
+    const double a = own[0].norm (), b = own[1].norm ();
+    const Eigen::Vector3d normal = own[0].cross (own[1]);
+    const int side = sideOf (normal, a * b, other[0]);
+    if (side != 0 && side == sideOf (normal, a * b, other[1]))
+      return true;
+    const auto areOut = [&other] (const Eigen::Vector3d& inwards, double size) {
+      return sideOf (inwards, size, other[0]) < 0 && sideOf (inwards, size, other[1]) < 0;
+    };
+    return areOut (normal.cross (own[0]), a * a * b) || areOut (own[1].cross (normal), a * b * b);
+  }
+
+  // Sign of a product of a direction and an edge; 0 if rounding might have changed it.
+  // \param size product of the lengths of the edges of which the direction was made
+  static int sideOf (const Eigen::Vector3d& direction, double size, const Eigen::Vector3d& edge)
+  {
+    const double product = direction.dot (edge);
+    if (!(product * product > ROUNDING * ROUNDING * size * size * edge.squaredNorm ()))
+      return 0;
+    return product > 0.0 ? 1 : -1;
+  }
+
+  Edges one_, other_;
+};
+
 // Tells of a point whether the triangles around it, seen from some direction, lie side by side. No
 // two of them then have anything in common but the point and their edges.
 class PlainFans
@@ -258,11 +309,18 @@ private:
 } // namespace
 
 bool
-doCross (const Triangle& one, const Triangle& other, const Positions& positions)
+doCross (const Triangle& one, const Triangle& other, const Positions& positions,
+         std::size_t* exact_tests)
 {
   const Corners corners = commonFirst (one, other);
   if (corners.common == 0 && SeparatingPlane (one, other, positions).exists ())
     return false;
+  const TrianglesAtCorner at_corner (corners.one, corners.other, positions);
+  if ((corners.common == 1 && at_corner.areSeparate ()) ||
+      (corners.common == 2 && at_corner.areNotCoplanar ()))
+    return false;
+  if (exact_tests != nullptr)
+    ++*exact_tests;
   std::array<Kernel::Point_3, 3> a, b;
   for (std::size_t i = 0; i < 3; ++i) {
     a[i] = exactly (positions[corners.one[i]]);

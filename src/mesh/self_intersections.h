@@ -59,8 +59,10 @@ boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
 
 /// Whether two triangles have more in common than the corners that both name. Exact. False if the
 /// corners of one of them lie on one line.
+/// \param exact_tests counts the tests that rounding might decide: they take ten times as long
 bool
-doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions);
+doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions,
+         std::size_t* exact_tests = nullptr);
 
 } // namespace floater
 } // namespace pcl
