@@ -62,20 +62,15 @@ class Strip
 public:
   explicit Strip (Index width) : width_ (width) {}
 
-  // The lowest place of a shape from a row on, then the leftmost one. For shapes that are not wider
-  // than the strip.
-  CellPlace findPlace (const CellMask& shape, CellPlace from = {}) const
+  // The lowest place of a shape from a row on, then the leftmost one; or one in row `end` if there
+  // is none below. For shapes that are not wider than the strip.
+  CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end) const
   {
-    for (CellPlace place = from;; ++place.y, place.x = 0) {
-      if (!isWideEnough (shape, place.y))
-        continue;
-      while (place.x + shape.width <= width_) {
-        const Index next = nextToTry (shape, place);
-        if (next == place.x)
-          return place;
-        place.x = next;
-      }
-    }
+    CellPlace place = from;
+    for (; place.y < end; ++place.y, place.x = 0)
+      if (isWideEnough (shape, place.y) && moveToFree (shape, place))
+        break;
+    return place;
   }
 
   void occupy (const CellMask& shape, const CellPlace& place)
@@ -110,19 +105,37 @@ private:
     return true;
   }
 
-  // The x of the place if it is free. Else the next one where what is in the way now is not.
-  Index nextToTry (const CellMask& shape, const CellPlace& place) const
+  // Moves a shape to the right until nothing is in its way. Every place that is passed is taken: so
+  // rows need not be looked at again from the first one on.
+  // \return false if it is beyond the strip then
+  bool moveToFree (const CellMask& shape, CellPlace& place) const
   {
-    for (std::size_t r = 0; r < shape.rows.size () && place.y + r < rows_.size (); ++r) {
-      const std::vector<CellRun>& row = rows_[place.y + r];
-      for (const CellRun& run : shape.rows[r]) {
-        const auto taken = std::lower_bound (row.begin (), row.end (), place.x + run.first,
-                                             [] (const CellRun& t, Index x) { return t.last < x; });
-        if (taken != row.end () && taken->first <= place.x + run.last)
-          return taken->last + 1 - run.first;
+    const std::size_t rows = std::min (
+        shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
+    std::size_t free_rows = 0; // the last ones that were looked at
+    for (std::size_t r = 0; free_rows < rows && place.x + shape.width <= width_;
+         r = r + 1 < rows ? r + 1 : 0)
+      free_rows = moveInRow (rows_[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
+    return place.x + shape.width <= width_;
+  }
+
+  // \return whether it was in the way
+  static bool moveInRow (const std::vector<CellRun>& taken, const std::vector<CellRun>& runs,
+                         Index& x)
+  {
+    const Index before = x;
+    for (std::size_t i = 0; i < runs.size ();) {
+      const auto in_way =
+          std::lower_bound (taken.begin (), taken.end (), x + runs[i].first,
+                            [] (const CellRun& t, Index first) { return t.last < first; });
+      if (in_way != taken.end () && in_way->first <= x + runs[i].last) {
+        x = in_way->last + 1 - runs[i].first;
+        i = 0;
       }
+      else
+        ++i;
     }
-    return place.x;
+    return x != before;
   }
 
   Index width_;
@@ -161,16 +174,16 @@ packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vect
     if (isSmall (shapes[s][0])) {
       const CellMask box = boxOf (shapes[s][0]);
       CellPlace& last = last_places[{box.width, box.rows.size ()}];
-      last = best = strip.findPlace (box, last);
+      last = best = strip.findPlace (box, last, NONE);
       strip.occupy (box, best);
     }
     else {
-      std::size_t least_top = std::numeric_limits<std::size_t>::max ();
+      std::size_t least_top = NONE;
       for (std::uint8_t quarters = 0; quarters < 4; ++quarters) {
         const CellMask& shape = shapes[s][quarters];
-        if (shape.width > width)
+        if (shape.width > width || shape.rows.size () >= least_top)
           continue;
-        CellPlace place = strip.findPlace (shape);
+        CellPlace place = strip.findPlace (shape, {}, least_top - shape.rows.size ());
         place.quarters = quarters;
         const std::size_t top = place.y + shape.rows.size ();
         if (top < least_top) {

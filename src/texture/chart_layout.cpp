@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "texture/convex_layout.h"
 #include "texture/stretch.h"
+#include "texture/untangling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,18 +65,25 @@ measure (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv, ChartLa
     }
 }
 
-// The first that is a layout of: the projection; its boundary, with the inside by convex
-// combinations; a convex-combination map on the circle. Empty if none is.
+// The first that is a layout of: the projection; the same, with small parts mended; its boundary,
+// with the inside by convex combinations; a convex-combination map on the circle. Empty if none is.
 std::vector<Eigen::Vector2d>
-beginLayout (const ChartMesh& chart, const RestShapes& rest, const RunContext& run)
+beginLayout (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
+             const RunContext& run)
 {
   std::vector<Eigen::Vector2d> uv = project (chart);
-  if (isSimple (chart.loop, uv)) {
-    if (isUpright (chart.mesh.triangles, uv))
-      return uv;
+  const bool is_simple = isSimple (chart.loop, uv);
+  if (is_simple && isUpright (chart.mesh.triangles, uv))
+    return uv;
+  std::vector<Eigen::Vector2d> mended = uv;
+  if (untangle (chart, {}, run, mended) && isLayout (chart, mended))
+    return mended;
+  if (is_simple) {
     if (layOutWithin (chart, run, uv) && isUpright (chart.mesh.triangles, uv))
       return uv;
   }
+  if (chart.mesh.triangles.size () > limits.most_on_circle)
+    return {};
   uv = layOutOnCircle (chart, rest, run).uv;
   return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
 }
@@ -94,7 +102,7 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
   if (!chart.loop.empty ()) {
     const RestShapes rest = makeRestShapes (chart);
     layout.area = rest.area;
-    std::vector<Eigen::Vector2d> uv = beginLayout (chart, rest, run);
+    std::vector<Eigen::Vector2d> uv = beginLayout (chart, rest, limits, run);
     if (!uv.empty ()) {
       std::vector<Eigen::Vector2d> even = uv;
       descendDistortion (chart, rest, limits, run, even);
@@ -108,6 +116,29 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
   layout.corners = std::move (chart.mesh.triangles);
   layout.loop = std::move (chart.loop);
   return layout;
+}
+
+bool
+refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+              const DescentLimits& limits, const RunContext& run, ChartLayout& layout)
+{
+  const ChartMesh chart = makeChartMesh (triangles, layout.triangles, positions);
+  const RestShapes rest = makeRestShapes (chart);
+  std::vector<Eigen::Vector2d> uv = layout.uv;
+  ChartLayout refined;
+  measure (chart, uv, refined);
+  const double before = refined.stretch;
+  descendDistortion (chart, rest, limits, run, uv);
+  if (!isLayout (chart, uv))
+    return false;
+  measure (chart, uv, refined);
+  if (!(refined.stretch < before))
+    return false;
+  layout.uv = std::move (uv);
+  layout.area = rest.area;
+  layout.stretch = refined.stretch;
+  layout.median_stretch = refined.median_stretch;
+  return true;
 }
 
 } // namespace floater

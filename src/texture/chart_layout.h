@@ -41,5 +41,13 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart,
              const std::vector<Eigen::Vector3d>& positions, const DescentLimits& limits,
              const RunContext& run);
 
+/// Evens out the distortion of a layout with regard to other positions than those that it was made
+/// for: without their noise. It stays as it is if that does not lower its stretch.
+/// \param[in,out] layout one that has coordinates
+/// \return whether it was changed; then its figures are those of these positions
+bool
+refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+              const DescentLimits& limits, const RunContext& run, ChartLayout& layout);
+
 } // namespace floater
 } // namespace pcl

@@ -43,11 +43,11 @@ struct ChartLimits
   /// decides where the surface is flat, and hardly where it is not.
   double seam_weight = 0.05;
 
-  /// A chart of so few triangles, and of such a share of the area of the chart beside it, is joined
-  /// to that at the end, however it bends: alone it would take more room in the texture than it
+  /// A chart of so few triangles, and of such a share of the area of both, is joined to the chart
+  /// beside it at the end, however it bends: alone it would take more room in the texture than it
   /// fills.
   std::size_t most_in_crumb = 16;
-  double crumb_share = 0.01;
+  double crumb_share = 0.1;
 
   /// Facets that the triangles are joined to before these are joined to charts: the search is
   /// sequential, and 20,000 facets take a tenth of a second.

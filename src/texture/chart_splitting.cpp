@@ -34,6 +34,14 @@ public:
     return layOutChart (mesh_.triangles, std::move (chart), positions_, limits_.descent, run_);
   }
 
+  // However large it is.
+  ChartLayout layOutWhole (std::vector<Index> disc) const
+  {
+    DescentLimits descent = limits_.descent;
+    descent.most_on_circle = std::numeric_limits<std::size_t>::max ();
+    return layOutChart (mesh_.triangles, std::move (disc), positions_, descent, run_);
+  }
+
   // Cuts a chart that stretches too much, or has no layout, where that helps.
   // \param deviation that of its parts is to be less
   void layOutParts (ChartLayout chart, double deviation, Layouts& result) const
@@ -44,7 +52,7 @@ public:
       return;
     }
     Layouts parts;
-    for (std::vector<Index>& part : cut (chart.triangles, deviation))
+    for (std::vector<Index>& part : cut (chart, deviation))
       parts.push_back (layOut (std::move (part)));
     if (has_layout && (parts.size () == 1 || (isEven (chart) && !isWorthwhile (chart, parts)))) {
       result.push_back (std::move (chart));
@@ -76,23 +84,45 @@ private:
            chart.median_stretch - 1.0 > limits_.even * (chart.stretch - 1.0);
   }
 
-  // At least two parts, if a chart has two triangles that can be parted.
+  // At least two parts, if a chart has two triangles that can be parted: a few that deviate less if
+  // there are such; else halves, as what is wrong with it is in one place and does not get better
+  // by many cuts.
   // \param[in,out] deviation that of the parts
-  std::vector<std::vector<Index>> cut (const std::vector<Index>& chart, double& deviation) const
+  std::vector<std::vector<Index>> cut (const ChartLayout& layout, double& deviation) const
   {
+    const std::vector<Index>& chart = layout.triangles;
     const ChartMesh part = makeChartMesh (mesh_.triangles, chart, positions_);
+    ChartLimits limits = limits_.charts;
+    limits.facets =
+        std::min (limits.facets,
+                  std::max (limits_.facets_of_cut, chart.size () / limits_.triangles_per_facet));
     MeshParts parts;
-    for (int halving = 0; halving < limits_.halvings && parts.count < 2; ++halving) {
+    for (int halving = 0; !layout.uv.empty () && halving < limits_.halvings && parts.count < 2;
+         ++halving) {
       deviation *= 0.5;
-      parts = findCharts (part.mesh, part.positions, {deviation, 1}, limits_.charts, run_);
+      parts = findCharts (part.mesh, part.positions, {deviation, 1}, limits, run_);
     }
-    if (parts.count < 2)
+    const auto size = static_cast<double> (chart.size ());
+    if (parts.count < 2 || parts.count > limits_.most_parts ||
+        static_cast<double> (largestOf (parts)) > limits_.largest_part * size) {
+      limits.most_triangles =
+          std::max<std::size_t> (1, static_cast<std::size_t> (limits_.half * size));
       parts = findCharts (part.mesh, part.positions, {std::numeric_limits<double>::infinity (), 2},
-                          limits_.charts, run_);
+                          limits, run_);
+    }
     std::vector<std::vector<Index>> lists (parts.count);
     for (std::size_t t = 0; t < chart.size (); ++t)
       lists[parts.of_triangle[t]].push_back (chart[t]);
     return lists;
+  }
+
+  // Triangles of the largest part.
+  static std::size_t largestOf (const MeshParts& parts)
+  {
+    std::vector<std::size_t> sizes (parts.count, 0);
+    for (const Index part : parts.of_triangle)
+      ++sizes[part];
+    return *std::max_element (sizes.begin (), sizes.end ());
   }
 
   const TriangleMesh& mesh_;
@@ -132,10 +162,24 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
   const SingleBlasThread single; // more cost time on small matrices, and change the last digits
   const RunContext within = run.withThreads (1).withinStage ();
   const ChartCutter by_smooth (mesh, smooth, largest_stretch, limits, within);
-  const ChartCutter by_true (mesh, positions, largest_stretch, limits, within);
+  const ChartCutter by_true (mesh, positions, std::max (largest_stretch, limits.too_much), limits,
+                             within);
+  const auto shareMoved = [&] (const ChartLayout& chart) {
+    const auto moved = std::count_if (chart.points.begin (), chart.points.end (),
+                                      [&] (Index p) { return smooth[p] != positions[p]; });
+    return static_cast<double> (moved) / static_cast<double> (chart.points.size ());
+  };
+  const auto fitToNoise = [&] (ChartLayout& chart) {
+    DescentLimits descent = limits.descent;
+    descent.steps = limits.steps_to_noise;
+    descent.newton_steps = 0;
+    if (shareMoved (chart) > 0.0)
+      refineLayout (mesh.triangles, positions, descent, within, chart);
+  };
   // Where smoothing has taken away more than noise, it is done without.
   const auto isRight = [&] (const ChartLayout& chart) {
-    return stretchOf (chart, positions) <= std::max (limits.too_much, chart.stretch);
+    const double most = shareMoved (chart) > limits.noisy ? limits.wrong : limits.too_much;
+    return stretchOf (chart, positions) <= std::max (most, largest_stretch);
   };
   Layouts result;
   std::vector<std::uint8_t> is_done (mesh.triangles.size (), 0);
@@ -145,9 +189,9 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
         listsOf ({components.of_triangle, components.count});
     Layouts discs (lists.size ());
     parallelTasks (run, lists.size (), [&] (std::size_t c) {
-      discs[c] = by_smooth.layOut (lists[c]);
+      discs[c] = by_smooth.layOutWhole (lists[c]);
       if (discs[c].uv.empty () || !isRight (discs[c]))
-        discs[c] = by_true.layOut (lists[c]);
+        discs[c] = by_true.layOutWhole (lists[c]);
     });
     for (ChartLayout& disc : discs)
       if (!disc.uv.empty ()) {
@@ -167,11 +211,18 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
       return;
     Layouts by_parts;
     by_smooth.layOutParts (by_smooth.layOut (lists[c]), deviation, by_parts);
-    for (ChartLayout& chart : by_parts)
-      if (isRight (chart))
+    for (ChartLayout& chart : by_parts) {
+      fitToNoise (chart);
+      if (isRight (chart)) {
+        layouts[c].push_back (std::move (chart));
+        continue;
+      }
+      ChartLayout other = by_true.layOut (chart.triangles);
+      if (other.uv.empty () || !(other.stretch < stretchOf (chart, positions)))
         layouts[c].push_back (std::move (chart));
       else
-        by_true.layOutParts (by_true.layOut (chart.triangles), deviation, layouts[c]);
+        by_true.layOutParts (std::move (other), deviation, layouts[c]);
+    }
   });
   for (Layouts& of_part : layouts)
     std::move (of_part.begin (), of_part.end (), std::back_inserter (result));

@@ -22,7 +22,12 @@ struct DescentLimits
   int newton_steps = 15;         ///< at most
   double least_newton_progress = 0.02;        ///< as least_progress
   std::size_t most_newton_triangles = 60'000; ///< of a chart: a step takes 6 microseconds for each
-  double safe_share = 0.8;                    ///< of the way to the first triangle without area
+
+  /// A chart of more triangles that cannot be begun as its projection gets no layout: it would
+  /// begin on a circle, from where the descent takes long and does not come far. It is cut instead.
+  std::size_t most_on_circle = 5'000;
+
+  double safe_share = 0.8; ///< of the way to the first triangle without area
 };
 
 /// Moves all vertices, those of the boundary too, to lower the symmetric Dirichlet energy: the

@@ -17,80 +17,231 @@ namespace floater
 {
 namespace
 {
-// The angle between the normals on both sides of an edge: positive where the surface bends
-// outwards.
-double
-bendAt (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-        const std::vector<Eigen::Vector3d>& area_vectors, MeshEdge edge)
-{
-  const Eigen::Vector3d& here = area_vectors[edge.triangle];
-  const Eigen::Vector3d& beyond = area_vectors[mesh.neighbors[edge.triangle][edge.side]];
-  const Eigen::Vector3d along = positions[mesh.to (edge)] - positions[mesh.from (edge)];
-  const Eigen::Vector3d turn = here.cross (beyond);
-  const double angle = std::atan2 (turn.norm (), here.dot (beyond));
-  return turn.dot (along) >= 0.0 ? angle : -angle;
-}
-
 // The angles at the edges of a vertex, or of several.
 struct Bends
 {
   double outwards = 0.0, inwards = 0.0; // sums
   std::size_t edges = 0;                // that are inside
-};
 
-// What is around a vertex.
-struct Surroundings
-{
-  std::vector<Index> neighbors; // in order
-  bool is_boundary = false;     // then the first and the last neighbour are on it
-};
-
-void
-lookAround (const TriangleMesh& mesh, Index point, std::vector<Index>& fan, Surroundings& around)
-{
-  around.neighbors.clear ();
-  mesh.fan (point, fan);
-  const auto corner = [&] (Index t, std::uint8_t (*side) (std::uint8_t)) {
-    return mesh.triangles[t][side (mesh.sideOf (t, point))];
-  };
-  for (const Index t : fan)
-    around.neighbors.push_back (corner (t, TriangleMesh::next));
-  const Index last = corner (fan.back (), TriangleMesh::previous);
-  around.is_boundary = last != around.neighbors.front ();
-  if (around.is_boundary)
-    around.neighbors.push_back (last);
-}
-
-// Of the edges at a vertex.
-Bends
-bendsOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-         const std::vector<Eigen::Vector3d>& area_vectors, Index point, std::vector<Index>& fan)
-{
-  Bends bends;
-  mesh.fan (point, fan);
-  for (const Index t : fan) {
-    // The edge that leaves the point in this triangle is the side opposite to the corner before.
-    const std::uint8_t side = TriangleMesh::previous (mesh.sideOf (t, point));
-    if (mesh.neighbors[t][side] == NONE)
-      continue;
-    const double bend = bendAt (mesh, positions, area_vectors, {t, side});
-    (bend > 0.0 ? bends.outwards : bends.inwards) += std::abs (bend);
-    ++bends.edges;
+  void add (const Bends& other)
+  {
+    outwards += other.outwards;
+    inwards += other.inwards;
+    edges += other.edges;
   }
-  return bends;
-}
 
-Eigen::Vector3d
-meanOf (const std::vector<Eigen::Vector3d>& positions, const Surroundings& around)
+  // Mean of those outwards and of those inwards, the smaller one.
+  double bothWays () const
+  {
+    return edges > 0 ? std::min (outwards, inwards) / static_cast<double> (edges) : 0.0;
+  }
+};
+
+class Smoother
 {
-  const std::vector<Index>& neighbors = around.neighbors;
-  if (around.is_boundary)
-    return 0.5 * (positions[neighbors.front ()] + positions[neighbors.back ()]);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-  for (const Index q : neighbors)
-    sum += positions[q];
-  return sum / static_cast<double> (neighbors.size ());
-}
+public:
+  Smoother (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const SmoothingLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
+        leaving_ (makeCsrLists (positions.size (),
+                                [&mesh] (const auto& emit) {
+                                  for (Index t = 0; t < mesh.triangles.size (); ++t)
+                                    for (std::uint8_t side = 0; side < 3; ++side)
+                                      emit (mesh.from ({t, side}), 3 * t + side);
+                                })),
+        after_ (positions.size (), NONE), before_ (positions.size (), NONE),
+        edge_bends_ (3 * mesh.triangles.size (), 0.0), bends_ (positions.size ())
+  {
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh.neighbors[t][side] == NONE) {
+          after_[mesh.from ({t, side})] = mesh.to ({t, side});
+          before_[mesh.to ({t, side})] = mesh.from ({t, side});
+        }
+  }
+
+  std::vector<Eigen::Vector3d> run ()
+  {
+    std::vector<Eigen::Vector3d> current = positions_;
+    std::vector<std::uint8_t> is_noisy (positions_.size (), 1);
+    measureBends (current, is_noisy);
+    is_noisy = findNoise ();
+    if (std::find (is_noisy.begin (), is_noisy.end (), 1) == is_noisy.end ())
+      return current;
+    for (int ring = 0; ring < limits_.rings; ++ring)
+      is_noisy = withNeighbors (is_noisy);
+    const std::vector<double> reach = findReach ();
+    std::vector<Eigen::Vector3d> next = current;
+    for (int round = 0; round < limits_.rounds; ++round) {
+      measureBends (current, is_noisy);
+      std::atomic<bool> has_moved{false};
+      visit ([&] (Index p) {
+        if (is_noisy[p] == 0 || !(bendsAround (p).bothWays () > limits_.smooth)) {
+          next[p] = current[p];
+          return;
+        }
+        const Eigen::Vector3d way = targetOf (current, p) - positions_[p];
+        const double length = way.norm ();
+        next[p] = positions_[p] + way * (length > reach[p] ? reach[p] / length : 1.0);
+        has_moved = true;
+      });
+      current.swap (next);
+      if (!has_moved)
+        break;
+    }
+    return current;
+  }
+
+private:
+  // Calls work (p) for every vertex.
+  template <typename Work>
+  void visit (const Work& work) const
+  {
+    parallelRanges (run_, positions_.size (), [&] (std::size_t first, std::size_t last) {
+      for (std::size_t p = first; p < last; ++p)
+        if (mesh_.triangle_of[p] != NONE)
+          work (static_cast<Index> (p));
+    });
+  }
+
+  // Calls work (q) for every neighbour of a vertex.
+  template <typename Work>
+  void visitNeighbors (Index p, const Work& work) const
+  {
+    for (const Index id : leaving_.row (p))
+      work (mesh_.to ({id / 3, static_cast<std::uint8_t> (id % 3)}));
+    if (before_[p] != NONE)
+      work (before_[p]);
+  }
+
+  // The angle between the normals on both sides of an edge: positive where the surface bends
+  // outwards.
+  double bendAt (const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<Eigen::Vector3d>& area_vectors, MeshEdge edge) const
+  {
+    const Eigen::Vector3d& here = area_vectors[edge.triangle];
+    const Eigen::Vector3d& beyond = area_vectors[mesh_.neighbors[edge.triangle][edge.side]];
+    const Eigen::Vector3d along = positions[mesh_.to (edge)] - positions[mesh_.from (edge)];
+    const Eigen::Vector3d turn = here.cross (beyond);
+    const double angle = std::atan2 (turn.norm (), here.dot (beyond));
+    return turn.dot (along) >= 0.0 ? angle : -angle;
+  }
+
+  // Of the vertices that are marked.
+  void measureBends (const std::vector<Eigen::Vector3d>& positions,
+                     const std::vector<std::uint8_t>& is_marked)
+  {
+    const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh_, positions, run_);
+    parallelRanges (run_, mesh_.triangles.size (), [&] (std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t)
+        for (std::uint8_t side = 0; side < 3; ++side) {
+          const MeshEdge edge{static_cast<Index> (t), side};
+          const MeshEdge mate = mesh_.mate (edge);
+          if (mate.triangle == NONE || mate.triangle < edge.triangle ||
+              (is_marked[mesh_.from (edge)] == 0 && is_marked[mesh_.to (edge)] == 0))
+            continue;
+          // Both are written here alone.
+          edge_bends_[3 * t + side] = edge_bends_[3 * std::size_t{mate.triangle} + mate.side] =
+              bendAt (positions, area_vectors, edge);
+        }
+    });
+    visit ([&] (Index p) {
+      if (is_marked[p] == 0)
+        return;
+      Bends& bends = bends_[p] = {};
+      for (const Index id : leaving_.row (p)) {
+        const double bend = edge_bends_[id];
+        (bend > 0.0 ? bends.outwards : bends.inwards) += std::abs (bend);
+        bends.edges += mesh_.neighbors[id / 3][id % 3] != NONE ? 1 : 0;
+      }
+    });
+  }
+
+  // A peak alone bends one way only; so the vertices beside it count as well.
+  Bends bendsAround (Index p) const
+  {
+    Bends sum = bends_[p];
+    visitNeighbors (p, [&] (Index q) { sum.add (bends_[q]); });
+    return sum;
+  }
+
+  std::vector<std::uint8_t> findNoise () const
+  {
+    std::vector<std::uint8_t> bends_both_ways (positions_.size (), 0);
+    visit ([&] (Index p) {
+      const Bends& own = bends_[p];
+      if (own.outwards + own.inwards > limits_.bend * static_cast<double> (own.edges))
+        bends_both_ways[p] = bendsAround (p).bothWays () > limits_.bend ? 1 : 0;
+    });
+    // Where creases of both kinds meet, only one vertex bends both ways.
+    std::vector<std::uint8_t> is_noisy (positions_.size (), 0);
+    visit ([&] (Index p) {
+      if (bends_both_ways[p] == 0)
+        return;
+      std::size_t neighbors = 0, beside = 0;
+      visitNeighbors (p, [&] (Index q) {
+        ++neighbors;
+        beside += bends_both_ways[q];
+      });
+      is_noisy[p] = 2 * beside >= neighbors ? 1 : 0;
+    });
+    return is_noisy;
+  }
+
+  std::vector<std::uint8_t> withNeighbors (const std::vector<std::uint8_t>& is_marked) const
+  {
+    std::vector<std::uint8_t> wider = is_marked;
+    visit ([&] (Index p) { visitNeighbors (p, [&] (Index q) { wider[p] |= is_marked[q]; }); });
+    return wider;
+  }
+
+  // How far each vertex may be moved: by the longest mean length of edges around it.
+  std::vector<double> findReach () const
+  {
+    std::vector<double> reach (positions_.size (), 0.0);
+    visit ([&] (Index p) {
+      std::size_t neighbors = 0;
+      visitNeighbors (p, [&] (Index q) {
+        reach[p] += limits_.farthest * (positions_[q] - positions_[p]).norm ();
+        ++neighbors;
+      });
+      reach[p] /= static_cast<double> (neighbors);
+    });
+    for (int ring = 0; ring < limits_.rings; ++ring) {
+      std::vector<double> wider = reach;
+      visit ([&] (Index p) {
+        visitNeighbors (p, [&] (Index q) { wider[p] = std::max (wider[p], reach[q]); });
+      });
+      reach.swap (wider);
+    }
+    return reach;
+  }
+
+  // The mean of the neighbours; on the boundary, of those along it. A vertex of one triangle would
+  // come to lie between these, and goes with them instead.
+  Eigen::Vector3d targetOf (const std::vector<Eigen::Vector3d>& positions, Index p) const
+  {
+    const Row row = leaving_.row (p);
+    if (before_[p] != NONE) {
+      const Eigen::Vector3d middle = 0.5 * (positions[before_[p]] + positions[after_[p]]);
+      if (row.size () > 1)
+        return middle;
+      return positions_[p] + middle - 0.5 * (positions_[before_[p]] + positions_[after_[p]]);
+    }
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+    visitNeighbors (p, [&] (Index q) { sum += positions[q]; });
+    return sum / static_cast<double> (row.size ());
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const SmoothingLimits& limits_;
+  const RunContext& run_;
+  CsrLists leaving_;                  // per point: edges that leave it, as 3 triangle + side
+  std::vector<Index> after_, before_; // per point: neighbours along the boundary, NONE if inside
+  std::vector<double> edge_bends_;    // per edge, as 3 triangle + side; 0 on the boundary
+  std::vector<Bends> bends_;          // per point
+};
 
 } // namespace
 
@@ -98,73 +249,7 @@ std::vector<Eigen::Vector3d>
 smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const SmoothingLimits& limits, const RunContext& run)
 {
-  std::vector<Eigen::Vector3d> current = positions, next = positions;
-  std::vector<double> reach (positions.size (), 0.0);
-  std::vector<Bends> bends (positions.size ());
-  std::vector<std::uint8_t> bends_both_ways (positions.size ());
-  // Calls work (p, scratch) for every vertex.
-  const auto visit = [&] (const auto& work) {
-    parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-      std::vector<Index> fan;
-      for (std::size_t p = first; p < last; ++p)
-        if (mesh.triangle_of[p] != NONE)
-          work (static_cast<Index> (p), fan);
-    });
-  };
-  visit ([&] (Index p, std::vector<Index>& fan) {
-    Surroundings around;
-    lookAround (mesh, p, fan, around);
-    double sum = 0.0;
-    for (const Index q : around.neighbors)
-      sum += (positions[q] - positions[p]).norm ();
-    reach[p] = limits.farthest * sum / static_cast<double> (around.neighbors.size ());
-  });
-  for (int round = 0; round < limits.rounds; ++round) {
-    const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, current, run);
-    visit ([&] (Index p, std::vector<Index>& fan) {
-      bends[p] = bendsOf (mesh, current, area_vectors, p, fan);
-    });
-    visit ([&] (Index p, std::vector<Index>& fan) {
-      // A peak alone bends one way only; so the vertices beside it count as well.
-      bends_both_ways[p] = 0;
-      const double all = bends[p].outwards + bends[p].inwards;
-      if (all <= limits.bend * static_cast<double> (bends[p].edges))
-        return;
-      Surroundings around;
-      lookAround (mesh, p, fan, around);
-      Bends sum = bends[p];
-      for (const Index q : around.neighbors) {
-        sum.outwards += bends[q].outwards;
-        sum.inwards += bends[q].inwards;
-        sum.edges += bends[q].edges;
-      }
-      const double least = limits.bend * static_cast<double> (sum.edges);
-      bends_both_ways[p] = std::min (sum.outwards, sum.inwards) > least ? 1 : 0;
-    });
-    next = current;
-    std::atomic<bool> has_moved{false};
-    visit ([&] (Index p, std::vector<Index>& fan) {
-      if (bends_both_ways[p] == 0)
-        return;
-      Surroundings around;
-      lookAround (mesh, p, fan, around);
-      // Where creases of both kinds meet, only one vertex bends both ways.
-      const auto beside = static_cast<std::size_t> (
-          std::count_if (around.neighbors.begin (), around.neighbors.end (),
-                         [&] (Index q) { return bends_both_ways[q] != 0; }));
-      if (2 * beside < around.neighbors.size ())
-        return;
-      const Eigen::Vector3d way = meanOf (current, around) - positions[p];
-      const double length = way.norm ();
-      next[p] = length > reach[p] ? Eigen::Vector3d (positions[p] + reach[p] / length * way)
-                                  : Eigen::Vector3d (positions[p] + way);
-      has_moved = true;
-    });
-    if (!has_moved)
-      break;
-    current.swap (next);
-  }
-  return current;
+  return Smoother (mesh, positions, limits, run).run ();
 }
 
 } // namespace floater

@@ -21,18 +21,28 @@ struct SmoothingLimits
   /// and half of those beside it bend both ways.
   double bend = 0.14;
 
+  /// The same mean around a vertex of noise at which it is smooth. With it, noise as large as the
+  /// spacing leaves normals of a plane that differ by 4 degrees from triangle to triangle, and by 6
+  /// from that of the plane (medians).
+  double smooth = 0.06;
+
+  /// Rings of vertices around rough ones that are smoothed as well, where they are not smooth yet:
+  /// what is measured in steps, as depth is, is flat between them.
+  int rings = 3;
+
   int rounds = 20; ///< at most; noise as large as the spacing takes 10
 
-  /// How far a vertex may be moved, in mean lengths of its edges: as far as noise that can still be
-  /// connected. Without this, thin parts would shrink to lines.
-  double farthest = 0.5;
+  /// How far a vertex may be moved, in mean lengths of the edges at the vertices around it, where
+  /// these are longest: as far as noise that can still be connected. Without this, thin parts would
+  /// shrink to lines.
+  double farthest = 1.0;
 };
 
-/// Moves rough vertices to the mean of their neighbours, on the boundary to that of the two along
-/// it, until no vertex is rough. Charts are found and laid out on this surface: on the noisy one,
-/// triangles face all ways, and there are as many charts as bumps. O(n) for each round; one if
-/// there is no noise.
-/// \return positions per point; those of other vertices are unchanged
+/// Moves rough vertices, and those around them, to the mean of their neighbours, on the boundary to
+/// that of the two along it, until they are smooth. Charts are found and laid out on this surface:
+/// on the noisy one, triangles face all ways, and there are as many charts as bumps. O(n) for each
+/// round; one if there is no noise. \return positions per point; those of other vertices are
+/// unchanged
 std::vector<Eigen::Vector3d>
 smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const SmoothingLimits& limits, const RunContext& run);

@@ -39,8 +39,30 @@ struct TextureLimits
   /// smoothing does not stretch so much.
   double too_much = 1.5;
 
+  /// Stretch of the true surface in the layout of the smoothed one, above which it is laid out
+  /// without smoothing, where more than this share of the vertices has been moved (elsewhere it is
+  /// too_much). Generated planes, boxes and terrain with noise of up to three spacings stay below
+  /// 3; thin parts that smoothing has flattened do not.
+  double wrong = 4.0;
+  double noisy = 0.5;
+
+  /// Steps of the descent by the true surface, which follows that by the smoothed one: a bound on
+  /// the time, as noise lets it go on for long.
+  int steps_to_noise = 20;
+
   /// Times the deviation of the parts is halved to cut a chart, before it is just cut in two.
   int halvings = 4;
+
+  /// It is cut in two as well if that would give more parts, or leave more than this share of the
+  /// triangles in one of them: then it is not its curvature that is wrong.
+  std::size_t most_parts = 8;
+  double largest_part = 0.9;
+  double half = 0.6; ///< share of the triangles in the larger half, at most
+
+  /// Facets to cut a chart by: one for so many triangles, but no fewer than the second figure. Each
+  /// cut is a search of its own, whose time they decide.
+  std::size_t triangles_per_facet = 8;
+  std::size_t facets_of_cut = 1'000;
 };
 
 /// Cuts a mesh into charts and lays them out, on all threads of the run.

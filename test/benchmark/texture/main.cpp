@@ -4,6 +4,7 @@
 #include "../stopwatch.h"
 #include "cgal_layouts.h"
 #include "cloud_reader.h"
+#include "mesh/triangle_mesh.h"
 #include "texture/stretch.h"
 
 #include <pcl/surface/floater/reconstruct.h>

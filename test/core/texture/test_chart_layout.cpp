@@ -9,6 +9,7 @@
 #include "texture/convex_layout.h"
 #include "texture/smoothing.h"
 #include "texture/stretch.h"
+#include "texture/untangling.h"
 
 #include <gtest/gtest.h>
 
@@ -230,7 +231,97 @@ TEST (Smoothing, MovesNoiseOnly)
   // So it is one chart, or few.
   const TriangleMesh mesh = connect (noisy);
   EXPECT_LE (findCharts (mesh, smooth, {}, {}, 1).count, 2U);
-  EXPECT_GT (findCharts (mesh, noisy.positions, {}, {}, 1).count, 4U);
+}
+
+// Depth that is measured in steps: flat between them.
+TEST (Smoothing, LevelsSteps)
+{
+  Mesh steps = samples::sheet (24);
+  for (Eigen::Vector3d& p : steps.positions)
+    p.z () = 0.3 * std::floor (p.x () / 0.4 + 0.1 * std::sin (20.0 * p.y ()));
+  const samples::Positions smooth = smoothNoise (connect (steps), steps.positions, {}, 1);
+  const auto steepest = [&] (const samples::Positions& positions) {
+    std::vector<double> tilts;
+    for (const Triangle& t : steps.triangles)
+      tilts.push_back (areaVector (positions[t[0]], positions[t[1]], positions[t[2]])
+                           .normalized ()
+                           .head<2> ()
+                           .norm ());
+    std::sort (tilts.begin (), tilts.end ());
+    return tilts[tilts.size () * 9 / 10];
+  };
+  EXPECT_GT (steepest (steps.positions), 0.9);
+  EXPECT_LT (steepest (smooth), 0.85);
+}
+
+// A vertex of one triangle does not come to lie between its neighbours.
+TEST (Smoothing, LeavesAreaToTrianglesAtCorners)
+{
+  Mesh noisy = samples::sheet (12);
+  RandomStream random (5);
+  for (Eigen::Vector3d& p : noisy.positions)
+    p.z () = 0.1 * random.normal ();
+  const samples::Positions smooth = smoothNoise (connect (noisy), noisy.positions, {}, 1);
+  for (const Triangle& t : noisy.triangles)
+    EXPECT_GT (areaVector (smooth[t[0]], smooth[t[1]], smooth[t[2]]).norm (), 1e-4);
+}
+
+TEST (Untangling, UndoesDetailsOnly)
+{
+  const Mesh sheet = samples::sheet (12);
+  const ChartMesh chart = makeChartMesh (sheet.triangles, allOf (sheet.triangles), sheet.positions);
+  std::vector<Eigen::Vector2d> flat;
+  for (const Eigen::Vector3d& p : chart.positions)
+    flat.emplace_back (p.x (), p.y ());
+  std::vector<Eigen::Vector2d> uv = flat;
+  EXPECT_TRUE (untangle (chart, {}, 1, uv));
+  EXPECT_EQ (uv, flat); // nothing to do
+  // An inner vertex and one of the boundary are pulled across the triangles around them.
+  uv[6 * 13 + 6] += Eigen::Vector2d (0.25, 0.03);
+  uv[6] += Eigen::Vector2d (0.02, 0.25);
+  ASSERT_FALSE (isUpright (chart.mesh.triangles, uv));
+  ASSERT_TRUE (untangle (chart, {}, 1, uv));
+  EXPECT_TRUE (isUpright (chart.mesh.triangles, uv));
+  EXPECT_TRUE (isSimple (chart.loop, uv));
+  EXPECT_EQ (uv.back (), flat.back ()); // far away
+  // All of it upside down.
+  uv = flat;
+  for (Eigen::Vector2d& p : uv)
+    p.x () = -p.x ();
+  EXPECT_FALSE (untangle (chart, {}, 1, uv));
+}
+
+TEST (ChartLayout, RefinedForOtherPositions)
+{
+  // Made for a sheet, of which one half is twice as long in fact.
+  const Mesh sheet = samples::sheet (10);
+  ChartLayout layout =
+      layOutChart (sheet.triangles, allOf (sheet.triangles), sheet.positions, {}, 1);
+  samples::Positions longer = sheet.positions;
+  for (Eigen::Vector3d& p : longer)
+    p.x () += std::max (0.0, p.x () - 0.5);
+  ASSERT_TRUE (refineLayout (sheet.triangles, longer, {}, 1, layout));
+  EXPECT_NEAR (layout.stretch, 1.0, 0.01);
+  EXPECT_TRUE (isUpright (layout.corners, layout.uv));
+  // It cannot be better.
+  const std::vector<Eigen::Vector2d> before =
+      layOutChart (sheet.triangles, allOf (sheet.triangles), sheet.positions, {}, 1).uv;
+  ChartLayout same = layOutChart (sheet.triangles, allOf (sheet.triangles), sheet.positions, {}, 1);
+  if (!refineLayout (sheet.triangles, sheet.positions, {}, 1, same))
+    EXPECT_EQ (same.uv, before);
+  EXPECT_NEAR (same.stretch, 1.0, 1e-6);
+}
+
+// A chart that is no projection, and too large for a circle, has no layout.
+TEST (ChartLayout, LargeOnesAreNotBegunOnACircle)
+{
+  const facing_cases::FacingCase bowl = facing_cases::makeBowl (0.95);
+  DescentLimits limits;
+  limits.most_on_circle = bowl.mesh.triangles.size ();
+  const std::vector<Index> all = allOf (bowl.mesh.triangles);
+  EXPECT_FALSE (layOutChart (bowl.mesh.triangles, all, bowl.positions, limits, 1).uv.empty ());
+  --limits.most_on_circle;
+  EXPECT_TRUE (layOutChart (bowl.mesh.triangles, all, bowl.positions, limits, 1).uv.empty ());
 }
 
 // Facets of several triangles, as large meshes have them.
