@@ -53,6 +53,8 @@ struct TextureLimits
   /// Times the deviation of the parts is halved to cut a chart, before it is just cut in two.
   int halvings = 4;
 
+  /// These, and the bounds below, were chosen by hand on two noisy scans, for few charts and little
+  /// time; they do not decide whether a layout is right.
   /// It is cut in two as well if that would give more parts, or leave more than this share of the
   /// triangles in one of them: then it is not its curvature that is wrong.
   std::size_t most_parts = 8;
