@@ -15,10 +15,14 @@ endif ()
 
 set (makes_man_pages ${makes_man_pages} PARENT_SCOPE)
 
-# pcl_floater_document_tool (<tool> SUMMARY <text> EXAMPLE <command|command...> [COLUMN <width>])
-# COLUMN: width of the column of names in its --help.
+# pcl_floater_document_tool (<tool> SUMMARY <text> EXAMPLE <command|command...> [COLUMN <width>]
+#                            [COMPONENT <name>])
+# COLUMN: width of the column of names in its --help. COMPONENT: of the installation, by default tools.
 function (pcl_floater_document_tool tool)
-  cmake_parse_arguments (PARSE_ARGV 1 arg "" "SUMMARY;EXAMPLE;COLUMN" "")
+  cmake_parse_arguments (PARSE_ARGV 1 arg "" "SUMMARY;EXAMPLE;COLUMN;COMPONENT" "")
+  if (NOT arg_COMPONENT)
+    set (arg_COMPONENT tools)
+  endif ()
   if (NOT arg_COLUMN)
     set (arg_COLUMN 30)
   endif ()
@@ -37,9 +41,9 @@ function (pcl_floater_document_tool tool)
   endif ()
   if (PCL_FLOATER_INSTALL)
     install (FILES "${PROJECT_SOURCE_DIR}/tools/completion.bash" RENAME "${tool}"
-             DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT tools)
+             DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT ${arg_COMPONENT})
     if (makes_man_pages AND NOT PCL_FLOATER_PACKAGES) # which have compressed ones
-      install (FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+      install (FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT ${arg_COMPONENT})
     endif ()
   endif ()
 endfunction ()

@@ -61,14 +61,22 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
                   points, request.options.disc.boundary.loop);
   if (outliers.empty ())
     return;
+  removeOutliers (points, outliers, report);
+  neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
+}
+
+void
+removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report)
+{
+  if (outliers.empty ())
+    return;
   const std::vector<Index> cloud_indices = removePoints (points, outliers);
   reportOutliers (cloud_indices, points.size (), report);
-  neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
 }
 
 Noise
 measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSettings& settings,
-                        const Request& request, Report& report)
+                        const Request& request, const NoiseProbes* known, Report& report)
 {
   const Options& options = request.options;
   const Limits& limits = request.limits;
@@ -76,7 +84,7 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSetti
   const bool drops_scatter = options.scatter == ScatterPolicy::DROP;
   if (!options.denoise && !drops_scatter)
     return {};
-  Noise noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+  Noise noise = measureNoise (points.positions, planes.neighbors, limits.noise, run, known);
   if (drops_scatter)
     noise.scatter = exceptLoop (std::move (noise.scatter), points, options.disc.boundary.loop);
   reportScatter (points, noise.scatter, report);

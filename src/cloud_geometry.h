@@ -24,13 +24,18 @@ void
 removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
                 const Request& request, Report& report);
 
+/// The same of outliers that are known, ascending; neighbours are not renewed.
+void
+removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report);
+
 /// Measures noise and looks for scatter, which has no surface at any scale; it is taken out if that
 /// is asked for, but for points that the user's loop names.
 /// \param planes of the points; made anew where points are taken out
 /// \return nothing noisy if noise is not to be projected away
+/// \param known  of every NOISE_PROBES-th point, if they have been measured before
 Noise
 measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSettings& settings,
-                        const Request& request, Report& report);
+                        const Request& request, const NoiseProbes* known, Report& report);
 
 /// How the stars of the points are made.
 StarSettings

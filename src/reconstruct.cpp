@@ -11,6 +11,7 @@
 #include "finished_mesh.h"
 #include "given_viewpoint.h"
 #include "input_cleaning.h"
+#include "known_stages.h"
 #include "local/star_agreement.h"
 #include "mesh/mesh_spacing.h"
 #include "problem_of_exception.h"
@@ -142,14 +143,14 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
 
 Problem
 reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
-                    Result& result)
+                    std::optional<ProposedTriangles> proposed, Result& result)
 {
   const Options& options = request.options;
   Report& report = result.report;
   Surface surface = makeSurface (
       points, geometry,
       {options.holes, options.flip_edges, request.limits.surface, facingHints (points, request)},
-      request.run);
+      request.run, std::move (proposed));
   reportOrientationSeam (points, surface.orientation_seam, report);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
@@ -229,7 +230,7 @@ reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Re
 // A cloud of which nobody tells where it was seen from, or that is no scan.
 Problem
 reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request& request,
-                        Result& result)
+                        KnownStages* known, Result& result)
 {
   const Options& options = request.options;
   const Limits& limits = request.limits;
@@ -239,9 +240,13 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   run.beginStage (Stage::NEIGHBORS);
   const NeighborSettings settings = neighborSettings (options, searcher);
   std::optional<KdTree> tree; // searched again for the stars of a surface
-  CsrLists neighbors = findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
+  CsrLists neighbors = known != nullptr
+                           ? CsrLists{}
+                           : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   const std::size_t searched = points.size ();
-  if (options.remove_outliers)
+  if (known != nullptr)
+    removeOutliers (points, known->outliers (), report);
+  else if (options.remove_outliers)
     removeOutliers (points, neighbors, settings, request, report);
   if (points.size () != searched)
     tree.reset ();
@@ -249,27 +254,38 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return problem;
   run.beginStage (Stage::STARS);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes =
-      fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes);
+  LocalPlanes planes = known != nullptr
+                           ? known->planes ()
+                           : fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars,
+                                             run, limits.planes);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
   const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
     return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
   };
   if (may_be_seen) {
-    samples = takeAreaSamples (points, planes, stars, search.samples, run);
+    samples = known != nullptr ? known->areaSamples ()
+                               : takeAreaSamples (points, planes, stars, search.samples, run);
     if (const std::optional<Problem> problem = reconstructFrom (
             findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
       return *problem;
   }
   const std::size_t with_scatter = points.size ();
-  Noise noise = measureNoiseAndScatter (points, planes, settings, request, report);
+  std::optional<NoiseProbes> probes;
+  if (known != nullptr)
+    probes = known->noiseProbes ();
+  Noise noise = measureNoiseAndScatter (points, planes, settings, request,
+                                        probes ? &*probes : nullptr, report);
+  if (points.size () != with_scatter)
+    known = nullptr; // all that follows is of fewer points
   if (Problem problem = checkPoints (points)) {
     problem.message = "without the " + counted (with_scatter - points.size (), "point", "points") +
                       " of no surface: " + problem.message + "; keep the scatter";
     return problem;
   }
-  LocalGeometry geometry = makeLocalGeometry (points, std::move (planes), stars, run);
+  LocalGeometry geometry = known != nullptr
+                               ? known->geometry (std::move (planes), noise.noisy_points > 0)
+                               : makeLocalGeometry (points, std::move (planes), stars, run);
   noise.is_strong =
       noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
   if (noise.is_strong) {
@@ -280,46 +296,30 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     CsrLists around = std::move (geometry.neighbors);
     geometry = {};
     geometry = projectNoise (points, std::move (around), noise, settings, request);
+    known = nullptr;
   }
   geometry.scatter = std::move (noise.scatter);
   reportNoise (noise, noise.is_strong, report);
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 
-  return as_disc ? reconstructDisc (points, std::move (geometry), request, result)
-                 : reconstructSurface (points, std::move (geometry), request, result);
+  if (as_disc)
+    return reconstructDisc (points, std::move (geometry), request, result);
+  std::optional<ProposedTriangles> proposed;
+  if (known != nullptr)
+    proposed = known->triangles ();
+  return reconstructSurface (points, std::move (geometry), request, std::move (proposed), result);
 }
 
 Problem
-reconstructAny (Input& input, const Request& request, Result& result)
+reconstructAny (Input& input, const Request& request, KnownStages* known, Result& result)
 {
   const Options& options = request.options;
-  const Limits& limits = request.limits;
-  const RunContext& run = request.run;
   Report& report = result.report;
-  report.statistics.cloud_points = input.cloud_size;
-  report.statistics.selected_points = input.positions.size ();
-  if (Problem problem = checkOptions (options))
+  Points points;
+  if (known != nullptr)
+    points = known->points (report);
+  else if (Problem problem = takePoints (input, request, points, report))
     return problem;
-  if (Problem problem = checkInput (input))
-    return problem;
-  if (Problem problem = checkFacing (input, options))
-    return problem;
-  const bool as_disc = asksForDisc (options);
-  if (as_disc)
-    run.setMethod (Topology::DISC);
-
-  run.beginStage (Stage::WORKING_SET);
-  if (Problem problem = cleanInput (input, options, limits.gross_outliers, run, report))
-    return problem;
-  Points points = makePoints (input.positions, input.cloud_index, run);
-  points.lattice_width = input.lattice_width;
-  points.normals = normalsOfPoints (input.normals, points);
-  std::vector<Eigen::Vector3f> ().swap (input.normals);
-  points.facing_normals = normalsOfPoints (input.facing_normals, points);
-  std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
-  std::vector<Eigen::Vector3d> ().swap (input.positions);
-  std::vector<Index> ().swap (input.cloud_index);
-  reportPoints (points, report);
   if (Problem problem = checkPoints (points))
     return problem;
 
@@ -329,15 +329,88 @@ reconstructAny (Input& input, const Request& request, Result& result)
       if (const std::optional<Problem> problem =
               reconstructKnownView (points, *viewpoint, request, result))
         return *problem;
-  return reconstructByNeighbors (points, input.search, request, result);
+  return reconstructByNeighbors (points, input.search, request, known, result);
+}
+
+Result
+run (Input& input, const Options& options, const Limits& limits, KnownStages* known)
+{
+  Result result;
+  Problem problem;
+  try {
+    RunMonitor monitor ({options.stage_callback, options.progress_callback,
+                         options.cancelled_callback, options.task_callback},
+                        result.report.statistics);
+    const RunContext context (options.threads, &monitor);
+    const bool has_plane_normals = !input.normals.empty ();
+    const Options effective = effectiveOptions (options);
+    const Limits effective_limits = effectiveLimits (limits, options);
+    problem = reconstructAny (input, {effective, effective_limits, context, input.sensor_origin},
+                              known, result);
+    if (!problem) {
+      for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))
+        result.report.warnings.push_back (std::move (unused));
+      monitor.finish ();
+    }
+  }
+  catch (...) {
+    try {
+      problem = problemOfException ();
+    }
+    catch (...) {
+      problem = {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
+    }
+  }
+  if (problem.status == RunStatus::CANCELLED) {
+    Report cancelled;
+    cancelled.statistics = result.report.statistics;
+    result.report = std::move (cancelled); // nothing that takes memory
+  }
+  result.report.status = problem.status;
+  if (problem) {
+    result.triangles = {};
+    result.report.message = std::move (problem.message);
+  }
+  return result;
 }
 
 } // namespace
 
+Problem
+takePoints (Input& input, const Request& request, Points& points, Report& report)
+{
+  const Options& options = request.options;
+  const RunContext& run = request.run;
+  report.statistics.cloud_points = input.cloud_size;
+  report.statistics.selected_points = input.positions.size ();
+  if (Problem problem = checkOptions (options))
+    return problem;
+  if (Problem problem = checkInput (input))
+    return problem;
+  if (Problem problem = checkFacing (input, options))
+    return problem;
+  if (asksForDisc (options))
+    run.setMethod (Topology::DISC);
+
+  run.beginStage (Stage::WORKING_SET);
+  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
+    return problem;
+  points = makePoints (input.positions, input.cloud_index, run);
+  points.lattice_width = input.lattice_width;
+  points.normals = normalsOfPoints (input.normals, points);
+  std::vector<Eigen::Vector3f> ().swap (input.normals);
+  points.facing_normals = normalsOfPoints (input.facing_normals, points);
+  std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
+  std::vector<Eigen::Vector3d> ().swap (input.positions);
+  std::vector<Index> ().swap (input.cloud_index);
+  reportPoints (points, report);
+  return {};
+}
+
 Result
 reconstruct (Input input, const Options& options)
 {
-  return reconstruct (std::move (input), options, {});
+  return reconstruct (std::move (input), options, Limits{});
 }
 
 Result
@@ -375,43 +448,13 @@ reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
 Result
 reconstruct (Input input, const Options& options, const Limits& limits)
 {
-  Result result;
-  Problem problem;
-  try {
-    RunMonitor monitor ({options.stage_callback, options.progress_callback,
-                         options.cancelled_callback, options.task_callback},
-                        result.report.statistics);
-    const RunContext run (options.threads, &monitor);
-    const bool has_plane_normals = !input.normals.empty ();
-    const Options effective = effectiveOptions (options);
-    const Limits effective_limits = effectiveLimits (limits, options);
-    problem =
-        reconstructAny (input, {effective, effective_limits, run, input.sensor_origin}, result);
-    if (!problem) {
-      for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))
-        result.report.warnings.push_back (std::move (unused));
-      monitor.finish ();
-    }
-  }
-  catch (...) {
-    try {
-      problem = problemOfException ();
-    }
-    catch (...) {
-      problem = {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
-    }
-  }
-  if (problem.status == RunStatus::CANCELLED) {
-    Report cancelled;
-    cancelled.statistics = result.report.statistics;
-    result.report = std::move (cancelled); // nothing that takes memory
-  }
-  result.report.status = problem.status;
-  if (problem) {
-    result.triangles = {};
-    result.report.message = std::move (problem.message);
-  }
-  return result;
+  return run (input, options, limits, nullptr);
+}
+
+Result
+reconstruct (Input input, const Options& options, KnownStages& known)
+{
+  return run (input, options, {}, &known);
 }
 
 } // namespace floater

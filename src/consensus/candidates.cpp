@@ -90,15 +90,15 @@ setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
 CandidateLists
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
                 const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const CandidateLimits& limits, const RunContext& run)
+                const Rows& rows, const CandidateLimits& limits, const RunContext& run)
 {
-  const std::size_t n = positions.size (), sure_ranks = limits.sure_ranks;
-  std::vector<CandidateLists> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+  const std::size_t sure_ranks = limits.sure_ranks;
+  std::vector<CandidateLists> ranges ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     CandidateLists& range = ranges[first / RANGE_LENGTH];
     range.sure.reserve (2 * (last - first));
-    for (std::size_t point = first; point < last; ++point) {
-      const auto p = static_cast<Index> (point);
+    for (std::size_t i = first; i < last; ++i) {
+      const Index p = rows[i];
       const Row row = stars.neighbors.row (p);
       if (row.size () < 2)
         continue;

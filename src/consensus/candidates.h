@@ -4,6 +4,7 @@
 #pragma once
 
 #include "local/stars.h"
+#include "points/rows.h"
 
 #include <array>
 #include <cstddef>
@@ -75,10 +76,12 @@ setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
 /// \param normals for the normal agreement: those of the stars, or others on the same side of each
 ///                point
 /// \param spacing of each point (see localSpacing)
+/// \param rows    points whose stars are looked at; a candidate is found if its first corner is
+///                one of them, and all arrays have to be right at its corners
 CandidateLists
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
                 const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const CandidateLimits& limits, const RunContext& run);
+                const Rows& rows, const CandidateLimits& limits, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -12,20 +12,41 @@ namespace pcl
 {
 namespace floater
 {
+ProposedTriangles
+proposeTriangles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  const Stars& stars, const std::vector<float>& spacing,
+                  const CandidateLimits& limits, const RunContext& run)
+{
+  const Rows all = Rows::all (positions.size ());
+  ProposedTriangles proposed;
+  proposed.smoothed_normals = smoothedNormals (positions, neighbors, stars.normals, all, run);
+  proposed.candidates =
+      findCandidates (positions, stars, proposed.smoothed_normals, spacing, all, limits, run);
+  return proposed;
+}
+
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run)
 {
-  // Triangles are compared with smoothed normals: at a sharp edge, these see both faces.
-  std::vector<Eigen::Vector3f> smoothed =
-      smoothedNormals (positions, neighbors, stars.normals, run);
-  CandidateLists candidates =
-      findCandidates (positions, stars, smoothed, spacing, limits.candidates, run);
-  ConsensusMesh made;
-  made.normals = std::move (stars.normals);
+  ProposedTriangles proposed =
+      proposeTriangles (positions, neighbors, stars, spacing, limits.candidates, run);
+  std::vector<Eigen::Vector3f> normals = std::move (stars.normals);
   stars = {};
+  return makeConsensusMesh (positions, neighbors, std::move (normals), std::move (proposed), limits,
+                            run);
+}
 
+ConsensusMesh
+makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                   std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,
+                   const ConsensusLimits& limits, const RunContext& run)
+{
+  std::vector<Eigen::Vector3f> smoothed = std::move (proposed.smoothed_normals);
+  CandidateLists candidates = std::move (proposed.candidates);
+  ConsensusMesh made;
+  made.normals = std::move (normals);
   Consensus consensus = buildConsensus (positions, candidates, smoothed, run);
   made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
   consensus = {};

@@ -33,6 +33,20 @@ struct ConsensusMesh
                               ///< contradict the orientation
 };
 
+/// What stars propose for the mesh.
+struct ProposedTriangles
+{
+  CandidateLists candidates;
+  std::vector<Eigen::Vector3f> smoothed_normals; ///< with which triangles are compared: at a sharp
+                                                 ///< edge, these see both faces
+};
+
+/// Smoothed normals, and the candidates by them. O(entries of the stars).
+ProposedTriangles
+proposeTriangles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  const Stars& stars, const std::vector<float>& spacing,
+                  const CandidateLimits& limits, const RunContext& run);
+
 /// Finds candidate triangles, their consensus and its manifold part. Then offers the candidates
 /// again where there is room left. O(n + m log m) for m doubtful candidates.
 /// \param positions by which the stars were made
@@ -43,6 +57,12 @@ ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run);
+
+/// The same of candidates that are known. \param normals those of the stars
+ConsensusMesh
+makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                   std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,
+                   const ConsensusLimits& limits, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

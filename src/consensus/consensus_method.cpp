@@ -39,14 +39,18 @@ closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometr
 
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run)
+             const RunContext& run, std::optional<ProposedTriangles> proposed)
 {
   const SurfaceLimits& limits = settings.limits;
   Surface surface;
   run.beginStage (Stage::CONSENSUS);
   ConsensusMesh consensus =
-      makeConsensusMesh (points.workingPositions (), geometry.neighbors, std::move (geometry.stars),
-                         geometry.spacing, limits.consensus, run);
+      proposed
+          ? makeConsensusMesh (points.workingPositions (), geometry.neighbors,
+                               std::move (geometry.stars.normals), std::move (*proposed),
+                               limits.consensus, run)
+          : makeConsensusMesh (points.workingPositions (), geometry.neighbors,
+                               std::move (geometry.stars), geometry.spacing, limits.consensus, run);
   surface.mesh = std::move (consensus.mesh);
   surface.orientation_seam = findOrientationSeam (consensus.seam, limits.consensus.shortest_seam);
   geometry.stars = {};

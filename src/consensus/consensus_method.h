@@ -10,6 +10,7 @@
 #include "mesh/open_loops.h"
 #include "points/points.h"
 
+#include <optional>
 #include <vector>
 
 namespace pcl
@@ -56,9 +57,10 @@ struct Surface
 /// chosen by the working positions, the mesh is finished by the positions themselves. O(n log n).
 /// \param geometry in: of the points; out: without stars, but with their normals, oriented like the
 ///                 mesh
+/// \param proposed what the stars propose, if that is known; then only their normals are read
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run);
+             const RunContext& run, std::optional<ProposedTriangles> proposed = std::nullopt);
 
 } // namespace floater
 } // namespace pcl

@@ -26,6 +26,13 @@ makeReaching (const LocalPlanes& planes, const StarSettings& settings, Make&& ma
 }
 } // namespace
 
+void
+takeReachAsSpacing (const std::vector<float>& reach, std::vector<float>& spacing)
+{
+  for (std::size_t p = 0; p < spacing.size (); ++p)
+    spacing[p] = std::max (spacing[p], REACH_AS_SPACING * reach[p]);
+}
+
 LocalPlanes
 fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
                 const StarSettings& settings, const RunContext& run, const PlaneLimits& limits)
@@ -39,11 +46,13 @@ fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> 
       planes.tree.emplace (std::move (*known));
     else
       planes.tree.emplace (positions, run);
-    planes.beside = findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
-                                     limits.least_aspect, settings.reach, run);
+    planes.beside =
+        findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
+                         Rows::all (positions.size ()), limits.least_aspect, settings.reach, run);
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
-  planes.normals = fitTangentPlanes (positions, planes.neighbors, run, limits);
+  planes.normals =
+      fitTangentPlanes (positions, planes.neighbors, Rows::all (positions.size ()), run, limits);
   for (std::size_t p = 0; p < points.normals.size (); ++p)
     if (!points.normals[p].isZero (0.0F))
       planes.normals[p] = points.normals[p];
@@ -77,9 +86,7 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
     return geometry;
   appendRows (geometry.stars.far_neighbors, geometry.neighbors);
   geometry.stars.far_neighbors = {};
-  for (std::size_t p = 0; p < positions.size (); ++p)
-    geometry.spacing[p] =
-        std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
+  takeReachAsSpacing (geometry.stars.reach, geometry.spacing);
   return geometry;
 }
 

@@ -55,6 +55,10 @@ Stars
 makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
              const StarSettings& settings, const RunContext& run);
 
+/// The spacing of LocalGeometry, of the spacing of the points and the reach of their stars.
+void
+takeReachAsSpacing (const std::vector<float>& reach, std::vector<float>& spacing);
+
 /// Stars and spacing by the working positions of the points. O(n k log k).
 LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,

@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/rows.h"
 
 #include <vector>
 
@@ -21,9 +22,11 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 
 /// The mean normals of points where they are more than 26 degrees off the points' own; the points'
 /// own normals elsewhere. O(n).
+/// \param rows points whose normals are wanted; those of others are zero
 std::vector<Eigen::Vector3f>
 smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+                 const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+                 const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -10,12 +10,13 @@ namespace floater
 {
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run)
+              const Rows& rows, const RunContext& run)
 {
   constexpr std::size_t NEAREST = 6;
   std::vector<float> spacing (positions.size ());
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Index p = rows[i];
       const Row row = neighbors.first (p, NEAREST);
       double sum = 0.0;
       for (const Index q : row)
@@ -25,6 +26,13 @@ localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
     }
   });
   return spacing;
+}
+
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const RunContext& run)
+{
+  return localSpacing (positions, neighbors, Rows::all (positions.size ()), run);
 }
 
 } // namespace floater

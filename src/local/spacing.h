@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/rows.h"
 
 #include <vector>
 
@@ -17,6 +18,11 @@ namespace floater
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const RunContext& run);
+
+/// That of some points only; 0 for all others. \param neighbors of the points in `rows`
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const Rows& rows, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -69,22 +69,30 @@ middleOfGap (const std::vector<PlanarNeighbor>& star)
   return is_reflex ? Eigen::Vector2d (-sum.normalized ()) : Eigen::Vector2d (sum.normalized ());
 }
 
+// How far a search for some points within a radius has looked.
+double
+reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double radius)
+{
+  return found.size () == wanted ? std::sqrt (found.back ().sqr_distance) : radius;
+}
+
 } // namespace
 
 BesideLines
 findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
-                 const ReachLimits& limits, const RunContext& run)
+                 const std::vector<float>& spacing, const KdTree& tree, const Rows& rows,
+                 double least_aspect, const ReachLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size ();
   BesideLines beside;
   beside.reach.assign (n, 0.0F);
   CsrLists& lists = beside.neighbors;
   lists.offsets.assign (n + 1, 0);
-  std::vector<std::vector<Index>> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+  std::vector<std::vector<Index>> ranges ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
-    for (std::size_t p = first; p < last; ++p) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Index p = rows[i];
       const Eigen::Vector3d& here = positions[p];
       const Row row = neighbors.row (p);
       if (!mayBeLine (positions, here, row))
@@ -110,8 +118,9 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
       Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
       double smaller = 0.0;
       for (const bool is_first : {true, false}) {
-        tree.nearestIf (here, ahead, limits.farthest * static_cast<double> (spacing[p]),
-                        limits.added, is_beside, found);
+        const double farthest = limits.farthest * static_cast<double> (spacing[p]);
+        tree.nearestIf (here, ahead, farthest, limits.added, is_beside, found);
+        tree.looked (here, reachOfSearch (found, limits.added, farthest));
         if (found.empty ())
           break;
         const double distance = std::sqrt (found.front ().sqr_distance);
@@ -211,6 +220,7 @@ StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& s
            isNew (centre, neighbor, neighbor.sqr_distance, sheets_);
   };
   tree_.nearestIf (here, ahead, centre.farthest, limits_.added, is_ahead, found_);
+  tree_.looked (here, reachOfSearch (found_, limits_.added, centre.farthest));
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -238,8 +248,10 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
     return (unrolled (centre.frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
            isNew (centre, neighbor, offset.squaredNorm (), limits_.circle_sheet);
   };
-  tree_.nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (),
-                   std::sqrt (sqr_radius), limits_.added, is_inside, found_);
+  const double radius = std::sqrt (sqr_radius);
+  tree_.nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (), radius,
+                   limits_.added, is_inside, found_);
+  tree_.looked (here, radius + reachOfSearch (found_, limits_.added, radius));
   if (found_.empty ())
     empty_circles_.push_back (circle);
   for (const Neighbor& neighbor : found_)

@@ -8,6 +8,7 @@
 #include "local/planar_star.h"
 #include "local/sheet.h"
 #include "points/kd_tree.h"
+#include "points/rows.h"
 
 #include <vector>
 
@@ -52,11 +53,12 @@ struct BesideLines
 };
 
 /// Looks for points beside lines. O(n k) and two searches for each point on a line.
-/// \param spacing of each point (see localSpacing)
+/// \param spacing of the points in `rows` (see localSpacing)
+/// \param rows    points beside whose lines is looked; neighbours of others are not read
 BesideLines
 findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
-                 const ReachLimits& limits, const RunContext& run);
+                 const std::vector<float>& spacing, const KdTree& tree, const Rows& rows,
+                 double least_aspect, const ReachLimits& limits, const RunContext& run);
 
 /// Adds lists to others, row by row. In place: O(entries).
 void

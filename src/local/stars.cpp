@@ -145,12 +145,14 @@ private:
   Star star_, wider_;
 };
 
-// The stars of a range of points.
-struct Range
+} // namespace
+
+// The stars of a range of the rows.
+struct StarRange
 {
   std::vector<Index> ids;
   std::vector<Eigen::Vector2d> offsets;
-  std::vector<std::pair<Index, std::vector<Index>>> far; // points with far neighbours
+  std::vector<std::pair<std::size_t, std::vector<Index>>> far; // rows with far neighbours
 
   void append (const std::vector<PlanarNeighbor>& star, bool with_offsets)
   {
@@ -162,6 +164,8 @@ struct Range
   }
 };
 
+namespace
+{
 // Leaves out far neighbours across holes. Returns whether there were any.
 bool
 leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& reach,
@@ -180,16 +184,16 @@ leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector
 
 // Makes the stars of a range again where far neighbours are left out.
 void
-makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions,
-           const BeyondNeighbors& beyond, std::size_t first, bool with_offsets, Stars& stars,
-           Range& range)
+makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, double gap_ratio,
+           const Rows& rows, std::size_t first, bool with_offsets, Stars& stars, StarRange& range)
 {
-  Range renewed;
+  StarRange renewed;
   renewed.ids.reserve (range.ids.size ());
-  Index begin = 0, p = static_cast<Index> (first);
-  const auto copyUpTo = [&] (Index end) {
-    for (; p < end; ++p) {
-      const Index length = stars.neighbors.offsets[p + 1];
+  Index begin = 0;
+  std::size_t row = first;
+  const auto copyUpTo = [&] (std::size_t end) {
+    for (; row < end; ++row) {
+      const Index length = stars.neighbors.offsets[rows[row] + 1];
       renewed.ids.insert (renewed.ids.end (), range.ids.begin () + begin,
                           range.ids.begin () + begin + length);
       if (with_offsets)
@@ -198,17 +202,18 @@ makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions,
       begin += length;
     }
   };
-  for (auto& [point, far] : range.far) {
-    copyUpTo (point);
-    if (!leaveOutAcross (positions, stars.reach, beyond.limits.gap_ratio, point, far))
+  for (auto& [far_row, far] : range.far) {
+    copyUpTo (far_row);
+    const Index p = rows[far_row];
+    if (!leaveOutAcross (positions, stars.reach, gap_ratio, p, far))
       continue;
-    begin += stars.neighbors.offsets[point + 1];
-    stars.open[point] = maker.make (point, far, stars.normals[point]) ? 1 : 0;
-    stars.neighbors.offsets[point + 1] = static_cast<Index> (maker.star ().size ());
+    begin += stars.neighbors.offsets[p + 1];
+    stars.open[p] = maker.make (p, far, stars.normals[p]) ? 1 : 0;
+    stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
     renewed.append (maker.star (), with_offsets);
-    ++p;
+    ++row;
   }
-  copyUpTo (static_cast<Index> (std::min (first + RANGE_LENGTH, positions.size ())));
+  copyUpTo (std::min (first + RANGE_LENGTH, rows.size ()));
   range.ids.swap (renewed.ids);
   range.offsets.swap (renewed.offsets);
 }
@@ -228,25 +233,25 @@ largestAround (const std::vector<float>& values, const CsrLists& neighbors)
 
 // Lists of far neighbours, of those points that have any.
 CsrLists
-packFar (std::size_t points, const std::vector<Range>& ranges)
+packFar (std::size_t points, const Rows& rows, const std::vector<StarRange>& ranges)
 {
-  return makeCsrLists (points, [&ranges] (const auto& emit) {
-    for (const Range& range : ranges)
-      for (const auto& [point, far] : range.far)
+  return makeCsrLists (points, [&] (const auto& emit) {
+    for (const StarRange& range : ranges)
+      for (const auto& [row, far] : range.far)
         for (const Index q : far)
-          emit (point, q);
+          emit (rows[row], q);
   });
 }
 
 // Joins the stars of all ranges, whose lengths are in the offsets. Empties the ranges.
 void
-pack (std::vector<Range>& ranges, bool with_offsets, Stars& stars)
+pack (std::vector<StarRange>& ranges, bool with_offsets, Stars& stars)
 {
   sumRowLengths (stars.neighbors.offsets);
   const std::size_t entries = stars.neighbors.offsets.back ();
   stars.neighbors.ids.reserve (entries);
   stars.offsets_in_plane.reserve (with_offsets ? entries : 0);
-  for (Range& range : ranges) {
+  for (StarRange& range : ranges) {
     stars.neighbors.ids.insert (stars.neighbors.ids.end (), range.ids.begin (), range.ids.end ());
     stars.offsets_in_plane.insert (stars.offsets_in_plane.end (), range.offsets.begin (),
                                    range.offsets.end ());
@@ -256,26 +261,31 @@ pack (std::vector<Range>& ranges, bool with_offsets, Stars& stars)
 
 } // namespace
 
-Stars
-makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run, const BeyondNeighbors* beyond)
+StarsInMaking::StarsInMaking () = default;
+StarsInMaking::~StarsInMaking () = default;
+StarsInMaking::StarsInMaking (StarsInMaking&&) noexcept = default;
+
+StarsInMaking
+beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
 {
   const std::size_t n = positions.size ();
-  Stars stars;
+  StarsInMaking made;
+  Stars& stars = made.stars;
   stars.open.resize (n);
   stars.normals.resize (n);
   stars.neighbors.offsets.assign (n + 1, 0);
   stars.reach.resize (beyond != nullptr ? n : 0);
 
   // Each range collects its stars; then they are packed.
-  std::vector<Range> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+  made.ranges.resize ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, neighbors, normals, settings, beyond);
-    Range& range = ranges[first / RANGE_LENGTH];
+    StarRange& range = made.ranges[first / RANGE_LENGTH];
     range.ids.reserve (7 * (last - first));
-    for (std::size_t point = first; point < last; ++point) {
-      const auto p = static_cast<Index> (point);
+    for (std::size_t row = first; row < last; ++row) {
+      const Index p = rows[row];
       stars.open[p] = maker.make (p, stars.normals[p]) ? 1 : 0;
       stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
       range.append (maker.star (), settings.with_offsets);
@@ -284,21 +294,69 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
       stars.reach[p] = std::max (beyond->beside.reach[p],
                                  static_cast<float> (reachOf (maker.star (), stars.open[p] != 0)));
       if (!maker.added ().empty ())
-        range.far.emplace_back (p, maker.added ());
+        range.far.emplace_back (row, maker.added ());
     }
   });
-  if (beyond != nullptr) {
-    stars.reach = largestAround (stars.reach, neighbors);
-    parallelRanges (run, n, [&] (std::size_t first, std::size_t) {
-      StarMaker maker (positions, neighbors, normals, settings, nullptr);
-      Range& range = ranges[first / RANGE_LENGTH];
-      if (!range.far.empty ())
-        makeAgain (maker, positions, *beyond, first, settings.with_offsets, stars, range);
-    });
-    stars.far_neighbors = packFar (n, ranges);
+  return made;
+}
+
+StarsInMaking
+resumeStars (Stars stars, const Rows& rows)
+{
+  StarsInMaking made;
+  made.ranges.resize ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  for (std::size_t i = 0; i < rows.size (); ++i) {
+    StarRange& range = made.ranges[i / RANGE_LENGTH];
+    const Row star = stars.neighbors.row (rows[i]), far = stars.far_neighbors.row (rows[i]);
+    range.ids.insert (range.ids.end (), star.begin (), star.end ());
+    if (far.size () > 0)
+      range.far.emplace_back (i, std::vector<Index> (far.begin (), far.end ()));
   }
-  pack (ranges, settings.with_offsets, stars);
+  for (std::size_t p = stars.neighbors.rows (); p > 0; --p)
+    stars.neighbors.offsets[p] -= stars.neighbors.offsets[p - 1]; // lengths again
+  stars.neighbors.ids = {};
+  stars.far_neighbors = {};
+  made.stars = std::move (stars);
+  return made;
+}
+
+void
+leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                     const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+                     const StarSettings& settings, double gap_ratio, StarsInMaking& made,
+                     const RunContext& run)
+{
+  made.stars.reach = largestAround (made.stars.reach, neighbors);
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t) {
+    StarMaker maker (positions, neighbors, normals, settings, nullptr);
+    StarRange& range = made.ranges[first / RANGE_LENGTH];
+    if (!range.far.empty ())
+      makeAgain (maker, positions, gap_ratio, rows, first, settings.with_offsets, made.stars,
+                 range);
+  });
+}
+
+Stars
+endStars (StarsInMaking made, const Rows& rows, const StarSettings& settings)
+{
+  Stars stars = std::move (made.stars);
+  if (!stars.reach.empty ())
+    stars.far_neighbors = packFar (stars.open.size (), rows, made.ranges);
+  pack (made.ranges, settings.with_offsets, stars);
   return stars;
+}
+
+Stars
+makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+           const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
+           const RunContext& run, const BeyondNeighbors* beyond)
+{
+  const Rows all = Rows::all (positions.size ());
+  StarsInMaking made = beginStars (positions, neighbors, normals, all, settings, run, beyond);
+  if (beyond != nullptr)
+    leaveOutAcrossHoles (positions, neighbors, normals, all, settings, beyond->limits.gap_ratio,
+                         made, run);
+  return endStars (std::move (made), all, settings);
 }
 
 Stars
@@ -311,7 +369,7 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
   stars.open.resize (n);
   stars.normals.resize (n);
   stars.neighbors.offsets.assign (n + 1, 0);
-  std::vector<Range> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  std::vector<StarRange> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, neighbors, normals, settings, beyond);
     for (std::size_t i = first; i < last; ++i) {

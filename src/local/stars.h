@@ -7,6 +7,7 @@
 #include "core/run_context.h"
 #include "local/sheet.h"
 #include "local/star_reach.h"
+#include "points/rows.h"
 
 #include <vector>
 
@@ -74,6 +75,47 @@ Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
            const RunContext& run, const BeyondNeighbors* beyond = nullptr);
+
+/// The lists of some stars, not yet packed.
+struct StarRange;
+struct StarsInMaking
+{
+  StarsInMaking ();
+  ~StarsInMaking ();
+  StarsInMaking (const StarsInMaking&) = delete;
+  StarsInMaking& operator= (const StarsInMaking&) = delete;
+  StarsInMaking (StarsInMaking&&) noexcept;
+  StarsInMaking& operator= (StarsInMaking&&) = delete;
+
+  Stars stars; ///< without the lists; `offsets` has the length of each row instead
+  std::vector<StarRange> ranges;
+};
+
+/// makeStars in steps, for stars of a part of a cloud: all arrays have a place for each of its
+/// points, of which those in `rows` are read and written. The first step looks at the points around
+/// with their normals, which must be in the part. Its reach is that of the star alone.
+StarsInMaking
+beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond);
+
+/// The state after the first step of stars whose lists have been packed by endStars.
+StarsInMaking
+resumeStars (Stars stars, const Rows& rows);
+
+/// The second step: the reach becomes the largest around; then far neighbours across holes are left
+/// out.
+/// \param neighbors of the points in `rows` and of their far neighbours
+/// \param made      the first step; the reach also of those neighbours
+void
+leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                     const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+                     const StarSettings& settings, double gap_ratio, StarsInMaking& made,
+                     const RunContext& run);
+
+/// Packs the lists.
+Stars
+endStars (StarsInMaking made, const Rows& rows, const StarSettings& settings);
 
 /// Stars of some points only; those of the i-th of them are in row i. Far neighbours across a hole
 /// are not left out.

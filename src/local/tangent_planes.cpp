@@ -47,13 +47,13 @@ fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors
 
 std::vector<Eigen::Vector3f>
 fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  const RunContext& run, const PlaneLimits& limits)
+                  const Rows& rows, const RunContext& run, const PlaneLimits& limits)
 {
-  std::vector<Eigen::Vector3f> normals (positions.size ());
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      normals[p] =
-          fitNormal (positions, static_cast<Index> (p), neighbors.row (p), limits).cast<float> ();
+  std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::Zero ());
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      normals[rows[i]] =
+          fitNormal (positions, rows[i], neighbors.row (rows[i]), limits).cast<float> ();
   });
   return normals;
 }

@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/rows.h"
 
 #include <vector>
 
@@ -29,10 +30,11 @@ struct PlaneLimits
 /// Unit normals, of arbitrary sign: those of the planes through the 8 nearest neighbours, refitted
 /// to those of all neighbours that lie near that plane. So a second sheet within reach does not
 /// tilt them. Where the 8 nearest lie nearly on a line, as in scan lines, more are taken. O(n k).
-/// \param neighbors of each point, nearest first
+/// \param neighbors of the points in `rows`, nearest first
+/// \param rows      points whose normals are wanted; those of others are zero
 std::vector<Eigen::Vector3f>
 fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  const RunContext& run, const PlaneLimits& limits = {});
+                  const Rows& rows, const RunContext& run, const PlaneLimits& limits = {});
 
 } // namespace floater
 } // namespace pcl

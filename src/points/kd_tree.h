@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -28,6 +29,17 @@ struct Neighbor
   }
 };
 
+/// Is told where searches look. Of a tree of a part of a cloud, that tells whether the part was
+/// enough.
+class SearchWatch
+{
+public:
+  virtual ~SearchWatch () = default;
+
+  /// A result depends on all points of the cloud in this ball. May be called by several threads.
+  virtual void looked (const Eigen::Vector3d& centre, double radius) = 0;
+};
+
 /// kd-tree with buckets at its leaves. Built by medians: O(n log n), 40 bytes per point, the same
 /// for any number of threads. Queries are exact, ties in distance are broken by index, and any
 /// number of threads may query at once.
@@ -35,6 +47,28 @@ class KdTree
 {
 public:
   explicit KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run = 1);
+
+  /// Tells this watch of all searches from now on whose callers tell the tree; nullptr: none.
+  void setWatch (SearchWatch* watch) { watch_ = watch; }
+
+  /// To be called after searches around a point of the cloud: they looked into this ball.
+  void looked (const Eigen::Vector3d& centre, double radius) const
+  {
+    if (watch_ != nullptr)
+      watch_->looked (centre, radius);
+  }
+
+  /// The same after a search for the k nearest points.
+  void lookedForNearest (const Eigen::Vector3d& centre, std::size_t k,
+                         const std::vector<Neighbor>& found) const
+  {
+    if (watch_ != nullptr)
+      watch_->looked (centre,
+                      found.size () == k ? std::sqrt (found.back ().sqr_distance) : EVERYWHERE);
+  }
+
+  /// A radius beyond all points of a working set.
+  static constexpr double EVERYWHERE = 1e100;
 
   /// The k nearest points to `query`, nearest first; fewer if the tree holds fewer. The result is
   /// overwritten. O(k + log n) on clouds of bounded density.
@@ -97,6 +131,7 @@ private:
 
   std::vector<Item> items_; // in the order of the leaves
   std::vector<Node> nodes_;
+  SearchWatch* watch_ = nullptr;
   Eigen::AlignedBox3d box_; // of all points
 };
 

@@ -15,9 +15,6 @@ namespace floater
 {
 namespace
 {
-// Above one by more than the rounding of a sum of distances.
-constexpr double SAFELY = 1.0 + 1e-9;
-
 // For the message that there are too many.
 constexpr const char* TABLE = "the table of neighbours";
 constexpr const char* REMEDY = "use fewer points or fewer neighbours";
@@ -48,36 +45,26 @@ searchWhole (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, st
   });
 }
 
-// Searches for the rows from `begin` to before `end` within a block. Balls in which points outside
-// of it may be nearer are added to `missing`.
+// Searches for the rows from `begin` to before `end`, which are own points of the block.
 void
-searchBlock (const PointBlock& block, const std::vector<Eigen::Vector3d>& positions,
-             const Rows& rows, std::size_t begin, std::size_t end, std::size_t k,
-             const RunContext& run, std::vector<Index>& ids, std::vector<Ball>& missing)
+searchBlock (const BlockSearch& search, const Rows& rows, std::size_t begin, std::size_t end,
+             std::size_t k, const RunContext& run, Index* ids)
 {
-  const KdTree tree (block.positions, run);
-  ProgressLoop progress (run);
-  std::vector<Neighbor> found;
-  found.reserve (k + 2);
-  const auto isHere = [&block] (const Eigen::Vector3d& centre, double reach) {
-    return reach * SAFELY <= block.halo ||
-           std::any_of (block.balls.begin (), block.balls.end (), [&] (const Ball& ball) {
-             return ((ball.centre - centre).norm () + reach) * SAFELY <= ball.radius;
-           });
-  };
-  for (std::size_t i = begin; i < end; ++i) {
-    progress.next ();
-    const Eigen::Vector3d& centre = positions[rows[i]];
-    tree.nearest (centre, k + 1, found);
-    constexpr double EVERYWHERE = 1e100;
-    const double reach =
-        found.size () == k + 1 ? std::sqrt (found.back ().sqr_distance) : EVERYWHERE;
-    if (!isHere (centre, reach))
-      missing.push_back ({centre, reach * SAFELY * SAFELY});
-    for (Neighbor& neighbor : found)
-      neighbor.point = block.points[neighbor.point];
-    writeRow (found, rows[i], k, ids.data () + i * k);
-  }
+  const PointBlock& block = search.block ();
+  parallelRanges (run, end - begin, [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    found.reserve (k + 2);
+    Index place = block.placeOf (rows[begin + first]);
+    for (std::size_t i = begin + first; i < begin + last; ++i) {
+      while (block.points[place] < rows[i])
+        ++place;
+      search.tree ().nearest (block.positions[place], k + 1, found);
+      search.tree ().lookedForNearest (block.positions[place], k + 1, found);
+      for (Neighbor& neighbor : found)
+        neighbor.point = block.points[neighbor.point];
+      writeRow (found, rows[i], k, ids + (i - begin) * k);
+    }
+  });
 }
 
 // Lists of k neighbours, or of all others if there are fewer, still to be filled in.
@@ -121,14 +108,27 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
   parallelTasks (run, cutter.blocks (), [&] (std::size_t block) {
     const std::size_t begin = rows.placeOf (cutter.first (block));
     const std::size_t end = rows.placeOf (cutter.last (block));
-    std::vector<Ball> balls, missing;
-    for (bool again = begin < end; again; again = !missing.empty ()) {
-      balls.insert (balls.end (), missing.begin (), missing.end ());
-      missing.clear ();
-      searchBlock (cutter.cut (block, balls), positions, rows, begin, end, count,
-                   run.withThreads (1), lists.ids, missing);
-    }
+    if (begin == end)
+      return;
+    const RunContext alone = run.withThreads (1);
+    BlockSearch search (cutter, block, alone);
+    do
+      searchBlock (search, rows, begin, end, count, alone, lists.ids.data () + begin * count);
+    while (search.widen ());
   });
+  return lists;
+}
+
+CsrLists
+findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, int k,
+                    const RunContext& run)
+{
+  CsrLists lists = emptyLists (points, rows.size (), k);
+  if (lists.rows () == 0)
+    return lists;
+  do
+    searchBlock (search, rows, 0, rows.size (), lists.offsets[1], run, lists.ids.data ());
+  while (search.widen ());
   return lists;
 }
 

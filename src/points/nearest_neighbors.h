@@ -6,6 +6,7 @@
 #include "core/csr_lists.h"
 #include "points/caller_search.h"
 #include "points/kd_tree.h"
+#include "points/point_block.h"
 #include "points/rows.h"
 
 namespace pcl
@@ -25,6 +26,13 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
 CsrLists
 findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
                       const KdTree& tree, const RunContext& run);
+
+/// The same for points that a block owns; the block is widened where that is needed.
+/// \param rows   points of the working set, ascending
+/// \param points of the whole working set
+CsrLists
+findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, int k,
+                    const RunContext& run);
 
 /// The same by the caller's search structure, in one thread. What it answers twice, or outside of
 /// the working set, is ignored; it may answer fewer than k.

@@ -35,20 +35,38 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
   return findNearestNeighbors (positions, rows, settings.options.k, **tree, run);
 }
 
-// Row of each point after points were removed; NONE for these.
-std::vector<Index>
-rowsAfterRemoval (std::size_t points_before, const std::vector<Index>& removed)
+// Numbers of points after some were removed.
+class Renumbering
 {
-  std::vector<Index> row_after (points_before);
-  Index next = 0;
-  auto gone = removed.begin ();
-  for (Index p = 0; p < points_before; ++p) {
-    const bool is_gone = gone != removed.end () && *gone == p;
-    row_after[p] = is_gone ? NONE : next++;
-    gone += is_gone ? 1 : 0;
+public:
+  // \param removed ascending; must outlive this
+  Renumbering (const std::vector<Index>& removed, std::size_t points_before) : removed_ (removed)
+  {
+    starts_.reserve ((points_before >> SHIFT) + 2);
+    for (std::size_t i = 0, first = 0; i <= points_before >> SHIFT; ++i) {
+      while (first < removed.size () && removed[first] < i << SHIFT)
+        ++first;
+      starts_.push_back (first);
+    }
+    starts_.push_back (removed.size ());
   }
-  return row_after;
-}
+
+  // NONE for those that were removed.
+  Index after (Index p) const
+  {
+    const auto begin = removed_.begin ();
+    const auto place =
+        std::lower_bound (begin + static_cast<std::ptrdiff_t> (starts_[p >> SHIFT]),
+                          begin + static_cast<std::ptrdiff_t> (starts_[(p >> SHIFT) + 1]), p);
+    return place != removed_.end () && *place == p ? NONE : p - static_cast<Index> (place - begin);
+  }
+
+private:
+  static constexpr unsigned SHIFT = 12;
+
+  const std::vector<Index>& removed_;
+  std::vector<std::size_t> starts_; // of every 4096 points: those removed before
+};
 
 } // namespace
 
@@ -62,37 +80,48 @@ findNeighbors (const Points& points, const NeighborSettings& settings, const Run
 }
 
 CsrLists
-renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
-                const NeighborSettings& settings, const RunContext& run)
+renewRows (const CsrLists& before, Index first, std::size_t points_before,
+           const std::vector<Index>& removed, const std::function<CsrLists (const Rows&)>& search)
 {
-  const std::vector<Index> row_after = rowsAfterRemoval (neighbors.rows (), removed);
+  const Renumbering renumbering (removed, points_before);
   std::vector<Index> changed; // points that lost a neighbour
-  for (Index p = 0; p < row_after.size (); ++p) {
-    const Row row = neighbors.row (p);
-    if (row_after[p] != NONE &&
-        std::any_of (row.begin (), row.end (), [&] (Index q) { return row_after[q] == NONE; }))
-      changed.push_back (row_after[p]);
+  for (std::size_t r = 0; r < before.rows (); ++r) {
+    const Row row = before.row (r);
+    const Index p = renumbering.after (first + static_cast<Index> (r));
+    if (p != NONE && std::any_of (row.begin (), row.end (),
+                                  [&] (Index q) { return renumbering.after (q) == NONE; }))
+      changed.push_back (p);
   }
-  const CsrLists renewed = findNeighborsOf (Rows::of (changed), points, settings, run);
+  const CsrLists renewed = search (Rows::of (changed));
   CsrLists lists;
-  lists.offsets.reserve (points.size () + 1);
+  lists.offsets.reserve (before.rows () + 1);
   lists.offsets.push_back (0);
-  lists.ids.reserve (neighbors.ids.size ());
+  lists.ids.reserve (before.ids.size ());
   std::size_t next = 0; // among the changed
-  for (Index p = 0; p < row_after.size (); ++p) {
-    if (row_after[p] == NONE)
+  for (std::size_t r = 0; r < before.rows (); ++r) {
+    const Index p = renumbering.after (first + static_cast<Index> (r));
+    if (p == NONE)
       continue;
-    if (next < changed.size () && changed[next] == row_after[p]) {
+    if (next < changed.size () && changed[next] == p) {
       const Row row = renewed.row (next++);
       lists.ids.insert (lists.ids.end (), row.begin (), row.end ());
     }
     else {
-      for (const Index q : neighbors.row (p))
-        lists.ids.push_back (row_after[q]);
+      for (const Index q : before.row (r))
+        lists.ids.push_back (renumbering.after (q));
     }
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }
   return lists;
+}
+
+CsrLists
+renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
+                const NeighborSettings& settings, const RunContext& run)
+{
+  return renewRows (neighbors, 0, neighbors.rows (), removed, [&] (const Rows& rows) {
+    return findNeighborsOf (rows, points, settings, run);
+  });
 }
 
 } // namespace floater

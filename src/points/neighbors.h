@@ -7,9 +7,11 @@
 #include "core/run_context.h"
 #include "points/kd_tree.h"
 #include "points/points.h"
+#include "points/rows.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
+#include <functional>
 #include <optional>
 
 namespace pcl
@@ -31,6 +33,18 @@ struct NeighborSettings
 CsrLists
 findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,
                std::optional<KdTree>* tree = nullptr);
+
+/// Makes neighbour lists of consecutive points right again after points were removed: renumbers
+/// them, and searches anew only for points that had one of the removed as a neighbour.
+/// \param before        the lists before
+/// \param first         the point of the first list, as it was numbered before
+/// \param points_before of the whole working set
+/// \param removed       points before they were removed, ascending
+/// \param search        makes the lists of points that are numbered as they are now, ascending
+/// \return the lists of those of the points that are left
+CsrLists
+renewRows (const CsrLists& before, Index first, std::size_t points_before,
+           const std::vector<Index>& removed, const std::function<CsrLists (const Rows&)>& search);
 
 /// Makes neighbour lists right again after points were removed: renumbers them, and searches anew
 /// only for points that had one of the removed as a neighbour. The result is that of

@@ -6,7 +6,6 @@
 #include "core/parallel.h"
 #include "core/plane_fit.h"
 #include "core/tangent_frame.h"
-#include "points/point_sample.h"
 
 #include <Eigen/Cholesky>
 
@@ -14,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace pcl
 {
@@ -25,7 +25,7 @@ constexpr std::size_t FEWEST = 10;    // of them, so that a residual says someth
 constexpr std::size_t SPACING_OF = 6; // nearest points whose mean distance is the local spacing
 constexpr std::size_t CENTRES = 8;    // noise is measured at every such point
 constexpr std::size_t AROUND = 10;    // centres around a point
-constexpr std::size_t PROBES = 8;     // every such centre is measured first
+constexpr std::size_t PROBES = NOISE_PROBES / CENTRES; // every such centre is measured first
 // Share of the centres. With fewer noisy ones, NoiseLimits::disturbed_share cannot be reached
 // unless noise triples where it is smoothed, and all neighbours there disagree.
 constexpr double FEW = 0.01;
@@ -203,6 +203,35 @@ private:
   std::vector<double> heights_;
 };
 
+} // namespace
+
+bool
+mayBeNoisy (std::size_t points)
+{
+  return points >= STRIDES.back () * LOOKED_AT;
+}
+
+NoiseProbes
+probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Index>& points, const std::array<const PointSample*, SCALES>& samples,
+            const NoiseLimits& limits, const RunContext& run)
+{
+  NoiseProbes probes;
+  probes.noise.resize (points.size ());
+  probes.unevenness.resize (points.size ());
+  parallelRanges (run, points.size (), [&] (std::size_t first, std::size_t last) {
+    NoiseMeter meter (positions, neighbors, samples, limits);
+    for (std::size_t i = first; i < last; ++i) {
+      const NoiseMeter::Place place = meter.measure (points[i]);
+      probes.noise[i] = place.noise;
+      probes.unevenness[i] = place.unevenness;
+    }
+  });
+  return probes;
+}
+
+namespace
+{
 // The noise around each centre: a quantile of those measured near it.
 std::vector<float>
 smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
@@ -231,25 +260,56 @@ struct Places
   bool are_noisy = true, are_scatter = true; // so many of them that it is no chance
 };
 
+// The samples at the larger scales, made when they are needed.
+class Samples
+{
+public:
+  Samples (const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+      : positions_ (positions), run_ (run)
+  {
+  }
+
+  std::array<const PointSample*, SCALES> all ()
+  {
+    if (!quarter_) {
+      quarter_.emplace (positions_, STRIDES[1], run_);
+      sixteenth_.emplace (positions_, STRIDES[2], run_);
+    }
+    return {nullptr, &*quarter_, &*sixteenth_};
+  }
+
+private:
+  const std::vector<Eigen::Vector3d>& positions_;
+  const RunContext run_;
+  std::optional<PointSample> quarter_, sixteenth_;
+};
+
 Places
 measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-               const NoiseLimits& limits, const RunContext& run)
+               const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known)
 {
-  const PointSample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
+  Samples samples (positions, run);
   const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
   Places places;
   places.noise.resize (centres);
   places.unevenness.resize (centres);
   for (const std::size_t stride : {PROBES, std::size_t{1}}) {
     const std::size_t count = (centres + stride - 1) / stride;
-    parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
-      NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
-      for (std::size_t i = first; i < last; ++i) {
-        const NoiseMeter::Place place = meter.measure (static_cast<Index> (i * stride * CENTRES));
-        places.noise[i * stride] = place.noise;
-        places.unevenness[i * stride] = place.unevenness;
-      }
-    });
+    NoiseProbes measured;
+    if (stride == 1 || known == nullptr) {
+      std::vector<Index> points;
+      points.reserve (count);
+      for (std::size_t i = 0; i < count; ++i)
+        points.push_back (static_cast<Index> (i * stride * CENTRES));
+      measured = probeNoise (positions, neighbors, points, samples.all (), limits, run);
+    }
+    else {
+      measured = *known;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      places.noise[i * stride] = measured.noise[i];
+      places.unevenness[i * stride] = measured.unevenness[i];
+    }
     const auto are_many = [&] (const std::vector<float>& values, auto is_one) {
       const auto ones = std::count_if (values.begin (), values.end (), is_one);
       return static_cast<double> (ones) >= FEW * static_cast<double> (count);
@@ -300,14 +360,14 @@ summarize (std::vector<float> relative, Noise& noise)
 
 Noise
 measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const NoiseLimits& limits, const RunContext& run)
+              const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known)
 {
   const std::size_t n = positions.size ();
   Noise noise;
   noise.at_point.assign (n, 0.0F);
-  if (n < STRIDES.back () * LOOKED_AT)
+  if (!mayBeNoisy (n))
     return noise;
-  const Places places = measurePlaces (positions, neighbors, limits, run);
+  const Places places = measurePlaces (positions, neighbors, limits, run, known);
   if (!places.are_noisy && !places.are_scatter)
     return noise;
   const PointSample centres (positions, CENTRES, run);

@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/point_sample.h"
 
 #include <vector>
 
@@ -58,6 +59,28 @@ struct Noise
   bool is_strong = false;                                ///< see isStrong; set by the caller
 };
 
+/// What a place of the cloud looks like, one value for each place.
+struct NoiseProbes
+{
+  std::vector<float> noise;      ///< standard deviation across the surface; 0: there is none
+  std::vector<float> unevenness; ///< residual in spacings at the flattest scale; below 0: unknown
+};
+
+/// So many points one is measured first: a cloud without noise there has none.
+constexpr std::size_t NOISE_PROBES = 64;
+
+/// Whether a cloud has enough points to tell noise.
+bool
+mayBeNoisy (std::size_t points);
+
+/// Measures noise around some points. O(1) for each.
+/// \param neighbors of these points, nearest first
+/// \param samples   at each scale but the first, whose place is not read
+NoiseProbes
+probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Index>& points, const std::array<const PointSample*, SCALES>& samples,
+            const NoiseLimits& limits, const RunContext& run);
+
 /// Measures noise at every eighth point, at three scales: its 20 nearest of all points, of every
 /// fourth, and of every sixteenth. Each point has the 90 % quantile of the 10 places around it.
 /// Clouds of fewer than 320 points have no such scales, and no noise; those in which fewer than 1 %
@@ -65,9 +88,10 @@ struct Noise
 /// that are no surface: a single bush of fewer lies in a surface at the largest scale. A place
 /// where all three scales are lines, as on a wire, is scatter, too. O(n log n). \param positions
 /// along a space-filling curve \param neighbors of each point, nearest first
+/// \param known of every NOISE_PROBES-th point, if they have been measured before
 Noise
 measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const NoiseLimits& limits, const RunContext& run);
+              const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known = nullptr);
 
 /// Whether points have to be projected before they are connected: so many are noisy, and so little
 /// do their stars agree. At creases and thin sheets of clean clouds points look noisy, too, but

@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/rows.h"
 
 #include <vector>
 
@@ -26,6 +27,35 @@ struct OutlierLimits
   std::size_t own = 12;    ///< a point counts as one of another's own if among its 12 nearest
   std::size_t owners = 4;  ///< so many points have a point of a surface among their own
 };
+
+/// Whether a cloud has enough points to tell outliers.
+inline bool
+mayHaveOutliers (std::size_t points, const OutlierLimits& limits)
+{
+  return points >= 3 * limits.cluster;
+}
+
+/// Distance of points to their 6th nearest neighbour; 0 if they have none.
+/// \param neighbors   of the points in `rows`, nearest first; those of others are not read
+/// \param[out] reach  of the points in `rows`; others are left alone
+void
+findReaches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const Rows& rows, std::vector<float>& reach, const RunContext& run);
+
+/// Whether points lie apart, 1 or 0 for each of the rows: the first part of findOutliers.
+/// \param neighbors of the points in `rows`
+/// \param reach     of these, and of their 20 nearest neighbours
+std::vector<std::uint8_t>
+findApart (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+           const std::vector<float>& reach, const Rows& rows, const OutlierLimits& limits,
+           const RunContext& run);
+
+/// Those of the points apart that are outliers, ascending: the second part of findOutliers.
+/// \param neighbors of all points, at least the 12 nearest of each
+/// \param apart     of all points
+std::vector<Index>
+chooseOutliers (const CsrLists& neighbors, std::vector<std::uint8_t> apart,
+                const OutlierLimits& limits);
 
 /// Points to leave out, ascending. A point is one if it lies apart, in one of two ways:
 ///  - it and at most 6 others are farther from all else than 5 times the reach of the points there;

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl
 {
@@ -16,6 +17,9 @@ namespace
 constexpr std::size_t BLOCK = 131072; // points: the halo then adds a tenth to the work
 constexpr std::size_t BUCKET = 64;    // points; a bucket is about 8 spacings wide, its diagonal 12
 constexpr std::size_t GROUP = 64;     // buckets
+
+// Above one by more than the rounding of a sum of distances.
+constexpr double SAFELY = 1.0 + 1e-9;
 
 Eigen::AlignedBox3d
 unite (const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first, std::size_t last)
@@ -33,40 +37,82 @@ isWithin (const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double dis
 }
 } // namespace
 
+Index
+PointBlock::placeOf (Index point) const
+{
+  return static_cast<Index> (std::lower_bound (points.begin (), points.end (), point) -
+                             points.begin ());
+}
+
 BlockCutter::BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
                           const RunContext& run)
-    : positions_ (positions), buckets_ ((positions.size () + BUCKET - 1) / BUCKET)
+    : BlockCutter (
+          positions.size (), makeBuckets (positions, run),
+          std::clamp<std::size_t> (
+              blocks, 1, std::max<std::size_t> (1, (positions.size () + BUCKET - 1) / BUCKET)),
+          [&positions] (Index first, Index last, std::vector<Eigen::Vector3d>& to) {
+            to.insert (to.end (), positions.begin () + first, positions.begin () + last);
+          })
 {
-  parallelRanges (run, buckets_.size (), [&] (std::size_t first, std::size_t last) {
+}
+
+BlockCutter::BlockCutter (std::size_t points, std::vector<Box> buckets, std::size_t blocks,
+                          Read read)
+    : points_ (points), buckets_ (std::move (buckets)), blocks_ (blocks), read_ (std::move (read))
+{
+  for (std::size_t bucket = 0; bucket < buckets_.size (); bucket += GROUP)
+    groups_.push_back (unite (buckets_, bucket, std::min (bucket + GROUP, buckets_.size ())));
+}
+
+std::vector<BlockCutter::Box>
+BlockCutter::makeBuckets (const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+{
+  std::vector<Box> buckets ((positions.size () + BUCKET - 1) / BUCKET);
+  parallelRanges (run, buckets.size (), [&] (std::size_t first, std::size_t last) {
     for (std::size_t bucket = first; bucket < last; ++bucket)
       for (std::size_t p = bucket * BUCKET; p < std::min ((bucket + 1) * BUCKET, positions.size ());
            ++p)
-        buckets_[bucket].extend (positions[p]);
+        buckets[bucket].extend (positions[p]);
   });
-  for (std::size_t bucket = 0; bucket < buckets_.size (); bucket += GROUP)
-    groups_.push_back (unite (buckets_, bucket, std::min (bucket + GROUP, buckets_.size ())));
-  blocks_ = std::clamp<std::size_t> (blocks, 1, std::max<std::size_t> (1, buckets_.size ()));
+  return buckets;
 }
 
 Index
-BlockCutter::first (std::size_t block) const
+BlockCutter::firstOf (std::size_t block, std::size_t blocks, std::size_t points)
 {
-  return static_cast<Index> (
-      std::min (positions_.size (), block * buckets_.size () / blocks_ * BUCKET));
+  const std::size_t buckets = (points + BUCKET - 1) / BUCKET;
+  return static_cast<Index> (std::min (points, block * buckets / blocks * BUCKET));
 }
 
 void
-BlockCutter::appendBucket (std::size_t bucket, PointBlock& block) const
+BlockCutter::append (std::size_t first_bucket, std::size_t last_bucket, PointBlock& block) const
 {
-  const std::size_t last = std::min ((bucket + 1) * BUCKET, positions_.size ());
-  for (std::size_t p = bucket * BUCKET; p < last; ++p) {
-    block.positions.push_back (positions_[p]);
-    block.points.push_back (static_cast<Index> (p));
+  const auto first = static_cast<Index> (first_bucket * BUCKET);
+  const auto last = static_cast<Index> (std::min (last_bucket * BUCKET, points_));
+  read_ (first, last, block.positions);
+  for (Index p = first; p < last; ++p)
+    block.points.push_back (p);
+}
+
+// Whether a box is near a bucket from `own_first` to before `own_last`.
+bool
+BlockCutter::isNearOwn (const Box& box, std::size_t own_first, std::size_t own_last,
+                        double halo) const
+{
+  for (std::size_t first = own_first, last = 0; first < own_last; first = last) {
+    const std::size_t group = first / GROUP;
+    last = std::min ((group + 1) * GROUP, own_last);
+    if (isWithin (box, groups_[group], halo) &&
+        std::any_of (buckets_.begin () + static_cast<std::ptrdiff_t> (first),
+                     buckets_.begin () + static_cast<std::ptrdiff_t> (last),
+                     [&] (const Box& other) { return isWithin (box, other, halo); }))
+      return true;
   }
+  return false;
 }
 
 PointBlock
-BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls) const
+BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls, double widths) const
 {
   PointBlock cut;
   const std::size_t own_first = block * buckets_.size () / blocks_;
@@ -75,19 +121,23 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls) const
   std::vector<double> diagonals;
   for (std::size_t bucket = own_first; bucket < own_last; ++bucket)
     diagonals.push_back (buckets_[bucket].diagonal ().norm ());
-  cut.halo = median (diagonals);
+  cut.halo = diagonals.empty () ? 0.0 : widths * median (diagonals);
   cut.balls = balls;
 
   const auto isWanted = [&] (const Box& box, bool closely) {
     for (const Ball& ball : balls)
       if (box.squaredExteriorDistance (ball.centre) <= ball.radius * ball.radius)
         return true;
-    if (!isWithin (box, own, cut.halo))
-      return false;
-    return !closely ||
-           std::any_of (buckets_.begin () + static_cast<std::ptrdiff_t> (own_first),
-                        buckets_.begin () + static_cast<std::ptrdiff_t> (own_last),
-                        [&] (const Box& other) { return isWithin (box, other, cut.halo); });
+    return isWithin (box, own, cut.halo) &&
+           (!closely || isNearOwn (box, own_first, own_last, cut.halo));
+  };
+  std::size_t run_first = 0, run_last = 0; // consecutive buckets that are wanted
+  const auto appendBucket = [&] (std::size_t bucket) {
+    if (bucket != run_last) {
+      append (run_first, run_last, cut);
+      run_first = bucket;
+    }
+    run_last = bucket + 1;
   };
   for (std::size_t group = 0; group < groups_.size (); ++group) {
     const std::size_t first = group * GROUP, last = std::min (first + GROUP, buckets_.size ());
@@ -97,10 +147,62 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls) const
     for (std::size_t bucket = first; bucket < last; ++bucket) {
       const bool is_own = bucket >= own_first && bucket < own_last;
       if (is_own || isWanted (buckets_[bucket], true))
-        appendBucket (bucket, cut);
+        appendBucket (bucket);
     }
   }
+  append (run_first, run_last, cut);
   return cut;
+}
+
+BlockSearch::BlockSearch (const BlockCutter& cutter, std::size_t block, const RunContext& run,
+                          double widths)
+    : cutter_ (cutter), index_ (block), run_ (run), widths_ (widths)
+{
+  cut ();
+}
+
+void
+BlockSearch::cut ()
+{
+  tree_.reset ();
+  block_ = cutter_.cut (index_, block_.balls, widths_);
+  tree_.emplace (block_.positions, run_);
+  tree_->setWatch (this);
+}
+
+bool
+BlockSearch::hasLeft ()
+{
+  const std::lock_guard<std::mutex> lock (mutex_);
+  const bool has_left = missing_.size () > asked_;
+  asked_ = missing_.size ();
+  return has_left;
+}
+
+bool
+BlockSearch::widen ()
+{
+  if (missing_.empty ())
+    return false;
+  block_.balls.insert (block_.balls.end (), missing_.begin (), missing_.end ());
+  missing_.clear ();
+  asked_ = 0;
+  cut ();
+  return true;
+}
+
+void
+BlockSearch::looked (const Eigen::Vector3d& centre, double radius)
+{
+  if (radius * SAFELY <= block_.halo)
+    return;
+  const auto isHere = [&] (const Ball& ball) {
+    return ((ball.centre - centre).norm () + radius) * SAFELY <= ball.radius;
+  };
+  if (std::any_of (block_.balls.begin (), block_.balls.end (), isHere))
+    return;
+  const std::lock_guard<std::mutex> lock (mutex_);
+  missing_.push_back ({centre, radius * SAFELY * SAFELY});
 }
 
 std::size_t

@@ -6,6 +6,7 @@
 #include "points/kd_tree.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -29,12 +30,24 @@ public:
   {
   }
 
+  /// Of a part of a cloud: its points that are in the sample of the whole cloud, ascending.
+  PointSample (const std::vector<Eigen::Vector3d>& positions, std::vector<Index> points,
+               const RunContext& run)
+      : points_ (std::move (points)), tree_ (at (positions, points_), run)
+  {
+  }
+
+  /// See KdTree::setWatch.
+  void setWatch (SearchWatch* watch) { tree_.setWatch (watch); }
+
   /// The nearest points of the sample, by their indices among all points.
   void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
   {
     tree_.nearest (query, k, found);
+    tree_.lookedForNearest (query, k, found);
     for (Neighbor& neighbor : found)
-      neighbor.point *= static_cast<Index> (stride_);
+      neighbor.point = points_.empty () ? neighbor.point * static_cast<Index> (stride_)
+                                        : points_[neighbor.point];
   }
 
 private:
@@ -48,7 +61,18 @@ private:
     return kept;
   }
 
-  std::size_t stride_;
+  static std::vector<Eigen::Vector3d> at (const std::vector<Eigen::Vector3d>& positions,
+                                          const std::vector<Index>& points)
+  {
+    std::vector<Eigen::Vector3d> kept;
+    kept.reserve (points.size ());
+    for (const Index p : points)
+      kept.push_back (positions[p]);
+    return kept;
+  }
+
+  std::size_t stride_ = 1;
+  std::vector<Index> points_; // empty: every so many
   KdTree tree_;
 };
 

@@ -13,17 +13,21 @@ namespace pcl
 {
 namespace floater
 {
-std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-                 std::size_t count, const RunContext& run)
+std::vector<Index>
+areaSampleCentres (std::size_t points, std::size_t count)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.positions;
   // Every second place is spare: open stars have no area.
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / (2 * count));
+  const std::size_t step = std::max<std::size_t> (1, points / (2 * count));
   std::vector<Index> centres;
-  for (std::size_t p = step / 2; p < positions.size () && centres.size () < 2 * count; p += step)
+  for (std::size_t p = step / 2; p < points && centres.size () < 2 * count; p += step)
     centres.push_back (static_cast<Index> (p));
-  const Stars stars = makeStarsOf (centres, points, planes, settings, run);
+  return centres;
+}
+
+std::vector<AreaSample>
+takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
+                 const Stars& stars, const RunContext& run)
+{
   std::vector<AreaSample> samples;
   for (std::size_t k = 0; k < centres.size (); ++k) {
     if (stars.open[k] != 0)
@@ -40,6 +44,15 @@ takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSett
       samples.push_back ({centre, stars.normals[k].cast<double> (), area});
   }
   return samples;
+}
+
+std::vector<AreaSample>
+takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+                 std::size_t count, const RunContext& run)
+{
+  const std::vector<Index> centres = areaSampleCentres (points.size (), count);
+  return takeAreaSamples (centres, points.positions,
+                          makeStarsOf (centres, points, planes, settings, run), run);
 }
 
 double

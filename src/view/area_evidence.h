@@ -20,6 +20,16 @@ struct AreaSample
   double area; ///< of its star, times six
 };
 
+/// Points that are spread evenly over the order of so many points, at most `2 * count`; ascending.
+std::vector<Index>
+areaSampleCentres (std::size_t points, std::size_t count);
+
+/// The samples of some points, without those that have an open star. O(count).
+/// \param stars the i-th is that of centres[i]
+std::vector<AreaSample>
+takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
+                 const Stars& stars, const RunContext& run);
+
 /// Points that are spread evenly over the order of the points, at most `2 * count`; those with an
 /// open star are left out. O(count).
 /// \param settings of the stars

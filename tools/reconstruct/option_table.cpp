@@ -12,6 +12,7 @@ namespace floater
 namespace
 {
 const char* const GENERAL = "General";
+const char* const NEIGHBORHOODS = "Neighbourhoods";
 
 const char* const DESCRIPTION =
     "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of\n"
@@ -51,28 +52,6 @@ Exit codes:
   5  out of memory, or an internal error
   6  with --strict: there are warnings; the report is written, but no mesh
 )";
-
-void
-addMemoryLimit (CLI::App& app, CommandLine& line)
-{
-  const auto parse = [&line] (const std::string& word) {
-    if (!parseSize (word, line.max_memory))
-      throw CLI::ValidationError ("--max-memory",
-                                  "'" + word + "' is not a size, such as 500M or 2G");
-    if (line.max_memory < leastMemory (0))
-      throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
-                                                      formatSize (leastMemory (0)) + " or more");
-  };
-  app.add_option_function<std::string> ("--max-memory", parse,
-                                        "limit on the memory in use, in bytes; arrays that "
-                                        "are\nnot in use are kept on disk; not for discs")
-      ->option_text ("SIZE (no limit)")
-      ->group (GENERAL);
-  addPath (app, "--scratch", line.scratch,
-           "--max-memory: folder where the arrays are kept; these\nfiles have no names and end "
-           "with the run",
-           GENERAL, "FOLDER (that of OUTPUT)");
-}
 
 void
 addShift (CLI::App& app, CommandLine& line)
@@ -145,6 +124,35 @@ addTopology (CLI::App& app, CommandLine& line)
              "what the points are taken for: a disc (one component\nwith one boundary loop) or any "
              "surface; auto: a disc\nif the boundary loop is given, else any surface",
              surface);
+  addSurfaceOptions (app, line);
+}
+
+void
+addGeneral (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
+  addNumber (app, "-j,--threads", options.threads,
+             "threads, 0: one for each core; the result is the\nsame", GENERAL);
+  addNumber (app, "--blocks", options.blocks,
+             "blocks in which the nearest neighbours are searched,\n0: chosen by the number of "
+             "points; the result is\nthe same",
+             GENERAL);
+  addMemoryLimit (app, line);
+  addCoordinates (app, line);
+  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
+      ->group (GENERAL);
+  app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
+      ->group (GENERAL);
+}
+
+} // namespace
+
+void
+addSurfaceOptions (CLI::App& app, CommandLine& line)
+{
+  Options& options = line.options;
+  const std::string surface = "Surface";
   addChoice (
       app, "--holes", options.holes.policy, HOLE_CHOICES,
       "boundary loops that stay open: those that look\nlike boundaries, not like gaps of the "
@@ -182,30 +190,8 @@ addTopology (CLI::App& app, CommandLine& line)
              "take triangles out until no two cross each other", surface);
 }
 
-void
-addGeneral (CLI::App& app, CommandLine& line)
+namespace
 {
-  Options& options = line.options;
-  addNumber (app, "-j,--threads", options.threads,
-             "threads, 0: one for each core; the result is the\nsame", GENERAL);
-  addNumber (app, "--blocks", options.blocks,
-             "blocks in which the nearest neighbours are searched,\n0: chosen by the number of "
-             "points; the result is\nthe same",
-             GENERAL);
-  addMemoryLimit (app, line);
-  addShift (app, line);
-  addChoice (
-      app, "--precision", line.precision, PRECISION_CHOICES,
-      "precision of coordinates in outputs; auto: single if\nthat of the input is, or if that "
-      "is exact. PCL reads\ndoubles of a .ply as 0",
-      GENERAL);
-  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
-  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
-      ->group (GENERAL);
-  app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
-      ->group (GENERAL);
-}
-
 void
 addFiles (CLI::App& app, CommandLine& line)
 {
@@ -257,22 +243,15 @@ void
 addNeighbors (CLI::App& app, CommandLine& line)
 {
   Options& options = line.options;
-  const std::string neighborhoods = "Neighbourhoods";
-  addNumber (app, "-k,--neighbors", options.neighbors.k,
-             "nearest neighbours of each point, 6 to 200", neighborhoods);
+  addNeighborCount (app, line);
   addChoice (app, "--neighborhood", options.neighbors.kind, NEIGHBORHOOD_CHOICES,
              "points that a point of a disc is a mean of: the\nnearest, those in a ball, or the "
              "Delaunay star among\neither",
-             neighborhoods);
+             NEIGHBORHOODS);
   addNumber (app, "--ball-radius", options.neighbors.ball_radius,
              "ball, ball-delaunay: radius, in mean distances of a\npoint to its 6 nearest, 1 to 10",
-             neighborhoods);
-  addChoice (app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,
-             "take the normals of the input for tangent planes, and,\nwith --facing auto, for the "
-             "front",
-             neighborhoods);
-  addChoice (app, "--sheet-filter", options.filter_sheets, SWITCH_CHOICES,
-             "drop neighbours on another sheet of the surface", neighborhoods);
+             NEIGHBORHOODS);
+  addTangentPlaneOptions (app, line);
 }
 
 void
@@ -338,6 +317,57 @@ addSystem (CLI::App& app, Options& options)
 }
 
 } // namespace
+
+void
+addMemoryLimit (CLI::App& app, CommandLine& line)
+{
+  const auto parse = [&line] (const std::string& word) {
+    if (!parseSize (word, line.max_memory))
+      throw CLI::ValidationError ("--max-memory",
+                                  "'" + word + "' is not a size, such as 500M or 2G");
+    if (line.max_memory < leastMemory (0))
+      throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
+                                                      formatSize (leastMemory (0)) + " or more");
+  };
+  app.add_option_function<std::string> ("--max-memory", parse,
+                                        "limit on the memory in use, in bytes; arrays that "
+                                        "are\nnot in use are kept on disk; not for discs")
+      ->option_text ("SIZE (no limit)")
+      ->group (GENERAL);
+  addPath (app, "--scratch", line.scratch,
+           "--max-memory: folder where the arrays are kept; these\nfiles have no names and end "
+           "with the run",
+           GENERAL, "FOLDER (that of OUTPUT)");
+}
+
+void
+addCoordinates (CLI::App& app, CommandLine& line)
+{
+  addShift (app, line);
+  addChoice (
+      app, "--precision", line.precision, PRECISION_CHOICES,
+      "precision of coordinates in outputs; auto: single if\nthat of the input is, or if that "
+      "is exact. PCL reads\ndoubles of a .ply as 0",
+      GENERAL);
+}
+
+void
+addNeighborCount (CLI::App& app, CommandLine& line)
+{
+  addNumber (app, "-k,--neighbors", line.options.neighbors.k,
+             "nearest neighbours of each point, 6 to 200", NEIGHBORHOODS);
+}
+
+void
+addTangentPlaneOptions (CLI::App& app, CommandLine& line)
+{
+  addChoice (app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,
+             "take the normals of the input for tangent planes, and,\nwith --facing auto, for the "
+             "front",
+             NEIGHBORHOODS);
+  addChoice (app, "--sheet-filter", line.options.filter_sheets, SWITCH_CHOICES,
+             "drop neighbours on another sheet of the surface", NEIGHBORHOODS);
+}
 
 void
 addOptions (CLI::App& app, CommandLine& line)

@@ -19,5 +19,25 @@ namespace floater
 void
 addOptions (CLI::App& app, CommandLine& line);
 
+/// Those on surfaces that are no disc, but for what the points are taken for.
+void
+addSurfaceOptions (CLI::App& app, CommandLine& line);
+
+/// --neighbors.
+void
+addNeighborCount (CLI::App& app, CommandLine& line);
+
+/// --use-input-normals and --sheet-filter.
+void
+addTangentPlaneOptions (CLI::App& app, CommandLine& line);
+
+/// --max-memory and --scratch.
+void
+addMemoryLimit (CLI::App& app, CommandLine& line);
+
+/// --shift and --precision.
+void
+addCoordinates (CLI::App& app, CommandLine& line);
+
 } // namespace floater
 } // namespace pcl

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Results of a run that were made before: by other processes, each for a block of the points.
+#pragma once
+
+#include "consensus/consensus_mesh.h"
+#include "local/local_geometry.h"
+#include "points/noise.h"
+#include "points/points.h"
+#include "request.h"
+#include "view/area_evidence.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The first step of a run: gross outliers are taken out of the input, and the rest becomes the
+/// working set. Arrays of the input are freed as soon as they have been read.
+Problem
+takePoints (Input& input, const Request& request, Points& points, Report& report);
+
+/// What reconstruct () finds out about the surroundings of each point of a surface, if that is
+/// known already. It has to be what reconstruct () would find itself; then the mesh is the same.
+/// Each function is called once at most, in the order of a run.
+class KnownStages
+{
+public:
+  virtual ~KnownStages () = default;
+
+  /// The points of takePoints, and what that told the report.
+  virtual Points points (Report& report) = 0;
+
+  /// Points that lie off any surface, ascending.
+  virtual std::vector<Index> outliers () = 0;
+
+  /// Of the points without outliers: `neighbors`, with those beside lines. The rest is not read.
+  virtual LocalPlanes planes () = 0;
+
+  /// See takeAreaSamples.
+  virtual std::vector<AreaSample> areaSamples () = 0;
+
+  /// See measureNoise.
+  virtual NoiseProbes noiseProbes () = 0;
+
+  /// The geometry around each point. \param with_stars whether their lists are read
+  virtual LocalGeometry geometry (LocalPlanes planes, bool with_stars) = 0;
+
+  /// The candidates of these stars.
+  virtual ProposedTriangles triangles () = 0;
+};
+
+/// Reconstructs a surface of which these stages are known.
+/// \param input without points: what else is known of the cloud
+Result
+reconstruct (Input input, const Options& options, KnownStages& known);
+
+} // namespace floater
+} // namespace pcl

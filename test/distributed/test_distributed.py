@@ -1,0 +1,583 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pcl_floater authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""pcl_floater_distributed makes the same mesh as pcl_floater_reconstruct, whatever the processes, the
+blocks, and the moments at which it is ended; and tells what is wrong with its files.
+
+--long: all pairs of processes and blocks, all clouds of PCL_FLOATER_DATA, 20 moments."""
+import argparse
+import math
+import os
+import pathlib
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+OPTIONS = argparse.Namespace()
+USAGE, INPUT, RECONSTRUCTION, OUTPUT, WORK = 1, 2, 3, 4, 7
+STEPS = ["neighbors", "planes", "stars", "triangles"]
+
+
+def run(command, **more):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False,
+                          timeout=600, **more)
+
+
+def mpirun(processes, *more):
+    """Open MPI does not bind, so that processes of several tests do not share a core."""
+    return [OPTIONS.mpirun, "--oversubscribe", "--allow-run-as-root", "--bind-to", "none", *more, "-n",
+            processes]
+
+
+def write_ply(path, points):
+    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+              "property float x\nproperty float y\nproperty float z\nend_header\n")
+    path.write_bytes(header.encode() + b"".join(struct.pack("<3f", *p) for p in points))
+
+
+def scan_points(columns=90, rows=70):
+    """A depth camera at the origin: a wavy wall, and a ball before it."""
+    points = []
+    for v in range(rows):
+        for u in range(columns):
+            x, y = (u - columns / 2) / 80.0, (v - rows / 2) / 80.0
+            z = 3.0 + 0.2 * math.sin(5 * x) * math.cos(4 * y)
+            if x * x + y * y < 0.04:
+                z = 1.5 - math.sqrt(0.09 - 2.0 * (x * x + y * y))
+            points.append((x * z, y * z, z))
+    return points
+
+
+def write_scan(path):
+    points = scan_points()
+    header = ("# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 90\n"
+              f"HEIGHT 70\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(points)}\nDATA binary\n")
+    path.write_bytes(header.encode() + b"".join(struct.pack("<3f", *p) for p in points))
+
+
+def terrain_points(count, seed=1):
+    """Hills with boxes on them, points strewn above and far away, and some that are no numbers or
+    repeated."""
+    numbers = random.Random(seed)
+    side = math.sqrt(count)
+    points = []
+    for _ in range(count):
+        x, y = side * numbers.random(), side * numbers.random()
+        z = 3.0 * math.sin(0.11 * x) + 2.0 * math.cos(0.07 * y)
+        if int(x / 15) % 3 == 1 and int(y / 15) % 3 == 1:
+            z += 12.0
+        points.append((x, y, z))
+    for _ in range(count // 200):
+        points.append((side * numbers.random(), side * numbers.random(), 30.0 + 20.0 * numbers.random()))
+    points += points[:20]
+    points[5] = (math.nan, 0.0, 0.0)
+    points.append((1e9, 1e9, 1e9))
+    return points
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pcl_floater_distributed."))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return self.folder / name
+
+    def generate(self, kind, *options, name="cloud.ply"):
+        outcome = run([OPTIONS.generate, kind, self.path(name), *options])
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        return self.path(name)
+
+    def reference(self, cloud, *options):
+        mesh = self.path("reference.ply")
+        outcome = run([OPTIONS.reconstruct, "-q", *options, cloud, mesh])
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        return mesh.read_bytes()
+
+    def command(self, *arguments, work="work"):
+        return [OPTIONS.distributed, "--work", self.path(work), *arguments]
+
+    def expect_same(self, expected, clouds, processes, blocks, *options):
+        shutil.rmtree(self.path("work"), ignore_errors=True)
+        mesh = self.path("mesh.ply")
+        mesh.unlink(missing_ok=True)
+        start = mpirun(processes) if processes > 1 else []
+        outcome = run(start + self.command("--blocks", blocks, *options, *clouds, mesh))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertTrue(mesh.read_bytes() == expected,
+                        f"another mesh on {processes} processes in {blocks} blocks")
+
+    def expect_failure(self, outcome, code, *words):
+        self.assertEqual(outcome.returncode, code, outcome.stderr)
+        for word in words:
+            self.assertIn(word, outcome.stderr)
+
+    def plan(self, cloud, blocks=3):
+        outcome = run(self.command("--step", "plan", "--blocks", blocks, cloud, self.path("mesh.ply")))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+
+    def step(self, *arguments):
+        return run(self.command("--step", *arguments))
+
+
+class Surfaces(Case):
+    PAIRS = [(1, 5), (2, 5), (3, 64), (7, 5), (1, 64), (2, 64), (3, 5), (7, 64)]
+
+    def check(self, cloud, pairs, *options):
+        expected = self.reference(cloud, *options)
+        for processes, blocks in self.PAIRS if OPTIONS.long else pairs:
+            with self.subTest(processes=processes, blocks=blocks):
+                self.expect_same(expected, [cloud], processes, blocks, *options)
+
+    def test_torus(self):
+        self.check(self.generate("torus", "--points", 9000), self.PAIRS[:4])
+
+    def test_plane_with_holes(self):
+        self.check(self.generate("cut-out", "--points", 9000), [(2, 5)])
+
+    def test_uneven(self):
+        self.check(self.generate("height-field", "--points", 9000, "--density-ratio", 60), [(3, 5)])
+
+    def test_weak_noise(self):
+        self.check(self.generate("height-field", "--points", 9000, "--noise", 0.2), [(2, 64)])
+
+    def test_strong_noise(self):
+        self.check(self.generate("sphere", "--points", 9000, "--noise", 0.6), [(2, 5)])
+
+    def test_near_sheets(self):
+        self.check(self.generate("folded-sheet", "--points", 9000, "--gap", 2), [(2, 5)])
+
+    def test_empty_blocks(self):
+        self.check(self.generate("hemisphere", "--points", 600), [(3, 64)])
+
+    def test_fewer_points_than_neighbors(self):
+        write_ply(self.path("few.ply"), [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0.1), (2, 1, 0)])
+        self.check(self.path("few.ply"), [(2, 3)])
+
+    def test_outliers_and_boxes(self):
+        write_ply(self.path("terrain.ply"), terrain_points(9000))
+        self.check(self.path("terrain.ply"), [(2, 5), (3, 64)])
+
+    def test_without_outliers_and_few_neighbors(self):
+        write_ply(self.path("terrain.ply"), terrain_points(6000))
+        self.check(self.path("terrain.ply"), [(2, 5)], "--remove-outliers", "off", "-k", "6", "--holes",
+                   "close-all", "--normals")
+
+    def test_scatter_is_dropped(self):
+        numbers = random.Random(3)
+        points = terrain_points(6000)
+        points += [tuple(20.0 + 10.0 * numbers.random() for _ in range(3)) for _ in range(2000)]
+        write_ply(self.path("bush.ply"), points)
+        self.check(self.path("bush.ply"), [(2, 5)], "--scatter", "drop")
+
+    def test_rows_of_points(self):
+        numbers = random.Random(4)
+        write_ply(self.path("rows.ply"),
+                  [(0.1 * i + 0.02 * numbers.random(), 1.5 * j, 0.3 * math.sin(0.1 * i))
+                   for i in range(400) for j in range(15)])
+        self.check(self.path("rows.ply"), [(2, 5)])
+
+    def test_scan(self):
+        write_scan(self.path("scan.pcd"))
+        self.check(self.path("scan.pcd"), [(2, 5)])
+
+
+class RealClouds(Case):
+    def test_clouds(self):
+        data = os.environ.get("PCL_FLOATER_DATA")
+        if not data:
+            self.skipTest("PCL_FLOATER_DATA is not set")
+        names = ["raw_milk", "raw_slope_lidar"]
+        clouds = sorted(pathlib.Path(data).glob("*.pcd")) if OPTIONS.long else [
+            pathlib.Path(data) / f"{name}.pcd" for name in names]
+        for cloud in clouds:
+            with self.subTest(cloud=cloud.name):
+                self.expect_same(self.reference(cloud), [cloud], 2, 9)
+
+
+class Tiles(Case):
+    def test_tiles_are_one_cloud(self):
+        points = terrain_points(8000)
+        write_ply(self.path("all.ply"), points)
+        expected = self.reference(self.path("all.ply"))
+        tiles = [self.path(f"tile{i}.ply") for i in range(3)]
+        for tile, (first, last) in zip(tiles, [(0, 100), (100, 5000), (5000, len(points))]):
+            write_ply(tile, points[first:last])
+        self.expect_same(expected, tiles, 2, 4)
+
+    def test_common_fields_stay(self):
+        text = ("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
+                "property double z\n{}property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                "end_header\n{}")
+        rows = [f"{x + 0.1 * (y % 2)} {y} {0.01 * x * x}" for x in range(20) for y in range(20)]
+        colours = [f" {i % 256} 7 9" for i in range(len(rows))]
+
+        def write(name, first, last, extra=""):
+            lines = "\n".join(row + (" 1" if extra else "") + colour
+                              for row, colour in zip(rows[first:last], colours[first:last]))
+            self.path(name).write_text(text.format(last - first, extra, lines + "\n"))
+            return self.path(name)
+
+        expected = self.reference(write("all.ply", 0, 400))
+        mesh = self.path("mesh.ply")
+        outcome = run(self.command(write("a.ply", 0, 150, "property int label\n"),
+                                   write("b.ply", 150, 400), mesh))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("'label' was left out", outcome.stderr)
+        self.assertTrue(mesh.read_bytes() == expected)
+
+
+class Steps(Case):
+    def files(self):
+        return {f.name: (f.stat().st_mtime_ns, f.stat().st_ino) for f in self.path("work").iterdir()}
+
+    def test_printed_steps(self):
+        cloud = self.generate("torus", "--points", 3000)
+        expected = self.reference(cloud)
+        self.plan(cloud)
+        printed = run(self.command("--print-steps"))
+        self.assertEqual(printed.returncode, 0, printed.stderr)
+        groups = printed.stdout.rstrip("\n").split("\n\n")
+        self.assertEqual([len(group.split("\n")) for group in groups], [3, 1, 3, 3, 3, 1, 1])
+        before = {}
+        for _ in range(2):  # the second time, there is nothing left to do but to write
+            for group in groups:
+                for line in reversed(group.split("\n")):
+                    words = line.replace("'", "").split()
+                    self.assertEqual(words[0], "pcl_floater_distributed")
+                    outcome = run([OPTIONS.distributed] + words[1:])
+                    self.assertEqual(outcome.returncode, 0, outcome.stderr)
+            self.assertTrue(self.path("mesh.ply").read_bytes() == expected)
+            if before:
+                self.assertEqual(before, self.files())
+            before = self.files()
+
+    def test_a_run_goes_on_where_steps_ended(self):
+        cloud = self.generate("torus", "--points", 3000)
+        self.plan(cloud)
+        for block in (0, 2):
+            self.assertEqual(self.step("neighbors", "--block", block).returncode, 0)
+        before = self.files()
+        outcome = run(mpirun(2) + self.command("--blocks", 3, cloud, self.path("mesh.ply")))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("neighbors: 1 blocks done, 2 finished before", outcome.stderr)
+        self.assertEqual(before, {name: self.files()[name] for name in before})
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
+
+    def test_slurm_script(self):
+        """With an sbatch that runs each job at once."""
+        cloud = self.generate("torus", "--points", 3000)
+        sbatch = self.path("bin") / "sbatch"
+        sbatch.parent.mkdir()
+        sbatch.write_text("""#!/usr/bin/env bash
+set -euo pipefail
+tasks=(0)
+while (($# > 0)); do
+  case "$1" in
+    --parsable) ;;
+    --dependency=afterok:*) [[ ${1##*:} == "$(cat last)" ]] ;;
+    --array=*) range=${1#--array=}; mapfile -t tasks < <(seq "${range%%-*}" "$(cut -d- -f2 <<<"${range%%\\%*}")") ;;
+    --wrap) command=$2; shift ;;
+    *) exit 1 ;;
+  esac
+  shift
+done
+for SLURM_ARRAY_TASK_ID in "${tasks[@]}"; do
+  export SLURM_ARRAY_TASK_ID
+  sh -c "$command" >&2
+done
+echo "$RANDOM" | tee last
+""")
+        sbatch.chmod(0o755)
+        tools = pathlib.Path(OPTIONS.distributed).resolve().parent
+        script = pathlib.Path(__file__).resolve().parent / "submit.sh"
+        outcome = run([script, self.path("work"), "--blocks", 3, cloud, self.path("mesh.ply")], cwd=self.folder,
+                      env=dict(os.environ, PATH=f"{sbatch.parent}:{tools}:{os.environ['PATH']}"))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
+
+    def test_report(self):
+        cloud = self.generate("torus", "--points", 1000)
+        outcome = run(self.command("-q", "--report", self.path("report.json"), cloud,
+                                   self.path("mesh.ply")))
+        self.assertEqual((outcome.returncode, outcome.stdout, outcome.stderr), (0, "", ""))
+        self.assertIn('"status": "SUCCESS"', self.path("report.json").read_text())
+
+    def test_memory_limit(self):
+        cloud = self.generate("torus", "--points", 30000)
+        expected = self.reference(cloud)
+        self.expect_same(expected, [cloud], 1, 3, "--max-memory", "150M")
+
+
+class Restart(Case):
+    def test_killed_and_started_again(self):
+        cloud = self.generate("height-field", "--points", 40000)
+        expected = self.reference(cloud)
+        mesh = self.path("mesh.ply")
+        command = [str(word) for word in mpirun(3) + self.command("--blocks", 12, cloud, mesh)]
+        begin = time.monotonic()
+        self.assertEqual(run(command).returncode, 0)
+        usual = time.monotonic() - begin
+        moments = 20 if OPTIONS.long else 4
+        known = {}
+        shutil.rmtree(self.path("work"))
+        mesh.unlink()
+        for i in range(moments):
+            if i % 5 == 0:  # else it goes on where the one before was killed
+                shutil.rmtree(self.path("work"), ignore_errors=True)
+                known = {}
+            with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                  start_new_session=True) as process:
+                try:
+                    process.wait(usual * (i + 1) / (moments + 1))
+                except subprocess.TimeoutExpired:
+                    self.kill_one_of(process, i)
+            if not self.path("work").exists():
+                continue
+            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")}
+            for name, inode in known.items():
+                self.assertEqual(files.get(name), inode, f"{name} was made again")
+            known = files
+        outcome = run(command)
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertTrue(mesh.read_bytes() == expected)
+        for name, inode in known.items():
+            self.assertEqual(self.path("work").joinpath(name).stat().st_ino, inode)
+
+    def kill_one_of(self, process, i):
+        """Kills one of the processes of the run, or mpirun itself with all."""
+        children = run(["ps", "-o", "pid=", "--ppid", process.pid]).stdout.split()
+        if i % 2 == 0 or not children:
+            os.killpg(process.pid, signal.SIGKILL)
+            for child in children:
+                try:
+                    os.kill(int(child), signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+        else:
+            try:
+                os.kill(int(children[i % len(children)]), signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        process.wait(60)
+        for child in children:
+            for _ in range(200):
+                if not pathlib.Path(f"/proc/{child}").exists():
+                    break
+                time.sleep(0.05)
+
+
+class Errors(Case):
+    def setUp(self):
+        super().setUp()
+        self.cloud = self.generate("torus", "--points", 1000)
+
+    def finish(self):
+        outcome = run(self.command("--blocks", 3, self.cloud, self.path("mesh.ply")))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.path("mesh.ply").unlink()
+
+    def again(self, *more):
+        return run(self.command("--blocks", 3, *more, self.cloud, self.path("mesh.ply")))
+
+    def expect_no_mesh(self):
+        self.assertFalse(self.path("mesh.ply").exists())
+        self.assertEqual([f for f in self.folder.iterdir() if f.name.startswith(".")], [])
+
+    def test_wrong_command_lines(self):
+        mesh = self.path("mesh.ply")
+        for arguments, words in [
+                ([self.cloud, mesh], "--work is missing"),
+                (["--work", self.path("w"), self.cloud], "one or more files"),
+                (["--work", self.path("w"), "--step", "star", self.cloud, mesh], "stars"),
+                (["--work", self.path("w"), "--step", "stars"], "--block"),
+                (["--work", self.path("w"), "--step", "join", "--block", 1], "--block"),
+                (["--work", self.path("w"), "--print-steps", "--step", "join"], "exclude"),
+                (["--work", self.path("w"), "-k", "3", self.cloud, mesh], "-k"),
+                (["--work", self.path("w"), "-", mesh], "standard input")]:
+            self.expect_failure(run([OPTIONS.distributed, *arguments]), USAGE, words)
+        self.expect_no_mesh()
+        self.plan(self.cloud)
+        self.expect_failure(self.step("stars", "--block", 3), USAGE, "numbered from 0")
+
+    def test_missing_tile(self):
+        missing = self.path("tile2.ply")
+        self.expect_failure(run(self.command(self.cloud, missing, self.path("mesh.ply"))), INPUT,
+                            str(missing))
+        self.expect_failure(
+            run(mpirun(2) + self.command(self.cloud, missing, self.path("mesh.ply"))), INPUT,
+            str(missing))
+        self.plan(self.cloud)
+        self.cloud.unlink()
+        self.assertEqual(self.step("neighbors", "--block", 0).returncode, 0)
+        self.expect_failure(self.step("join"), INPUT, str(self.cloud))
+        self.expect_no_mesh()
+
+    def test_cloud_that_cannot_be_reconstructed(self):
+        write_ply(self.path("line.ply"), [(i, 0, 0) for i in range(50)])
+        for start in ([], mpirun(2)):
+            outcome = run(start + self.command(self.path("line.ply"), self.path("mesh.ply")))
+            self.expect_failure(outcome, RECONSTRUCTION, "on one line")
+        self.expect_no_mesh()
+
+    def test_damaged_files(self):
+        self.finish()
+        for name in ["points.bin", "neighbors.1.bin", "outliers.bin", "stars.2.bin", "mesh.bin"]:
+            file = self.path("work") / name
+            good = file.read_bytes()
+            for bad, word in [(good[:len(good) // 2], "truncated"),
+                              (good + b"x", "grown"),
+                              (good[:len(good) - 3] + bytes([good[-3] ^ 4]) + good[-2:], "damaged"),
+                              (good[:20] + bytes([good[20] ^ 1]) + good[21:], "damaged"),
+                              (good[:8] + struct.pack("<I", 99) + good[12:], "format version 99"),
+                              (b"PLY" + good[3:], "no file of this program"),
+                              (b"", "truncated")]:
+                file.write_bytes(bad)
+                with self.subTest(name=name, word=word):
+                    self.expect_failure(self.again(), WORK, str(file), word)
+                    self.expect_no_mesh()
+            file.write_bytes(good)
+        self.assertEqual(self.again().returncode, 0)
+
+    def test_file_of_another_plan(self):
+        self.finish()
+        other = self.generate("sphere", "--points", 1000, name="other.ply")
+        outcome = run(self.command("--blocks", 3, other, self.path("o.ply"), work="other"))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        shutil.copy(self.path("other") / "planes.1.bin", self.path("work"))
+        self.expect_failure(self.again(), WORK, "planes.1.bin", "another plan")
+
+    def test_damaged_manifest(self):
+        self.finish()
+        file = self.path("work") / "manifest.json"
+        good = file.read_text()
+        for bad, word in [(good.replace('"blocks": 3', '"blocks": 4'), "damaged"),
+                          (good[:100], "damaged"), ("{}", "damaged"),
+                          (good.replace('"version": 1', '"version": 2'), "format version 2"),
+                          (good.replace("work folder", "something"), "no manifest")]:
+            self.assertNotEqual(good, bad)
+            file.write_text(bad)
+            with self.subTest(word=word):
+                self.expect_failure(self.again(), WORK, str(file), word)
+        self.expect_no_mesh()
+
+    def test_other_parameters(self):
+        self.finish()
+        self.expect_failure(self.again("--holes", "close-all"), WORK, "manifest.json", "the options")
+        outcome = run(self.command("--blocks", 4, self.cloud, self.path("mesh.ply")))
+        self.expect_failure(outcome, WORK, "manifest.json", "blocks")
+        self.generate("torus", "--points", 1001)
+        self.expect_failure(self.again(), WORK, "manifest.json", "input files")
+        self.expect_no_mesh()
+
+    def test_step_before_its_time(self):
+        self.expect_failure(self.step("neighbors", "--block", 0), WORK, "manifest.json")
+        self.plan(self.cloud)
+        self.expect_failure(self.step("planes", "--block", 0), WORK, "outliers.bin", "--print-steps")
+        self.expect_failure(self.step("join"), WORK, "outliers.bin")
+        self.expect_failure(self.step("write"), WORK, "mesh.bin")
+
+    def test_folders_that_cannot_be_written(self):
+        for start in ([], mpirun(2)):
+            self.expect_failure(
+                run(start + [OPTIONS.distributed, "--work", self.cloud / "work", self.cloud,
+                             self.path("mesh.ply")]), OUTPUT, "work folder")
+            self.expect_failure(run(start + self.command(self.cloud, "/no/such/folder/mesh.ply")), OUTPUT,
+                                "/no/such/folder")
+        self.expect_no_mesh()
+
+    def test_full_disk(self):
+        """A limit on the size of files, by which writing fails in the same way."""
+        self.generate("torus", "--points", 20000)
+
+        def limited(kilobytes, *arguments):
+            return run(["sh", "-c", f"ulimit -f {2 * kilobytes}; exec \"$@\"", "sh",
+                        *self.command(*arguments)])
+
+        def expect_full(outcome, file):
+            self.expect_failure(outcome, OUTPUT, "cannot write", file)
+            self.assertEqual([f.name for f in self.path("work").iterdir() if f.name.startswith(".")], [])
+            self.assertFalse((self.path("work") / file).exists())
+            self.expect_no_mesh()
+
+        plan = ["--step", "plan", "--blocks", 3, self.cloud, self.path("mesh.ply")]
+        expect_full(limited(100, *plan), "points.bin")
+        self.plan(self.cloud)
+        expect_full(limited(100, "--step", "neighbors", "--block", 1), "neighbors.1.bin")
+        for step in STEPS:
+            for block in range(3):
+                self.assertEqual(self.step(step, "--block", block).returncode, 0)
+            if step == "neighbors":
+                self.assertEqual(self.step("outliers").returncode, 0)
+        expect_full(limited(100, "--step", "join"), "mesh.bin")
+        self.assertEqual(self.step("join").returncode, 0)
+        expect_full(limited(300, "--step", "write"), "mesh.ply")
+        self.assertEqual(self.step("write").returncode, 0)
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(self.cloud))
+
+    def test_too_little_memory(self):
+        self.expect_failure(self.again("--max-memory", "30M"), USAGE, "--max-memory")
+        self.generate("torus", "--points", 400000)
+        self.expect_failure(self.again("--max-memory", "41M"), USAGE, "too small", "400000 points")
+        self.expect_no_mesh()
+
+
+class Messages(Case):
+    TCP = ["--mca", "btl", "self,tcp"]
+
+    def nodes(self, cloud, *more):
+        """Two nodes: they have no folder in common, and no shared memory."""
+        options = ["--blocks", 5, *more, cloud, self.path("mesh.ply")]
+        return run([*mpirun(1, *self.TCP), *self.command(*options), ":", "-n", 2,
+                    OPTIONS.distributed, "--work", "/no/such/work", *options])
+
+    def test_no_common_folder(self):
+        write_ply(self.path("terrain.ply"), terrain_points(6000))
+        expected = self.reference(self.path("terrain.ply"))
+        outcome = self.nodes(self.path("terrain.ply"), "--exchange", "messages")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertTrue(self.path("mesh.ply").read_bytes() == expected)
+
+    def test_no_common_folder_and_no_messages(self):
+        cloud = self.generate("torus", "--points", 6000)
+        outcome = self.nodes(cloud)
+        if outcome.returncode == 0:  # the first process was so fast that it has done all blocks
+            return
+        self.expect_failure(outcome, WORK, "/no/such/work", "--exchange messages")
+        self.assertFalse(self.path("mesh.ply").exists())
+
+    def test_damaged_file_is_told_by_another_process(self):
+        cloud = self.generate("torus", "--points", 6000)
+        self.assertEqual(self.nodes(cloud, "--exchange", "messages").returncode, 0)
+        for file in self.path("work").glob("stars.*"):
+            file.unlink()
+        file = self.path("work") / "planes.0.bin"
+        good = file.read_bytes()
+        file.write_bytes(good[:-3] + bytes([good[-3] ^ 4]) + good[-2:])
+        outcome = self.nodes(cloud, "--exchange", "messages")
+        self.expect_failure(outcome, WORK, "planes.0.bin", "damaged")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("distributed", "reconstruct", "generate"):
+        parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("--mpirun", default="mpirun")
+    parser.add_argument("--long", action="store_true")
+    parser.add_argument("names", nargs="*")
+    parser.parse_args(namespace=OPTIONS)
+    program = unittest.main(argv=[sys.argv[0], "-v", *OPTIONS.names], exit=False)
+    if not program.result.wasSuccessful():
+        sys.exit(1)
+    if program.result.testsRun == len(program.result.skipped):
+        sys.exit(77)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is finished is known by its file alone, so that a run that was ended goes on where it was.
+#include "driver.h"
+
+#include "atomic_file.h"
+#include "dealer.h"
+#include "run_report.h"
+
+#include <chrono>
+#include <cstdio>
+#include <deque>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+void
+say (const Job& job, const std::string& text)
+{
+  if (!job.line.quiet)
+    std::fprintf (stderr, "%s\n", text.c_str ());
+}
+
+bool
+isFinished (FolderStore& folder, const std::string& name, const Plan& plan)
+{
+  if (!folder.has (name))
+    return false;
+  openArrays (folder, name, plan).verify ();
+  return true;
+}
+
+// Calls work (), and makes of what it throws an exit code and a message.
+template <typename Work>
+int
+guarded (Work&& work, std::string& message)
+{
+  try {
+    return work ();
+  }
+  catch (const RemoteFailure& failure) {
+    message = failure.what ();
+    return failure.code ();
+  }
+  catch (const UsageError& error) {
+    message = std::string (error.what ()) + "\nTry --help.";
+    return EXIT_USAGE;
+  }
+  catch (const ReadError& error) {
+    message = error.what ();
+    return EXIT_INPUT;
+  }
+  catch (const WriteError& error) {
+    message = error.what ();
+    return EXIT_OUTPUT;
+  }
+  catch (const WorkError& error) {
+    message = error.what ();
+    return EXIT_WORK;
+  }
+  catch (const std::bad_alloc&) {
+    message = "not enough memory; use more blocks, or a machine with more";
+    return EXIT_INTERNAL;
+  }
+  catch (const std::exception& error) {
+    message = std::string ("unexpected error: ") + error.what ();
+    return EXIT_INTERNAL;
+  }
+}
+
+int
+tell (int code, const std::string& message)
+{
+  if (!message.empty ())
+    std::fprintf (stderr, "pcl_floater_distributed: %s\n", message.c_str ());
+  return code;
+}
+
+// A process that is not the first.
+int
+workForOthers (const Job& job, FolderStore& folder, Processes& processes)
+{
+  RemoteStore remote (processes);
+  Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
+  const EffectiveOptions effective (job.line);
+  const RunContext run (job.line.options.threads);
+  std::optional<Plan> plan;
+  for (;;) {
+    processes.send (0, {});
+    const Message order = processes.receive (0);
+    if (order.topic == Topic::END)
+      return static_cast<int> (order.number);
+    std::string message;
+    const int code = guarded (
+        [&] {
+          if (!plan && !job.sends_files && !folder.has (MANIFEST))
+            throw WorkError ("'" + folder.describe (MANIFEST) +
+                             "' is not there for all processes; name a work folder that they "
+                             "share, or use --exchange messages");
+          if (!plan) {
+            const std::unique_ptr<ByteSource> source = store.open (MANIFEST);
+            std::string text (source->size (), '\0');
+            source->read (0, text.size (), text.data ());
+            plan = parseManifest (text, store.describe (MANIFEST));
+          }
+          blockStep ({store, *plan, effective.options, effective.limits, run}, order.text,
+                     order.number);
+          return static_cast<int> (EXIT_OK);
+        },
+        message);
+    if (code == EXIT_OK)
+      processes.send (0, {Topic::DONE});
+    else
+      processes.send (0, {Topic::FAIL, static_cast<std::uint64_t> (code), 0, message});
+  }
+}
+
+int
+workAlone (const Job& job, FolderStore& folder, Dealer* dealer)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  const auto time = [&start] {
+    const double seconds =
+        std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+    return std::to_string (static_cast<long> (seconds * 10.0) / 10) + " s";
+  };
+  prepareFolders (job);
+  if (!folder.has (MANIFEST))
+    if (const int code = planStep (job, folder); code != EXIT_OK)
+      return code;
+  const Plan plan = readPlan (job, folder);
+  openArrays (folder, POINTS, plan).verify ();
+  say (job, "plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
+                " blocks, " + time ());
+  const EffectiveOptions effective (job.line);
+  const RunContext run (job.line.options.threads);
+  const StepContext context{folder, plan, effective.options, effective.limits, run};
+  for (const char* step : BLOCK_STEPS) {
+    std::deque<std::size_t> blocks;
+    for (std::size_t block = 0; block < plan.blocks; ++block)
+      if (!isFinished (folder, blockFile (step, block), plan))
+        blocks.push_back (block);
+    const std::size_t finished = plan.blocks - blocks.size ();
+    if (dealer != nullptr)
+      dealer->run (context, step, std::move (blocks));
+    else
+      for (const std::size_t block : blocks)
+        blockStep (context, step, block);
+    say (job, std::string (step) + ": " + std::to_string (plan.blocks - finished) +
+                  " blocks done, " + std::to_string (finished) + " finished before, " + time ());
+    if (step == BLOCK_STEPS.front () && !isFinished (folder, OUTLIERS, plan))
+      chooseOutliersStep (context);
+  }
+  if (!isFinished (folder, TRIANGLES, plan))
+    if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
+      return code;
+  const int code = writeStep (job, folder, plan);
+  say (job, "written: " + time ());
+  return code;
+}
+
+int
+runOnAll (const Job& job, FolderStore& folder, Processes& processes)
+{
+  if (processes.self () > 0) {
+    std::string message;
+    return tell (guarded ([&] { return workForOthers (job, folder, processes); }, message),
+                 message);
+  }
+  std::string message;
+  if (processes.count () == 1)
+    return tell (guarded ([&] { return workAlone (job, folder, nullptr); }, message), message);
+  Dealer dealer (processes, folder);
+  const int code = guarded ([&] { return workAlone (job, folder, &dealer); }, message);
+  tell (code, message);
+  dealer.end (code);
+  if (!job.line.quiet)
+    std::fprintf (stderr, "messages: %.1f MB\n",
+                  static_cast<double> (processes.exchangedBytes ()) / 1e6);
+  return code;
+}
+
+} // namespace
+
+int
+runAll (const Job& job, FolderStore& folder)
+{
+  int argc = 0;
+  char** argv = nullptr;
+  Processes processes (argc, argv);
+  const int code = runOnAll (job, folder, processes);
+  constexpr std::size_t MEGABYTE = 1'000'000;
+  if (code == EXIT_OK)
+    say (job, "process " + std::to_string (processes.self ()) + ": peak memory " +
+                  std::to_string (peakMemory () / MEGABYTE) + " MB");
+  return code;
+}
+
+int
+runStep (const Job& job, FolderStore& folder, const std::string& step)
+{
+  std::string message;
+  const int code = guarded (
+      [&] {
+        if (step == "plan") {
+          prepareFolders (job);
+          return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
+                                       : planStep (job, folder);
+        }
+        const Plan plan = readPlan (job, folder);
+        const EffectiveOptions effective (job.line);
+        const RunContext run (job.line.options.threads);
+        const StepContext context{folder, plan, effective.options, effective.limits, run};
+        if (step == "outliers") {
+          if (!isFinished (folder, OUTLIERS, plan))
+            chooseOutliersStep (context);
+          return static_cast<int> (EXIT_OK);
+        }
+        if (step == "join")
+          return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
+                                                      : joinStep (job, folder, plan);
+        if (step == "write")
+          return writeStep (job, folder, plan);
+        if (job.block >= plan.blocks)
+          throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
+                            std::to_string (plan.blocks) + " blocks, which are numbered from 0");
+        if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
+          blockStep (context, step, job.block);
+        return static_cast<int> (EXIT_OK);
+      },
+      message);
+  return tell (code, message);
+}
+
+void
+printSteps (const Job& job, FolderStore& folder)
+{
+  const Plan plan = readPlan (job, folder);
+  const std::string command = "pcl_floater_distributed --work '" + job.work.string () + "' --step ";
+  for (const char* step : BLOCK_STEPS) {
+    for (std::size_t block = 0; block < plan.blocks; ++block)
+      std::printf ("%s%s --block %zu\n", command.c_str (), step, block);
+    std::printf ("\n");
+    if (step == BLOCK_STEPS.front ())
+      std::printf ("%soutliers\n\n", command.c_str ());
+  }
+  std::printf ("%sjoin\n\n%swrite\n", command.c_str (), command.c_str ());
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "job.h"
+
+#include "atomic_file.h"
+#include "format.h"
+#include "mesh_normals.h"
+#include "mesh_writer.h"
+#include "prepared_input.h"
+#include "published_method.h"
+#include "report_json.h"
+#include "stored_stages.h"
+#include "summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cstdio>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
+constexpr const char* REPORT = "report.json";
+
+double
+secondsSince (std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+}
+
+// The cloud of the job, with its origin shifted as in the plan.
+Cloud
+readShifted (const Job& job, const Plan& plan)
+{
+  Cloud cloud = readClouds (job.inputs, job.line.auto_shift || job.line.shift);
+  cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
+  return cloud;
+}
+
+void
+tellFailure (const Job& job, const Problem& problem, const Report& warnings)
+{
+  Report report = warnings;
+  report.status = problem.status;
+  report.message = problem.message;
+  printOutcome (job.line, report, {});
+}
+
+} // namespace
+
+std::string
+parametersText (const Job& job)
+{
+  Options options = job.line.options;
+  options.threads = 0; // the result does not depend on these
+  options.blocks = 0;
+  nlohmann::ordered_json json = optionsJson (options, job.line.use_input_normals);
+  json["shift"] = job.line.auto_shift ? nlohmann::ordered_json ("auto") : nlohmann::ordered_json ();
+  if (job.line.shift)
+    json["shift"] = {job.line.shift->x (), job.line.shift->y (), job.line.shift->z ()};
+  return json.dump ();
+}
+
+void
+prepareFolders (const Job& job)
+{
+  std::error_code error;
+  std::filesystem::create_directories (job.work, error);
+  if (error || !std::filesystem::is_directory (job.work))
+    throw WriteError ("cannot make the work folder '" + job.work.string () +
+                      "': " + (error ? error.message () : "there is a file of that name"));
+  requireWritable (job.work / MANIFEST);
+  requireWritable (job.line.output);
+  if (!job.line.report.empty ())
+    requireWritable (job.line.report);
+}
+
+EffectiveOptions::EffectiveOptions (const CommandLine& line)
+    : options (effectiveOptions (line.options)), limits (effectiveLimits ({}, line.options))
+{
+}
+
+std::size_t
+defaultBlocks (std::size_t points)
+{
+  return std::max<std::size_t> (1, (points + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK);
+}
+
+int
+planStep (const Job& job, FolderStore& store)
+{
+  Plan plan;
+  for (const std::filesystem::path& input : job.inputs)
+    plan.inputs.push_back (describeInput (input));
+  CommandLine line = job.line;
+  Cloud cloud = readClouds (job.inputs, line.auto_shift || line.shift);
+  Input input = makeInput (cloud);
+  takeNormals (line, cloud, input);
+  shiftOrigin (line, cloud, input);
+  const EffectiveOptions effective (line);
+  const RunContext run (job.join_threads);
+  Points points;
+  Report report;
+  const std::array<double, 3> sensor_origin = input.sensor_origin;
+  Problem problem =
+      takePoints (input, {effective.options, effective.limits, run, sensor_origin}, points, report);
+  if (!problem)
+    problem = checkPoints (points);
+  if (problem) {
+    tellFailure (job, problem, report);
+    Report failed;
+    failed.status = problem.status;
+    return exitCode (failed, {});
+  }
+  plan.arguments = job.arguments;
+  plan.parameters = parametersText (job);
+  plan.points = points.size ();
+  plan.blocks = job.blocks > 0 ? job.blocks : defaultBlocks (points.size ());
+  plan.cloud_size = report.statistics.cloud_points;
+  plan.selected_points = report.statistics.selected_points;
+  plan.lattice_width = points.lattice_width;
+  plan.scale = points.scale;
+  plan.sensor_origin = sensor_origin;
+  Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
+  Eigen::Map<Eigen::Vector3d> (plan.shift.data ()) = cloud.shift;
+  plan.id = planId (plan.inputs, plan.parameters, job.blocks);
+  writePoints (store, POINTS, plan.id, points, report.outliers, run);
+  store.putText (MANIFEST, manifestText (plan)); // last: with it, the step is finished
+  return EXIT_OK;
+}
+
+Plan
+readPlan (const Job& job, const FolderStore& store)
+{
+  Plan plan = parseManifest (store.readText (MANIFEST), store.describe (MANIFEST));
+  if (job.is_from_manifest && job.step != "join" && job.step != "write")
+    return plan;
+  std::vector<InputFile> inputs;
+  for (const std::filesystem::path& input : job.inputs)
+    inputs.push_back (describeInput (input));
+  if (plan.parameters != parametersText (job))
+    throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
+                     "'; give the same, or name another work folder");
+  if (planId (inputs, plan.parameters, job.blocks) != plan.id)
+    throw WorkError ("the input files or the number of blocks are not those of '" +
+                     store.describe (MANIFEST) + "'; give the same, or name another work folder");
+  return plan;
+}
+
+int
+joinStep (const Job& job, FolderStore& store, const Plan& plan)
+{
+  auto start = std::chrono::steady_clock::now ();
+  CommandLine line = job.line;
+  const EffectiveOptions effective (line);
+  const RunContext run (job.join_threads);
+  const StepContext context{store, plan, effective.options, effective.limits, run};
+  StoredStages stages (context);
+  Input input;
+  input.cloud_size = plan.cloud_size;
+  input.sensor_origin = plan.sensor_origin;
+  input.lattice_width = plan.lattice_width;
+  Options options = line.options;
+  options.threads = job.join_threads;
+  Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -=
+      Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
+  Result result = reconstruct (std::move (input), options, stages);
+  Report& report = result.report;
+  RunFigures figures;
+  figures.reconstruct_seconds = secondsSince (start);
+
+  start = std::chrono::steady_clock::now ();
+  Cloud cloud = readShifted (job, plan);
+  figures.shift = cloud.shift;
+  figures.input_points = cloud.size ();
+  figures.single_precision = cloud.single_precision;
+  for (const Field& field : cloud.fields)
+    figures.input_fields.push_back (field.name);
+  const bool is_single = choosePrecision (line.precision, *line.meshFormat (), cloud.positions (),
+                                          line.auto_shift || line.shift, cloud);
+  figures.writes_single = is_single;
+  report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
+  report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+  if (report.status == RunStatus::SUCCESS) {
+    removeNonFinitePoints (cloud, result.triangles);
+    figures.vertices = cloud.size ();
+  }
+  figures.read_seconds = secondsSince (start);
+  line.input = job.inputs.front ();
+  store.putText (REPORT, reportText (line, report, figures));
+  printOutcome (line, report, figures);
+  if (report.status != RunStatus::SUCCESS)
+    return exitCode (report, figures);
+  ArrayWriter writer;
+  const std::vector<std::uint8_t> single (1, is_single ? 1 : 0);
+  writer.add ("triangles", result.triangles);
+  writer.add ("single_precision", single);
+  store.put (TRIANGLES, writer, plan.id);
+  return EXIT_OK;
+}
+
+int
+writeStep (const Job& job, FolderStore& store, const Plan& plan)
+{
+  const CommandLine& line = job.line;
+  ArrayFile file = openArrays (store, TRIANGLES, plan);
+  const Triangles triangles = file.read<Triangles::value_type> ("triangles");
+  Cloud cloud = readShifted (job, plan);
+  cloud.single_precision = file.read<std::uint8_t> ("single_precision").front () != 0;
+  Triangles none;
+  removeNonFinitePoints (cloud, none);
+  if (line.compute_normals)
+    replaceNormals (cloud, triangles, job.join_threads);
+  std::optional<AtomicFile> report;
+  if (!line.report.empty ()) {
+    report.emplace (line.report);
+    report->write (store.readText (REPORT));
+    report->close ();
+  }
+  AtomicFile mesh (line.output);
+  for (const std::string& loss :
+       writeMesh (mesh, line.output, cloud, triangles, line.output_format))
+    std::fprintf (stderr, "warning: %s\n", loss.c_str ());
+  mesh.close ();
+  mesh.publish ();
+  if (report)
+    report->publish ();
+  return EXIT_OK;
+}
+
+} // namespace floater
+} // namespace pcl

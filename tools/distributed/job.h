@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is asked for, and the steps that are done once for the whole cloud.
+#pragma once
+
+#include "block_steps.h"
+#include "command_line.h"
+#include "merged_cloud.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Exit code if a file of the work folder cannot be used.
+constexpr int EXIT_WORK = 7;
+
+/// What the user asked for.
+struct Job
+{
+  CommandLine line; ///< options of the reconstruction, and OUTPUT
+  std::vector<std::filesystem::path> inputs;
+  std::vector<std::string> arguments; ///< as they were typed
+  std::filesystem::path work;
+  std::string step;         ///< empty: all
+  std::size_t block = 0;    ///< of the step
+  bool has_block = false;   ///< it was given
+  std::size_t blocks = 0;   ///< 0: chosen by the number of points
+  int join_threads = 0;     ///< 0: all cores
+  bool sends_files = false; ///< --exchange messages
+  bool prints_steps = false;
+  bool is_from_manifest = false; ///< files and options are those of the manifest
+};
+
+/// Parses the command line. Prints the help or the version if asked for.
+/// \return the exit code if there is nothing else to do \throws UsageError
+std::optional<int>
+parseJob (const std::vector<std::string>& arguments, Job& job);
+
+/// What decides the result, as text.
+std::string
+parametersText (const Job& job);
+
+/// Options and limits with which the core works.
+struct EffectiveOptions
+{
+  explicit EffectiveOptions (const CommandLine& line);
+
+  Options options;
+  Limits limits;
+};
+
+/// Makes the work folder, and checks that all outputs can be written. \throws WriteError
+void
+prepareFolders (const Job& job);
+
+/// Blocks of a cloud if no number is asked for.
+std::size_t
+defaultBlocks (std::size_t points);
+
+/// Reads the cloud, sorts its points along the curve and writes them and the manifest.
+/// \return EXIT_OK, or the exit code of what is wrong with the cloud, which has been printed
+int
+planStep (const Job& job, FolderStore& store);
+
+/// Puts together what the blocks have found out.
+/// \return EXIT_OK, or the exit code of what is wrong, which has been printed
+int
+joinStep (const Job& job, FolderStore& store, const Plan& plan);
+
+/// Writes the mesh.
+int
+writeStep (const Job& job, FolderStore& store, const Plan& plan);
+
+/// Reads the manifest and compares it with the parameters of the job and with its files. Steps of
+/// blocks that have both from the manifest do not read the files.
+/// \throws WorkError if they are others
+Plan
+readPlan (const Job& job, const FolderStore& store);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reconstructs a surface of more points than one machine holds or can wait for: in blocks, on
+// several processes, with all that is known on disk between the steps.
+#include "atomic_file.h"
+#include "blas_threads.h"
+#include "driver.h"
+#include "memory_limit.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+int
+run (Job job)
+{
+  const bool is_single_step = !job.step.empty () || job.prints_steps;
+  FolderStore folder (job.work);
+  if (is_single_step && job.inputs.empty ()) {
+    // The command line that made the plan; what belongs to this step comes from this one.
+    const Plan plan = parseManifest (folder.readText (MANIFEST), folder.describe (MANIFEST));
+    Job planned;
+    parseJob (plan.arguments, planned);
+    planned.work = job.work;
+    planned.is_from_manifest = true;
+    planned.step = job.step;
+    planned.block = job.block;
+    planned.prints_steps = job.prints_steps;
+    planned.line.options.threads = job.line.options.threads;
+    planned.join_threads = job.join_threads;
+    planned.line.max_memory = job.line.max_memory;
+    planned.line.quiet = job.line.quiet;
+    job = std::move (planned);
+  }
+  if (job.line.scratch.empty ())
+    job.line.scratch = job.work;
+  std::optional<MemoryLimit> limit;
+  const auto beginLimit = [&] {
+    if (job.line.max_memory > 0)
+      limit.emplace (job.line.max_memory, job.line.scratch);
+  };
+  if (job.prints_steps) {
+    printSteps (job, folder);
+    return EXIT_OK;
+  }
+  beginLimit ();
+  return job.step.empty () ? runAll (job, folder) : runStep (job, folder, job.step);
+}
+
+int
+fail (int code, const char* message)
+{
+  std::fprintf (stderr, "pcl_floater_distributed: %s\n", message);
+  return code;
+}
+
+int
+runTool (const std::vector<std::string>& arguments)
+{
+  try {
+    handleSignals (EXIT_INPUT);
+    Job job;
+    if (const std::optional<int> done = parseJob (arguments, job))
+      return *done;
+    return run (std::move (job));
+  }
+  catch (const UsageError& error) {
+    return fail (EXIT_USAGE, (std::string (error.what ()) + "\nTry --help.").c_str ());
+  }
+  catch (const ReadError& error) {
+    return fail (EXIT_INPUT, error.what ());
+  }
+  catch (const WriteError& error) {
+    return fail (EXIT_OUTPUT, error.what ());
+  }
+  catch (const WorkError& error) {
+    return fail (EXIT_WORK, error.what ());
+  }
+  catch (const std::bad_alloc&) {
+    return fail (EXIT_INTERNAL, "not enough memory; use more blocks, or a machine with more");
+  }
+  catch (const std::exception& error) {
+    return fail (EXIT_INTERNAL, (std::string ("unexpected error: ") + error.what ()).c_str ());
+  }
+}
+
+} // namespace
+} // namespace floater
+} // namespace pcl
+
+int
+main (int argc, char** argv)
+{
+#ifdef __GLIBC__
+  mallopt (M_MMAP_THRESHOLD,
+           1 << 20); // large arrays go back to the system as soon as they are freed
+#endif
+  pcl::floater::endBlasThreads ();
+  return pcl::floater::runTool ({argv + (argc > 0 ? 1 : 0), argv + argc});
+}

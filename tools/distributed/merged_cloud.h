@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One cloud of several files.
+#pragma once
+
+#include "cloud.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
+/// are those that all files have with one type, and coordinates of different types become double.
+/// \param all_digits see readCloud
+/// \throws ReadError, which names the file
+Cloud
+readClouds (const std::vector<std::filesystem::path>& files, bool all_digits);
+
+} // namespace floater
+} // namespace pcl

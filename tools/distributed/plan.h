@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The manifest of a work folder: what is reconstructed, how, and in which blocks.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// A file of points as it was when the plan was made.
+struct InputFile
+{
+  std::filesystem::path path;
+  std::uint64_t size = 0;
+  std::uint32_t checksum = 0; ///< of its first and last bytes
+};
+
+/// All that the steps after the first need to know, but the points.
+struct Plan
+{
+  std::uint64_t id = 0; ///< of inputs, parameters and format; in all files of the folder
+  std::vector<InputFile> inputs;
+  std::vector<std::string> arguments; ///< options of the command line that made it
+  std::string parameters;             ///< those that decide the result, as text
+  std::size_t points = 0;             ///< of the working set, with outliers
+  std::size_t blocks = 0;
+  std::size_t cloud_size = 0, selected_points = 0;
+  std::size_t lattice_width = 0;
+  std::array<double, 3> centre{}, sensor_origin{}, shift{};
+  double scale = 1.0;
+};
+
+/// \throws ReadError if a file is missing
+InputFile
+describeInput (const std::filesystem::path& path);
+
+/// Identifies a plan: the same for the same files and parameters.
+std::uint64_t
+planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks);
+
+/// The text of the manifest.
+std::string
+manifestText (const Plan& plan);
+
+/// \param name for messages \throws WorkError if it is no manifest of this version, or damaged
+Plan
+parseManifest (const std::string& text, const std::string& name);
+
+} // namespace floater
+} // namespace pcl

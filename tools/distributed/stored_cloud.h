@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The points of a run and what the blocks have found out, as the steps of the blocks read them.
+#pragma once
+
+#include "block_steps.h"
+#include "points/point_block.h"
+#include "slices.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+static_assert (sizeof (Eigen::Vector3d) == 3 * sizeof (double) &&
+                   sizeof (Eigen::Vector3f) == 3 * sizeof (float) &&
+                   sizeof (BlockCutter::Box) == 6 * sizeof (double),
+               "they are written and read as plain numbers");
+
+inline void
+addVectors (const std::string& name, const std::vector<Eigen::Vector3d>& vectors,
+            ArrayWriter& writer)
+{
+  writer.add (name, reinterpret_cast<const double*> (vectors.data ()), 3 * vectors.size ());
+}
+
+inline void
+addVectors (const std::string& name, const std::vector<Eigen::Vector3f>& vectors,
+            ArrayWriter& writer)
+{
+  writer.add (name, reinterpret_cast<const float*> (vectors.data ()), 3 * vectors.size ());
+}
+
+// Appends vectors `first` to before `last`.
+template <typename Vector>
+void
+readVectors (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last,
+             std::vector<Vector>& vectors)
+{
+  const std::size_t before = vectors.size ();
+  vectors.resize (before + last - first);
+  file.read (name, 3 * first, 3 * last,
+             reinterpret_cast<typename Vector::Scalar*> (vectors.data () + before));
+}
+
+template <typename Vector>
+std::vector<Vector>
+readVectors (ArrayFile& file, const std::string& name)
+{
+  std::vector<Vector> vectors;
+  readVectors (file, name, 0, file.count (name) / 3, vectors);
+  return vectors;
+}
+
+inline std::vector<Eigen::Vector3f>
+gatherVectors (Slices& slices, const std::string& name, const std::vector<Index>& points)
+{
+  const std::vector<float> numbers = slices.gather<float> (name, points, 3);
+  std::vector<Eigen::Vector3f> vectors;
+  vectors.reserve (points.size ());
+  for (std::size_t i = 0; i < points.size (); ++i)
+    vectors.emplace_back (numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+  return vectors;
+}
+
+inline std::vector<Index>
+pointsFrom (Index first, Index last)
+{
+  std::vector<Index> points (last - first);
+  std::iota (points.begin (), points.end (), first);
+  return points;
+}
+
+inline void
+sortUnique (std::vector<Index>& points)
+{
+  std::sort (points.begin (), points.end ());
+  points.erase (std::unique (points.begin (), points.end ()), points.end ());
+}
+
+inline void
+append (const std::vector<Index>& more, std::vector<Index>& points)
+{
+  points.insert (points.end (), more.begin (), more.end ());
+}
+
+/// The points of a run, in a file, and how they are cut.
+class StoredCloud
+{
+public:
+  StoredCloud (const StepContext& context, const std::vector<Index>& outliers, bool with_outliers)
+      : file_ (openArrays (context.store, with_outliers ? POINTS : pointsLeft (outliers),
+                           context.plan)),
+        points_ (file_.count ("positions") / 3), ranges_ (blockRanges (context.plan, points_)),
+        cutter_ (points_, readBuckets (), context.plan.blocks,
+                 [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
+                   readVectors (file_, "positions", first, last, positions);
+                 })
+  {
+  }
+
+  ArrayFile& file () { return file_; }
+  std::size_t points () const { return points_; }
+  const BlockRanges& ranges () const { return ranges_; }
+  const BlockCutter& cutter () const { return cutter_; }
+
+  // \param points ascending
+  std::vector<Eigen::Vector3d> gather (const std::vector<Index>& points)
+  {
+    std::vector<Eigen::Vector3d> positions;
+    positions.reserve (points.size ());
+    for (std::size_t begin = 0, end = 0; begin < points.size (); begin = end) {
+      for (end = begin + 1; end < points.size () && points[end] == points[end - 1] + 1;)
+        ++end;
+      readVectors (file_, "positions", points[begin], points[end - 1] + 1, positions);
+    }
+    return positions;
+  }
+
+private:
+  std::vector<BlockCutter::Box> readBuckets ()
+  {
+    std::vector<BlockCutter::Box> buckets (file_.count ("buckets") / 6);
+    file_.read ("buckets", 0, 6 * buckets.size (), reinterpret_cast<double*> (buckets.data ()));
+    return buckets;
+  }
+
+  ArrayFile file_;
+  std::size_t points_;
+  BlockRanges ranges_;
+  BlockCutter cutter_;
+};
+
+/// The neighbours of points without outliers, and those beside lines.
+class StoredNeighbors
+{
+public:
+  StoredNeighbors (const StepContext& context, const std::vector<Index>& outliers,
+                   const BlockRanges& ranges)
+      : are_renewed_ (!outliers.empty ()),
+        width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
+                                       ranges.points () - 1)),
+        found_ (context.store, context.plan, ranges, "neighbors"),
+        planes_ (context.store, context.plan, ranges, "planes")
+  {
+  }
+
+  // Without those beside lines.
+  CsrLists nearest (const std::vector<Index>& points)
+  {
+    if (are_renewed_)
+      return planes_.gatherLists ("renewed", points);
+    CsrLists lists;
+    lists.ids = found_.gather<Index> ("ids", points, width_);
+    lists.offsets.resize (points.size () + 1);
+    for (std::size_t i = 0; i <= points.size (); ++i)
+      lists.offsets[i] = static_cast<Index> (i * width_);
+    return lists;
+  }
+
+  CsrLists beside (const std::vector<Index>& points)
+  {
+    return planes_.gatherLists ("beside", points);
+  }
+
+  CsrLists all (const std::vector<Index>& points)
+  {
+    CsrLists lists = nearest (points);
+    appendRows (beside (points), lists);
+    return lists;
+  }
+
+  Slices& planes () { return planes_; }
+
+private:
+  bool are_renewed_;
+  std::size_t width_;
+  Slices found_, planes_;
+};
+
+/// Widens a block until all points of these lists are in it.
+/// \param rows  own points, ascending
+/// \param lists of these
+void
+takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
+        BlockSearch& search);
+
+} // namespace floater
+} // namespace pcl

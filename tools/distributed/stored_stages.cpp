@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stored_stages.h"
+
+#include "report_cloud.h"
+#include "slices.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Appends all values of an array.
+template <typename T>
+void
+appendArray (ArrayFile& file, const std::string& name, std::vector<T>& values)
+{
+  const std::size_t before = values.size (), count = file.count (name);
+  values.resize (before + count);
+  file.read (name, 0, count, values.data () + before);
+}
+
+void
+appendVectors (ArrayFile& file, const std::string& name, std::vector<Eigen::Vector3f>& vectors)
+{
+  const std::size_t before = vectors.size (), count = file.count (name) / 3;
+  vectors.resize (before + count);
+  file.read (name, 0, 3 * count, reinterpret_cast<float*> (vectors.data () + before));
+}
+
+// Appends all lists of a block to those of the blocks before it.
+void
+appendLists (ArrayFile& file, const std::string& name, CsrLists& all)
+{
+  if (all.offsets.empty ())
+    all.offsets.push_back (0);
+  const std::size_t before = all.offsets.back ();
+  requireCountable (before + file.count (name), NONE - 1, "the table of neighbours",
+                    "use fewer points or fewer neighbours");
+  appendArray (file, name, all.ids);
+  const std::size_t rows = all.offsets.size ();
+  appendArray (file, name + ".ends", all.offsets);
+  for (std::size_t r = rows; r < all.offsets.size (); ++r)
+    all.offsets[r] += static_cast<Index> (before);
+}
+
+} // namespace
+
+StoredStages::StoredStages (const StepContext& context)
+    : context_ (context), outliers_ (readOutliers (context)),
+      ranges_ (blockRanges (context.plan, context.plan.points - outliers_.size ()))
+{
+}
+
+template <typename Visit>
+void
+StoredStages::forEachBlock (const char* step, Visit&& visit)
+{
+  for (std::size_t block = 0; block < context_.plan.blocks; ++block) {
+    context_.run.poll ();
+    ArrayFile file = openArrays (context_.store, blockFile (step, block), context_.plan);
+    visit (file, block);
+  }
+}
+
+Points
+StoredStages::points (Report& report)
+{
+  std::vector<Index> gross_outliers;
+  Points points = readPoints (context_.store, POINTS, context_.plan, gross_outliers);
+  report.statistics.cloud_points = context_.plan.cloud_size;
+  report.statistics.selected_points = context_.plan.selected_points;
+  reportGrossOutliers (gross_outliers, report);
+  reportPoints (points, report);
+  return points;
+}
+
+LocalPlanes
+StoredStages::planes ()
+{
+  const std::size_t n = ranges_.points ();
+  const std::size_t k =
+      std::min<std::size_t> (static_cast<std::size_t> (context_.options.neighbors.k), n - 1);
+  LocalPlanes planes;
+  CsrLists& neighbors = planes.neighbors;
+  neighbors.offsets.reserve (n + 1);
+  requireCountable (n * k, NONE - 1, "the table of neighbours",
+                    "use fewer points or fewer neighbours");
+  neighbors.ids.reserve (n * k);
+  if (outliers_.empty ()) {
+    for (std::size_t p = 0; p <= n; ++p)
+      neighbors.offsets.push_back (static_cast<Index> (p * k));
+    forEachBlock ("neighbors", [&] (ArrayFile& file, std::size_t /*block*/) {
+      appendArray (file, "ids", neighbors.ids);
+    });
+  }
+  CsrLists beside;
+  beside.offsets.reserve (n + 1);
+  forEachBlock ("planes", [&] (ArrayFile& file, std::size_t /*block*/) {
+    if (!outliers_.empty ())
+      appendLists (file, "renewed", neighbors);
+    appendLists (file, "beside", beside);
+  });
+  appendRows (beside, neighbors);
+  return planes;
+}
+
+std::vector<AreaSample>
+StoredStages::areaSamples ()
+{
+  std::vector<AreaSample> samples;
+  forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
+    constexpr std::size_t VALUES = 7;
+    const std::vector<double> areas = file.read<double> ("areas");
+    for (std::size_t i = 0; i + VALUES <= areas.size (); i += VALUES)
+      samples.push_back ({{areas[i], areas[i + 1], areas[i + 2]},
+                          {areas[i + 3], areas[i + 4], areas[i + 5]},
+                          areas[i + 6]});
+  });
+  return samples;
+}
+
+NoiseProbes
+StoredStages::noiseProbes ()
+{
+  NoiseProbes probes;
+  forEachBlock ("planes", [&] (ArrayFile& file, std::size_t /*block*/) {
+    appendArray (file, "probes.noise", probes.noise);
+    appendArray (file, "probes.unevenness", probes.unevenness);
+  });
+  return probes;
+}
+
+LocalGeometry
+StoredStages::geometry (LocalPlanes planes, bool with_stars)
+{
+  const std::size_t n = ranges_.points ();
+  LocalGeometry geometry;
+  Stars& stars = geometry.stars;
+  geometry.spacing.reserve (n);
+  stars.normals.reserve (n);
+  CsrLists far;
+  far.offsets.reserve (n + 1);
+  forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
+    appendVectors (file, "normals", stars.normals);
+  });
+  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
+    appendArray (file, "spacing", geometry.spacing);
+    appendLists (file, "far", far);
+    if (!with_stars)
+      return;
+    appendLists (file, "stars", stars.neighbors);
+    appendArray (file, "open", stars.open);
+  });
+  geometry.neighbors = std::move (planes.neighbors);
+  appendRows (far, geometry.neighbors);
+  return geometry;
+}
+
+ProposedTriangles
+StoredStages::triangles ()
+{
+  ProposedTriangles proposed;
+  CandidateLists& candidates = proposed.candidates;
+  candidates.sure_ranks = context_.limits.surface.consensus.candidates.sure_ranks;
+  std::size_t sure = 0, doubtful = 0;
+  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
+    sure += file.count ("sure.corners") / 3;
+    doubtful += file.count ("doubtful.corners") / 3;
+  });
+  candidates.sure.reserve (sure);
+  candidates.doubtful.reserve (doubtful);
+  proposed.smoothed_normals.reserve (ranges_.points ());
+  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
+    appendVectors (file, "smoothed_normals", proposed.smoothed_normals);
+    std::vector<Triangle> corners;
+    const auto readCorners = [&] (const std::string& name) {
+      const std::vector<Index> ids = file.read<Index> (name);
+      corners.resize (ids.size () / 3);
+      for (std::size_t t = 0; t < corners.size (); ++t)
+        corners[t] = {ids[3 * t], ids[3 * t + 1], ids[3 * t + 2]};
+    };
+    readCorners ("sure.corners");
+    std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks");
+    for (std::size_t t = 0; t < corners.size (); ++t)
+      candidates.sure.push_back ({corners[t], marks[2 * t], marks[2 * t + 1], false});
+    readCorners ("doubtful.corners");
+    marks = file.read<std::uint8_t> ("doubtful.marks");
+    const std::vector<float> values = file.read<float> ("doubtful.values");
+    for (std::size_t t = 0; t < corners.size (); ++t)
+      candidates.doubtful.push_back (
+          {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});
+  });
+  return proposed;
+}
+
+} // namespace floater
+} // namespace pcl

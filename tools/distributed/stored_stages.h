@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the blocks have found out, as reconstruct () takes it.
+#pragma once
+
+#include "block_steps.h"
+#include "known_stages.h"
+
+namespace pcl
+{
+namespace floater
+{
+/// Reads the files of all blocks, each when it is needed.
+class StoredStages : public KnownStages
+{
+public:
+  /// \param context must outlive this
+  explicit StoredStages (const StepContext& context);
+
+  Points points (Report& report) override;
+  std::vector<Index> outliers () override { return outliers_; }
+  LocalPlanes planes () override;
+  std::vector<AreaSample> areaSamples () override;
+  NoiseProbes noiseProbes () override;
+  LocalGeometry geometry (LocalPlanes planes, bool with_stars) override;
+  ProposedTriangles triangles () override;
+
+private:
+  // Calls visit (file of a step, block) for all blocks.
+  template <typename Visit>
+  void forEachBlock (const char* step, Visit&& visit);
+
+  const StepContext& context_;
+  std::vector<Index> outliers_;
+  BlockRanges ranges_; // without outliers
+};
+
+} // namespace floater
+} // namespace pcl
