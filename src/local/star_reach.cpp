@@ -7,7 +7,9 @@
 #include "core/plane_fit.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <optional>
 
 namespace pcl
 {
@@ -69,6 +71,15 @@ middleOfGap (const std::vector<PlanarNeighbor>& star)
   return is_reflex ? Eigen::Vector2d (-sum.normalized ()) : Eigen::Vector2d (sum.normalized ());
 }
 
+// Whether a point lies on the side to which a search looks. Which points behind its plane a tree
+// passes depends on how it is divided, so they have to be refused; by more than rounding.
+bool
+isInFront (const Eigen::Vector3d& ahead, const Eigen::Vector3d& offset)
+{
+  constexpr double LEAST_COSINE = 1e-9;
+  return ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ();
+}
+
 // How far a search for some points within a radius has looked.
 double
 reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double radius)
@@ -76,7 +87,35 @@ reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double ra
   return found.size () == wanted ? std::sqrt (found.back ().sqr_distance) : radius;
 }
 
+// The line through a point and its neighbours, if they lie on one.
+std::optional<Line>
+lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, double least_aspect)
+{
+  const Eigen::Vector3d& here = positions[p];
+  if (!mayBeLine (positions, here, row))
+    return {};
+  PlaneFit fit;
+  fit.add (Eigen::Vector3d::Zero ());
+  for (const Index q : row)
+    fit.add (positions[q] - here);
+  const Line line = fit.line ();
+  return line.aspect < least_aspect ? std::optional (line) : std::nullopt;
+}
+
 } // namespace
+
+bool
+isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const Rows& rows, double least_aspect, const RunContext& run)
+{
+  std::atomic<bool> is_any{false};
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last && !is_any; ++i)
+      if (lineThrough (positions, rows[i], neighbors.row (rows[i]), least_aspect))
+        is_any = true;
+  });
+  return is_any;
+}
 
 BesideLines
 findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
@@ -95,27 +134,24 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
       const Index p = rows[i];
       const Eigen::Vector3d& here = positions[p];
       const Row row = neighbors.row (p);
-      if (!mayBeLine (positions, here, row))
+      const std::optional<Line> found_line = lineThrough (positions, p, row, least_aspect);
+      if (!found_line)
         continue;
-      PlaneFit fit;
-      fit.add (Eigen::Vector3d::Zero ());
-      for (const Index q : row)
-        fit.add (positions[q] - here);
-      const Line line = fit.line ();
-      if (line.aspect >= least_aspect)
-        continue;
+      const Line& line = *found_line;
       const double sqr_thickness = limits.thicknesses * limits.thicknesses * line.mean_square;
       const auto lateral = [&] (const Eigen::Vector3d& position) -> Eigen::Vector3d {
         const Eigen::Vector3d offset = position - here;
         return offset - line.direction * line.direction.dot (offset);
       };
+      Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
       const auto is_beside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
+        if (!ahead.isZero (0.0) && !isInFront (ahead, position - here))
+          return false;
         const double sqr_lateral = lateral (position).squaredNorm ();
         return sqr_lateral > sqr_thickness &&
                sqr_lateral >= limits.line_sine * limits.line_sine * neighbor.sqr_distance;
       };
       // On the side of the nearest one, then on the opposite side.
-      Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
       double smaller = 0.0;
       for (const bool is_first : {true, false}) {
         const double farthest = limits.farthest * static_cast<double> (spacing[p]);

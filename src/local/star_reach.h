@@ -52,6 +52,12 @@ struct BesideLines
                             ///< nearest points on opposite sides; 0 for all others
 };
 
+/// Whether the neighbours of any of these points lie all on a line. If not, nothing is beside
+/// lines.
+bool
+isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const Rows& rows, double least_aspect, const RunContext& run);
+
 /// Looks for points beside lines. O(n k) and two searches for each point on a line.
 /// \param spacing of the points in `rows` (see localSpacing)
 /// \param rows    points beside whose lines is looked; neighbours of others are not read

@@ -78,8 +78,9 @@ public:
   void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
-  /// nearest first. What lies behind the plane through `query` with the normal `ahead` is not
-  /// looked at; zero: everything is. The result is overwritten.
+  /// nearest first. What lies behind the plane through `query` with the normal `ahead` need not
+  /// be looked at, and accept has to refuse it; zero: there is no such plane. The result is
+  /// overwritten.
   template <typename Accept>
   void nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const;

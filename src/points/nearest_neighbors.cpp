@@ -47,10 +47,11 @@ searchWhole (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, st
 
 // Searches for the rows from `begin` to before `end`, which are own points of the block.
 void
-searchBlock (const BlockSearch& search, const Rows& rows, std::size_t begin, std::size_t end,
+searchBlock (BlockSearch& search, const Rows& rows, std::size_t begin, std::size_t end,
              std::size_t k, const RunContext& run, Index* ids)
 {
   const PointBlock& block = search.block ();
+  const KdTree& tree = search.tree ();
   parallelRanges (run, end - begin, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     found.reserve (k + 2);
@@ -58,8 +59,8 @@ searchBlock (const BlockSearch& search, const Rows& rows, std::size_t begin, std
     for (std::size_t i = begin + first; i < begin + last; ++i) {
       while (block.points[place] < rows[i])
         ++place;
-      search.tree ().nearest (block.positions[place], k + 1, found);
-      search.tree ().lookedForNearest (block.positions[place], k + 1, found);
+      tree.nearest (block.positions[place], k + 1, found);
+      tree.lookedForNearest (block.positions[place], k + 1, found);
       for (Neighbor& neighbor : found)
         neighbor.point = block.points[neighbor.point];
       writeRow (found, rows[i], k, ids + (i - begin) * k);

@@ -166,8 +166,16 @@ BlockSearch::cut ()
 {
   tree_.reset ();
   block_ = cutter_.cut (index_, block_.balls, widths_);
-  tree_.emplace (block_.positions, run_);
-  tree_->setWatch (this);
+}
+
+const KdTree&
+BlockSearch::tree ()
+{
+  if (!tree_) {
+    tree_.emplace (block_.positions, run_);
+    tree_->setWatch (this);
+  }
+  return *tree_;
 }
 
 bool
@@ -177,6 +185,20 @@ BlockSearch::hasLeft ()
   const bool has_left = missing_.size () > asked_;
   asked_ = missing_.size ();
   return has_left;
+}
+
+std::vector<Index>
+BlockSearch::left ()
+{
+  std::vector<Index> points;
+  std::vector<Neighbor> found;
+  for (const Ball& ball : missing_) {
+    tree ().nearest (ball.centre, 1, found); // the point itself: no other one is at its place
+    points.push_back (block_.points[found.front ().point]);
+  }
+  std::sort (points.begin (), points.end ());
+  points.erase (std::unique (points.begin (), points.end ()), points.end ());
+  return points;
 }
 
 bool

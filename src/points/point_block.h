@@ -100,9 +100,10 @@ public:
   BlockSearch (BlockSearch&&) = delete;
   BlockSearch& operator= (BlockSearch&&) = delete;
 
-  /// Both change where a search leaves the block.
+  /// Both change where a search leaves the block. The tree is made when it is first asked for, by
+  /// one thread; until the block changes, any number of them may use it then.
   const PointBlock& block () const { return block_; }
-  const KdTree& tree () const { return *tree_; }
+  const KdTree& tree ();
 
   /// The own points, as places in the block: from the first one to one behind the last.
   Index ownFirst () const { return block_.placeOf (cutter_.first (index_)); }
@@ -114,6 +115,9 @@ public:
   /// Whether searches, since this was last asked, looked into balls that the block does not have.
   /// They are noted for widen ().
   bool hasLeft ();
+
+  /// The own points around which searches have left the block since it was cut, ascending.
+  std::vector<Index> left ();
 
   /// Cuts the block anew with these balls, and makes its tree. \return false if there are none
   bool widen ();

@@ -524,7 +524,7 @@ class Errors(Case):
     def test_too_little_memory(self):
         self.expect_failure(self.again("--max-memory", "30M"), USAGE, "--max-memory")
         self.generate("torus", "--points", 400000)
-        self.expect_failure(self.again("--max-memory", "41M"), USAGE, "too small", "400000 points")
+        self.expect_failure(self.again("--max-memory", "52M"), USAGE, "too small", "400000 points")
         self.expect_no_mesh()
 
 

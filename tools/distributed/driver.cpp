@@ -5,8 +5,11 @@
 
 #include "atomic_file.h"
 #include "dealer.h"
+#include "large_arrays.h"
+#include "memory_limit.h"
 #include "run_report.h"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <deque>
@@ -62,7 +65,9 @@ guarded (Work&& work, std::string& message)
     return EXIT_WORK;
   }
   catch (const std::bad_alloc&) {
-    message = "not enough memory; use more blocks, or a machine with more";
+    const std::string failure = largeArrayFailure ();
+    message =
+        failure.empty () ? "not enough memory; use more blocks, or a machine with more" : failure;
     return EXIT_INTERNAL;
   }
   catch (const std::exception& error) {
@@ -77,6 +82,17 @@ tell (int code, const std::string& message)
   if (!message.empty ())
     std::fprintf (stderr, "pcl_floater_distributed: %s\n", message.c_str ());
   return code;
+}
+
+// Limits the memory of this process, if that is asked for.
+std::unique_ptr<MemoryLimit>
+beginMemoryLimit (Job& job)
+{
+  if (job.line.max_memory == 0)
+    return {};
+  auto limit = std::make_unique<MemoryLimit> (job.line.max_memory, job.line.scratch);
+  job.line.options.task_callback = [limit = limit.get ()] { limit->makeRoom (); };
+  return limit;
 }
 
 // A process that is not the first.
@@ -119,15 +135,19 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
 }
 
 int
-workAlone (const Job& job, FolderStore& folder, Dealer* dealer)
+workAlone (Job job, FolderStore& folder, Dealer* dealer)
 {
   const auto start = std::chrono::steady_clock::now ();
   const auto time = [&start] {
     const double seconds =
         std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-    return std::to_string (static_cast<long> (seconds * 10.0) / 10) + " s";
+    constexpr std::size_t LONGEST = 32;
+    std::array<char, LONGEST> text{};
+    std::snprintf (text.data (), text.size (), "%.1f s", seconds);
+    return std::string (text.data ());
   };
   prepareFolders (job);
+  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
   if (!folder.has (MANIFEST))
     if (const int code = planStep (job, folder); code != EXIT_OK)
       return code;
@@ -200,16 +220,17 @@ runAll (const Job& job, FolderStore& folder)
 }
 
 int
-runStep (const Job& job, FolderStore& folder, const std::string& step)
+runStep (Job job, FolderStore& folder, const std::string& step)
 {
   std::string message;
   const int code = guarded (
       [&] {
-        if (step == "plan") {
+        if (step == "plan")
           prepareFolders (job);
+        const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
+        if (step == "plan")
           return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
                                        : planStep (job, folder);
-        }
         const Plan plan = readPlan (job, folder);
         const EffectiveOptions effective (job.line);
         const RunContext run (job.line.options.threads);

@@ -18,7 +18,7 @@ runAll (const Job& job, FolderStore& folder);
 
 /// Does one step.
 int
-runStep (const Job& job, FolderStore& folder, const std::string& step);
+runStep (Job job, FolderStore& folder, const std::string& step);
 
 /// Prints the commands of all steps, one in each line; steps between two empty lines may run at the
 /// same time.

@@ -4,6 +4,7 @@
 
 #include "atomic_file.h"
 #include "format.h"
+#include "memory_limit.h"
 #include "mesh_normals.h"
 #include "mesh_writer.h"
 #include "prepared_input.h"
@@ -39,6 +40,16 @@ readShifted (const Job& job, const Plan& plan)
   Cloud cloud = readClouds (job.inputs, job.line.auto_shift || job.line.shift);
   cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   return cloud;
+}
+
+// Throws UsageError if the steps of the whole cloud cannot be kept below the limit.
+void
+checkMemory (const CommandLine& line, std::size_t points)
+{
+  const std::size_t least = leastMemory (points);
+  if (line.max_memory > 0 && line.max_memory < least)
+    throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
+                      std::to_string (points) + " points; use " + formatSize (least) + " or more");
 }
 
 void
@@ -98,6 +109,7 @@ planStep (const Job& job, FolderStore& store)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
   Cloud cloud = readClouds (job.inputs, line.auto_shift || line.shift);
+  checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   shiftOrigin (line, cloud, input);
@@ -159,6 +171,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   const EffectiveOptions effective (line);
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
+  checkMemory (line, plan.cloud_size);
   StoredStages stages (context);
   Input input;
   input.cloud_size = plan.cloud_size;
@@ -186,7 +199,8 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
   if (report.status == RunStatus::SUCCESS) {
-    removeNonFinitePoints (cloud, result.triangles);
+    Triangles none;
+    removeNonFinitePoints (cloud, none); // the triangles are renumbered when they are written
     figures.vertices = cloud.size ();
   }
   figures.read_seconds = secondsSince (start);
@@ -208,13 +222,12 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const CommandLine& line = job.line;
   ArrayFile file = openArrays (store, TRIANGLES, plan);
-  const Triangles triangles = file.read<Triangles::value_type> ("triangles");
+  Triangles triangles = file.read<Triangles::value_type> ("triangles");
   Cloud cloud = readShifted (job, plan);
   cloud.single_precision = file.read<std::uint8_t> ("single_precision").front () != 0;
-  Triangles none;
-  removeNonFinitePoints (cloud, none);
   if (line.compute_normals)
     replaceNormals (cloud, triangles, job.join_threads);
+  removeNonFinitePoints (cloud, triangles);
   std::optional<AtomicFile> report;
   if (!line.report.empty ()) {
     report.emplace (line.report);

@@ -5,7 +5,6 @@
 #include "atomic_file.h"
 #include "blas_threads.h"
 #include "driver.h"
-#include "memory_limit.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -39,21 +38,16 @@ run (Job job)
     planned.line.options.threads = job.line.options.threads;
     planned.join_threads = job.join_threads;
     planned.line.max_memory = job.line.max_memory;
+    planned.line.scratch = job.line.scratch;
     planned.line.quiet = job.line.quiet;
     job = std::move (planned);
   }
   if (job.line.scratch.empty ())
     job.line.scratch = job.work;
-  std::optional<MemoryLimit> limit;
-  const auto beginLimit = [&] {
-    if (job.line.max_memory > 0)
-      limit.emplace (job.line.max_memory, job.line.scratch);
-  };
   if (job.prints_steps) {
     printSteps (job, folder);
     return EXIT_OK;
   }
-  beginLimit ();
   return job.step.empty () ? runAll (job, folder) : runStep (job, folder, job.step);
 }
 

@@ -49,8 +49,8 @@ renewOwn (Index first, Index last, const std::vector<Index>& outliers, StoredClo
 }
 
 NoiseProbes
-probeOwn (const BlockSearch& search, SearchWatch& watch, const CsrLists& neighbors,
-          std::size_t points, const StepContext& context)
+probeOwn (BlockSearch& search, const CsrLists& neighbors, std::size_t points,
+          const StepContext& context)
 {
   if (!mayBeNoisy (points))
     return {};
@@ -67,8 +67,8 @@ probeOwn (const BlockSearch& search, SearchWatch& watch, const CsrLists& neighbo
   }
   PointSample every_fourth (block.positions, std::move (quarter), context.run);
   PointSample every_sixteenth (block.positions, std::move (sixteenth), context.run);
-  every_fourth.setWatch (&watch);
-  every_sixteenth.setWatch (&watch);
+  every_fourth.setWatch (&search.watch ());
+  every_sixteenth.setWatch (&search.watch ());
   return probeNoise (block.positions, neighbors, probed, {nullptr, &every_fourth, &every_sixteenth},
                      context.limits.noise, context.run);
 }
@@ -102,10 +102,14 @@ planesStep (const StepContext& context, std::size_t block)
       const Rows rows = Rows::range (own_first, own_last);
       CsrLists neighbors = local.toPlaces (own, nearest);
       spacing = localSpacing (positions, neighbors, rows, context.run);
-      BesideLines beside =
-          findBesideLines (positions, neighbors, spacing, search.tree (), rows,
-                           context.limits.planes.least_aspect, context.limits.reach, context.run);
-      probes = probeOwn (search, search.watch (), neighbors, cloud.points (), context);
+      BesideLines beside;
+      beside.neighbors.offsets.assign (local.size () + 1, 0);
+      beside.reach.assign (local.size (), 0.0F);
+      if (isAnyOnLine (positions, neighbors, rows, context.limits.planes.least_aspect, context.run))
+        beside =
+            findBesideLines (positions, neighbors, spacing, search.tree (), rows,
+                             context.limits.planes.least_aspect, context.limits.reach, context.run);
+      probes = probeOwn (search, neighbors, cloud.points (), context);
       appendRows (beside.neighbors, neighbors);
       normals = fitTangentPlanes (positions, neighbors, rows, context.run, context.limits.planes);
       beside_lists = {};

@@ -72,17 +72,6 @@ appendLists (const CsrLists& lists, Index first, Index last, CsrLists& all)
   }
 }
 
-void
-appendLists (const CsrLists& lists, CsrLists& all)
-{
-  if (all.offsets.empty ())
-    all.offsets.push_back (0);
-  const Index before = all.offsets.back ();
-  all.ids.insert (all.ids.end (), lists.ids.begin (), lists.ids.end ());
-  for (std::size_t r = 1; r < lists.offsets.size (); ++r)
-    all.offsets.push_back (before + lists.offsets[r]);
-}
-
 LocalPoints::LocalPoints (const std::vector<Index>& points) : points_ (points)
 {
   for (Index place = 0; place < points.size (); ++place) {

@@ -78,10 +78,6 @@ readLists (ArrayFile& file, const std::string& array, std::size_t first, std::si
 void
 appendLists (const CsrLists& lists, Index first, Index last, CsrLists& all);
 
-/// Appends all lists to others.
-void
-appendLists (const CsrLists& lists, CsrLists& all);
-
 /// Points of a part of the working set, and where they are in it.
 class LocalPoints
 {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl
 {
@@ -16,8 +17,9 @@ namespace floater
 {
 namespace
 {
-constexpr double HALO = 4.0;           // width, see BlockCutter: stars look up to 40 spacings ahead
-constexpr Index STARS_AT_ONCE = 65536; // these are made again if one of them leaves the block
+// Width, see BlockCutter. Most stars look no farther than that; those at boundaries look up to 40
+// spacings ahead, and are made again where that leaves the block.
+constexpr double HALO = 2.0;
 
 // The lists of some of the own points, by their numbers in the working set.
 struct OwnStars
@@ -28,28 +30,57 @@ struct OwnStars
   std::vector<float> reach;
 };
 
+// \param rows places of the points whose stars are taken
 OwnStars
-takeStars (const Stars& stars, Index first, Index last, const LocalPoints& local)
+takeStars (const Stars& stars, const Rows& rows, const LocalPoints& local)
 {
   OwnStars own;
-  appendLists (stars.neighbors, first, last, own.stars);
-  appendLists (stars.far_neighbors, first, last, own.far);
-  local.toPoints (own.stars.ids);
-  local.toPoints (own.far.ids);
-  own.open.assign (stars.open.begin () + first, stars.open.begin () + last);
-  own.normals.assign (stars.normals.begin () + first, stars.normals.begin () + last);
-  own.reach.assign (stars.reach.begin () + first, stars.reach.begin () + last);
+  for (auto [from, to] :
+       {std::pair (&stars.neighbors, &own.stars), std::pair (&stars.far_neighbors, &own.far)}) {
+    to->offsets.push_back (0);
+    for (std::size_t i = 0; i < rows.size (); ++i) {
+      const Row row = from->row (rows[i]);
+      to->ids.insert (to->ids.end (), row.begin (), row.end ());
+      to->offsets.push_back (static_cast<Index> (to->ids.size ()));
+    }
+    local.toPoints (to->ids);
+  }
+  for (std::size_t i = 0; i < rows.size (); ++i) {
+    own.open.push_back (stars.open[rows[i]]);
+    own.normals.push_back (stars.normals[rows[i]]);
+    own.reach.push_back (stars.reach[rows[i]]);
+  }
   return own;
 }
 
+// Puts the stars of some points in place of those that they had.
+// \param first the point of the first star of `all`
 void
-appendStars (const OwnStars& more, OwnStars& all)
+replaceStars (const std::vector<Index>& points, const OwnStars& more, Index first, OwnStars& all)
 {
-  appendLists (more.stars, all.stars);
-  appendLists (more.far, all.far);
-  all.open.insert (all.open.end (), more.open.begin (), more.open.end ());
-  all.normals.insert (all.normals.end (), more.normals.begin (), more.normals.end ());
-  all.reach.insert (all.reach.end (), more.reach.begin (), more.reach.end ());
+  const auto replaceLists = [&] (const CsrLists& by, CsrLists& lists) {
+    CsrLists merged;
+    merged.ids.reserve (lists.ids.size () + by.ids.size ());
+    merged.offsets.reserve (lists.offsets.size ());
+    merged.offsets.push_back (0);
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < lists.rows (); ++r) {
+      const bool is_replaced = next < points.size () && points[next] == first + r;
+      const Row row = is_replaced ? by.row (next) : lists.row (r);
+      next += is_replaced ? 1 : 0;
+      merged.ids.insert (merged.ids.end (), row.begin (), row.end ());
+      merged.offsets.push_back (static_cast<Index> (merged.ids.size ()));
+    }
+    lists = std::move (merged);
+  };
+  replaceLists (more.stars, all.stars);
+  replaceLists (more.far, all.far);
+  for (std::size_t i = 0; i < points.size (); ++i) {
+    const std::size_t at = points[i] - first;
+    all.open[at] = more.open[i];
+    all.normals[at] = more.normals[i];
+    all.reach[at] = more.reach[i];
+  }
 }
 
 void
@@ -140,10 +171,10 @@ starsStep (const StepContext& context, std::size_t block)
                  centres.end ());
 
   BlockSearch search (cloud.cutter (), block, context.run, HALO);
-  std::vector<OwnStars> parts ((last - first + STARS_AT_ONCE - 1) / STARS_AT_ONCE);
-  std::vector<std::uint8_t> is_done (parts.size (), 0);
+  OwnStars all;
+  std::vector<Index> left; // points whose stars have to be made again
   std::vector<AreaSample> samples;
-  bool are_sampled = false;
+  bool is_first = true, are_sampled = false;
   do {
     takeIn (own, all_lists, cloud, search);
     const LocalPoints local (search.block ().points);
@@ -159,20 +190,22 @@ starsStep (const StepContext& context, std::size_t block)
     std::vector<float> spacing (local.size (), 0.0F);
     std::copy (own_spacing.begin (), own_spacing.end (), spacing.begin () + own_first);
     const BeyondNeighbors beyond{search.tree (), spacing, beside, settings.reach};
-    for (std::size_t part = 0; part < parts.size (); ++part) {
-      if (is_done[part] != 0)
-        continue;
-      const Index begin = own_first + static_cast<Index> (part) * STARS_AT_ONCE;
-      const Index end = std::min (begin + STARS_AT_ONCE, search.ownLast ());
-      const Rows rows = Rows::range (begin, end);
-      StarsInMaking made =
-          beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
-      if (search.hasLeft ())
-        continue;
-      parts[part] = takeStars (endStars (std::move (made), rows, settings), begin, end, local);
-      is_done[part] = 1;
-    }
+    std::vector<Index> left_places = left;
+    local.toPlaces (left_places);
+    const Rows rows =
+        is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
+    const OwnStars made = takeStars (
+        endStars (beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond),
+                  rows, settings),
+        rows, local);
+    if (is_first)
+      all = made;
+    else
+      replaceStars (left, made, first, all);
+    is_first = false;
+    left = search.left ();
     if (!are_sampled) {
+      search.hasLeft ();
       std::vector<Index> places = centres;
       local.toPlaces (places);
       const Stars stars =
@@ -182,9 +215,6 @@ starsStep (const StepContext& context, std::size_t block)
         samples = takeAreaSamples (places, positions, stars, context.run);
     }
   } while (search.widen ());
-  OwnStars all;
-  for (const OwnStars& part : parts)
-    appendStars (part, all);
   writeStars (context, block, all, samples);
 }
 
@@ -205,18 +235,12 @@ trianglesStep (const StepContext& context, std::size_t block)
   // Candidates are judged by the stars and normals of their corners; a star without neighbours
   // across holes, by the reach at both ends of its edges; and that is the largest around each.
   const std::vector<Index> own = pointsFrom (first, last);
-  std::vector<Index> corners = own;
-  append (stored.all (own).ids, corners);
-  append (stars_before.gatherLists ("far", own).ids, corners);
-  sortUnique (corners);
+  const CsrLists own_rows = stored.all (own), own_far = stars_before.gatherLists ("far", own);
+  const std::vector<Index> corners = joinPoints (first, last, {&own_rows.ids, &own_far.ids});
   const CsrLists far = stars_before.gatherLists ("far", corners);
-  std::vector<Index> with_rows = corners;
-  append (far.ids, with_rows);
-  sortUnique (with_rows);
+  const std::vector<Index> with_rows = joinPoints (first, last, {&corners, &far.ids});
   const CsrLists rows = stored.all (with_rows);
-  std::vector<Index> points = with_rows;
-  append (rows.ids, points);
-  sortUnique (points);
+  const std::vector<Index> points = joinPoints (first, last, {&with_rows, &rows.ids});
 
   const LocalPoints local (points);
   const std::vector<Eigen::Vector3d> positions = cloud.gather (points);
@@ -251,7 +275,7 @@ trianglesStep (const StepContext& context, std::size_t block)
   for (Candidate& doubtful : candidates.doubtful)
     for (Index& corner : doubtful.corners)
       corner = points[corner];
-  const OwnStars ended = takeStars (stars, own_first, own_last, local);
+  const OwnStars ended = takeStars (stars, Rows::range (own_first, own_last), local);
   writeTriangles (context, block, candidates,
                   {smoothed.begin () + own_first, smoothed.begin () + own_last},
                   {spacing.begin () + own_first, spacing.begin () + own_last}, ended.stars,

@@ -17,7 +17,7 @@ takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& clou
     for (std::size_t i = 0; i < rows.size (); ++i) {
       std::vector<Index> missing;
       for (const Index q : lists.row (i))
-        if (local.placeOf (q) == NONE)
+        if ((q < rows.front () || q > rows.back ()) && local.placeOf (q) == NONE)
           missing.push_back (q);
       if (missing.empty ())
         continue;

@@ -8,7 +8,9 @@
 #include "slices.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -81,10 +83,22 @@ sortUnique (std::vector<Index>& points)
   points.erase (std::unique (points.begin (), points.end ()), points.end ());
 }
 
-inline void
-append (const std::vector<Index>& more, std::vector<Index>& points)
+/// A range of points, and those of others that are not in it. \return ascending, each once
+inline std::vector<Index>
+joinPoints (Index first, Index last, std::initializer_list<const std::vector<Index>*> others)
 {
-  points.insert (points.end (), more.begin (), more.end ());
+  std::vector<Index> before, after;
+  for (const std::vector<Index>* points : others)
+    for (const Index p : *points)
+      if (p < first || p >= last)
+        (p < first ? before : after).push_back (p);
+  sortUnique (before);
+  sortUnique (after);
+  std::vector<Index> all = std::move (before);
+  for (Index p = first; p < last; ++p)
+    all.push_back (p);
+  all.insert (all.end (), after.begin (), after.end ());
+  return all;
 }
 
 /// The points of a run, in a file, and how they are cut.

@@ -3,11 +3,15 @@
 // Tangent planes, stars in them, and the spacing of the sampling.
 #include "local/stars.h"
 
+#include "local/spacing.h"
+#include "local/tangent_planes.h"
+#include "points/nearest_neighbors.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl
 {
@@ -263,6 +267,38 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
   }
   EXPECT_NEAR (makeNeighborhoods ({{0, 0, 0}, {1, 0, 0}}).geometry.spacing[0], 1.0, 1e-6);
   EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).geometry.spacing[0], 0.0F);
+}
+
+// A tree is divided otherwise if there are other points, however far away.
+TEST (BesideLines, DoNotDependOnHowTheTreeIsDivided)
+{
+  Positions positions;
+  for (int row = 0; row < 15; ++row)
+    for (int i = 0; i < 400; ++i)
+      positions.emplace_back (0.1 * i + 0.02 * std::sin (7.0 * i * (row + 1)), 1.5 * row,
+                              0.3 * std::sin (0.1 * i));
+  const auto lookedUp = [&positions] (int others) {
+    Positions all = positions;
+    for (int i = 0; i < others; ++i)
+      all.emplace_back (1e4 + i, 1e4 * std::cos (i), 1e4 * std::sin (i));
+    const Rows rows = Rows::range (0, static_cast<Index> (positions.size ()));
+    const KdTree tree (all);
+    const CsrLists neighbors = findNearestNeighbors (all, Rows::all (all.size ()), 20, tree, 1);
+    const std::vector<float> spacing = localSpacing (all, neighbors, rows, 1);
+    const PlaneLimits planes;
+    EXPECT_TRUE (isAnyOnLine (all, neighbors, rows, planes.least_aspect, 1));
+    return findBesideLines (all, neighbors, spacing, tree, rows, planes.least_aspect, {}, 1);
+  };
+  const BesideLines whole = lookedUp (0);
+  EXPECT_GT (whole.neighbors.ids.size (), positions.size ());
+  for (const int others : {1, 700, 5000}) {
+    const BesideLines same = lookedUp (others);
+    for (Index p = 0; p < positions.size (); ++p) {
+      const Row row = same.neighbors.row (p), wanted = whole.neighbors.row (p);
+      ASSERT_TRUE (std::equal (row.begin (), row.end (), wanted.begin (), wanted.end ())) << p;
+      ASSERT_EQ (same.reach[p], whole.reach[p]) << p;
+    }
+  }
 }
 
 TEST (Stars, OfSomePointsAreThoseOfAll)
