@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_functions.h"
 
+#include "point_rows.h"
 #include "result_arrays.h"
-#include "rows.h"
 #include "watch.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
@@ -45,7 +45,7 @@ copyTriangles (const py::buffer& buffer)
 ResultArray
 normalsOf (const py::buffer& points, const py::buffer& triangles, int threads)
 {
-  const Rows rows (points);
+  const PointRows rows (points);
   const Triangles corners = copyTriangles (triangles);
   const auto normals = std::make_shared<std::vector<Eigen::Vector3f>> ();
   {
@@ -60,7 +60,7 @@ py::tuple
 textureOf (const py::buffer& points, const py::buffer& triangles, double largest_stretch,
            bool whole_discs, int threads, const py::object& progress)
 {
-  const Rows rows (points);
+  const PointRows rows (points);
   const Triangles corners = copyTriangles (triangles);
   TextureOptions options;
   options.largest_stretch = largest_stretch;

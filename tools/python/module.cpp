@@ -6,10 +6,10 @@
 #include "check_options.h"
 #include "keywords.h"
 #include "mesh_functions.h"
+#include "point_rows.h"
 #include "published_method.h"
 #include "report_json.h"
 #include "result_arrays.h"
-#include "rows.h"
 #include "watch.h"
 
 #include <nlohmann/json.hpp>
@@ -57,7 +57,7 @@ toPython (const nlohmann::ordered_json& json)
 
 /// \throws pybind11::value_error
 Input
-makeInput (const Rows& rows, const py::object& normals, const py::object& sensor_origin,
+makeInput (const PointRows& rows, const py::object& normals, const py::object& sensor_origin,
            const GivenOptions& asked)
 {
   Input input;
@@ -77,7 +77,7 @@ makeInput (const Rows& rows, const py::object& normals, const py::object& sensor
     if (!for_facing && !asked.use_input_normals)
       throw py::value_error ("normals are given, but facing does not ask for them: leave them out, "
                              "or set facing='normals' or use_input_normals=True");
-    const Rows given (normals.cast<py::buffer> ());
+    const PointRows given (normals.cast<py::buffer> ());
     if (given.size () != rows.size ())
       throw py::value_error ("there are " + std::to_string (given.size ()) + " normals of " +
                              std::to_string (rows.size ()) + " points; give one for each point");
@@ -108,7 +108,7 @@ run (const py::buffer& points, std::size_t lattice_width, const py::object& norm
   const Problem problem = checkOptions (options);
   if (problem.status == RunStatus::INVALID_OPTION)
     throw py::value_error (problem.message);
-  const Rows rows (points);
+  const PointRows rows (points);
   Input input = makeInput (rows, normals, sensor_origin, asked);
   input.lattice_width = lattice_width;
   if (const Problem facing = checkFacing (input, options))

@@ -17,11 +17,11 @@ namespace pcl
 namespace floater
 {
 /// Rows of three numbers in an array of NumPy, wherever they are in memory.
-class Rows
+class PointRows
 {
 public:
   /// \throws pybind11::value_error
-  explicit Rows (const pybind11::buffer& buffer) : info_ (buffer.request ())
+  explicit PointRows (const pybind11::buffer& buffer) : info_ (buffer.request ())
   {
     // Memory that is not aligned has a sign before the letter.
     const char type = info_.format.empty () ? ' ' : info_.format.back ();
