@@ -157,8 +157,11 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
         const double farthest = limits.farthest * static_cast<double> (spacing[p]);
         tree.nearestIf (here, ahead, farthest, limits.added, is_beside, found);
         tree.looked (here, reachOfSearch (found, limits.added, farthest));
-        if (found.empty ())
+        if (found.empty ()) {
+          if (!is_first) // beside the last line
+            beside.reach[p] = static_cast<float> (smaller);
           break;
+        }
         const double distance = std::sqrt (found.front ().sqr_distance);
         smaller = is_first ? distance : std::min (smaller, distance);
         if (!is_first)

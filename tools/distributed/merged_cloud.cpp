@@ -120,6 +120,7 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits)
       merged.warnings.push_back ("the field '" + field.name +
                                  "' was left out: not all files have it with the same type");
   std::vector<Field*> fields;
+  fields.reserve (columns.size ());
   for (Column& column : columns)
     fields.push_back (&column.merged);
   const std::shared_ptr<char> rows = allocateRows (fields, merged.rows);
