@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_geometry.h"
 
+#include "check_input.h"
 #include "points/noise_projection.h"
 #include "points/outliers.h"
 #include "report_cloud.h"
@@ -137,6 +138,22 @@ projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
       points,
       fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes),
       stars, run);
+}
+
+FacingHints
+facingHints (const Points& points, const Request& request)
+{
+  const Eigen::Map<const Eigen::Vector3d> sensor (request.sensor_origin.data ());
+  FacingHints hints;
+  hints.wanted = request.options.facing;
+  if (!points.facing_normals.empty () &&
+      (hints.wanted == Facing::AUTO || hints.wanted == Facing::NORMALS))
+    hints.normals = &points.facing_normals;
+  const bool may_be_seen =
+      request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
+  if (may_be_seen && isSensorKnown (request.sensor_origin))
+    hints.sensor = (sensor - points.centre) / points.scale;
+  return hints;
 }
 
 } // namespace floater

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "local/local_geometry.h"
+#include "mesh/facing.h"
 #include "points/neighbors.h"
 #include "points/noise.h"
 #include "request.h"
@@ -48,6 +49,11 @@ starSettings (const Request& request);
 LocalGeometry
 projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
               const NeighborSettings& settings, const Request& request);
+
+/// What tells which side of a component is its front, as the options ask for it. The normals are
+/// those of the points, which must outlive the hints.
+FacingHints
+facingHints (const Points& points, const Request& request);
 
 } // namespace floater
 } // namespace pcl

@@ -19,11 +19,6 @@ namespace pcl
 {
 namespace floater
 {
-/// The first step of a run: gross outliers are taken out of the input, and the rest becomes the
-/// working set. Arrays of the input are freed as soon as they have been read.
-Problem
-takePoints (Input& input, const Request& request, Points& points, Report& report);
-
 /// What reconstruct () finds out about the surroundings of each point of a surface, if that is
 /// known already. It has to be what reconstruct () would find itself; then the mesh is the same.
 /// Each function is called once at most, in the order of a run.

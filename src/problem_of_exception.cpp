@@ -12,8 +12,10 @@ namespace pcl
 {
 namespace floater
 {
+namespace
+{
 Problem
-problemOfException ()
+describeException ()
 {
   try {
     throw;
@@ -36,6 +38,19 @@ problemOfException ()
   }
   catch (...) {
     return {RunStatus::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
+  }
+}
+
+} // namespace
+
+Problem
+problemOfException () noexcept
+{
+  try {
+    return describeException ();
+  }
+  catch (...) {
+    return {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
   }
 }
 

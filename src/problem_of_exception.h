@@ -12,10 +12,10 @@ namespace floater
 /// A message so short that a string takes no memory for it.
 constexpr const char* NO_MEMORY = "out of memory";
 
-/// What the exception that is being handled means. To be called in a handler.
-/// \throws std::bad_alloc if there is no memory for the message
+/// What the exception that is being handled means. To be called in a handler. OUT_OF_MEMORY and
+/// NO_MEMORY if there is no memory for the message.
 Problem
-problemOfException ();
+problemOfException () noexcept;
 
 } // namespace floater
 } // namespace pcl

@@ -5,22 +5,19 @@
 // scan whose viewpoint is known is connected as the sensor saw it, without neighbours.
 #include "reconstruct.h"
 
-#include "check_input.h"
-#include "check_options.h"
 #include "cloud_geometry.h"
 #include "finished_mesh.h"
-#include "given_viewpoint.h"
-#include "input_cleaning.h"
 #include "known_stages.h"
 #include "local/star_agreement.h"
-#include "mesh/mesh_spacing.h"
 #include "problem_of_exception.h"
 #include "published_method.h"
+#include "reconstruct_view.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
 #include "report_text.h"
 #include "request.h"
 #include "unused_options.h"
+#include "working_set.h"
 
 #include <algorithm>
 #include <limits>
@@ -35,22 +32,6 @@ namespace floater
 {
 namespace
 {
-FacingHints
-facingHints (const Points& points, const Request& request)
-{
-  const Eigen::Map<const Eigen::Vector3d> sensor (request.sensor_origin.data ());
-  FacingHints hints;
-  hints.wanted = request.options.facing;
-  if (!points.facing_normals.empty () &&
-      (hints.wanted == Facing::AUTO || hints.wanted == Facing::NORMALS))
-    hints.normals = &points.facing_normals;
-  const bool may_be_seen =
-      request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
-  if (may_be_seen && isSensorKnown (request.sensor_origin))
-    hints.sensor = (sensor - points.centre) / points.scale;
-  return hints;
-}
-
 DiscSettings
 discSettings (const Points& points, const Request& request)
 {
@@ -158,73 +139,6 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   uncross (surface.mesh, found, points, geometry, request, report.statistics);
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
-}
-
-// The viewpoint that is given, or the origin of the sensor if the cloud was seen from there.
-std::optional<Viewpoint>
-knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
-                const Request& request)
-{
-  const ViewOptions& options = request.options.view;
-  const bool is_given = options.use == ViewUse::GIVEN;
-  const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
-  const Viewpoint viewpoint{
-      (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
-  if (is_given || isSeenFrom (points, viewpoint, request.limits.view.evidence, request.run))
-    return viewpoint;
-  return {};
-}
-
-// One scan, seen from a viewpoint.
-// \return nothing if too many points are in no triangle of the view, and the viewpoint is not given
-std::optional<Problem>
-reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
-                 Result& result)
-{
-  const Options& options = request.options;
-  const Limits& limits = request.limits;
-  const ViewSettings settings{
-      options.holes,         options.flip_edges,           options.remove_outliers,
-      limits.view,           limits.surface.open_loops,    limits.surface.hole_filling,
-      limits.surface.finish, facingHints (points, request)};
-  ViewSurface surface = makeViewSurface (points, viewpoint, settings, request.run);
-  LocalGeometry geometry;
-  geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
-  MeshExamination found = examine (surface.mesh, points, geometry, request);
-  const bool is_doubtful = static_cast<double> (found.unused.size ()) >
-                           limits.view.largest_unused_share * static_cast<double> (points.size ());
-  if (is_doubtful && options.view.use != ViewUse::GIVEN)
-    return {};
-  if (surface.mesh.triangles.empty ())
-    return Problem{RunStatus::INVALID_OPTION,
-                   "no triangle is left of the view from the given viewpoint: the points hide each "
-                   "other, or lie on one line as seen from there; give the place of the sensor, or "
-                   "none"};
-  Report& report = result.report;
-  report.topology = Topology::SURFACE;
-  report.statistics.holes_filled = surface.holes_filled;
-  reportView (points, viewpoint, surface, report);
-  if (is_doubtful)
-    reportDoubtfulView (points, found.unused.size (), report);
-  if (options.remove_outliers)
-    reportOutliersOfView (points, found.unused, report);
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
-  return useMesh (std::move (surface.mesh), surface.finish, std::move (found), points, geometry,
-                  request, result);
-}
-
-// The same from a viewpoint that is given or told by the file; a given one may be wrong.
-std::optional<Problem>
-reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Request& request,
-                      Result& result)
-{
-  std::optional<Viewpoint> other;
-  if (request.options.view.use == ViewUse::GIVEN)
-    other = contradictingViewpoint (points, viewpoint, request);
-  std::optional<Problem> problem = reconstructView (points, viewpoint, request, result);
-  if (problem && !*problem && other)
-    reportOtherViewpoint (points, *other, result.report);
-  return problem;
 }
 
 // A cloud of which nobody tells where it was seen from, or that is no scan.
@@ -354,12 +268,7 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
     }
   }
   catch (...) {
-    try {
-      problem = problemOfException ();
-    }
-    catch (...) {
-      problem = {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
-    }
+    problem = problemOfException ();
   }
   if (problem.status == RunStatus::CANCELLED) {
     Report cancelled;
@@ -375,37 +284,6 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
 }
 
 } // namespace
-
-Problem
-takePoints (Input& input, const Request& request, Points& points, Report& report)
-{
-  const Options& options = request.options;
-  const RunContext& run = request.run;
-  report.statistics.cloud_points = input.cloud_size;
-  report.statistics.selected_points = input.positions.size ();
-  if (Problem problem = checkOptions (options))
-    return problem;
-  if (Problem problem = checkInput (input))
-    return problem;
-  if (Problem problem = checkFacing (input, options))
-    return problem;
-  if (asksForDisc (options))
-    run.setMethod (Topology::DISC);
-
-  run.beginStage (Stage::WORKING_SET);
-  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
-    return problem;
-  points = makePoints (input.positions, input.cloud_index, run);
-  points.lattice_width = input.lattice_width;
-  points.normals = normalsOfPoints (input.normals, points);
-  std::vector<Eigen::Vector3f> ().swap (input.normals);
-  points.facing_normals = normalsOfPoints (input.facing_normals, points);
-  std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
-  std::vector<Eigen::Vector3d> ().swap (input.positions);
-  std::vector<Index> ().swap (input.cloud_index);
-  reportPoints (points, report);
-  return {};
-}
 
 Result
 reconstruct (Input input, const Options& options)

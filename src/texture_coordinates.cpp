@@ -27,12 +27,7 @@ computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
       monitor.finish ();
   }
   catch (...) {
-    try {
-      problem = problemOfException ();
-    }
-    catch (...) {
-      problem = {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
-    }
+    problem = problemOfException ();
   }
   if (problem)
     result = {};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "growth_chart.h"
 
-#include "mesh_picture.h"
+#include "picture_files.h"
 #include "table.h"
 
 #include <vtkAxis.h>

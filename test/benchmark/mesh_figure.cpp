@@ -5,6 +5,7 @@
 #include "mesh/finish.h"
 #include "mesh_measures.h"
 #include "mesh_picture.h"
+#include "picture_files.h"
 #include "points/kd_tree.h"
 #include "section.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_measures.h"
 
-#include "mesh_picture.h"
+#include "picture_files.h"
 #include "points/kd_tree.h"
 
 #include <vtkIdList.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture_file.h"
 
-#include "mesh_picture.h"
+#include "picture_files.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>

@@ -9,6 +9,7 @@
 #include "canvas.h"
 #include "mesh_oracle.h"
 #include "mesh_picture.h"
+#include "picture_files.h"
 
 #include <nlohmann/json.hpp>
 

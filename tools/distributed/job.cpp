@@ -12,6 +12,7 @@
 #include "report_json.h"
 #include "stored_stages.h"
 #include "summary.h"
+#include "working_set.h"
 
 #include <nlohmann/json.hpp>
 

@@ -20,6 +20,8 @@ namespace floater
 {
 namespace
 {
+constexpr const char* PROGRAM = "pcl_floater_distributed";
+
 int
 run (Job job)
 {
@@ -52,13 +54,6 @@ run (Job job)
 }
 
 int
-fail (int code, const char* message)
-{
-  std::fprintf (stderr, "pcl_floater_distributed: %s\n", message);
-  return code;
-}
-
-int
 runTool (const std::vector<std::string>& arguments)
 {
   try {
@@ -68,23 +63,11 @@ runTool (const std::vector<std::string>& arguments)
       return *done;
     return run (std::move (job));
   }
-  catch (const UsageError& error) {
-    return fail (EXIT_USAGE, (std::string (error.what ()) + "\nTry --help.").c_str ());
-  }
-  catch (const ReadError& error) {
-    return fail (EXIT_INPUT, error.what ());
-  }
-  catch (const WriteError& error) {
-    return fail (EXIT_OUTPUT, error.what ());
-  }
   catch (const WorkError& error) {
-    return fail (EXIT_WORK, error.what ());
+    return fail (PROGRAM, EXIT_WORK, error.what ());
   }
-  catch (const std::bad_alloc&) {
-    return fail (EXIT_INTERNAL, "not enough memory; use more blocks, or a machine with more");
-  }
-  catch (const std::exception& error) {
-    return fail (EXIT_INTERNAL, (std::string ("unexpected error: ") + error.what ()).c_str ());
+  catch (...) {
+    return failByException (PROGRAM, "use more blocks, or a machine with more");
   }
 }
 

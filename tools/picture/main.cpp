@@ -3,6 +3,7 @@
 // pcl_floater_picture: draws a mesh and its parameterization into a PNG file.
 #include "atomic_file.h"
 #include "mesh_picture.h"
+#include "picture_files.h"
 
 #include <CLI/CLI.hpp>
 #include <vtkPointData.h>

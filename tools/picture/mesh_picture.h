@@ -7,19 +7,10 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include <string>
-#include <vector>
-
 namespace pcl
 {
 namespace floater
 {
-/// Reads a triangle mesh from a .vtk or .ply file, with texture coordinates if it has some: TCoords
-/// of VTK, s and t of PLY.
-/// \throw std::runtime_error that names the file if it cannot be read or has no polygons
-vtkSmartPointer<vtkPolyData>
-readMesh (const std::string& path);
-
 /// Options of a picture.
 struct PictureOptions
 {
@@ -38,19 +29,11 @@ struct PictureOptions
 vtkSmartPointer<vtkImageData>
 makeCheckerboard ();
 
-/// Reads a PNG file. \throw std::runtime_error that names the file if it cannot be read
-vtkSmartPointer<vtkImageData>
-readPng (const std::string& path);
-
 /// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
 /// are few. It is seen from the side to which most of it faces. Needs an X display. \param height
 /// in pixels; mesh and parameterization are as wide each
 vtkSmartPointer<vtkImageData>
 drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options = {});
-
-/// The bytes of a PNG file of a picture. \throw std::runtime_error if VTK fails
-std::vector<unsigned char>
-toPng (vtkImageData* image);
 
 /// Whether there is an X display to draw on. Without one, VTK would end the process.
 bool

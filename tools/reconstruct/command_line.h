@@ -5,6 +5,7 @@
 
 #include "choices.h"
 #include "cloud_reader.h"
+#include "exit_codes.h"
 #include "mesh_writer.h"
 #include "precision.h"
 
@@ -14,7 +15,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,25 +22,6 @@ namespace pcl
 {
 namespace floater
 {
-/// Exit codes, as documented in --help.
-enum ExitCode
-{
-  EXIT_OK = 0,
-  EXIT_USAGE = 1,
-  EXIT_INPUT = 2,
-  EXIT_RECONSTRUCTION = 3,
-  EXIT_OUTPUT = 4,
-  EXIT_INTERNAL = 5,
-  EXIT_WARNINGS = 6
-};
-
-/// The command line is wrong, or asks for something impossible.
-class UsageError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
-
 /// What the user asked for. Paths that were not given are empty.
 struct CommandLine
 {

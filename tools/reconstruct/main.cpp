@@ -42,6 +42,8 @@ namespace floater
 {
 namespace
 {
+constexpr const char* PROGRAM = "pcl_floater_reconstruct";
+
 double
 secondsSince (std::chrono::steady_clock::time_point start)
 {
@@ -263,13 +265,6 @@ run (CommandLine line)
 }
 
 int
-fail (int code, const char* message)
-{
-  std::fprintf (stderr, "pcl_floater_reconstruct: %s\n", message);
-  return code;
-}
-
-int
 runTool (int argc, char** argv)
 {
   try {
@@ -279,23 +274,8 @@ runTool (int argc, char** argv)
       return *done;
     return run (std::move (line));
   }
-  catch (const UsageError& error) {
-    return fail (EXIT_USAGE, (std::string (error.what ()) + "\nTry --help.").c_str ());
-  }
-  catch (const ReadError& error) {
-    return fail (EXIT_INPUT, error.what ());
-  }
-  catch (const WriteError& error) {
-    return fail (EXIT_OUTPUT, error.what ());
-  }
-  catch (const std::bad_alloc&) {
-    const std::string failure = largeArrayFailure ();
-    return fail (EXIT_INTERNAL, failure.empty ()
-                                    ? "not enough memory; use fewer points, or a machine with more"
-                                    : failure.c_str ());
-  }
-  catch (const std::exception& error) {
-    return fail (EXIT_INTERNAL, (std::string ("unexpected error: ") + error.what ()).c_str ());
+  catch (...) {
+    return failByException (PROGRAM, "use fewer points, or a machine with more");
   }
 }
 

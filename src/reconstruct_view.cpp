@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruct_view.h"
+
+#include "cloud_geometry.h"
+#include "finished_mesh.h"
+#include "given_viewpoint.h"
+#include "mesh/mesh_spacing.h"
+#include "report_cloud.h"
+
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+std::optional<Viewpoint>
+knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
+                const Request& request)
+{
+  const ViewOptions& options = request.options.view;
+  const bool is_given = options.use == ViewUse::GIVEN;
+  const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
+  const Viewpoint viewpoint{
+      (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
+  if (is_given || isSeenFrom (points, viewpoint, request.limits.view.evidence, request.run))
+    return viewpoint;
+  return {};
+}
+
+std::optional<Problem>
+reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
+                 Result& result)
+{
+  const Options& options = request.options;
+  const Limits& limits = request.limits;
+  const ViewSettings settings{
+      options.holes,         options.flip_edges,           options.remove_outliers,
+      limits.view,           limits.surface.open_loops,    limits.surface.hole_filling,
+      limits.surface.finish, facingHints (points, request)};
+  ViewSurface surface = makeViewSurface (points, viewpoint, settings, request.run);
+  LocalGeometry geometry;
+  geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
+  MeshExamination found = examine (surface.mesh, points, geometry, request);
+  const bool is_doubtful = static_cast<double> (found.unused.size ()) >
+                           limits.view.largest_unused_share * static_cast<double> (points.size ());
+  if (is_doubtful && options.view.use != ViewUse::GIVEN)
+    return {};
+  if (surface.mesh.triangles.empty ())
+    return Problem{RunStatus::INVALID_OPTION,
+                   "no triangle is left of the view from the given viewpoint: the points hide each "
+                   "other, or lie on one line as seen from there; give the place of the sensor, or "
+                   "none"};
+  Report& report = result.report;
+  report.topology = Topology::SURFACE;
+  report.statistics.holes_filled = surface.holes_filled;
+  reportView (points, viewpoint, surface, report);
+  if (is_doubtful)
+    reportDoubtfulView (points, found.unused.size (), report);
+  if (options.remove_outliers)
+    reportOutliersOfView (points, found.unused, report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
+  return useMesh (std::move (surface.mesh), surface.finish, std::move (found), points, geometry,
+                  request, result);
+}
+
+std::optional<Problem>
+reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Request& request,
+                      Result& result)
+{
+  std::optional<Viewpoint> other;
+  if (request.options.view.use == ViewUse::GIVEN)
+    other = contradictingViewpoint (points, viewpoint, request);
+  std::optional<Problem> problem = reconstructView (points, viewpoint, request, result);
+  if (problem && !*problem && other)
+    reportOtherViewpoint (points, *other, result.report);
+  return problem;
+}
+
+} // namespace floater
+} // namespace pcl
