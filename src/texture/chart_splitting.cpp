@@ -39,6 +39,7 @@ public:
   {
     DescentLimits descent = limits_.descent;
     descent.most_on_circle = std::numeric_limits<std::size_t>::max ();
+    descent.most_newton_triangles = descent.most_on_circle;
     return layOutChart (mesh_.triangles, std::move (disc), positions_, descent, run_);
   }
 
@@ -189,9 +190,13 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
         listsOf ({components.of_triangle, components.count});
     Layouts discs (lists.size ());
     parallelTasks (run, lists.size (), [&] (std::size_t c) {
-      discs[c] = by_smooth.layOutWhole (lists[c]);
-      if (discs[c].uv.empty () || !isRight (discs[c]))
-        discs[c] = by_true.layOutWhole (lists[c]);
+      ChartLayout& disc = discs[c];
+      disc = by_smooth.layOutWhole (lists[c]);
+      if (!disc.uv.empty () && (isRight (disc) || shareMoved (disc) == 0.0))
+        return;
+      ChartLayout other = by_true.layOutWhole (lists[c]);
+      if (disc.uv.empty () || (!other.uv.empty () && other.stretch < stretchOf (disc, positions)))
+        disc = std::move (other);
     });
     for (ChartLayout& disc : discs)
       if (!disc.uv.empty ()) {

@@ -75,8 +75,12 @@ public:
     if (solver_.info () != Eigen::Success)
       return;
     double energy = energyOf (x);
+    const double first = energy;
     descend (run, x, energy, accept);
-    if (energy > limits_.enough && rest_.shapes.size () <= limits_.most_newton_triangles) {
+    // Where a triangle is all but degenerate, no step of L-BFGS is worth it.
+    const bool is_stuck = first - energy <= limits_.least_progress * (first - 4.0);
+    if (energy > limits_.enough &&
+        (is_stuck || rest_.shapes.size () <= limits_.most_newton_triangles)) {
       newton (run, x, energy);
       if (accept ())
         descend (run, x, energy, accept);

@@ -20,8 +20,11 @@ struct DescentLimits
   double least_progress = 0.003; ///< of the distortion above its least by a step; below, it ends
   double enough = 4.3;           ///< distortion above which Newton's method follows: 4 is the least
   int newton_steps = 15;         ///< at most
-  double least_newton_progress = 0.02;        ///< as least_progress
-  std::size_t most_newton_triangles = 60'000; ///< of a chart: a step takes 6 microseconds for each
+  double least_newton_progress = 0.02; ///< as least_progress
+
+  /// Of a chart: a step of Newton's method takes 6 microseconds for each. Where L-BFGS does not get
+  /// on at all, such steps are made however many there are.
+  std::size_t most_newton_triangles = 60'000;
 
   /// A chart of more triangles that cannot be begun as its projection gets no layout: it would
   /// begin on a circle, from where the descent takes long and does not come far. It is cut instead.

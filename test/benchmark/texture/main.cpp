@@ -17,8 +17,14 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace
 {
@@ -93,26 +99,61 @@ qualityOf (const Mesh& mesh, const std::vector<Eigen::Vector2d>& uv)
   return quality;
 }
 
+/// What a layout by CGAL gave. All zero if it was ended, or failed.
+struct Rival
+{
+  Quality quality;
+  double seconds = 0.0;
+};
+
+/// In a process of its own, which ends after a number of seconds.
+Rival
+layOutInTime (const Mesh& mesh, CgalMethod method, unsigned seconds)
+{
+  std::array<int, 2> ends{};
+  if (::pipe (ends.data ()) != 0)
+    throw std::runtime_error ("no pipe");
+  const pid_t child = ::fork ();
+  if (child == 0) {
+    ::alarm (seconds);
+    Rival rival;
+    Stopwatch watch;
+    const std::vector<Eigen::Vector2d> uv = layOutByCgal (mesh.positions, mesh.triangles, method);
+    if (uv.empty ())
+      std::_Exit (1);
+    rival.seconds = watch.seconds ();
+    rival.quality = qualityOf (mesh, uv);
+    std::_Exit (::write (ends[1], &rival, sizeof rival) == ssize_t{sizeof rival} ? 0 : 1);
+  }
+  ::close (ends[1]);
+  Rival rival;
+  if (::read (ends[0], &rival, sizeof rival) != ssize_t{sizeof rival})
+    rival = {};
+  ::close (ends[0]);
+  ::waitpid (child, nullptr, 0);
+  return rival;
+}
+
 void
-printDisc (const std::string& name, const Mesh& mesh)
+printDisc (const std::string& name, const Mesh& mesh, unsigned limit)
 {
   TextureOptions options;
   options.whole_discs = true;
+  options.threads = 1; // as many as CGAL has
   Stopwatch own;
   const TextureCoordinates texture =
       computeTextureCoordinates (mesh.positions, mesh.triangles, options);
   std::printf ("| %s | %zu | %zu | %.4f | %zu | %.2f |", name.c_str (), mesh.triangles.size (),
                texture.chart_count, texture.stretch, texture.flipped, own.seconds ());
+  std::fflush (stdout);
   for (const CgalMethod method : {CgalMethod::MEAN_VALUE, CgalMethod::ARAP}) {
-    Stopwatch other;
-    const std::vector<Eigen::Vector2d> uv = layOutByCgal (mesh.positions, mesh.triangles, method);
-    const double seconds = other.seconds ();
-    if (uv.empty ())
-      std::printf (" failed | | %.2f |", seconds);
-    else {
-      const Quality quality = qualityOf (mesh, uv);
-      std::printf (" %.4g | %zu | %.2f |", quality.mean, quality.flipped, seconds);
-    }
+    const Rival rival = layOutInTime (mesh, method, limit);
+    if (rival.seconds == 0.0)
+      std::printf (" ended or failed | | |");
+    else
+      std::printf (" %.4g | %zu | %.2f |", rival.quality.mean, rival.quality.flipped,
+                   rival.seconds);
+    std::fflush (stdout);
   }
   std::printf ("\n");
 }
@@ -144,11 +185,13 @@ main (int argc, char** argv)
   std::vector<std::string> names;
   bool only_discs = false, only_surfaces = false;
   double largest_stretch = TextureOptions ().largest_stretch;
+  unsigned limit = 60;
   app.add_option ("FOLDER", folder, "folder of the clouds")->required ();
   app.add_option ("NAMES", names, "only these");
   app.add_flag ("--discs", only_discs, "only the first table");
   app.add_flag ("--surfaces", only_surfaces, "only the second table");
   app.add_option ("--stretch", largest_stretch, "largest stretch of a chart");
+  app.add_option ("--limit", limit, "seconds after which a layout by CGAL is ended");
   CLI11_PARSE (app, argc, argv);
   if (names.empty ())
     for (const auto& file : files::directory_iterator (folder))
@@ -166,7 +209,7 @@ main (int argc, char** argv)
       if (files::exists (root / (name + ".gt.ply"))) {
         const Mesh mesh = readMesh (root / (name + ".gt.ply"));
         if (isDisc (mesh))
-          printDisc (name, mesh);
+          printDisc (name, mesh, limit);
         std::fflush (stdout);
       }
     std::printf ("\n");
