@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pcl
@@ -296,7 +297,8 @@ summaryOf (const BoundaryLoop& loop, const Points& points)
 {
   LoopSummary summary;
   summary.points = loop.points.size ();
-  summary.length = points.scale * loop.length;
+  // A sum of edges may exceed what a double holds where no coordinate does.
+  summary.length = std::min (points.scale * loop.length, std::numeric_limits<double>::max ());
   summary.width = points.scale * loop.width;
   summary.width_spacings = loop.spacing > 0.0 ? loop.width / loop.spacing : 0.0;
   summary.at = NONE;

@@ -294,6 +294,20 @@ TEST (Reconstruct, FewestPoints)
   expectDisc (reconstruct (asInput (with_middle), options), 5);
 }
 
+// Each coordinate is a double, but not the sum of the edges of the boundary.
+TEST (Reconstruct, LengthsOfHugeCloudsAreFinite)
+{
+  Positions square;
+  for (int i = 0; i < 36; ++i)
+    square.emplace_back (2e307 * (i / 6), 2e307 * (i % 6) + 1e306 * (i / 6), 0.0);
+  const Result result = reconstruct (asInput (square), Options ());
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+  ASSERT_EQ (result.report.check.loops.size (), 1U);
+  EXPECT_EQ (result.report.check.loops[0].length, std::numeric_limits<double>::max ());
+  EXPECT_NEAR (result.report.check.loops[0].width, 1.45e308, 0.05e308);
+  EXPECT_TRUE (std::isfinite (result.report.check.longest_edge));
+}
+
 TEST (Reconstruct, ManyCoincidingPointsAreToldOf)
 {
   const Positions distinct = surface (SurfaceKind::HEIGHT_FIELD, 500, 3);

@@ -50,7 +50,7 @@ statusName (RunStatus status);
 struct LoopSummary
 {
   std::size_t points = 0;      ///< number of points
-  double length = 0.0;         ///< sum of its edge lengths, in units of the cloud
+  double length = 0.0;         ///< sum of its edge lengths, in units of the cloud; finite
   double width = 0.0;          ///< largest distance between two of its points, same unit
   double width_spacings = 0.0; ///< the same in local spacings
   std::uint32_t at = 0;        ///< smallest cloud index of its points
