@@ -161,6 +161,31 @@ private:
   Edges one_, other_;
 };
 
+// Whether rounding might decide on which side of the plane of a triangle a point is.
+bool
+isNearPlane (const Triangle& triangle, Index p, const Positions& positions)
+{
+  const Eigen::Vector3d& origin = positions[triangle[0]];
+  const Eigen::Vector3d a = positions[triangle[1]] - origin, b = positions[triangle[2]] - origin;
+  const Eigen::Vector3d c = positions[p] - origin;
+  const double volume = a.cross (b).dot (c);
+  return !(volume * volume >
+           ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm () * c.squaredNorm ());
+}
+
+// What exact predicates cost, in tests for which an estimate of rounding decides after all.
+// Measured on a grid of points in a plane: 15 microseconds instead of 5.
+std::size_t
+costOfExactTest (const Corners& corners, const Positions& positions)
+{
+  constexpr std::size_t BY_EXACT_NUMBERS = 3;
+  for (auto i = static_cast<std::size_t> (corners.common); i < 3; ++i)
+    if (isNearPlane (corners.one, corners.other[i], positions) ||
+        isNearPlane (corners.other, corners.one[i], positions))
+      return BY_EXACT_NUMBERS;
+  return 1;
+}
+
 // Tells of a point whether the triangles around it, seen from some direction, lie side by side. No
 // two of them then have anything in common but the point and their edges.
 class PlainFans
@@ -320,7 +345,7 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
       (corners.common == 2 && at_corner.areNotCoplanar ()))
     return false;
   if (exact_tests != nullptr)
-    ++*exact_tests;
+    *exact_tests += costOfExactTest (corners, positions);
   std::array<Kernel::Point_3, 3> a, b;
   for (std::size_t i = 0; i < 3; ++i) {
     a[i] = exactly (positions[corners.one[i]]);

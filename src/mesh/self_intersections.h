@@ -59,7 +59,8 @@ boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
 
 /// Whether two triangles have more in common than the corners that both name. Exact. False if the
 /// corners of one of them lie on one line.
-/// \param exact_tests counts the tests that rounding might decide: they take ten times as long
+/// \param exact_tests counts the tests by exact predicates: they take ten times as long, and count
+/// three times where exact numbers are needed for them
 bool
 doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions,
          std::size_t* exact_tests = nullptr);
