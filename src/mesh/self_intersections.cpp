@@ -161,6 +161,19 @@ private:
   Edges one_, other_;
 };
 
+// Whether the corners of a triangle lie on one line. Exact numbers are needed only where rounding
+// might decide.
+bool
+isOnLine (const Triangle& triangle, const Positions& positions)
+{
+  const Eigen::Vector3d& p = positions[triangle[0]];
+  const Eigen::Vector3d a = positions[triangle[1]] - p, b = positions[triangle[2]] - p;
+  if (a.cross (b).squaredNorm () > ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm ())
+    return false;
+  return CGAL::collinear (exactly (p), exactly (positions[triangle[1]]),
+                          exactly (positions[triangle[2]]));
+}
+
 // Whether rounding might decide on which side of the plane of a triangle a point is.
 bool
 isNearPlane (const Triangle& triangle, Index p, const Positions& positions)
@@ -346,13 +359,13 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
     return false;
   if (exact_tests != nullptr)
     *exact_tests += costOfExactTest (corners, positions);
+  if (isOnLine (corners.one, positions) || isOnLine (corners.other, positions))
+    return false;
   std::array<Kernel::Point_3, 3> a, b;
   for (std::size_t i = 0; i < 3; ++i) {
     a[i] = exactly (positions[corners.one[i]]);
     b[i] = exactly (positions[corners.other[i]]);
   }
-  if (CGAL::collinear (a[0], a[1], a[2]) || CGAL::collinear (b[0], b[1], b[2]))
-    return false;
   if (corners.common == 3)
     return true;
   if (corners.common == 2)
