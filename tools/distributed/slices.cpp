@@ -61,15 +61,12 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
 }
 
 void
-appendLists (const CsrLists& lists, Index first, Index last, CsrLists& all)
+appendRow (const Row& row, CsrLists& all)
 {
   if (all.offsets.empty ())
     all.offsets.push_back (0);
-  for (Index p = first; p < last; ++p) {
-    const Row row = lists.row (p);
-    all.ids.insert (all.ids.end (), row.begin (), row.end ());
-    all.offsets.push_back (static_cast<Index> (all.ids.size ()));
-  }
+  all.ids.insert (all.ids.end (), row.begin (), row.end ());
+  all.offsets.push_back (static_cast<Index> (all.ids.size ()));
 }
 
 LocalPoints::LocalPoints (const std::vector<Index>& points) : points_ (points)
