@@ -636,7 +636,38 @@ class Errors(Case):
             file.write_bytes(good)
         self.assertEqual(self.again().returncode, 0)
 
-    def test_file_of_another_plan(self):
+    def test_any_changed_bit_is_seen(self):
+        self.finish()
+        file = self.path("work") / "planes.1.bin"
+        good = file.read_bytes()
+        # All but what fills the space between arrays: the head of 48 bytes, the table, and the arrays.
+        arrays = struct.unpack_from("<I", good, 12)[0]
+        places = list(range(48 + 48 * arrays))
+        for i in range(arrays):
+            element, count, offset = struct.unpack_from("<3Q", good, 48 + 48 * i + 24)
+            places += range(offset, offset + element * count)
+        self.assertGreater(len(places), 0.95 * len(good))
+        numbers = random.Random(5)
+        for _ in range(60):
+            bad = bytearray(good)
+            place = numbers.choice(places)
+            bad[place] ^= 1 << numbers.randrange(8)
+            file.write_bytes(bad)
+            self.expect_failure(self.step("planes", "--block", 1), WORK, str(file))
+        self.assertEqual(file.read_bytes(), bytes(bad))  # it is not made anew either
+
+    def test_file_that_does_not_get_to_the_disk(self):
+        """An error of fsync. The file is not there then, and is made again."""
+        if not OPTIONS.faults:
+            self.skipTest("there is no library that makes calls of the system fail")
+        self.plan(self.cloud)
+        broken = dict(os.environ, LD_PRELOAD=OPTIONS.faults, PCL_FLOATER_FAULT="fsync:0:EIO")
+        outcome = run(self.command("--step", "neighbors", "--block", 1), env=broken)
+        self.expect_failure(outcome, OUTPUT, "cannot write", "neighbors.1.bin")
+        self.assertFalse((self.path("work") / "neighbors.1.bin").exists())
+        self.assertEqual(self.step("neighbors", "--block", 1).returncode, 0)
+        self.assertTrue((self.path("work") / "neighbors.1.bin").exists())
+
         self.finish()
         other = self.generate("sphere", "--points", 1000, name="other.ply")
         outcome = run(self.command("--blocks", 3, other, self.path("o.ply"), work="other"))
@@ -650,7 +681,7 @@ class Errors(Case):
         good = file.read_text()
         for bad, word in [(good.replace('"blocks": 3', '"blocks": 4'), "damaged"),
                           (good[:100], "damaged"), ("{}", "damaged"),
-                          (good.replace('"version": 1', '"version": 2'), "format version 2"),
+                          (good.replace('"version": 2', '"version": 3'), "format version 3"),
                           (good.replace("work folder", "something"), "no manifest")]:
             self.assertNotEqual(good, bad)
             file.write_text(bad)
@@ -760,6 +791,7 @@ def main():
     for name in ("distributed", "reconstruct", "generate"):
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("--mpirun", default="mpirun")
+    parser.add_argument("--faults", help="library that makes calls of the system fail, see test/tool/system_faults.cpp")
     parser.add_argument("--long", action="store_true")
     parser.add_argument("names", nargs="*")
     parser.parse_args(namespace=OPTIONS)

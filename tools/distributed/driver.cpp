@@ -107,8 +107,10 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   for (;;) {
     processes.send (0, {});
     const Message order = processes.receive (0);
-    if (order.topic == Topic::END)
+    if (order.topic == Topic::END) {
+      folder.finish ();
       return static_cast<int> (order.number);
+    }
     std::string message;
     const int code = guarded (
         [&] {
@@ -178,6 +180,7 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
     if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
       return code;
   const int code = writeStep (job, folder, plan);
+  folder.finish ();
   say (job, "written: " + time ());
   return code;
 }
@@ -203,6 +206,37 @@ runOnAll (const Job& job, FolderStore& folder, Processes& processes)
   return code;
 }
 
+int
+doStep (Job& job, FolderStore& folder, const std::string& step)
+{
+  if (step == "plan")
+    prepareFolders (job);
+  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
+  if (step == "plan")
+    return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
+                                 : planStep (job, folder);
+  const Plan plan = readPlan (job, folder);
+  const EffectiveOptions effective (job.line);
+  const RunContext run (job.line.options.threads);
+  const StepContext context{folder, plan, effective.options, effective.limits, run};
+  if (step == "outliers") {
+    if (!isFinished (folder, OUTLIERS, plan))
+      chooseOutliersStep (context);
+    return EXIT_OK;
+  }
+  if (step == "join")
+    return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
+                                                : joinStep (job, folder, plan);
+  if (step == "write")
+    return writeStep (job, folder, plan);
+  if (job.block >= plan.blocks)
+    throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
+                      std::to_string (plan.blocks) + " blocks, which are numbered from 0");
+  if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
+    blockStep (context, step, job.block);
+  return EXIT_OK;
+}
+
 } // namespace
 
 int
@@ -225,32 +259,9 @@ runStep (Job job, FolderStore& folder, const std::string& step)
   std::string message;
   const int code = guarded (
       [&] {
-        if (step == "plan")
-          prepareFolders (job);
-        const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
-        if (step == "plan")
-          return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
-                                       : planStep (job, folder);
-        const Plan plan = readPlan (job, folder);
-        const EffectiveOptions effective (job.line);
-        const RunContext run (job.line.options.threads);
-        const StepContext context{folder, plan, effective.options, effective.limits, run};
-        if (step == "outliers") {
-          if (!isFinished (folder, OUTLIERS, plan))
-            chooseOutliersStep (context);
-          return static_cast<int> (EXIT_OK);
-        }
-        if (step == "join")
-          return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
-                                                      : joinStep (job, folder, plan);
-        if (step == "write")
-          return writeStep (job, folder, plan);
-        if (job.block >= plan.blocks)
-          throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
-                            std::to_string (plan.blocks) + " blocks, which are numbered from 0");
-        if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
-          blockStep (context, step, job.block);
-        return static_cast<int> (EXIT_OK);
+        const int done = doStep (job, folder, step);
+        folder.finish ();
+        return done;
       },
       message);
   return tell (code, message);

@@ -148,6 +148,7 @@ planStep (const Job& job, FolderStore& store)
   Eigen::Map<Eigen::Vector3d> (plan.shift.data ()) = cloud.shift;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
+  store.finish ();
   store.putText (MANIFEST, manifestText (plan)); // last: with it, the step is finished
   return EXIT_OK;
 }

@@ -104,14 +104,14 @@ LocalPoints::toPlaces (std::vector<Index>& points) const
 }
 
 CsrLists
-LocalPoints::toPlaces (const std::vector<Index>& rows, const CsrLists& lists) const
+LocalPoints::toPlaces (const std::vector<Index>& rows, CsrLists lists) const
 {
   CsrLists places;
   places.offsets.assign (points_.size () + 1, 0);
   for (std::size_t i = 0; i < rows.size (); ++i)
     places.offsets[placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
   sumRowLengths (places.offsets);
-  places.ids = lists.ids;
+  places.ids = std::move (lists.ids);
   toPlaces (places.ids);
   return places;
 }

@@ -109,7 +109,7 @@ public:
 
   /// Lists of places for all points of the part, of lists of points of some. Those of the others
   /// are empty. \param rows whose lists are given, as points, ascending; all in the part
-  CsrLists toPlaces (const std::vector<Index>& rows, const CsrLists& lists) const;
+  CsrLists toPlaces (const std::vector<Index>& rows, CsrLists lists) const;
 
 private:
   struct Run

@@ -229,19 +229,19 @@ trianglesStep (const StepContext& context, std::size_t block)
   const std::vector<Index> own = own_block.points ();
   const CsrLists own_rows = stored.all (own), own_far = stars_before.gatherLists ("far", own);
   const std::vector<Index> corners = joinPoints (first, last, {&own_rows.ids, &own_far.ids});
-  const CsrLists far = stars_before.gatherLists ("far", corners);
+  CsrLists far = stars_before.gatherLists ("far", corners);
   const std::vector<Index> with_rows = joinPoints (first, last, {&corners, &far.ids});
-  const CsrLists rows = stored.all (with_rows);
+  CsrLists rows = stored.all (with_rows);
   const std::vector<Index> points = joinPoints (first, last, {&with_rows, &rows.ids});
 
   const LocalPoints local (points);
   const std::vector<Eigen::Vector3d> positions = cloud.gather (points);
   const std::vector<Eigen::Vector3f> normals = gatherVectors (stored.planes (), "normals", points);
   std::vector<float> spacing = stored.planes ().gather<float> ("spacing", points);
-  CsrLists neighbors = local.toPlaces (with_rows, rows);
+  CsrLists neighbors = local.toPlaces (with_rows, std::move (rows));
   Stars begun;
   begun.neighbors = local.toPlaces (corners, stars_before.gatherLists ("stars", corners));
-  begun.far_neighbors = local.toPlaces (corners, far);
+  begun.far_neighbors = local.toPlaces (corners, std::move (far));
   begun.open = stars_before.gather<std::uint8_t> ("open", points);
   begun.normals = gatherVectors (stars_before, "normals", points);
   begun.reach = stars_before.gather<float> ("reach", points);
