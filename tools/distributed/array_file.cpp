@@ -261,9 +261,10 @@ ArrayFile::readBytes (const Array& array, std::size_t element, std::size_t first
     const std::uint64_t piece = at / PIECE, begin = piece * PIECE;
     const auto length = static_cast<std::size_t> (std::min<std::uint64_t> (PIECE, size - begin));
     const bool is_whole = at == begin && end - at >= length;
-    // Whole pieces go where they are wanted, and as many of them at once as there are.
+    // Whole pieces go where they are wanted, many at once; they are still in the cache of the
+    // processor when their checksums are computed.
     const std::uint64_t whole =
-        is_whole ? std::min (end == size ? end : end / PIECE * PIECE, begin + (1U << 22U)) : 0;
+        is_whole ? std::min (end == size ? end : end / PIECE * PIECE, begin + (1U << 18U)) : 0;
     char* to = bytes;
     const char* from = nullptr;
     std::uint64_t until = 0;

@@ -5,6 +5,7 @@
 
 #include "atomic_file.h"
 #include "dealer.h"
+#include "heap_reuse.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
 #include "run_report.h"
@@ -103,6 +104,7 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
   const EffectiveOptions effective (job.line);
   const RunContext run (job.line.options.threads);
+  const HeapReuse reuse;
   std::optional<Plan> plan;
   for (;;) {
     processes.send (0, {});
@@ -166,11 +168,14 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
       if (!isFinished (folder, blockFile (step, block), plan))
         blocks.push_back (block);
     const std::size_t finished = plan.blocks - blocks.size ();
-    if (dealer != nullptr)
-      dealer->run (context, step, std::move (blocks));
-    else
-      for (const std::size_t block : blocks)
-        blockStep (context, step, block);
+    {
+      const HeapReuse reuse;
+      if (dealer != nullptr)
+        dealer->run (context, step, std::move (blocks));
+      else
+        for (const std::size_t block : blocks)
+          blockStep (context, step, block);
+    }
     say (job, std::string (step) + ": " + std::to_string (plan.blocks - finished) +
                   " blocks done, " + std::to_string (finished) + " finished before, " + time ());
     if (step == BLOCK_STEPS.front () && !isFinished (folder, OUTLIERS, plan))
@@ -179,6 +184,7 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   if (!isFinished (folder, TRIANGLES, plan))
     if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
       return code;
+  say (job, "joined: " + time ());
   const int code = writeStep (job, folder, plan);
   folder.finish ();
   say (job, "written: " + time ());
@@ -232,6 +238,7 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
   if (job.block >= plan.blocks)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (plan.blocks) + " blocks, which are numbered from 0");
+  const HeapReuse reuse;
   if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
     blockStep (context, step, job.block);
   return EXIT_OK;
@@ -242,6 +249,7 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
 int
 runAll (const Job& job, FolderStore& folder)
 {
+  useOneHeap (); // MPI has threads
   int argc = 0;
   char** argv = nullptr;
   Processes processes (argc, argv);
