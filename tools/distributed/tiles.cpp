@@ -45,7 +45,7 @@ struct BorderVertex
   bool operator== (const BorderVertex& other) const { return vertex == other.vertex; }
 };
 
-// Where files and counts of the tiles before a tile end.
+// What the tiles have that are written.
 struct Counts
 {
   std::uint64_t points = 0, triangles = 0;
@@ -189,7 +189,7 @@ private:
   const TileOwners& owners_;
   CsrLists vertices_of_, triangles_of_; // of each tile, ascending
   std::vector<Index> place_of_;         // of each vertex, in the tile that owns it
-  Counts before_;                       // in the tiles that are written
+  Counts before_;
 };
 
 } // namespace

@@ -48,7 +48,7 @@ ownersByBlock (const Cloud& cloud, FolderStore& store, const Plan& plan);
 /// corners with the smallest number. A tile has its own vertices, by their numbers, and then those
 /// that its triangles have at the border, by the tile that owns them and their numbers. The
 /// manifest of an older run is removed first, and older tiles of higher numbers too.
-/// O(n), 25 bytes per vertex.
+/// O(n log n), 16 bytes per vertex beside mesh and owners, and the largest tile twice.
 /// \param folder is made if it does not exist
 /// \return losses of the format, one sentence each
 /// \throws WriteError
