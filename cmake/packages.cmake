@@ -12,13 +12,14 @@ set (development_package "libpcl-floater-dev")
 set (tools_package "pcl-floater-tools")
 set (documentation_package "pcl-floater-doc")
 set (python_package "python3-pcl-floater")
+set (distributed_package "pcl-floater-mpi")
 
 find_program (GZIP_PROGRAM gzip)
 mark_as_advanced (GZIP_PROGRAM)
 if (NOT GZIP_PROGRAM OR NOT BUILD_SHARED_LIBS OR NOT PCL_FLOATER_BUILD_TOOLS OR NOT TARGET pcl_floater_picture
-    OR NOT makes_man_pages OR NOT TARGET pcl_floater_python)
-  message (FATAL_ERROR "The packages have the shared library, all tools, their man pages and the Python module, and "
-                       "need gzip")
+    OR NOT TARGET pcl_floater_distributed OR NOT makes_man_pages OR NOT TARGET pcl_floater_python)
+  message (FATAL_ERROR "The packages have the shared library, all tools (also that for MPI), their man pages and the "
+                       "Python module, and need gzip")
 endif ()
 
 # Policy wants a copyright file and a change log in every package.
@@ -32,17 +33,21 @@ execute_process (COMMAND "${GZIP_PROGRAM}" -9 -n -f -k "${debian_folder}/changel
 if (NOT result EQUAL 0)
   message (FATAL_ERROR "gzip failed on ${debian_folder}/changelog.Debian")
 endif ()
-foreach (component library development tools documentation python)
+foreach (component library development tools distributed documentation python)
   install (FILES "${debian_folder}/changelog.Debian.gz" "${debian_folder}/copyright"
            DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}" COMPONENT ${component})
 endforeach ()
 install (FILES "${debian_folder}/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
-foreach (tool reconstruct generate picture)
+foreach (tool reconstruct distributed generate picture)
+  set (component tools)
+  if (tool STREQUAL distributed)
+    set (component distributed)
+  endif ()
   set (page "${PROJECT_BINARY_DIR}/tools/${tool}/pcl_floater_${tool}.1")
   add_custom_command (OUTPUT "${page}.gz"
     COMMAND "${GZIP_PROGRAM}" -9 -n -f -k "${page}" DEPENDS pcl_floater_${tool}_man_page "${page}" VERBATIM)
   add_custom_target (pcl_floater_${tool}_man_page_gz ALL DEPENDS "${page}.gz")
-  install (FILES "${page}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+  install (FILES "${page}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT ${component})
 endforeach ()
 
 set (CPACK_GENERATOR DEB)
@@ -53,7 +58,7 @@ set (CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set (CPACK_STRIP_FILES ON)
 set (CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
      OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set (CPACK_COMPONENTS_ALL library development tools documentation python)
+set (CPACK_COMPONENTS_ALL library development tools distributed documentation python)
 set (CPACK_COMPONENTS_GROUPING IGNORE)
 set (CPACK_DEB_COMPONENT_INSTALL ON)
 set (CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -107,6 +112,19 @@ ${what_it_is}
 .
 This package has the tools: pcl_floater_reconstruct makes a mesh of a cloud,
 pcl_floater_picture draws it, and pcl_floater_generate writes sample clouds.")
+
+# The tool contains the core, as those of the package of the tools do, and needs no other of these packages.
+set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_NAME ${distributed_package})
+set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_SECTION graphics)
+set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_SHLIBDEPS ON)
+set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_DEPENDS openmpi-bin) # mpirun
+set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_SUGGESTS ${tools_package})
+set (CPACK_DEBIAN_DISTRIBUTED_DESCRIPTION
+"surface reconstruction from point clouds - on several machines
+${what_it_is}
+.
+This package has the tool pcl_floater_distributed, which makes the same mesh as
+pcl_floater_reconstruct on any number of processes, by MPI.")
 
 # The module contains the core, and needs no other of these packages. It is for one version of Python.
 # Python's own scripts make its byte code, and remove it.

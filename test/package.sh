@@ -9,8 +9,9 @@ usage () {
   cat <<'END'
 Usage: package.sh [--no-install] [-j N]
 As root: makes the packages by tools/package.sh, runs lintian on them, installs them in a new
-Debian 12 below a temporary folder, runs the first example of the man page, builds programs against
-them with CMake, as README.md tells, and with pkg-config, removes them, and looks for what is left.
+Debian 12 below a temporary folder, runs the first example of the man page, reconstructs on two processes
+of MPI, builds programs against them with CMake, as README.md tells, and with pkg-config, removes them, and
+looks for what is left.
   --no-install  do not install missing packages on this system
   -j N          jobs at a time (default: one for each core)
 PCL_FLOATER_CHROOT: folder that keeps the downloads for the next run, some GB (default:
@@ -113,6 +114,15 @@ step "Running the first example of the man page" '
     bash -n /usr/share/bash-completion/completions/pcl_floater_$tool
   done
   test ! -e /usr/include/pcl_floater'
+step "Installing the tool for MPI" "$apt install ./debs/pcl-floater-mpi_*.deb"
+step "Reconstructing on two processes" '
+  mkdir distributed; cd distributed
+  pcl_floater_generate torus cloud.ply --points 20000
+  pcl_floater_reconstruct -q cloud.ply one.ply
+  mpirun --allow-run-as-root --oversubscribe -n 2 pcl_floater_distributed --work work --blocks 5 cloud.ply two.ply
+  cmp one.ply two.ply
+  pcl_floater_distributed --help >/dev/null; man -w pcl_floater_distributed
+  bash -n /usr/share/bash-completion/completions/pcl_floater_distributed'
 step "Installing the other packages" "
   $apt install ./debs/libpcl-floater[0-9]*.deb ./debs/libpcl-floater-dev_*.deb ./debs/pcl-floater-doc_*.deb
   test -s /usr/share/doc/pcl-floater-doc/README.md"
@@ -150,7 +160,7 @@ assert len (mesh.triangles) == 2 * 19 * 19, mesh"
 
 step "Removing the packages" '
   packages=$(dpkg-query -W -f "\${Package}\n" | grep -E "^(lib|python3-)?pcl-floater")
-  test "$(wc -l <<<"$packages")" = 5
+  test "$(wc -l <<<"$packages")" = 6
   # What belongs to them, and not to other packages as well.
   for package in $packages; do dpkg-query -L $package; done | sort -u >owned
   dpkg-query -W -f "\${Package}\n" | grep -vE "^(lib|python3-)?pcl-floater" | xargs dpkg-query -L | sort -u >of_others

@@ -66,4 +66,5 @@ _pcl_floater () {
   return 0
 }
 
-complete -F _pcl_floater pcl_floater_reconstruct pcl_floater_generate pcl_floater_picture
+complete -F _pcl_floater pcl_floater_reconstruct pcl_floater_distributed pcl_floater_generate \
+  pcl_floater_picture

@@ -6,6 +6,7 @@ blocks, and the moments at which it is ended; and tells what is wrong with its f
 
 --long: all pairs of processes and blocks, all clouds of PCL_FLOATER_DATA, 20 moments."""
 import argparse
+import json
 import math
 import os
 import pathlib
@@ -18,6 +19,7 @@ import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 OPTIONS = argparse.Namespace()
 USAGE, INPUT, RECONSTRUCTION, OUTPUT, WORK = 1, 2, 3, 4, 7
@@ -233,6 +235,195 @@ class Tiles(Case):
         self.assertTrue(mesh.read_bytes() == expected)
 
 
+def read_ply(path):
+    """Names and types of the vertices' properties, the bytes of each vertex, and the triangles."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    sizes = {"char": 1, "uchar": 1, "short": 2, "ushort": 2, "int": 4, "uint": 4, "float": 4, "double": 8}
+    counts, properties = {}, []
+    for words in map(str.split, data[:end].decode().splitlines()):
+        if words[0] == "element":
+            counts[words[1]] = int(words[2])
+        elif words[0] == "property" and words[1] != "list":
+            properties.append((words[2], words[1]))
+    width = sum(sizes[kind] for _, kind in properties)
+    vertices = [data[end + i * width:end + (i + 1) * width] for i in range(counts["vertex"])]
+    faces = data[end + counts["vertex"] * width:]
+    assert len(faces) == 13 * counts["face"]
+    triangles = []
+    for count, *corners in struct.iter_unpack("<B3i", faces):
+        assert count == 3
+        triangles.append(tuple(corners))
+    return properties, vertices, triangles
+
+
+class TileFiles(Case):
+    """--tiles. Joined by the numbers of their vertices, the tiles are the mesh in one piece."""
+
+    def read_tiles(self, folder):
+        manifest = json.loads((folder / "tiles.json").read_text())
+        tiles = []
+        for entry in manifest["tiles"]:
+            data = (folder / entry["file"]).read_bytes()
+            self.assertEqual(len(data), entry["bytes"])
+            self.assertEqual(f"{zlib.crc32(data):08x}", entry["crc32"])
+            properties, vertices, triangles = read_ply(folder / entry["file"])
+            self.assertEqual(properties[-1], ("vertex_number", "double"))
+            numbers = [int(struct.unpack("<d", vertex[-8:])[0]) for vertex in vertices]
+            tiles.append((properties[:-1], [vertex[:-8] for vertex in vertices], numbers, triangles))
+        return manifest, tiles
+
+    def expect_tiles(self, folder, expected, count):
+        """Compares all of a folder with the mesh in one piece. Returns the manifest and, of each tile, the
+        numbers of its own points."""
+        manifest, tiles = self.read_tiles(folder)
+        self.path("expected.ply").write_bytes(expected)
+        properties, vertices, triangles = read_ply(self.path("expected.ply"))
+        self.assertEqual(sorted(f.name for f in folder.iterdir()),
+                         sorted([f"tile.{i}.ply" for i in range(count)] + ["tiles.json"]))
+        self.assertEqual((manifest["points"], manifest["triangles"]), (len(vertices), len(triangles)))
+        self.assertEqual(len(tiles), count)
+        owner = {}
+        for i, (entry, (own_properties, records, numbers, _)) in enumerate(zip(manifest["tiles"], tiles)):
+            self.assertEqual(own_properties, properties)
+            own = entry["own_points"]
+            self.assertEqual(entry["points_before"], len(owner))
+            self.assertEqual(len(records), own + entry["border_points"])
+            self.assertEqual(sorted(numbers[:own]), numbers[:own])
+            for number in numbers[:own]:
+                self.assertNotIn(number, owner)
+                owner[number] = i
+            for number, record in zip(numbers, records):
+                self.assertTrue(vertices[number] == record)
+        self.assertEqual(sorted(owner), list(range(len(vertices))))
+        joined = []
+        for i, (entry, (_, _, numbers, local)) in enumerate(zip(manifest["tiles"], tiles)):
+            self.assertEqual((entry["triangles"], entry["triangles_before"]), (len(local), len(joined)))
+            next_border = entry["own_points"]
+            for border in entry["borders"]:
+                self.assertEqual(border["first"], next_border)
+                next_border += border["points"]
+                group = numbers[border["first"]:next_border]
+                self.assertEqual(sorted(set(group)), group)
+                self.assertEqual({owner[number] for number in group}, {border["tile"]})
+                self.assertNotEqual(border["tile"], i)
+            self.assertEqual(next_border, len(numbers))
+            whole = [tuple(numbers[corner] for corner in triangle) for triangle in local]
+            self.assertEqual({owner[min(triangle)] for triangle in whole} - {i}, set())
+            used = {number for triangle in whole for number in triangle}
+            self.assertEqual([n for n in numbers[entry["own_points"]:] if n not in used], [])
+            joined += whole
+        self.assertTrue(sorted(joined) == sorted(triangles), "other triangles")
+        return manifest, [[n for n in range(len(vertices)) if owner[n] == i] for i in range(count)]
+
+    def write_tiles(self, *arguments, processes=2, folder="tiles"):
+        outcome = run(mpirun(processes) + self.command("--tiles", *arguments, self.path(folder)))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        return outcome
+
+    def test_a_tile_for_each_file(self):
+        points = terrain_points(8000)
+        write_ply(self.path("all.ply"), points)
+        expected = self.reference(self.path("all.ply"), "--normals")
+        cuts = [0, 100, 100 + 3000, len(points)]
+        inputs = [self.path(f"part{i}.ply") for i in range(3)]
+        for path, first, last in zip(inputs, cuts, cuts[1:]):
+            write_ply(path, points[first:last])
+        self.write_tiles("--normals", "--blocks", 4, *inputs)
+        manifest, own = self.expect_tiles(self.path("tiles"), expected, 3)
+        self.assertEqual([entry["input"] for entry in manifest["tiles"]], [str(path) for path in inputs])
+        finite = [sum(all(map(math.isfinite, p)) for p in points[:cut]) for cut in cuts]
+        self.assertEqual(own, [list(range(*pair)) for pair in zip(finite, finite[1:])])
+
+    def test_a_tile_for_each_block(self):
+        write_ply(self.path("all.ply"), terrain_points(6000))
+        expected = self.reference(self.path("all.ply"))
+        self.write_tiles("--blocks", 5, self.path("all.ply"))
+        manifest, own = self.expect_tiles(self.path("tiles"), expected, 5)
+        self.assertEqual({entry["input"] for entry in manifest["tiles"]}, {str(self.path("all.ply"))})
+        self.assertGreater(min(map(len, own)), 1000)  # blocks have about the same number of points
+        # The same from another work folder, without MPI, on top of others: those that are too many go.
+        self.path("more").mkdir()
+        for name in ("tile.5.ply", "tile.6.ply"):
+            self.path("more").joinpath(name).write_text("of an older run")
+        outcome = run(self.command("--tiles", "--blocks", 5, self.path("all.ply"), f"{self.path('more')}/",
+                                   work="other"))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        for file in self.path("tiles").iterdir():
+            self.assertEqual(file.read_bytes(), self.path("more").joinpath(file.name).read_bytes())
+        self.assertFalse(self.path("more").joinpath("tile.5.ply").exists())
+        self.assertFalse(self.path("more").joinpath("tile.6.ply").exists())
+
+    def test_more_blocks_than_points(self):
+        write_ply(self.path("few.ply"), [(x, y, 0.1 * x * y) for x in range(12) for y in range(12)])
+        expected = self.reference(self.path("few.ply"))
+        self.write_tiles("--blocks", 7, self.path("few.ply"))
+        _, own = self.expect_tiles(self.path("tiles"), expected, 7)
+        self.assertIn(0, map(len, own))
+
+    def test_doubles_and_shift(self):
+        text = "".join(f"{500000 + x + 0.1 * (y % 2)} {5500000 + y} {0.01 * x * x}\n"
+                       for x in range(40) for y in range(30))
+        self.path("map.xyz").write_text(text)
+        expected = self.reference(self.path("map.xyz"), "--shift", "500000,5500000,0", "--precision", "double")
+        self.write_tiles("--shift", "500000,5500000,0", "--precision", "double", "--blocks", 3,
+                         self.path("map.xyz"))
+        manifest, _ = self.expect_tiles(self.path("tiles"), expected, 3)
+        self.assertEqual(manifest["shift"], [500000, 5500000, 0])
+
+    def test_tiles_of_a_tile(self):
+        """A field of the name of the numbers is left out."""
+        cloud = self.generate("torus", "--points", 2000)
+        self.write_tiles("--blocks", 1, cloud)
+        tile = self.path("tiles") / "tile.0.ply"
+        outcome = run(self.command("--tiles", "--blocks", 2, tile, self.path("again"), work="other"))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("the field 'vertex_number' of the points was left out", outcome.stderr)
+        self.expect_tiles(self.path("again"), self.reference(cloud), 2)
+
+    def test_as_steps_and_after_the_mesh(self):
+        cloud = self.generate("torus", "--points", 3000)
+        expected = self.reference(cloud)
+        tiles = self.path("tiles")
+        outcome = run(self.command("--step", "plan", "--tiles", "--blocks", 2, cloud, tiles))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        printed = run(self.command("--print-steps"))
+        for line in printed.stdout.split("\n"):
+            words = line.replace("'", "").split()
+            if words:
+                outcome = run([OPTIONS.distributed] + words[1:])
+                self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.expect_tiles(tiles, expected, 2)
+        # What is known is enough for the mesh in one piece, and the other way round.
+        join = self.path("work").joinpath("mesh.bin").stat().st_mtime_ns
+        outcome = run(self.command("--blocks", 2, cloud, self.path("mesh.ply")))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertTrue(self.path("mesh.ply").read_bytes() == expected)
+        self.write_tiles("--blocks", 2, cloud, folder="more")
+        self.expect_tiles(self.path("more"), expected, 2)
+        self.assertEqual(join, self.path("work").joinpath("mesh.bin").stat().st_mtime_ns)
+
+    def test_folders_that_cannot_be_used(self):
+        cloud = self.generate("torus", "--points", 1000)
+        for output, code, words in [("no/such/folder", OUTPUT, "no/such"), ("cloud.ply", OUTPUT, "not a folder"),
+                                    ("work", USAGE, "work folder"), ("-", OUTPUT, "cannot write '-'")]:
+            with self.subTest(output=output):
+                path = output if output == "-" else self.path(output)
+                self.expect_failure(run(self.command("--tiles", cloud, path)), code, words)
+        self.assertFalse(self.path("work").joinpath("tiles.json").exists())
+
+    def test_full_disk(self):
+        """Then there is no manifest, also not that of an older run; and the next run writes all."""
+        cloud = self.generate("torus", "--points", 20000)
+        self.write_tiles("--blocks", 2, cloud)
+        limited = run(["sh", "-c", "ulimit -f 600; exec \"$@\"", "sh",
+                       *self.command("--step", "write")])
+        self.expect_failure(limited, OUTPUT, "cannot write", "tile.0.ply")
+        self.assertEqual(sorted(f.name for f in self.path("tiles").iterdir()), ["tile.0.ply", "tile.1.ply"])
+        self.write_tiles("--blocks", 2, cloud)
+        self.expect_tiles(self.path("tiles"), self.reference(cloud), 2)
+
+
 class Steps(Case):
     def files(self):
         return {f.name: (f.stat().st_mtime_ns, f.stat().st_ino) for f in self.path("work").iterdir()}
@@ -445,7 +636,38 @@ class Errors(Case):
             file.write_bytes(good)
         self.assertEqual(self.again().returncode, 0)
 
-    def test_file_of_another_plan(self):
+    def test_any_changed_bit_is_seen(self):
+        self.finish()
+        file = self.path("work") / "planes.1.bin"
+        good = file.read_bytes()
+        # All but what fills the space between arrays: the head of 48 bytes, the table, and the arrays.
+        arrays = struct.unpack_from("<I", good, 12)[0]
+        places = list(range(48 + 48 * arrays))
+        for i in range(arrays):
+            element, count, offset = struct.unpack_from("<3Q", good, 48 + 48 * i + 24)
+            places += range(offset, offset + element * count)
+        self.assertGreater(len(places), 0.95 * len(good))
+        numbers = random.Random(5)
+        for _ in range(60):
+            bad = bytearray(good)
+            place = numbers.choice(places)
+            bad[place] ^= 1 << numbers.randrange(8)
+            file.write_bytes(bad)
+            self.expect_failure(self.step("planes", "--block", 1), WORK, str(file))
+        self.assertEqual(file.read_bytes(), bytes(bad))  # it is not made anew either
+
+    def test_file_that_does_not_get_to_the_disk(self):
+        """An error of fsync. The file is not there then, and is made again."""
+        if not OPTIONS.faults:
+            self.skipTest("there is no library that makes calls of the system fail")
+        self.plan(self.cloud)
+        broken = dict(os.environ, LD_PRELOAD=OPTIONS.faults, PCL_FLOATER_FAULT="fsync:0:EIO")
+        outcome = run(self.command("--step", "neighbors", "--block", 1), env=broken)
+        self.expect_failure(outcome, OUTPUT, "cannot write", "neighbors.1.bin")
+        self.assertFalse((self.path("work") / "neighbors.1.bin").exists())
+        self.assertEqual(self.step("neighbors", "--block", 1).returncode, 0)
+        self.assertTrue((self.path("work") / "neighbors.1.bin").exists())
+
         self.finish()
         other = self.generate("sphere", "--points", 1000, name="other.ply")
         outcome = run(self.command("--blocks", 3, other, self.path("o.ply"), work="other"))
@@ -459,7 +681,7 @@ class Errors(Case):
         good = file.read_text()
         for bad, word in [(good.replace('"blocks": 3', '"blocks": 4'), "damaged"),
                           (good[:100], "damaged"), ("{}", "damaged"),
-                          (good.replace('"version": 1', '"version": 2'), "format version 2"),
+                          (good.replace('"version": 2', '"version": 3'), "format version 3"),
                           (good.replace("work folder", "something"), "no manifest")]:
             self.assertNotEqual(good, bad)
             file.write_text(bad)
@@ -569,6 +791,7 @@ def main():
     for name in ("distributed", "reconstruct", "generate"):
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("--mpirun", default="mpirun")
+    parser.add_argument("--faults", help="library that makes calls of the system fail, see test/tool/system_faults.cpp")
     parser.add_argument("--long", action="store_true")
     parser.add_argument("names", nargs="*")
     parser.parse_args(namespace=OPTIONS)

@@ -34,6 +34,8 @@ offers () {
   [[ ${COMPREPLY[*]} == "$expected" ]] || fail "after '$*', not '$expected' is offered, but '${COMPREPLY[*]}'"
 }
 
+complete -p "$name" >/dev/null 2>&1 || fail "bash does not complete it"
+
 help=$("$tool" --help)
 mapfile -t options < <(sed -n 's/^  \(-[^ ]*\).*/\1/p' <<<"$help" | tr ',' '\n')
 ((${#options[@]} >= 3)) || fail "--help has no options"

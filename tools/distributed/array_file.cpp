@@ -5,11 +5,11 @@
 #include "array_file.h"
 
 #include "atomic_file.h"
+#include "checksum.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -33,8 +33,8 @@ struct Head
   std::uint64_t magic;
   std::uint32_t version, arrays;
   std::uint64_t plan, size;
-  std::uint32_t table_checksum; // of the table and the checksums behind it
-  std::uint32_t head_checksum;  // of all before
+  std::uint64_t table_checksum; // of the table and the checksums behind it
+  std::uint64_t head_checksum;  // of all before
 };
 
 struct Entry
@@ -42,18 +42,6 @@ struct Entry
   char name[LONGEST_NAME]; // NOLINT(modernize-avoid-c-arrays): as it is in the file
   std::uint64_t element, count, offset;
 };
-
-std::uint32_t
-checksum (const char* bytes, std::size_t count, std::uint32_t before = 0)
-{
-  // zlib counts in 32 bits.
-  constexpr std::size_t AT_ONCE = std::size_t{1} << 30U;
-  uLong sum = before;
-  for (std::size_t done = 0; done < count; done += AT_ONCE)
-    sum = ::crc32 (sum, reinterpret_cast<const Bytef*> (bytes + done),
-                   static_cast<uInt> (std::min (AT_ONCE, count - done)));
-  return static_cast<std::uint32_t> (sum);
-}
 
 std::size_t
 pieces (std::uint64_t bytes)
@@ -142,14 +130,14 @@ ArrayWriter::emit (std::uint64_t plan,
                    const std::function<void (const char* bytes, std::size_t count)>& write) const
 {
   std::vector<Entry> table (arrays_.size ());
-  std::vector<std::uint32_t> checksums;
+  std::vector<std::uint64_t> checksums;
   for (const Array& array : arrays_) {
     const std::size_t bytes = array.element * array.count;
     for (std::size_t first = 0; first < bytes; first += PIECE)
-      checksums.push_back (checksum (array.bytes + first, std::min (PIECE, bytes - first)));
+      checksums.push_back (checksumOf (array.bytes + first, std::min (PIECE, bytes - first)));
   }
   std::uint64_t end =
-      sizeof (Head) + table.size () * sizeof (Entry) + checksums.size () * sizeof (std::uint32_t);
+      sizeof (Head) + table.size () * sizeof (Entry) + checksums.size () * sizeof (std::uint64_t);
   for (std::size_t i = 0; i < table.size (); ++i) {
     table[i] = {};
     std::memcpy (table[i].name, arrays_[i].name.data (), arrays_[i].name.size ());
@@ -161,11 +149,11 @@ ArrayWriter::emit (std::uint64_t plan,
   const auto* table_bytes = reinterpret_cast<const char*> (table.data ());
   const auto* sums_bytes = reinterpret_cast<const char*> (checksums.data ());
   const std::size_t table_size = table.size () * sizeof (Entry);
-  const std::size_t sums_size = checksums.size () * sizeof (std::uint32_t);
+  const std::size_t sums_size = checksums.size () * sizeof (std::uint64_t);
   Head head{MAGIC, WORK_FORMAT, static_cast<std::uint32_t> (table.size ()), plan, end, 0, 0};
-  head.table_checksum = checksum (sums_bytes, sums_size, checksum (table_bytes, table_size));
+  head.table_checksum = checksumOf (sums_bytes, sums_size, checksumOf (table_bytes, table_size));
   head.head_checksum =
-      checksum (reinterpret_cast<const char*> (&head), offsetof (Head, head_checksum));
+      checksumOf (reinterpret_cast<const char*> (&head), offsetof (Head, head_checksum));
   write (reinterpret_cast<const char*> (&head), sizeof (head));
   write (table_bytes, table_size);
   write (sums_bytes, sums_size);
@@ -183,7 +171,7 @@ ArrayWriter::write (const std::filesystem::path& path, std::uint64_t plan) const
 {
   AtomicFile file (path);
   emit (plan, [&file] (const char* bytes, std::size_t count) { file.write (bytes, count); });
-  file.close ();
+  file.close (false);
   file.publish ();
 }
 
@@ -208,7 +196,7 @@ ArrayFile::ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std:
             std::to_string (WORK_FORMAT) +
             "; use the version that made it, or an empty work folder");
   if (head.head_checksum !=
-          checksum (reinterpret_cast<const char*> (&head), offsetof (Head, head_checksum)) ||
+          checksumOf (reinterpret_cast<const char*> (&head), offsetof (Head, head_checksum)) ||
       head.arrays > MOST_ARRAYS)
     refuse ("is damaged; delete it and run again");
   if (head.plan != plan)
@@ -228,15 +216,15 @@ ArrayFile::ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std:
       refuse ("is damaged; delete it and run again");
     sums += pieces (entry.element * entry.count);
   }
-  std::vector<std::uint32_t> checksums (sums);
-  const std::size_t sums_size = sums * sizeof (std::uint32_t);
+  std::vector<std::uint64_t> checksums (sums);
+  const std::size_t sums_size = sums * sizeof (std::uint64_t);
   if (sizeof (head) + table_size + sums_size > head.size)
     refuse ("is damaged; delete it and run again");
   source_->read (sizeof (head) + table_size, sums_size,
                  reinterpret_cast<char*> (checksums.data ()));
   if (head.table_checksum !=
-      checksum (reinterpret_cast<const char*> (checksums.data ()), sums_size,
-                checksum (reinterpret_cast<const char*> (table.data ()), table_size)))
+      checksumOf (reinterpret_cast<const char*> (checksums.data ()), sums_size,
+                  checksumOf (reinterpret_cast<const char*> (table.data ()), table_size)))
     refuse ("is damaged; delete it and run again");
   auto next = checksums.begin ();
   for (const Entry& entry : table) {
@@ -273,9 +261,10 @@ ArrayFile::readBytes (const Array& array, std::size_t element, std::size_t first
     const std::uint64_t piece = at / PIECE, begin = piece * PIECE;
     const auto length = static_cast<std::size_t> (std::min<std::uint64_t> (PIECE, size - begin));
     const bool is_whole = at == begin && end - at >= length;
-    // Whole pieces go where they are wanted, and as many of them at once as there are.
+    // Whole pieces go where they are wanted, many at once; they are still in the cache of the
+    // processor when their checksums are computed.
     const std::uint64_t whole =
-        is_whole ? std::min (end == size ? end : end / PIECE * PIECE, begin + (1U << 22U)) : 0;
+        is_whole ? std::min (end == size ? end : end / PIECE * PIECE, begin + (1U << 18U)) : 0;
     char* to = bytes;
     const char* from = nullptr;
     std::uint64_t until = 0;
@@ -295,8 +284,8 @@ ArrayFile::readBytes (const Array& array, std::size_t element, std::size_t first
     }
     if (is_whole || piece_at_ != array.offset + begin)
       for (std::uint64_t p = begin; p < until; p += PIECE)
-        if (checksum (from + (p - begin),
-                      static_cast<std::size_t> (std::min<std::uint64_t> (PIECE, size - p))) !=
+        if (checksumOf (from + (p - begin),
+                        static_cast<std::size_t> (std::min<std::uint64_t> (PIECE, size - p))) !=
             array.checksums[static_cast<std::size_t> (p / PIECE)])
           refuse ("is damaged; delete it and run again");
     if (!is_whole) {

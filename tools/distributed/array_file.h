@@ -18,7 +18,7 @@ namespace pcl
 namespace floater
 {
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 1;
+constexpr std::uint32_t WORK_FORMAT = 2;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
 class WorkError : public std::runtime_error
@@ -66,7 +66,8 @@ public:
   void emit (std::uint64_t plan,
              const std::function<void (const char* bytes, std::size_t count)>& write) const;
 
-  /// Writes a file that is visible when it is complete. \throws WriteError
+  /// Writes a file that is visible when it is complete. It may still be on its way to the disk
+  /// then. \throws WriteError
   void write (const std::filesystem::path& path, std::uint64_t plan) const;
 
 private:
@@ -128,7 +129,7 @@ private:
   {
     std::string name;
     std::uint64_t element, count, offset;
-    std::vector<std::uint32_t> checksums; // of each piece
+    std::vector<std::uint64_t> checksums; // of each piece
   };
 
   const Array& find (const std::string& array) const;

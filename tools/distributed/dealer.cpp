@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dealer.h"
 
-#include "atomic_file.h"
-
 #include <algorithm>
 #include <chrono>
 #include <mutex>
@@ -137,10 +135,7 @@ Dealer::write (int process, const std::string& file)
   std::exception_ptr error;
   try {
     const std::size_t end = file.find ('\n');
-    AtomicFile written (folder_.path (file.substr (0, end)));
-    written.write (file.data () + end + 1, file.size () - end - 1);
-    written.close ();
-    written.publish ();
+    folder_.putBytes (file.substr (0, end), file.data () + end + 1, file.size () - end - 1);
   }
   catch (...) {
     error = std::current_exception ();

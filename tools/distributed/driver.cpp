@@ -5,6 +5,7 @@
 
 #include "atomic_file.h"
 #include "dealer.h"
+#include "heap_reuse.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
 #include "run_report.h"
@@ -103,12 +104,15 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
   const EffectiveOptions effective (job.line);
   const RunContext run (job.line.options.threads);
+  const HeapReuse reuse;
   std::optional<Plan> plan;
   for (;;) {
     processes.send (0, {});
     const Message order = processes.receive (0);
-    if (order.topic == Topic::END)
+    if (order.topic == Topic::END) {
+      folder.finish ();
       return static_cast<int> (order.number);
+    }
     std::string message;
     const int code = guarded (
         [&] {
@@ -164,11 +168,14 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
       if (!isFinished (folder, blockFile (step, block), plan))
         blocks.push_back (block);
     const std::size_t finished = plan.blocks - blocks.size ();
-    if (dealer != nullptr)
-      dealer->run (context, step, std::move (blocks));
-    else
-      for (const std::size_t block : blocks)
-        blockStep (context, step, block);
+    {
+      const HeapReuse reuse;
+      if (dealer != nullptr)
+        dealer->run (context, step, std::move (blocks));
+      else
+        for (const std::size_t block : blocks)
+          blockStep (context, step, block);
+    }
     say (job, std::string (step) + ": " + std::to_string (plan.blocks - finished) +
                   " blocks done, " + std::to_string (finished) + " finished before, " + time ());
     if (step == BLOCK_STEPS.front () && !isFinished (folder, OUTLIERS, plan))
@@ -177,7 +184,9 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   if (!isFinished (folder, TRIANGLES, plan))
     if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
       return code;
+  say (job, "joined: " + time ());
   const int code = writeStep (job, folder, plan);
+  folder.finish ();
   say (job, "written: " + time ());
   return code;
 }
@@ -203,11 +212,44 @@ runOnAll (const Job& job, FolderStore& folder, Processes& processes)
   return code;
 }
 
+int
+doStep (Job& job, FolderStore& folder, const std::string& step)
+{
+  if (step == "plan")
+    prepareFolders (job);
+  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
+  if (step == "plan")
+    return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
+                                 : planStep (job, folder);
+  const Plan plan = readPlan (job, folder);
+  const EffectiveOptions effective (job.line);
+  const RunContext run (job.line.options.threads);
+  const StepContext context{folder, plan, effective.options, effective.limits, run};
+  if (step == "outliers") {
+    if (!isFinished (folder, OUTLIERS, plan))
+      chooseOutliersStep (context);
+    return EXIT_OK;
+  }
+  if (step == "join")
+    return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
+                                                : joinStep (job, folder, plan);
+  if (step == "write")
+    return writeStep (job, folder, plan);
+  if (job.block >= plan.blocks)
+    throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
+                      std::to_string (plan.blocks) + " blocks, which are numbered from 0");
+  const HeapReuse reuse;
+  if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
+    blockStep (context, step, job.block);
+  return EXIT_OK;
+}
+
 } // namespace
 
 int
 runAll (const Job& job, FolderStore& folder)
 {
+  useOneHeap (); // MPI has threads
   int argc = 0;
   char** argv = nullptr;
   Processes processes (argc, argv);
@@ -225,32 +267,9 @@ runStep (Job job, FolderStore& folder, const std::string& step)
   std::string message;
   const int code = guarded (
       [&] {
-        if (step == "plan")
-          prepareFolders (job);
-        const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
-        if (step == "plan")
-          return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
-                                       : planStep (job, folder);
-        const Plan plan = readPlan (job, folder);
-        const EffectiveOptions effective (job.line);
-        const RunContext run (job.line.options.threads);
-        const StepContext context{folder, plan, effective.options, effective.limits, run};
-        if (step == "outliers") {
-          if (!isFinished (folder, OUTLIERS, plan))
-            chooseOutliersStep (context);
-          return static_cast<int> (EXIT_OK);
-        }
-        if (step == "join")
-          return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
-                                                      : joinStep (job, folder, plan);
-        if (step == "write")
-          return writeStep (job, folder, plan);
-        if (job.block >= plan.blocks)
-          throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
-                            std::to_string (plan.blocks) + " blocks, which are numbered from 0");
-        if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
-          blockStep (context, step, job.block);
-        return static_cast<int> (EXIT_OK);
+        const int done = doStep (job, folder, step);
+        folder.finish ();
+        return done;
       },
       message);
   return tell (code, message);

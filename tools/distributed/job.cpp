@@ -12,6 +12,7 @@
 #include "report_json.h"
 #include "stored_stages.h"
 #include "summary.h"
+#include "tiles.h"
 #include "working_set.h"
 
 #include <nlohmann/json.hpp>
@@ -36,9 +37,9 @@ secondsSince (std::chrono::steady_clock::time_point start)
 
 // The cloud of the job, with its origin shifted as in the plan.
 Cloud
-readShifted (const Job& job, const Plan& plan)
+readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts = nullptr)
 {
-  Cloud cloud = readClouds (job.inputs, job.line.auto_shift || job.line.shift);
+  Cloud cloud = readClouds (job.inputs, job.line.auto_shift || job.line.shift, firsts);
   cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   return cloud;
 }
@@ -86,7 +87,13 @@ prepareFolders (const Job& job)
     throw WriteError ("cannot make the work folder '" + job.work.string () +
                       "': " + (error ? error.message () : "there is a file of that name"));
   requireWritable (job.work / MANIFEST);
-  requireWritable (job.line.output);
+  if (job.writes_tiles && std::filesystem::exists (job.line.output)) {
+    if (std::filesystem::equivalent (job.line.output, job.work))
+      throw UsageError ("the tiles cannot be in the work folder; name another folder");
+    requireWritable (job.line.output / TILES);
+  }
+  else
+    requireWritable (job.line.output);
   if (!job.line.report.empty ())
     requireWritable (job.line.report);
 }
@@ -142,6 +149,7 @@ planStep (const Job& job, FolderStore& store)
   Eigen::Map<Eigen::Vector3d> (plan.shift.data ()) = cloud.shift;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
+  store.finish ();
   store.putText (MANIFEST, manifestText (plan)); // last: with it, the step is finished
   return EXIT_OK;
 }
@@ -224,7 +232,8 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   const CommandLine& line = job.line;
   ArrayFile file = openArrays (store, TRIANGLES, plan);
   Triangles triangles = file.read<Triangles::value_type> ("triangles");
-  Cloud cloud = readShifted (job, plan);
+  std::vector<std::size_t> firsts;
+  Cloud cloud = readShifted (job, plan, &firsts);
   cloud.single_precision = file.read<std::uint8_t> ("single_precision").front () != 0;
   if (line.compute_normals)
     replaceNormals (cloud, triangles, job.join_threads);
@@ -235,12 +244,19 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
     report->write (store.readText (REPORT));
     report->close ();
   }
-  AtomicFile mesh (line.output);
-  for (const std::string& loss :
-       writeMesh (mesh, line.output, cloud, triangles, line.output_format))
+  std::vector<std::string> losses;
+  if (job.writes_tiles)
+    losses = writeTiles (line.output, cloud, triangles,
+                         job.inputs.size () > 1 ? ownersByFile (cloud, firsts, job.inputs)
+                                                : ownersByBlock (cloud, store, plan));
+  else {
+    AtomicFile mesh (line.output);
+    losses = writeMesh (mesh, line.output, cloud, triangles, line.output_format);
+    mesh.close ();
+    mesh.publish ();
+  }
+  for (const std::string& loss : losses)
     std::fprintf (stderr, "warning: %s\n", loss.c_str ());
-  mesh.close ();
-  mesh.publish ();
   if (report)
     report->publish ();
   return EXIT_OK;

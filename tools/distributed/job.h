@@ -25,12 +25,13 @@ struct Job
   std::vector<std::filesystem::path> inputs;
   std::vector<std::string> arguments; ///< as they were typed
   std::filesystem::path work;
-  std::string step;         ///< empty: all
-  std::size_t block = 0;    ///< of the step
-  bool has_block = false;   ///< it was given
-  std::size_t blocks = 0;   ///< 0: chosen by the number of points
-  int join_threads = 0;     ///< 0: all cores
-  bool sends_files = false; ///< --exchange messages
+  std::string step;          ///< empty: all
+  std::size_t block = 0;     ///< of the step
+  bool has_block = false;    ///< it was given
+  std::size_t blocks = 0;    ///< 0: chosen by the number of points
+  int join_threads = 0;      ///< 0: all cores
+  bool sends_files = false;  ///< --exchange messages
+  bool writes_tiles = false; ///< OUTPUT is a folder
   bool prints_steps = false;
   bool is_from_manifest = false; ///< files and options are those of the manifest
 };
@@ -71,7 +72,8 @@ planStep (const Job& job, FolderStore& store);
 int
 joinStep (const Job& job, FolderStore& store, const Plan& plan);
 
-/// Writes the mesh.
+/// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
+/// block.
 int
 writeStep (const Job& job, FolderStore& store, const Plan& plan);
 

@@ -89,13 +89,20 @@ copyColumn (const Column& column, const std::vector<Cloud>& clouds, char* to)
 } // namespace
 
 Cloud
-readClouds (const std::vector<std::filesystem::path>& files, bool all_digits)
+readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
+            std::vector<std::size_t>* firsts)
 {
+  if (firsts != nullptr)
+    firsts->assign (1, 0);
   const auto read = [&] (const std::filesystem::path& file) {
     return readNamed (file, [&] { return readCloud (file, all_digits); });
   };
-  if (files.size () == 1)
-    return read (files.front ());
+  if (files.size () == 1) {
+    Cloud cloud = read (files.front ());
+    if (firsts != nullptr)
+      firsts->push_back (cloud.rows);
+    return cloud;
+  }
   std::vector<Cloud> clouds;
   Cloud merged;
   merged.are_decimals = true;
@@ -106,6 +113,8 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits)
     merged.single_precision = merged.single_precision && cloud.single_precision;
     merged.are_decimals = merged.are_decimals && cloud.are_decimals;
     merged.rows += cloud.rows;
+    if (firsts != nullptr)
+      firsts->push_back (merged.rows);
   }
   if (merged.rows > static_cast<std::size_t> (std::numeric_limits<std::int32_t>::max ()))
     throw ReadError ("the files have more points together than a mesh file can number "

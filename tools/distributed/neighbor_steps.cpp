@@ -43,9 +43,8 @@ findOwnApart (const std::vector<Index>& own, const CsrLists& neighbors, BlockSea
     rows.push_back (other.point);
   sortUnique (rows);
   CsrLists lists;
-  do {
-    const LocalPoints local (search.block ().points);
-    const std::vector<Eigen::Vector3d>& positions = search.block ().positions;
+  lookUntilInside (search, [&] (const LocalPoints& local,
+                                const std::vector<Eigen::Vector3d>& positions) {
     lists = {};
     lists.offsets.push_back (0);
     std::vector<Neighbor> found;
@@ -73,7 +72,7 @@ findOwnApart (const std::vector<Index>& own, const CsrLists& neighbors, BlockSea
       }
       lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
     }
-  } while (search.widen ());
+  });
   const LocalPoints local (search.block ().points);
   const CsrLists places = local.toPlaces (rows, lists);
   local.toPlaces (rows);

@@ -27,6 +27,7 @@ const char* const DESCRIPTION =
 const char* const FOOTER =
     R"(Examples:
   mpirun -n 16 pcl_floater_distributed --work /shared/town tiles/*.las town.ply
+  mpirun -n 16 pcl_floater_distributed --work /shared/town --tiles tiles/*.las town
   pcl_floater_distributed --work town --step plan tiles/*.las town.ply
   pcl_floater_distributed --work town --print-steps
   pcl_floater_distributed --work town --step stars --block 7
@@ -129,9 +130,14 @@ addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
 {
   app.add_option ("FILES", files,
                   "point clouds: .pcd, .ply, .obj, .stl, .las, .xyz, .txt,\n.csv, .asc or .pts; "
-                  "then the mesh to write: .vtk, .ply,\n.obj, .stl, .off or .glb")
+                  "then the mesh to write: .vtk, .ply,\n.obj, .stl, .off or .glb; with --tiles "
+                  "a folder")
       ->option_text (" ");
   const std::string output = "More output";
+  app.add_flag ("--tiles", job.writes_tiles,
+                "write the mesh as a folder of .ply files: one for each\nfile of points, or of a "
+                "single one for each block; and\ntiles.json, which tells what they share")
+      ->group (output);
   app.add_flag ("--normals", job.line.compute_normals,
                 "give the vertices normals, made from the triangles; those\nof the input are "
                 "replaced")
@@ -155,10 +161,15 @@ takeFiles (const std::vector<std::string>& files, Job& job)
       throw ReadError ("cannot read " + inputName (input) + ": its extension is unknown; use " +
                        CLOUD_EXTENSIONS);
   }
+  if (job.writes_tiles) {
+    if (!job.line.output.has_filename ()) // "town/"
+      job.line.output = job.line.output.parent_path ();
+    job.line.output_format = MeshFormat::PLY;
+  }
   if (isStandardStream (job.line.output) || !job.line.meshFormat ())
     throw WriteError ("cannot write '" + job.line.output.string () +
                       "': it has no extension that tells the format of a mesh; use " +
-                      MESH_EXTENSIONS);
+                      MESH_EXTENSIONS + ", or --tiles and a folder");
 }
 
 } // namespace

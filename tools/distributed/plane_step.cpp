@@ -34,16 +34,15 @@ numberBefore (Index point, const std::vector<Index>& removed)
 }
 
 CsrLists
-renewOwn (Index first, Index last, const std::vector<Index>& outliers, StoredCloud& cloud,
-          BlockSearch& search, const StepContext& context)
+renewOwn (const OwnBlock& own, BlockSearch& search, const StepContext& context)
 {
   const BlockRanges before = blockRanges (context.plan, context.plan.points);
   StoredNeighbors found (context, {}, before);
-  const Index first_before = numberBefore (first, outliers);
+  const Index first = numberBefore (own.first, own.outliers);
   const CsrLists lists =
-      found.nearest (pointsFrom (first_before, numberBefore (last - 1, outliers) + 1));
-  return renewRows (lists, first_before, context.plan.points, outliers, [&] (const Rows& rows) {
-    return findNearestOfBlock (search, rows, cloud.points (), context.options.neighbors.k,
+      found.nearest (pointsFrom (first, numberBefore (own.last - 1, own.outliers) + 1));
+  return renewRows (lists, first, context.plan.points, own.outliers, [&] (const Rows& rows) {
+    return findNearestOfBlock (search, rows, own.cloud.points (), context.options.neighbors.k,
                                context.run);
   });
 }
@@ -78,29 +77,27 @@ probeOwn (BlockSearch& search, const CsrLists& neighbors, std::size_t points,
 void
 planesStep (const StepContext& context, std::size_t block)
 {
-  const std::vector<Index> outliers = readOutliers (context);
-  StoredCloud cloud (context, outliers, false);
-  const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
+  OwnBlock own (context, block);
   ArrayWriter writer;
   CsrLists renewed, beside_lists;
   std::vector<float> beside_reach, spacing;
   std::vector<Eigen::Vector3f> normals;
   NoiseProbes probes;
-  if (first < last) {
+  if (!own.isEmpty ()) {
+    StoredCloud& cloud = own.cloud;
     BlockSearch search (cloud.cutter (), block, context.run, HALO);
-    const std::vector<Index> own = pointsFrom (first, last);
+    const std::vector<Index> points = own.points ();
     CsrLists nearest;
-    if (outliers.empty ())
-      nearest = StoredNeighbors (context, outliers, cloud.ranges ()).nearest (own);
+    if (own.outliers.empty ())
+      nearest = StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points);
     else
-      nearest = renewed = renewOwn (first, last, outliers, cloud, search, context);
-    takeIn (own, nearest, cloud, search);
-    do {
-      const LocalPoints local (search.block ().points);
-      const std::vector<Eigen::Vector3d>& positions = search.block ().positions;
+      nearest = renewed = renewOwn (own, search, context);
+    takeIn (points, nearest, cloud, search);
+    lookUntilInside (search, [&] (const LocalPoints& local,
+                                  const std::vector<Eigen::Vector3d>& positions) {
       const Index own_first = search.ownFirst (), own_last = search.ownLast ();
       const Rows rows = Rows::range (own_first, own_last);
-      CsrLists neighbors = local.toPlaces (own, nearest);
+      CsrLists neighbors = local.toPlaces (points, nearest);
       spacing = localSpacing (positions, neighbors, rows, context.run);
       BesideLines beside;
       beside.neighbors.offsets.assign (local.size () + 1, 0);
@@ -113,7 +110,8 @@ planesStep (const StepContext& context, std::size_t block)
       appendRows (beside.neighbors, neighbors);
       normals = fitTangentPlanes (positions, neighbors, rows, context.run, context.limits.planes);
       beside_lists = {};
-      appendLists (beside.neighbors, own_first, own_last, beside_lists);
+      for (Index p = own_first; p < own_last; ++p)
+        appendRow (beside.neighbors.row (p), beside_lists);
       local.toPoints (beside_lists.ids);
       const auto keepOwn = [&] (auto& values) {
         values.erase (values.begin () + own_last, values.end ());
@@ -123,16 +121,16 @@ planesStep (const StepContext& context, std::size_t block)
       keepOwn (beside_reach);
       keepOwn (spacing);
       keepOwn (normals);
-    } while (search.widen ());
+    });
     if (cloud.file ().count ("normals") > 0) {
       std::vector<Eigen::Vector3f> given;
-      readVectors (cloud.file (), "normals", first, last, given);
+      readVectors (cloud.file (), "normals", own.first, own.last, given);
       for (std::size_t i = 0; i < given.size (); ++i)
         if (!given[i].isZero (0.0F))
           normals[i] = given[i];
     }
   }
-  if (!outliers.empty ())
+  if (!own.outliers.empty ())
     writeLists ("renewed", renewed, writer);
   writeLists ("beside", beside_lists, writer);
   writer.add ("beside_reach", beside_reach);

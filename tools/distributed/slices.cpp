@@ -61,15 +61,12 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
 }
 
 void
-appendLists (const CsrLists& lists, Index first, Index last, CsrLists& all)
+appendRow (const Row& row, CsrLists& all)
 {
   if (all.offsets.empty ())
     all.offsets.push_back (0);
-  for (Index p = first; p < last; ++p) {
-    const Row row = lists.row (p);
-    all.ids.insert (all.ids.end (), row.begin (), row.end ());
-    all.offsets.push_back (static_cast<Index> (all.ids.size ()));
-  }
+  all.ids.insert (all.ids.end (), row.begin (), row.end ());
+  all.offsets.push_back (static_cast<Index> (all.ids.size ()));
 }
 
 LocalPoints::LocalPoints (const std::vector<Index>& points) : points_ (points)
@@ -107,14 +104,14 @@ LocalPoints::toPlaces (std::vector<Index>& points) const
 }
 
 CsrLists
-LocalPoints::toPlaces (const std::vector<Index>& rows, const CsrLists& lists) const
+LocalPoints::toPlaces (const std::vector<Index>& rows, CsrLists lists) const
 {
   CsrLists places;
   places.offsets.assign (points_.size () + 1, 0);
   for (std::size_t i = 0; i < rows.size (); ++i)
     places.offsets[placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
   sumRowLengths (places.offsets);
-  places.ids = lists.ids;
+  places.ids = std::move (lists.ids);
   toPlaces (places.ids);
   return places;
 }

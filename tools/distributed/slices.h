@@ -30,13 +30,20 @@ public:
   /// Values of some points, `width` for each.
   /// \param points ascending
   template <typename T>
+  void gather (const std::string& array, const std::vector<Index>& points, std::size_t width,
+               T* values)
+  {
+    forEachRun (points, [&] (std::size_t at, std::size_t block, Index first, Index last) {
+      file (block).read (array, first * width, last * width, values + at * width);
+    });
+  }
+
+  template <typename T>
   std::vector<T> gather (const std::string& array, const std::vector<Index>& points,
                          std::size_t width = 1)
   {
     std::vector<T> values (points.size () * width);
-    forEachRun (points, [&] (std::size_t at, std::size_t block, Index first, Index last) {
-      file (block).read (array, first * width, last * width, values.data () + at * width);
-    });
+    gather (array, points, width, values.data ());
     return values;
   }
 
@@ -74,9 +81,9 @@ writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer
 CsrLists
 readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last);
 
-/// Appends the lists `first` to before `last` to others.
+/// Appends a list to others.
 void
-appendLists (const CsrLists& lists, Index first, Index last, CsrLists& all);
+appendRow (const Row& row, CsrLists& all);
 
 /// Points of a part of the working set, and where they are in it.
 class LocalPoints
@@ -102,7 +109,7 @@ public:
 
   /// Lists of places for all points of the part, of lists of points of some. Those of the others
   /// are empty. \param rows whose lists are given, as points, ascending; all in the part
-  CsrLists toPlaces (const std::vector<Index>& rows, const CsrLists& lists) const;
+  CsrLists toPlaces (const std::vector<Index>& rows, CsrLists lists) const;
 
 private:
   struct Run

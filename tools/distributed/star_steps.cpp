@@ -37,12 +37,8 @@ takeStars (const Stars& stars, const Rows& rows, const LocalPoints& local)
   OwnStars own;
   for (auto [from, to] :
        {std::pair (&stars.neighbors, &own.stars), std::pair (&stars.far_neighbors, &own.far)}) {
-    to->offsets.push_back (0);
-    for (std::size_t i = 0; i < rows.size (); ++i) {
-      const Row row = from->row (rows[i]);
-      to->ids.insert (to->ids.end (), row.begin (), row.end ());
-      to->offsets.push_back (static_cast<Index> (to->ids.size ()));
-    }
+    for (std::size_t i = 0; i < rows.size (); ++i)
+      appendRow (from->row (rows[i]), *to);
     local.toPoints (to->ids);
   }
   for (std::size_t i = 0; i < rows.size (); ++i) {
@@ -62,14 +58,11 @@ replaceStars (const std::vector<Index>& points, const OwnStars& more, Index firs
     CsrLists merged;
     merged.ids.reserve (lists.ids.size () + by.ids.size ());
     merged.offsets.reserve (lists.offsets.size ());
-    merged.offsets.push_back (0);
     std::size_t next = 0;
     for (std::size_t r = 0; r < lists.rows (); ++r) {
       const bool is_replaced = next < points.size () && points[next] == first + r;
-      const Row row = is_replaced ? by.row (next) : lists.row (r);
+      appendRow (is_replaced ? by.row (next) : lists.row (r), merged);
       next += is_replaced ? 1 : 0;
-      merged.ids.insert (merged.ids.end (), row.begin (), row.end ());
-      merged.offsets.push_back (static_cast<Index> (merged.ids.size ()));
     }
     lists = std::move (merged);
   };
@@ -149,16 +142,16 @@ settingsOf (const StepContext& context)
 void
 starsStep (const StepContext& context, std::size_t block)
 {
-  const std::vector<Index> outliers = readOutliers (context);
-  StoredCloud cloud (context, outliers, false);
-  const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
-  if (first == last) {
+  OwnBlock own_block (context, block);
+  if (own_block.isEmpty ()) {
     writeStars (context, block, {}, {});
     return;
   }
+  StoredCloud& cloud = own_block.cloud;
+  const Index first = own_block.first, last = own_block.last;
   const StarSettings settings = settingsOf (context);
-  StoredNeighbors stored (context, outliers, cloud.ranges ());
-  const std::vector<Index> own = pointsFrom (first, last);
+  StoredNeighbors stored (context, own_block.outliers, cloud.ranges ());
+  const std::vector<Index> own = own_block.points ();
   const CsrLists beside_lists = stored.beside (own);
   CsrLists all_lists = stored.nearest (own);
   appendRows (beside_lists, all_lists);
@@ -175,10 +168,9 @@ starsStep (const StepContext& context, std::size_t block)
   std::vector<Index> left; // points whose stars have to be made again
   std::vector<AreaSample> samples;
   bool is_first = true, are_sampled = false;
-  do {
-    takeIn (own, all_lists, cloud, search);
-    const LocalPoints local (search.block ().points);
-    const std::vector<Eigen::Vector3d>& positions = search.block ().positions;
+  takeIn (own, all_lists, cloud, search);
+  lookUntilInside (search, [&] (const LocalPoints& local,
+                                const std::vector<Eigen::Vector3d>& positions) {
     const std::vector<Eigen::Vector3f> normals =
         gatherVectors (stored.planes (), "normals", search.block ().points);
     const CsrLists neighbors = local.toPlaces (own, all_lists);
@@ -214,42 +206,42 @@ starsStep (const StepContext& context, std::size_t block)
       if (are_sampled)
         samples = takeAreaSamples (places, positions, stars, context.run);
     }
-  } while (search.widen ());
+  });
   writeStars (context, block, all, samples);
 }
 
 void
 trianglesStep (const StepContext& context, std::size_t block)
 {
-  const std::vector<Index> outliers = readOutliers (context);
-  StoredCloud cloud (context, outliers, false);
-  const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
-  if (first == last) {
+  OwnBlock own_block (context, block);
+  if (own_block.isEmpty ()) {
     writeTriangles (context, block, {}, {}, {}, {}, {}, {});
     return;
   }
+  StoredCloud& cloud = own_block.cloud;
+  const Index first = own_block.first, last = own_block.last;
   const StarSettings settings = settingsOf (context);
-  StoredNeighbors stored (context, outliers, cloud.ranges ());
+  StoredNeighbors stored (context, own_block.outliers, cloud.ranges ());
   Slices stars_before (context.store, context.plan, cloud.ranges (), "stars");
 
   // Candidates are judged by the stars and normals of their corners; a star without neighbours
   // across holes, by the reach at both ends of its edges; and that is the largest around each.
-  const std::vector<Index> own = pointsFrom (first, last);
+  const std::vector<Index> own = own_block.points ();
   const CsrLists own_rows = stored.all (own), own_far = stars_before.gatherLists ("far", own);
   const std::vector<Index> corners = joinPoints (first, last, {&own_rows.ids, &own_far.ids});
-  const CsrLists far = stars_before.gatherLists ("far", corners);
+  CsrLists far = stars_before.gatherLists ("far", corners);
   const std::vector<Index> with_rows = joinPoints (first, last, {&corners, &far.ids});
-  const CsrLists rows = stored.all (with_rows);
+  CsrLists rows = stored.all (with_rows);
   const std::vector<Index> points = joinPoints (first, last, {&with_rows, &rows.ids});
 
   const LocalPoints local (points);
   const std::vector<Eigen::Vector3d> positions = cloud.gather (points);
   const std::vector<Eigen::Vector3f> normals = gatherVectors (stored.planes (), "normals", points);
   std::vector<float> spacing = stored.planes ().gather<float> ("spacing", points);
-  CsrLists neighbors = local.toPlaces (with_rows, rows);
+  CsrLists neighbors = local.toPlaces (with_rows, std::move (rows));
   Stars begun;
   begun.neighbors = local.toPlaces (corners, stars_before.gatherLists ("stars", corners));
-  begun.far_neighbors = local.toPlaces (corners, far);
+  begun.far_neighbors = local.toPlaces (corners, std::move (far));
   begun.open = stars_before.gather<std::uint8_t> ("open", points);
   begun.normals = gatherVectors (stars_before, "normals", points);
   begun.reach = stars_before.gather<float> ("reach", points);

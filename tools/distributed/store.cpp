@@ -28,6 +28,49 @@ FolderStore::putText (const std::string& name, const std::string& text) const
   file.publish ();
 }
 
+void
+FolderStore::put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan)
+{
+  arrays.write (path (name), plan);
+  syncBehind (name);
+}
+
+void
+FolderStore::putBytes (const std::string& name, const char* bytes, std::size_t count)
+{
+  AtomicFile file (path (name));
+  file.write (bytes, count);
+  file.close (false);
+  file.publish ();
+  syncBehind (name);
+}
+
+void
+FolderStore::syncBehind (const std::string& name)
+{
+  const std::lock_guard<std::mutex> lock (mutex_);
+  if (syncing_.valid ())
+    syncing_.get ();
+  syncing_ = std::async (std::launch::async, [path = path (name)] {
+    try {
+      syncFile (path);
+    }
+    catch (const WriteError&) {
+      std::error_code error;
+      std::filesystem::remove (path, error);
+      throw;
+    }
+  });
+}
+
+void
+FolderStore::finish ()
+{
+  const std::lock_guard<std::mutex> lock (mutex_);
+  if (syncing_.valid ())
+    syncing_.get ();
+}
+
 std::string
 blockFile (const char* step, std::size_t block)
 {

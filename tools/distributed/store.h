@@ -6,8 +6,9 @@
 #include "array_file.h"
 #include "plan.h"
 
-#include <map>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace pcl
@@ -30,7 +31,9 @@ public:
   virtual void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) = 0;
 };
 
-/// The files are in a folder.
+/// The files are in a folder. They are visible when they are complete, and brought to the disk
+/// while the next one is made: a machine that stops without warning leaves files of which the
+/// checksums tell that they are damaged.
 class FolderStore : public Store
 {
 public:
@@ -44,10 +47,13 @@ public:
   {
     return openFile (path (name));
   }
-  void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) override
-  {
-    arrays.write (path (name), plan);
-  }
+  void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) override;
+
+  /// The same for bytes that an ArrayWriter has made. Two threads may put files at the same time.
+  void putBytes (const std::string& name, const char* bytes, std::size_t count);
+
+  /// Waits until all files are on the disk. \throws WriteError if one is not; it is removed
+  void finish ();
 
   /// A text file. \throws WorkError
   std::string readText (const std::string& name) const;
@@ -56,7 +62,12 @@ public:
   void putText (const std::string& name, const std::string& text) const;
 
 private:
+  // Begins to bring a file to the disk, when the one before it is there.
+  void syncBehind (const std::string& name);
+
   std::filesystem::path folder_;
+  std::mutex mutex_; // guards the next one
+  std::future<void> syncing_;
 };
 
 constexpr const char* MANIFEST = "manifest.json";

@@ -12,23 +12,23 @@ void
 takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
         BlockSearch& search)
 {
-  do {
-    const LocalPoints local (search.block ().points);
-    for (std::size_t i = 0; i < rows.size (); ++i) {
-      std::vector<Index> missing;
-      for (const Index q : lists.row (i))
-        if ((q < rows.front () || q > rows.back ()) && local.placeOf (q) == NONE)
-          missing.push_back (q);
-      if (missing.empty ())
-        continue;
-      sortUnique (missing);
-      const Eigen::Vector3d& here = search.block ().positions[local.placeOf (rows[i])];
-      double farthest = 0.0;
-      for (const Eigen::Vector3d& there : cloud.gather (missing))
-        farthest = std::max (farthest, (there - here).norm ());
-      search.watch ().looked (here, farthest);
-    }
-  } while (search.widen ());
+  lookUntilInside (search,
+                   [&] (const LocalPoints& local, const std::vector<Eigen::Vector3d>& positions) {
+                     for (std::size_t i = 0; i < rows.size (); ++i) {
+                       std::vector<Index> missing;
+                       for (const Index q : lists.row (i))
+                         if ((q < rows.front () || q > rows.back ()) && local.placeOf (q) == NONE)
+                           missing.push_back (q);
+                       if (missing.empty ())
+                         continue;
+                       sortUnique (missing);
+                       const Eigen::Vector3d& here = positions[local.placeOf (rows[i])];
+                       double farthest = 0.0;
+                       for (const Eigen::Vector3d& there : cloud.gather (missing))
+                         farthest = std::max (farthest, (there - here).norm ());
+                       search.watch ().looked (here, farthest);
+                     }
+                   });
 }
 
 BlockRanges

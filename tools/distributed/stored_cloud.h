@@ -48,23 +48,28 @@ readVectors (ArrayFile& file, const std::string& name, std::size_t first, std::s
              reinterpret_cast<typename Vector::Scalar*> (vectors.data () + before));
 }
 
+// Appends all vectors.
+template <typename Vector>
+void
+readVectors (ArrayFile& file, const std::string& name, std::vector<Vector>& vectors)
+{
+  readVectors (file, name, 0, file.count (name) / 3, vectors);
+}
+
 template <typename Vector>
 std::vector<Vector>
 readVectors (ArrayFile& file, const std::string& name)
 {
   std::vector<Vector> vectors;
-  readVectors (file, name, 0, file.count (name) / 3, vectors);
+  readVectors (file, name, vectors);
   return vectors;
 }
 
 inline std::vector<Eigen::Vector3f>
 gatherVectors (Slices& slices, const std::string& name, const std::vector<Index>& points)
 {
-  const std::vector<float> numbers = slices.gather<float> (name, points, 3);
-  std::vector<Eigen::Vector3f> vectors;
-  vectors.reserve (points.size ());
-  for (std::size_t i = 0; i < points.size (); ++i)
-    vectors.emplace_back (numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+  std::vector<Eigen::Vector3f> vectors (points.size ());
+  slices.gather (name, points, 3, reinterpret_cast<float*> (vectors.data ()));
   return vectors;
 }
 
@@ -194,6 +199,36 @@ private:
   std::size_t width_;
   Slices found_, planes_;
 };
+
+/// What a step of a block without outliers begins with.
+struct OwnBlock
+{
+  OwnBlock (const StepContext& context, std::size_t block)
+      : outliers (readOutliers (context)), cloud (context, outliers, false),
+        first (cloud.ranges ().first (block)), last (cloud.ranges ().last (block))
+  {
+  }
+
+  bool isEmpty () const { return first == last; }
+
+  /// The own points, ascending.
+  std::vector<Index> points () const { return pointsFrom (first, last); }
+
+  std::vector<Index> outliers;
+  StoredCloud cloud; ///< without them
+  Index first, last; ///< the own points, and one behind the last
+};
+
+/// Calls look (points of the block, positions) until no search leaves the block: each time one has
+/// left it, the block is cut anew with the balls in which the searches looked.
+template <typename Look>
+void
+lookUntilInside (BlockSearch& search, Look&& look)
+{
+  do
+    look (LocalPoints (search.block ().points), search.block ().positions);
+  while (search.widen ());
+}
 
 /// Widens a block until all points of these lists are in it.
 /// \param rows  own points, ascending

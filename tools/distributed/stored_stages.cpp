@@ -3,7 +3,7 @@
 #include "stored_stages.h"
 
 #include "report_cloud.h"
-#include "slices.h"
+#include "stored_cloud.h"
 
 #include <algorithm>
 
@@ -21,14 +21,6 @@ appendArray (ArrayFile& file, const std::string& name, std::vector<T>& values)
   const std::size_t before = values.size (), count = file.count (name);
   values.resize (before + count);
   file.read (name, 0, count, values.data () + before);
-}
-
-void
-appendVectors (ArrayFile& file, const std::string& name, std::vector<Eigen::Vector3f>& vectors)
-{
-  const std::size_t before = vectors.size (), count = file.count (name) / 3;
-  vectors.resize (before + count);
-  file.read (name, 0, 3 * count, reinterpret_cast<float*> (vectors.data () + before));
 }
 
 // Appends all lists of a block to those of the blocks before it.
@@ -145,7 +137,7 @@ StoredStages::geometry (LocalPlanes planes, bool with_stars)
   CsrLists far;
   far.offsets.reserve (n + 1);
   forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
-    appendVectors (file, "normals", stars.normals);
+    readVectors (file, "normals", stars.normals);
   });
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
     appendArray (file, "spacing", geometry.spacing);
@@ -175,7 +167,7 @@ StoredStages::triangles ()
   candidates.doubtful.reserve (doubtful);
   proposed.smoothed_normals.reserve (ranges_.points ());
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    appendVectors (file, "smoothed_normals", proposed.smoothed_normals);
+    readVectors (file, "smoothed_normals", proposed.smoothed_normals);
     std::vector<Triangle> corners;
     const auto readCorners = [&] (const std::string& name) {
       const std::vector<Index> ids = file.read<Index> (name);

@@ -84,6 +84,17 @@ forget (std::size_t slot)
     temporary_names[slot].in_use = false;
 }
 
+/// \return 0, or the number of the error
+int
+sync (int descriptor)
+{
+  int synced = -1;
+  do
+    synced = ::fsync (descriptor);
+  while (synced != 0 && errno == EINTR);
+  return synced != 0 && errno != EINVAL ? errno : 0;
+}
+
 [[noreturn]] void
 failOn (const std::filesystem::path& path, const std::string& cause)
 {
@@ -112,6 +123,17 @@ folderOf (const std::filesystem::path& path)
 }
 
 } // namespace
+
+void
+syncFile (const std::filesystem::path& path)
+{
+  const int descriptor = ::open (path.c_str (), O_RDONLY | O_CLOEXEC);
+  int error = descriptor < 0 ? errno : sync (descriptor);
+  if (descriptor >= 0 && ::close (descriptor) != 0 && error == 0)
+    error = errno;
+  if (error != 0)
+    failOn (path, std::strerror (error));
+}
 
 void
 requireWritable (const std::filesystem::path& path)
@@ -247,16 +269,12 @@ AtomicFile::writeThrough (const char* bytes, std::size_t size)
 }
 
 void
-AtomicFile::close ()
+AtomicFile::close (bool syncs)
 {
   flush ();
   // Some file systems report a full disk only here.
-  int synced = -1;
-  do
-    synced = ::fsync (descriptor_);
-  while (synced != 0 && errno == EINTR);
-  if (synced != 0 && errno != EINVAL)
-    fail (errno);
+  if (const int error = syncs ? sync (descriptor_) : 0)
+    fail (error);
   struct stat status = {};
   if (::fstat (descriptor_, &status) != 0)
     fail (errno);

@@ -28,6 +28,10 @@ public:
 void
 requireWritable (const std::filesystem::path& path);
 
+/// Waits until the bytes of a file are on the disk. \throws WriteError if they do not get there
+void
+syncFile (const std::filesystem::path& path);
+
 /// Installs signal handlers: the signals by which users, shells and schedulers end a program, and
 /// SIGPIPE, do so without leaving temporary files, and a limit on file sizes makes a write fail.
 /// \param input_failed exit code if a mapped file (FileBytes) is truncated while it is in use
@@ -67,8 +71,9 @@ public:
   template <typename T>
   void writeDecimal (T number);
 
-  /// Writes all bytes to the disk and checks that they arrived.
-  void close ();
+  /// Writes all bytes and checks that they arrived. \param syncs whether to wait until they are on
+  /// the disk; else see syncFile
+  void close (bool syncs = true);
 
   /// Gives the closed file its final name, which makes it visible, or copies it to the standard
   /// output.

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_texture.h"
 
+#include "copied_rows.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace pcl
@@ -13,29 +14,6 @@ namespace floater
 {
 namespace
 {
-// Rows of the file, in the order of new points.
-void
-copyRows (const Field& from, const std::vector<std::size_t>& rows, const Field& to)
-{
-  auto* bytes = const_cast<char*> (to.first.get ()); // just allocated
-  visitType (from.type, [&] (auto tag) {
-    using T = decltype (tag);
-    for (std::size_t i = 0; i < rows.size (); ++i)
-      for (std::size_t c = 0; c < from.count; ++c) {
-        const T value = from.value<T> (rows[i], c);
-        std::memcpy (bytes + i * to.stride + c * sizeof (T), &value, sizeof (T));
-      }
-  });
-}
-
-void
-setFloats (const Field& to, const std::vector<float>& values)
-{
-  auto* bytes = const_cast<char*> (to.first.get ());
-  for (std::size_t i = 0; i < values.size (); ++i)
-    std::memcpy (bytes + i * to.stride, &values[i], sizeof (float));
-}
-
 using Colour = Eigen::Vector3d;
 
 // Pixels whose middles are in the triangle, or within half a pixel of it.
@@ -122,33 +100,12 @@ doubleSeamPoints (const Cloud& cloud, const MeshTexture& texture, Triangles& tri
     for (std::size_t corner = 0; corner < 3; ++corner)
       triangles[i][corner] = number[texture.corners[i][corner]];
 
-  Cloud doubled;
-  doubled.coordinates = cloud.coordinates;
-  doubled.single_precision = cloud.single_precision;
-  doubled.shift = cloud.shift;
-  doubled.sensor_origin = cloud.sensor_origin;
-  doubled.rows = rows.size ();
-  for (const Field& field : cloud.fields)
-    if (field.name != "s" && field.name != "t")
-      doubled.fields.push_back (field);
-  const std::vector<Field> sources (doubled.fields);
-  for (const char* name : {"s", "t"}) {
-    Field field;
-    field.name = name;
-    doubled.fields.push_back (field);
-  }
-  std::vector<Field*> fields;
-  for (Field& field : doubled.coordinates)
-    fields.push_back (&field);
-  for (Field& field : doubled.fields)
-    fields.push_back (&field);
-  allocateRows (fields, rows.size ());
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    copyRows (cloud.coordinates[axis], rows, doubled.coordinates[axis]);
-  for (std::size_t f = 0; f < sources.size (); ++f)
-    copyRows (sources[f], rows, doubled.fields[f]);
-  setFloats (doubled.fields[sources.size ()], s);
-  setFloats (doubled.fields[sources.size () + 1], t);
+  std::vector<Field> added (2); // of type FLOAT32
+  added[0].name = "s";
+  added[1].name = "t";
+  Cloud doubled = copyRows (cloud, rows, added);
+  setValues (doubled, "s", s);
+  setValues (doubled, "t", t);
   return doubled;
 }
 
