@@ -207,6 +207,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   figures.writes_single = is_single;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+  reportMemory (line, report);
   if (report.status == RunStatus::SUCCESS) {
     Triangles none;
     removeNonFinitePoints (cloud, none); // the triangles are renumbered when they are written

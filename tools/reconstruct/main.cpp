@@ -109,24 +109,6 @@ checkMemory (const CommandLine& line, std::size_t points)
                       counted (points, "point") + "; use " + formatSize (least) + " or more");
 }
 
-/// Adds to the report what went wrong with the memory limit and the scratch folder.
-void
-reportMemory (const CommandLine& line, Report& report)
-{
-  if (const std::string failure = largeArrayFailure ();
-      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
-    report.message = failure;
-  if (line.max_memory == 0)
-    return;
-  if (liesInMemory (line.scratch))
-    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
-                               "' is in memory itself; use --scratch to name one on a disk");
-  const std::size_t peak = peakMemory ();
-  if (peak > line.max_memory)
-    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
-                               ", above --max-memory " + formatSize (line.max_memory));
-}
-
 using Files = std::vector<std::unique_ptr<AtomicFile>>;
 
 void

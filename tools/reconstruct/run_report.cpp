@@ -3,6 +3,7 @@
 #include "run_report.h"
 
 #include "large_arrays.h"
+#include "memory_limit.h"
 #include "report_json.h"
 
 #include <nlohmann/json.hpp>
@@ -143,6 +144,23 @@ summaryLine (const CommandLine& line, const Report& report, const RunFigures& ru
                 {"write_seconds", run.write_seconds},
                 {"peak_memory_bytes", peakMemory ()},
                 {"output", is_ok ? fileName (line.output) : Json ()}});
+}
+
+void
+reportMemory (const CommandLine& line, Report& report)
+{
+  if (const std::string failure = largeArrayFailure ();
+      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
+    report.message = failure;
+  if (line.max_memory == 0)
+    return;
+  if (liesInMemory (line.scratch))
+    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
+                               "' is in memory itself; use --scratch to name one on a disk");
+  const std::size_t peak = peakMemory ();
+  if (peak > line.max_memory)
+    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
+                               ", above --max-memory " + formatSize (line.max_memory));
 }
 
 } // namespace floater

@@ -36,6 +36,10 @@ struct RunFigures
 std::size_t
 peakMemory ();
 
+/// Adds to the report what went wrong with the memory limit and the scratch folder.
+void
+reportMemory (const CommandLine& line, Report& report);
+
 /// Name of the status, or "WARNINGS" if the mesh is refused because of warnings.
 std::string
 outcomeName (const Report& report, const RunFigures& run);
