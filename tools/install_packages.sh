@@ -21,7 +21,7 @@ END
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
           libsuperlu-dev libboost-dev
           libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
-          zlib1g-dev libopenmpi-dev openmpi-bin
+          zlib1g-dev libopenmpi-dev openmpi-bin libxxhash-dev
           libgl1-mesa-dri xvfb
           pybind11-dev python3-dev python3-numpy)
 for argument in "$@"; do

@@ -40,11 +40,8 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
-  if (settings.open_notches) {
-    finish.notches = openNotches (mesh, positions, settings.limits.notches, run);
-    if (finish.notches > 0)
-      finish.folds = findFolds (mesh, positions, run).size ();
-  }
+  if (settings.open_notches && openNotches (mesh, positions, settings.limits.notches, run) > 0)
+    finish.folds = findFolds (mesh, positions, run).size ();
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;
 }

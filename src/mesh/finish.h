@@ -45,15 +45,15 @@ struct MeshFinish
   std::size_t flips = 0;
   std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
   std::size_t folds = 0;             ///< folded edges that are left
-  std::size_t notches = 0;           ///< triangles taken out that filled notches of the boundary
   bool is_repairable = true;         ///< false: more than FinishSettings::largest_fold_share of all
   MeshFacing facing;                 ///< which components were turned round, and why
 };
 
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, opens
-/// notches of the boundary, and turns every component to face outwards. O(n log n) at worst. \param
-/// positions of the points; the vertices lie on them \param geometry  the normals of vertices are
-/// turned to the side of the mesh as it was before
+/// notches of the boundary, and turns every component to face outwards. O(n log n) at worst.
+///
+/// \param positions of the points; the vertices lie on them
+/// \param geometry  the normals of vertices are turned to the side of the mesh as it was before
 ///                  faceOutwards
 MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,

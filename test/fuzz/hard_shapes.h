@@ -21,8 +21,10 @@ constexpr std::size_t HARD_SHAPES = 13;
 
 /// Points on a shape, about 1 in size: a grid, a disc, a sphere, a line, a circle, random points,
 /// coincident points, a hub of huge valence, sheets in contact, a box, a cone, a one-sided strip,
-/// or a coarse depth image. \param kind 0 to HARD_SHAPES - 1, in this order \param count of the
-/// points
+/// or a coarse depth image.
+///
+/// \param kind  0 to HARD_SHAPES - 1, in this order
+/// \param count number of points
 std::vector<Eigen::Vector3d>
 makeHardShape (std::size_t kind, std::size_t count, RandomStream& random);
 

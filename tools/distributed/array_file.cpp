@@ -5,11 +5,11 @@
 #include "array_file.h"
 
 #include "atomic_file.h"
-#include "checksum.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -42,6 +42,13 @@ struct Entry
   char name[LONGEST_NAME]; // NOLINT(modernize-avoid-c-arrays): as it is in the file
   std::uint64_t element, count, offset;
 };
+
+// \param before checksum of the bytes before these
+std::uint64_t
+checksumOf (const void* bytes, std::size_t count, std::uint64_t before = 0)
+{
+  return XXH3_64bits_withSeed (bytes, count, before);
+}
 
 std::size_t
 pieces (std::uint64_t bytes)
@@ -152,8 +159,7 @@ ArrayWriter::emit (std::uint64_t plan,
   const std::size_t sums_size = checksums.size () * sizeof (std::uint64_t);
   Head head{MAGIC, WORK_FORMAT, static_cast<std::uint32_t> (table.size ()), plan, end, 0, 0};
   head.table_checksum = checksumOf (sums_bytes, sums_size, checksumOf (table_bytes, table_size));
-  head.head_checksum =
-      checksumOf (reinterpret_cast<const char*> (&head), offsetof (Head, head_checksum));
+  head.head_checksum = checksumOf (&head, offsetof (Head, head_checksum));
   write (reinterpret_cast<const char*> (&head), sizeof (head));
   write (table_bytes, table_size);
   write (sums_bytes, sums_size);
@@ -195,8 +201,7 @@ ArrayFile::ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std:
     refuse ("has the format version " + std::to_string (head.version) + ", and this program " +
             std::to_string (WORK_FORMAT) +
             "; use the version that made it, or an empty work folder");
-  if (head.head_checksum !=
-          checksumOf (reinterpret_cast<const char*> (&head), offsetof (Head, head_checksum)) ||
+  if (head.head_checksum != checksumOf (&head, offsetof (Head, head_checksum)) ||
       head.arrays > MOST_ARRAYS)
     refuse ("is damaged; delete it and run again");
   if (head.plan != plan)
@@ -223,8 +228,7 @@ ArrayFile::ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std:
   source_->read (sizeof (head) + table_size, sums_size,
                  reinterpret_cast<char*> (checksums.data ()));
   if (head.table_checksum !=
-      checksumOf (reinterpret_cast<const char*> (checksums.data ()), sums_size,
-                  checksumOf (reinterpret_cast<const char*> (table.data ()), table_size)))
+      checksumOf (checksums.data (), sums_size, checksumOf (table.data (), table_size)))
     refuse ("is damaged; delete it and run again");
   auto next = checksums.begin ();
   for (const Entry& entry : table) {
