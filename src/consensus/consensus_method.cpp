@@ -63,7 +63,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   run.beginStage (Stage::FLIPS);
   FinishSettings finish_settings;
   finish_settings.flip_edges = settings.flip_edges;
-  finish_settings.open_notches = true;
+  finish_settings.open_boundary = true;
   finish_settings.facing = settings.facing;
   finish_settings.limits = limits.finish;
   surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish_settings, run);

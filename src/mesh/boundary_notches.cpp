@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/boundary_notches.h"
 
+#include "mesh/boundary_peel.h"
 #include "mesh/triangle_removal.h"
 
 #include <algorithm>
@@ -23,30 +24,28 @@ constexpr std::size_t SAMPLE = 20'000;
 class NotchOpener
 {
 public:
-  NotchOpener (const TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits),
-        is_removed_ (mesh.triangles.size (), 0), at_boundary_ (positions.size (), 0)
+  NotchOpener (const TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
+               const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), peel_ (mesh, positions.size (), run)
   {
   }
 
   /// Number of triangles to take out.
-  std::size_t run (const RunContext& run)
+  std::size_t run ()
   {
-    const std::vector<MeshEdge> boundary = boundaryEdges (run);
-    if (boundary.empty ())
+    if (peel_.edges ().empty ())
       return 0;
     limit_ = std::min (limits_.largest_cosine, usualCosine ());
-    for (const MeshEdge e : boundary)
+    for (const MeshEdge e : peel_.edges ())
       offer (e);
     std::size_t count = 0;
     while (!notches_.empty ()) {
       const auto [cosine, triangle, side] = notches_.top ();
       notches_.pop ();
       const MeshEdge e{triangle, side};
-      std::uint8_t& is_at_boundary = at_boundary_[mesh_.corner (e)];
-      if (is_removed_[triangle] != 0 || is_at_boundary != 0)
+      if (!peel_.mayTake (e))
         continue;
-      is_removed_[triangle] = is_at_boundary = 1;
+      peel_.take (e);
       ++count;
       offer (mesh_.mate ({triangle, TriangleMesh::next (side)}));
       offer (mesh_.mate ({triangle, TriangleMesh::previous (side)}));
@@ -54,25 +53,10 @@ public:
     return count;
   }
 
-  std::vector<std::uint8_t> takeRemoved () { return std::move (is_removed_); }
+  std::vector<std::uint8_t> takenTriangles () && { return std::move (peel_).takenTriangles (); }
 
 private:
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
-
-  std::vector<MeshEdge> boundaryEdges (const RunContext& run)
-  {
-    std::vector<MeshEdge> edges;
-    ProgressLoop progress (run);
-    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
-      progress.next ();
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh_.neighbors[t][side] == NONE) {
-          edges.push_back ({t, side});
-          at_boundary_[mesh_.from (edges.back ())] = at_boundary_[mesh_.to (edges.back ())] = 1;
-        }
-    }
-    return edges;
-  }
 
   // Of the angle opposite to an edge; 1 if points coincide.
   double cosineAt (MeshEdge e) const
@@ -110,8 +94,7 @@ private:
   const Positions& positions_;
   const NotchLimits& limits_;
   double limit_ = 0.0;
-  std::vector<std::uint8_t> is_removed_;  // per triangle
-  std::vector<std::uint8_t> at_boundary_; // per point
+  BoundaryPeel peel_;
   std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches_;
 };
 
@@ -121,10 +104,10 @@ std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
              const RunContext& run)
 {
-  NotchOpener opener (mesh, positions, limits);
-  const std::size_t count = opener.run (run);
+  NotchOpener opener (mesh, positions, limits, run);
+  const std::size_t count = opener.run ();
   if (count > 0)
-    removeTriangles (mesh, opener.takeRemoved (), run);
+    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
   return count;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/finish.h"
 
+#include "mesh/boundary_folds.h"
 #include "mesh/flips.h"
 #include "mesh/insertion.h"
 
@@ -40,7 +41,9 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
-  if (settings.open_notches && openNotches (mesh, positions, settings.limits.notches, run) > 0)
+  if (settings.open_boundary && openNotches (mesh, positions, settings.limits.notches, run) +
+                                        openBoundaryFolds (mesh, positions, run) >
+                                    0)
     finish.folds = findFolds (mesh, positions, run).size ();
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;

@@ -35,8 +35,8 @@ struct FinishSettings
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
   FacingHints facing = {};
-  bool insert_points = true; ///< insert points that have no triangle
-  bool open_notches = false; ///< take out what only fills notches of the boundary
+  bool insert_points = true;  ///< insert points that have no triangle
+  bool open_boundary = false; ///< take out what only fills notches of the boundary, or folds it
 };
 
 /// What finishMesh has done.
@@ -50,7 +50,8 @@ struct MeshFinish
 };
 
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, opens
-/// notches of the boundary, and turns every component to face outwards. O(n log n) at worst.
+/// notches and folds of the boundary, and turns every component to face outwards. O(n log n) at
+/// worst.
 ///
 /// \param positions of the points; the vertices lie on them
 /// \param geometry  the normals of vertices are turned to the side of the mesh as it was before

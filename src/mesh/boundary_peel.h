@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Triangles that may be taken from the boundary of a mesh, one after the other.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Notes which triangles are to be taken from the boundary of a mesh; the mesh stays as it is.
+/// A triangle may be taken if it has one boundary edge, and its other corner is inside. So every
+/// point keeps a triangle, the mesh stays a manifold, and neither the number of components nor of
+/// boundary loops changes, nor the genus.
+class BoundaryPeel
+{
+public:
+  /// O(n).
+  /// \param points number of points of the mesh
+  BoundaryPeel (const TriangleMesh& mesh, std::size_t points, const RunContext& run)
+      : mesh_ (mesh), is_taken_ (mesh.triangles.size (), 0), is_at_boundary_ (points, 0)
+  {
+    ProgressLoop progress (run);
+    for (Index t = 0; t < mesh.triangles.size (); ++t) {
+      progress.next ();
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh.neighbors[t][side] == NONE) {
+          edges_.push_back ({t, side});
+          is_at_boundary_[mesh.from (edges_.back ())] = 1;
+          is_at_boundary_[mesh.to (edges_.back ())] = 1;
+        }
+    }
+  }
+
+  /// The boundary edges of the mesh, in the order of its triangles.
+  const std::vector<MeshEdge>& edges () const { return edges_; }
+
+  bool isTaken (Index triangle) const { return is_taken_[triangle] != 0; }
+
+  /// Whether nothing is left across an edge.
+  bool isBoundary (MeshEdge e) const
+  {
+    const Index other = mesh_.neighbors[e.triangle][e.side];
+    return other == NONE || isTaken (other);
+  }
+
+  /// \param e a boundary edge of what is left
+  bool mayTake (MeshEdge e) const
+  {
+    return !isTaken (e.triangle) && is_at_boundary_[mesh_.corner (e)] == 0;
+  }
+
+  /// Takes the triangle of an edge for which mayTake () holds.
+  void take (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 1; }
+
+  /// Puts back the triangle that was taken last.
+  void putBack (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 0; }
+
+  /// Of each triangle: 1 if it is taken. For removeTriangles.
+  std::vector<std::uint8_t> takenTriangles () && { return std::move (is_taken_); }
+
+private:
+  const TriangleMesh& mesh_;
+  std::vector<MeshEdge> edges_;
+  std::vector<std::uint8_t> is_taken_;       // per triangle
+  std::vector<std::uint8_t> is_at_boundary_; // per point
+};
+
+} // namespace floater
+} // namespace pcl
