@@ -61,21 +61,25 @@ public:
     parallelTasks (run_, bins, [&] (std::size_t b) {
       noises[b] = measureNoise ({binBegin (b), binBegin (b + 1)}, is_rounded[b]);
     });
-    for (std::size_t b = 0; b < bins; ++b) {
-      run_.poll ();
+    std::vector<std::uint8_t> is_step_edge (edges_.size (), 0);
+    parallelTasks (run_, bins, [&] (std::size_t b) {
       const double noise = medianAround (noises, b);
       // A bin between two steps of quantized depths does not tell how large these are.
       const double sharp_noise = std::max (limits_.sharp_noise * noise,
                                            is_rounded[b] != 0 ? limits_.largest_quantum : 0.0);
       for (auto e = binBegin (b); e != binBegin (b + 1); ++e) {
-        const MeshEdge edge = edges_[*e].edge;
         const double unit = unitAt (static_cast<double> (edges_[*e].depth));
-        if (!isStep (edge, limits_.noise * noise * unit, sharp_noise * unit))
-          continue;
-        is_step[edge.triangle] = 1;
-        if (const Index other = view_.neighbors[edge.triangle][edge.side]; other != NONE)
-          is_step[other] = 1;
+        is_step_edge[*e] =
+            isStep (edges_[*e].edge, limits_.noise * noise * unit, sharp_noise * unit) ? 1 : 0;
       }
+    });
+    for (std::size_t e = 0; e < edges_.size (); ++e) {
+      if (is_step_edge[e] == 0)
+        continue;
+      const MeshEdge edge = edges_[e].edge;
+      is_step[edge.triangle] = 1;
+      if (const Index other = view_.neighbors[edge.triangle][edge.side]; other != NONE)
+        is_step[other] = 1;
     }
     return is_step;
   }

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -26,6 +27,7 @@ public:
         largest_angles_ (PI + limits.angle * DEGREE)
   {
     normals_.resize (mesh.triangles.size ());
+    has_changed_.resize (mesh.triangles.size (), 0);
     parallelRanges (run, normals_.size (), [&] (std::size_t first, std::size_t last) {
       for (std::size_t t = first; t < last; ++t)
         normals_[t] = normalOf (mesh.triangles[t]);
@@ -34,11 +36,21 @@ public:
 
   std::size_t run ()
   {
+    // Most edges need no flip. All are looked at before the first flip, on all threads; those
+    // around changed triangles are looked at again.
+    std::vector<std::uint8_t> sides (mesh_.triangles.size (), 0); // to flip, as bits
+    parallelRanges (run_, sides.size (), [&] (std::size_t first, std::size_t last) {
+      for (auto t = static_cast<Index> (first); t < last; ++t)
+        for (std::uint8_t side = 0; side < 3; ++side)
+          if (isFirstOf ({t, side}) && isBetterFlipped ({t, side}))
+            sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
+    });
     ProgressLoop progress (run_, mesh_.triangles.size ());
     for (Index t = 0; t < mesh_.triangles.size (); ++t) {
       progress.next ();
       for (std::uint8_t side = 0; side < 3; ++side) {
-        if (mesh_.neighbors[t][side] == NONE || mesh_.neighbors[t][side] < t)
+        if (!isFirstOf ({t, side}) ||
+            (((sides[t] >> side) & 1U) == 0 && !hasChangedAround ({t, side})))
           continue;
         stack_.push_back ({t, side});
         empty ();
@@ -48,6 +60,25 @@ public:
   }
 
 private:
+  // Whether an edge is inside, and its triangle is the first one of the two.
+  bool isFirstOf (MeshEdge e) const
+  {
+    const Index other = mesh_.neighbors[e.triangle][e.side];
+    return other != NONE && e.triangle < other;
+  }
+
+  // Whether one of the triangles that decide on an edge has changed.
+  bool hasChangedAround (MeshEdge e) const
+  {
+    const Index other = mesh_.neighbors[e.triangle][e.side];
+    const auto isChanged = [this] (Index t) { return t != NONE && has_changed_[t] != 0; };
+    const auto isChangedBeside = [&] (Index t) {
+      const std::array<Index, 3>& beside = mesh_.neighbors[t];
+      return std::any_of (beside.begin (), beside.end (), isChanged);
+    };
+    return isChangedBeside (e.triangle) || isChangedBeside (other);
+  }
+
   Eigen::Vector3d towardsSensor (Index p) const
   {
     return rays_.are_parallel ? -rays_.parallel : Eigen::Vector3d (-rays_.directions[p]);
@@ -64,11 +95,15 @@ private:
       const MeshEdge e = stack_.back ();
       stack_.pop_back ();
       const Index other = mesh_.neighbors[e.triangle][e.side];
-      if (other == NONE || !flipIfBetter (e, other))
+      // The other diagonal may be an edge elsewhere, where triangles between were taken out.
+      if (other == NONE || !isBetterFlipped (e) ||
+          mesh_.hasEdge (mesh_.corner (e), mesh_.corner (mesh_.mate (e))))
         continue;
+      mesh_.flip (e);
       ++flips_;
       for (const Index t : {e.triangle, other}) {
         normals_[t] = normalOf (mesh_.triangles[t]);
+        has_changed_[t] = 1;
         for (std::uint8_t side = 0; side < 3; ++side)
           stack_.push_back ({t, side});
       }
@@ -105,8 +140,10 @@ private:
     return other == NONE ? 0.0 : costOf (normal, normals_[other]);
   }
 
-  bool flipIfBetter (MeshEdge e, Index other)
+  // Of an edge inside.
+  bool isBetterFlipped (MeshEdge e) const
   {
+    const Index other = mesh_.neighbors[e.triangle][e.side];
     const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e);
     const Index d = mesh_.corner (mesh_.mate (e));
     const auto across = [this] (Index t, Index corner) {
@@ -121,11 +158,7 @@ private:
                           costAcross (at_d, ad) + costAcross (at_d, db);
     const double after = costOf (at_a, at_b) + costAcross (at_a, ca) + costAcross (at_a, ad) +
                          costAcross (at_b, bc) + costAcross (at_b, db);
-    // The other diagonal may be an edge elsewhere, where triangles between were taken out.
-    if (!(after < before - IMPROVES) || !isFlippable (a, b, c, d) || mesh_.hasEdge (c, d))
-      return false;
-    mesh_.flip (e);
-    return true;
+    return after < before - IMPROVES && isFlippable (a, b, c, d);
   }
 
   TriangleMesh& mesh_;
@@ -134,7 +167,8 @@ private:
   const ViewFlipLimits& limits_;
   RunContext run_;
   double largest_angles_;
-  std::vector<Eigen::Vector3d> normals_; // of the triangles, unit length
+  std::vector<Eigen::Vector3d> normals_;  // of the triangles, unit length
+  std::vector<std::uint8_t> has_changed_; // of each triangle: by a flip
   std::vector<MeshEdge> stack_;
   std::size_t flips_ = 0;
 };

@@ -59,27 +59,34 @@ findPairs (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayP
 class ViewpointFit
 {
 public:
-  ViewpointFit (const std::vector<Eigen::Vector3d>& positions, const std::vector<PairGroup>& groups)
-      : positions_ (positions), groups_ (groups)
+  ViewpointFit (const std::vector<Eigen::Vector3d>& positions, const std::vector<PairGroup>& groups,
+                const RunContext& run)
+      : positions_ (positions), groups_ (groups), run_ (run), begin_ (groups.size () + 1, 0)
   {
+    for (std::size_t g = 0; g < groups.size (); ++g)
+      begin_[g + 1] = begin_[g] + groups[g].size ();
   }
 
-  // The residuals of all pairs: logarithms of distances about the median of their group.
+  // The residuals of all pairs from each viewpoint: logarithms of distances about the median of
+  // their group.
+  std::vector<std::vector<double>> residuals (const std::vector<Viewpoint>& viewpoints) const
+  {
+    constexpr std::size_t GROUPS = 32; // of a task: a tenth of a millisecond
+    const std::size_t tasks = (groups_.size () + GROUPS - 1) / GROUPS;
+    std::vector<std::vector<double>> all (viewpoints.size (), std::vector<double> (begin_.back ()));
+    parallelTasks (run_, viewpoints.size () * tasks, [&] (std::size_t k) {
+      const std::size_t first = k % tasks * GROUPS;
+      const std::size_t last = std::min (groups_.size (), first + GROUPS);
+      std::vector<double> sorted;
+      for (std::size_t g = first; g < last; ++g)
+        setResiduals (g, viewpoints[k / tasks], all[k / tasks].data () + begin_[g], sorted);
+    });
+    return all;
+  }
+
   std::vector<double> residuals (const Viewpoint& viewpoint) const
   {
-    std::vector<double> all, sorted;
-    for (const PairGroup& group : groups_) {
-      if (group.empty ())
-        continue;
-      const std::size_t begin = all.size ();
-      for (const RayPair pair : group)
-        all.push_back (logDistance (positions_, pair, viewpoint));
-      sorted.assign (all.begin () + static_cast<std::ptrdiff_t> (begin), all.end ());
-      const double middle = median (sorted);
-      for (std::size_t i = begin; i < all.size (); ++i)
-        all[i] -= middle;
-    }
-    return all;
+    return std::move (residuals (std::vector<Viewpoint>{viewpoint}).front ());
   }
 
   // Cauchy's, for the scale at which half of the residuals are larger.
@@ -102,8 +109,24 @@ public:
   }
 
 private:
+  void setResiduals (std::size_t group, const Viewpoint& viewpoint, double* residuals,
+                     std::vector<double>& sorted) const
+  {
+    const std::size_t count = groups_[group].size ();
+    if (count == 0)
+      return;
+    for (std::size_t i = 0; i < count; ++i)
+      residuals[i] = logDistance (positions_, groups_[group][i], viewpoint);
+    sorted.assign (residuals, residuals + count);
+    const double middle = median (sorted);
+    for (std::size_t i = 0; i < count; ++i)
+      residuals[i] -= middle;
+  }
+
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<PairGroup>& groups_;
+  RunContext run_;
+  std::vector<std::size_t> begin_; // of each group: the place of its first residual
 };
 
 // A far viewpoint turns about two axes; any other moves along three.
@@ -136,20 +159,22 @@ fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<R
   double least_scale = is_coarse ? 0.5 : 0.1; // all pairs take part at first, then those alike
   for (std::size_t step = 0; step < MOST_STEPS && damping < MOST_DAMPING; ++step) {
     const std::vector<PairGroup> groups = findPairs (positions, patches, viewpoint, run);
-    const ViewpointFit fit (positions, groups);
-    const std::vector<double> residuals = fit.residuals (viewpoint);
+    const ViewpointFit fit (positions, groups, run);
+    // From the viewpoint, and from those beside it along each unknown.
+    std::vector<Viewpoint> places{viewpoint};
+    for (Eigen::Index i = 0; i < unknowns; ++i)
+      places.push_back (moved (viewpoint, DIFFERENCE * Eigen::Vector3d::Unit (i)));
+    const std::vector<std::vector<double>> shifted = fit.residuals (places);
+    const std::vector<double>& residuals = shifted.front ();
     const double scale = std::max (ViewpointFit::scaleOf (residuals), least_scale);
     least_scale *= 0.5;
-    std::vector<std::vector<double>> shifted;
-    for (Eigen::Index i = 0; i < unknowns; ++i)
-      shifted.push_back (fit.residuals (moved (viewpoint, DIFFERENCE * Eigen::Vector3d::Unit (i))));
     Eigen::Matrix3d normal = Eigen::Matrix3d::Identity ();
     normal.topLeftCorner (unknowns, unknowns).setZero ();
     Eigen::Vector3d right = Eigen::Vector3d::Zero ();
     for (std::size_t r = 0; r < residuals.size (); ++r) {
       Eigen::Vector3d gradient = Eigen::Vector3d::Zero ();
       for (Eigen::Index i = 0; i < unknowns; ++i)
-        gradient[i] = (shifted[static_cast<std::size_t> (i)][r] - residuals[r]) / DIFFERENCE;
+        gradient[i] = (shifted[static_cast<std::size_t> (i) + 1][r] - residuals[r]) / DIFFERENCE;
       const double ratio = residuals[r] / scale, weight = 1.0 / (1.0 + ratio * ratio);
       normal += weight * gradient * gradient.transpose ();
       right -= weight * residuals[r] * gradient;

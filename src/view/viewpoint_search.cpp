@@ -3,6 +3,7 @@
 #include "view/viewpoint_search.h"
 
 #include "core/geometry.h"
+#include "core/parallel.h"
 #include "core/plane_fit.h"
 #include "view/area_evidence.h"
 #include "view/pattern_search.h"
@@ -42,12 +43,12 @@ public:
   bool hasSamples () const { return samples_.size () >= limits_.samples / 2; }
 
   // Quartiles of the areas themselves, as seen from nowhere.
-  double spreadOfAreas ()
+  double spreadOfAreas () const
   {
-    angles_.clear ();
+    std::vector<double> areas;
     for (const AreaSample& sample : samples_)
-      angles_.push_back (sample.area);
-    return quartileSpread (angles_);
+      areas.push_back (sample.area);
+    return quartileSpread (areas);
   }
 
   // Patches of points, the nearest to the first one first.
@@ -110,17 +111,19 @@ public:
     return placeOf (best);
   }
 
-  std::optional<Viewpoint> find ()
+  std::optional<Viewpoint> find () const
   {
+    std::vector<RatedViewpoint> descents = bestStarts ();
+    parallelTasks (run_, descents.size (), [&] (std::size_t k) {
+      std::vector<double> angles;
+      const auto cost = [&] (const Viewpoint& v) { return areaSpread (samples_, v, angles); };
+      descents[k] = patternSearch (box_.center (), limits_.area_evaluations, cost)
+                        .run (descents[k].viewpoint, cell (), SMALLEST_AREA_STEP);
+    });
     std::vector<RatedViewpoint> candidates;
-    for (const RatedViewpoint& start : bestStarts ()) {
-      const RatedViewpoint found =
-          patternSearch (box_.center (), limits_.area_evaluations, [this] (const Viewpoint& v) {
-            return costByAreas (v);
-          }).run (start.viewpoint, cell (), SMALLEST_AREA_STEP);
+    for (const RatedViewpoint& found : descents)
       if (!isNear (found, candidates, 4.0 * SMALLEST_AREA_STEP))
         candidates.push_back (found);
-    }
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     if (candidates.empty () || candidates.front ().cost > limits_.explained * spreadOfAreas ())
       return {};
@@ -194,7 +197,7 @@ private:
   }
 
   // The best places by areas, but for those around a better one.
-  std::vector<RatedViewpoint> bestStarts ()
+  std::vector<RatedViewpoint> bestStarts () const
   {
     std::vector<RatedViewpoint> candidates = startingPlaces ();
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
@@ -206,11 +209,6 @@ private:
         starts.push_back (candidate);
     }
     return starts;
-  }
-
-  double costByAreas (const Viewpoint& viewpoint)
-  {
-    return areaSpread (samples_, viewpoint, angles_);
   }
 
   // The mirror image of a place at the plane of the samples around it. A scanner that stands low on
@@ -234,14 +232,13 @@ private:
     return {viewpoint.place - 2.0 * height * plane.normal, false};
   }
 
-  void add (std::vector<RatedViewpoint>& candidates, const Viewpoint& viewpoint)
-  {
-    candidates.push_back ({areaSpread (few_samples_, viewpoint, angles_), viewpoint});
-  }
-
-  std::vector<RatedViewpoint> startingPlaces ()
+  // A grid of places, and places far away, rated by a few areas.
+  std::vector<RatedViewpoint> startingPlaces () const
   {
     std::vector<RatedViewpoint> candidates;
+    const auto add = [&candidates] (const Viewpoint& viewpoint) {
+      candidates.push_back ({0.0, viewpoint});
+    };
     const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
     const auto cells = static_cast<double> (limits_.cells);
     const std::size_t n = limits_.cells;
@@ -250,7 +247,7 @@ private:
       const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
                                  static_cast<double> (layer));
       const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
-      add (candidates, {centre + offset.cwiseProduct (size), false});
+      add ({centre + offset.cwiseProduct (size), false});
     }
     // Farther away, on spheres around the box, the last of infinite radius.
     const double golden_angle = PI * (3.0 - std::sqrt (5.0));
@@ -260,9 +257,14 @@ private:
       const double angle = static_cast<double> (i) * golden_angle, r = std::sqrt (1.0 - z * z);
       const Eigen::Vector3d direction (r * std::cos (angle), r * std::sin (angle), z);
       for (const double distance : {1.5, 3.0, 6.0})
-        add (candidates, {centre + distance * size.norm () * direction, false});
-      add (candidates, {direction, true});
+        add ({centre + distance * size.norm () * direction, false});
+      add ({direction, true});
     }
+    parallelRanges (run_, candidates.size (), [&] (std::size_t first, std::size_t last) {
+      std::vector<double> angles;
+      for (std::size_t i = first; i < last; ++i)
+        candidates[i].cost = areaSpread (few_samples_, candidates[i].viewpoint, angles);
+    });
     return candidates;
   }
 
@@ -342,7 +344,6 @@ private:
   const std::vector<AreaSample>& samples_;
   std::vector<AreaSample> few_samples_; // to compare many places
   Eigen::AlignedBox3d box_;
-  std::vector<double> angles_; // room for costByAreas
 };
 
 // The limits for a cloud that fills fewer patches; nothing if they are too few.
@@ -366,7 +367,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   const std::optional<EvidenceLimits> filled = limitToCloud (evidence, points.size ());
   if (!filled)
     return {};
-  ViewpointSearch search (points, neighbors, samples, limits, *filled, run);
+  const ViewpointSearch search (points, neighbors, samples, limits, *filled, run);
   const RowEvidence rows = findRows (points, neighbors, limits.samples, run);
   if (rows.share > limits.rows && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
@@ -384,7 +385,7 @@ findViewpointOfEven (const Points& points, const CsrLists& neighbors,
 {
   if (points.size () < evidence.patches * evidence.patch_points)
     return {};
-  ViewpointSearch search (points, neighbors, samples, limits, evidence, run);
+  const ViewpointSearch search (points, neighbors, samples, limits, evidence, run);
   if (!search.hasSamples () || search.spreadOfAreas () > limits.even)
     return {};
   return search.find ();
