@@ -93,8 +93,9 @@ public:
     }
     // Whatever the direction, rays of a patch lead to points that are near each other.
     const std::vector<RayPatch> patches = nearbyPoints ();
-    for (RatedViewpoint& candidate : candidates)
-      candidate.cost = costByRays (candidate.viewpoint, patches);
+    parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
+      candidates[k].cost = costByRays (candidates[k].viewpoint, patches, true, 1);
+    });
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     // Lines on a plane are as even from all directions: they do not tell any.
     if (candidates.front ().cost > evidence_.regularity * candidates[count / 2].cost)
@@ -270,11 +271,16 @@ private:
 
   // The spreads alone. Near the viewpoint, they fall all the way, while the share of rays that are
   // near others first rises where outlines begin to meet.
-  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches,
-                     bool with_rows = true) const
+  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
   {
-    const RayEvidence found =
-        findRayEvidence (positions_, patches, viewpoint, evidence_, run_, with_rows);
+    return costByRays (viewpoint, patches, true, run_.threads ());
+  }
+
+  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches,
+                     bool with_rows, int threads) const
+  {
+    const RayEvidence found = findRayEvidence (positions_, patches, viewpoint, evidence_,
+                                               run_.withThreads (threads), with_rows);
     return found.ray_spread + (with_rows ? found.row_spread : 0.0);
   }
 
@@ -307,7 +313,9 @@ private:
     constexpr double PRECISION = 1e-6; // a tenth of the spacing of a scan of 1e10 points
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, coarse_, run_);
-      const auto cost = [&] (const Viewpoint& v) { return costByRays (v, patches, with_rows); };
+      const auto cost = [&] (const Viewpoint& v) {
+        return costByRays (v, patches, with_rows, run_.threads ());
+      };
       viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
                       .run (viewpoint, step, 0.2 * step)
                       .viewpoint;
