@@ -43,5 +43,32 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count, co
   return rows;
 }
 
+std::vector<RayPatch>
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count, std::size_t size, const RunContext& run)
+{
+  std::vector<RayPatch> patches (count);
+  std::vector<Index> sorted;
+  for (std::size_t k = 0; k < count; ++k) {
+    run.beginTask (); // each touches other memory
+    const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
+    RayPatch& patch = patches[k];
+    patch.assign (1, static_cast<Index> (seed));
+    sorted = patch;
+    for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
+      for (const Index q : neighbors.row (patch[i])) {
+        const auto place = std::lower_bound (sorted.begin (), sorted.end (), q);
+        if (patch.size () == size || (place != sorted.end () && *place == q))
+          continue;
+        sorted.insert (place, q);
+        patch.push_back (q);
+      }
+    const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
+    std::stable_sort (patch.begin (), patch.end (),
+                      [&] (Index a, Index b) { return distance (a) < distance (b); });
+  }
+  return patches;
+}
+
 } // namespace floater
 } // namespace pcl

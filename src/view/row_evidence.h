@@ -6,6 +6,9 @@
 #include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "points/points.h"
+#include "view/patch_rays.h"
+
+#include <vector>
 
 namespace pcl
 {
@@ -24,6 +27,18 @@ struct RowEvidence
 RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
           const RunContext& run);
+
+/// Patches of points that are near each other in space, around points that are spread evenly over
+/// their order. So of parallel rays of whatever direction, those to a patch are near each other.
+///
+/// \param neighbors of each point
+/// \param count     of patches
+/// \param size      points of a patch; fewer if there are no more around
+///
+/// \return the points of each patch, the nearest to the first one first
+std::vector<RayPatch>
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count, std::size_t size, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl
