@@ -6,6 +6,7 @@
 #include "core/index_limit.h"
 #include "core/types.h"
 
+#include <limits>
 #include <utility>
 
 namespace pcl
@@ -24,21 +25,48 @@ struct Row
   Index operator[] (std::size_t i) const { return first[i]; }
 };
 
-/// One list of indices for each row, all in one array: row r is ids[offsets[r]] to
-/// ids[offsets[r + 1]], the end not included.
+/// One list of indices for each row, all in one array: row r is ids[begin (r)] to
+/// ids[begin (r + 1)], the end not included.
 struct CsrLists
 {
   std::vector<Index> offsets; ///< one more than there are rows; empty if there is no row
   std::vector<Index> ids;
+  std::vector<Index> wraps; ///< rows from which on offsets lack another 2^32; mostly none
 
   std::size_t rows () const { return offsets.empty () ? 0 : offsets.size () - 1; }
-  Row row (std::size_t r) const { return {ids.data () + offsets[r], ids.data () + offsets[r + 1]}; }
+
+  /// Where a row begins; of the number of rows, where the last one ends.
+  std::size_t begin (std::size_t r) const
+  {
+    return wraps.empty () ? offsets[r] : offsets[r] + lackingAt (r);
+  }
+  Row row (std::size_t r) const { return {ids.data () + begin (r), ids.data () + begin (r + 1)}; }
+
+  /// Finds the wraps of offsets that are right but for multiples of 2^32. For tables that may have
+  /// 2^32 entries or more, after their offsets were set. O(rows).
+  void findWraps ()
+  {
+    wraps.clear ();
+    for (std::size_t r = 1; r < offsets.size (); ++r)
+      if (offsets[r] < offsets[r - 1])
+        wraps.push_back (static_cast<Index> (r));
+  }
 
   /// The first `count` entries of a row, or all of them if there are fewer.
   Row first (std::size_t r, std::size_t count) const
   {
     const Row whole = row (r);
     return {whole.first, whole.first + (count < whole.size () ? count : whole.size ())};
+  }
+
+private:
+  std::size_t lackingAt (std::size_t r) const
+  {
+    constexpr unsigned INDEX_BITS = std::numeric_limits<Index>::digits;
+    std::size_t before = 0;
+    while (before < wraps.size () && wraps[before] <= r)
+      ++before;
+    return before << INDEX_BITS;
   }
 };
 

@@ -26,7 +26,7 @@ constexpr Shares OF_DISC{2, 10, 17, 0, 2, 2, 46, 5, 0, 13, 3};
 
 RunMonitor::RunMonitor (Callbacks callbacks, Statistics& statistics)
     : callbacks_ (std::move (callbacks)), statistics_ (statistics),
-      is_watched_ (callbacks_.progress || callbacks_.cancelled)
+      is_watched_ (callbacks_.progress || callbacks_.cancelled || callbacks_.task)
 {
 }
 
@@ -187,6 +187,7 @@ ProgressLoop::reach (std::size_t count)
         std::max (monitor_->done_,
                   monitor_->step_begin_ + share * (monitor_->step_end_ - monitor_->step_begin_));
   }
+  monitor_->beginTask ();
   monitor_->pollNowAndThen ();
 }
 

@@ -29,7 +29,8 @@ struct Callbacks
   std::function<void (Stage)> stage;     ///< a stage begins
   std::function<void (double)> progress; ///< the fraction of the run that is done
   std::function<bool ()> cancelled;      ///< whether the run is to be cancelled
-  std::function<void ()> task{};         ///< a thread is about to begin a task; must not throw
+  std::function<void ()> task{};         ///< a thread is about to begin a task, or a part of one;
+                                         ///< must not throw
 };
 
 /// Clock and callbacks of one run. Books wall time by stage, tells the caller how much of the run
@@ -77,7 +78,7 @@ public:
       callbacks_.task ();
   }
 
-  /// Whether anyone wants to know about progress, or may cancel.
+  /// Whether there are callbacks for what happens within stages.
   bool isWatched () const { return is_watched_; }
 
 private:
@@ -133,8 +134,10 @@ public:
   }
   void poll () const
   {
-    if (monitor_ != nullptr && monitor_->isWatched ())
-      monitor_->pollNowAndThen ();
+    if (monitor_ == nullptr || !monitor_->isWatched ())
+      return;
+    monitor_->beginTask ();
+    monitor_->pollNowAndThen ();
   }
 
   /// The same run for a part of a stage that goes through stages of its own. These are not told to
@@ -153,8 +156,8 @@ private:
 /// call next () once for each item, or reach () where it is known how far the loop is. Of loops
 /// within loops the outermost one moves the fraction; all may be cancelled. A few ns per item.
 ///
-/// Threads that help the run's own thread may use it as well. They do not call back; they see that
-/// the run was cancelled, and unwind.
+/// Threads that help the run's own thread may use it as well. They do not tell progress; they see
+/// that the run was cancelled, and unwind. To whoever watches tasks, each time it asks is one.
 class ProgressLoop
 {
 public:

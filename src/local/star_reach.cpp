@@ -191,17 +191,17 @@ appendRows (const CsrLists& added, CsrLists& lists)
 {
   if (added.ids.empty ())
     return;
-  requireCountable (lists.ids.size () + added.ids.size (), NONE - 1, "the table of neighbours",
-                    "use fewer points or fewer neighbours");
   lists.ids.resize (lists.ids.size () + added.ids.size ());
   // From the last row to the first: every entry moves backwards.
   for (std::size_t r = lists.rows (); r-- > 0;) {
     const Row row = lists.row (r), more = added.row (r);
-    const Index end = lists.offsets[r + 1] + added.offsets[r + 1];
-    std::copy (more.begin (), more.end (), lists.ids.begin () + (end - more.size ()));
-    std::copy_backward (row.begin (), row.end (), lists.ids.data () + (end - more.size ()));
-    lists.offsets[r + 1] = end;
+    const std::size_t end = lists.begin (r + 1) + added.begin (r + 1);
+    Index* const begin_of_more = lists.ids.data () + (end - more.size ());
+    std::copy (more.begin (), more.end (), begin_of_more);
+    std::copy_backward (row.begin (), row.end (), begin_of_more);
+    lists.offsets[r + 1] = static_cast<Index> (end);
   }
+  lists.findWraps ();
 }
 
 double

@@ -506,6 +506,50 @@ echo "$RANDOM" | tee last
         self.expect_same(expected, [cloud], 1, 3, "--max-memory", "150M")
 
 
+class Disk(Case):
+    def check(self, cloud, *options, processes=1):
+        expected = self.reference(cloud)
+        self.expect_same(expected, [cloud], processes, 5, "--free-disk", *options)
+        left = sorted(f.name for f in self.path("work").iterdir())
+        self.assertFalse([name for name in left if name.split(".")[0] in STEPS], left)
+        # The mesh is known, so the next run does not make the files of the blocks again.
+        outcome = run(self.command("--blocks", 5, *options, cloud, self.path("again.ply")))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertNotIn("blocks done", outcome.stderr)
+        self.assertTrue(self.path("again.ply").read_bytes() == expected)
+        self.assertEqual(left, sorted(f.name for f in self.path("work").iterdir()))
+
+    def test_files_of_blocks_go(self):
+        self.check(self.generate("torus", "--points", 5000))
+
+    def test_files_of_blocks_go_with_messages(self):
+        self.check(self.generate("torus", "--points", 5000), "--exchange", "messages", processes=2)
+
+    def test_files_of_blocks_go_if_they_are_read_in_part(self):
+        self.check(self.generate("torus", "--points", 5000, "--noise", 0.4))
+
+    def test_files_of_blocks_go_if_they_are_not_read(self):
+        write_scan(self.path("scan.pcd"))
+        self.check(self.path("scan.pcd"))
+
+    def test_join_that_was_ended_begins_with_the_blocks(self):
+        cloud = self.generate("torus", "--points", 20000)
+        self.plan(cloud)
+        for step in STEPS:
+            for block in range(3):
+                self.assertEqual(self.step(step, "--block", block).returncode, 0)
+            if step == "neighbors":
+                self.assertEqual(self.step("outliers").returncode, 0)
+        limited = run(["sh", "-c", "ulimit -f 400; exec \"$@\"", "sh",
+                       *self.command("--step", "join", "--free-disk")])
+        self.expect_failure(limited, OUTPUT, "cannot write", "mesh.bin")
+        self.assertFalse(self.path("work").joinpath("neighbors.0.bin").exists())
+        self.expect_failure(self.step("join"), WORK, "neighbors.0.bin", "run the step that makes it")
+        outcome = run(self.command("--blocks", 3, cloud, self.path("mesh.ply")))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
+
+
 class Restart(Case):
     def test_killed_and_started_again(self):
         cloud = self.generate("height-field", "--points", 40000)
@@ -681,7 +725,7 @@ class Errors(Case):
         good = file.read_text()
         for bad, word in [(good.replace('"blocks": 3', '"blocks": 4'), "damaged"),
                           (good[:100], "damaged"), ("{}", "damaged"),
-                          (good.replace('"version": 2', '"version": 3'), "format version 3"),
+                          (good.replace('"version": 3', '"version": 99'), "format version 99"),
                           (good.replace("work folder", "something"), "no manifest")]:
             self.assertNotEqual(good, bad)
             file.write_text(bad)

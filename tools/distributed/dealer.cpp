@@ -148,6 +148,9 @@ Dealer::write (int process, const std::string& file)
 ByteSource&
 Dealer::source (const std::string& name)
 {
+  constexpr std::size_t MOST_OPEN = 256; // a program may have 1024 files open, mostly
+  if (sources_.size () >= MOST_OPEN)
+    sources_.clear ();
   std::unique_ptr<ByteSource>& known = sources_[name];
   if (!known)
     known = folder_.open (name);
@@ -188,6 +191,7 @@ Dealer::run (const StepContext& context, const std::string& step, std::deque<std
     queue.fail (error); // ends the own thread
   }
   own.join ();
+  sources_.clear (); // a file that is removed takes room until it is closed
   if (error)
     std::rethrow_exception (error);
 }

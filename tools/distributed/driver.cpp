@@ -138,30 +138,38 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   }
 }
 
-int
-workAlone (Job job, FolderStore& folder, Dealer* dealer)
+// The time since it was made, as text.
+class Watch
 {
-  const auto start = std::chrono::steady_clock::now ();
-  const auto time = [&start] {
+public:
+  std::string time () const
+  {
     const double seconds =
-        std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+        std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ();
     constexpr std::size_t LONGEST = 32;
     std::array<char, LONGEST> text{};
     std::snprintf (text.data (), text.size (), "%.1f s", seconds);
-    return std::string (text.data ());
-  };
-  prepareFolders (job);
-  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
-  if (!folder.has (MANIFEST))
-    if (const int code = planStep (job, folder); code != EXIT_OK)
-      return code;
-  const Plan plan = readPlan (job, folder);
-  openArrays (folder, POINTS, plan).verify ();
-  say (job, "plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
-                " blocks, " + time ());
-  const EffectiveOptions effective (job.line);
-  const RunContext run (job.line.options.threads);
-  const StepContext context{folder, plan, effective.options, effective.limits, run};
+    return text.data ();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
+};
+
+// Whether the mesh is known, and the files of the blocks have been removed.
+bool
+areBlocksFreed (FolderStore& folder, const Plan& plan)
+{
+  return folder.has (TRIANGLES) &&
+         openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("freed").front () != 0;
+}
+
+// Does all blocks of all steps that are not finished.
+void
+workOnBlocks (const Job& job, const StepContext& context, FolderStore& folder, Dealer* dealer,
+              const Watch& watch)
+{
+  const Plan& plan = context.plan;
   for (const char* step : BLOCK_STEPS) {
     std::deque<std::size_t> blocks;
     for (std::size_t block = 0; block < plan.blocks; ++block)
@@ -177,17 +185,38 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
           blockStep (context, step, block);
     }
     say (job, std::string (step) + ": " + std::to_string (plan.blocks - finished) +
-                  " blocks done, " + std::to_string (finished) + " finished before, " + time ());
+                  " blocks done, " + std::to_string (finished) + " finished before, " +
+                  watch.time ());
     if (step == BLOCK_STEPS.front () && !isFinished (folder, OUTLIERS, plan))
       chooseOutliersStep (context);
   }
+}
+
+int
+workAlone (Job job, FolderStore& folder, Dealer* dealer)
+{
+  const Watch watch;
+  prepareFolders (job);
+  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
+  if (!folder.has (MANIFEST))
+    if (const int code = planStep (job, folder); code != EXIT_OK)
+      return code;
+  const Plan plan = readPlan (job, folder);
+  openArrays (folder, POINTS, plan).verify ();
+  say (job, "plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
+                " blocks, " + watch.time ());
+  const EffectiveOptions effective (job.line);
+  const RunContext run (job.line.options.threads);
+  const StepContext context{folder, plan, effective.options, effective.limits, run};
+  if (!areBlocksFreed (folder, plan))
+    workOnBlocks (job, context, folder, dealer, watch);
   if (!isFinished (folder, TRIANGLES, plan))
     if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
       return code;
-  say (job, "joined: " + time ());
+  say (job, "joined: " + watch.time ());
   const int code = writeStep (job, folder, plan);
   folder.finish ();
-  say (job, "written: " + time ());
+  say (job, "written: " + watch.time ());
   return code;
 }
 

@@ -122,7 +122,9 @@ planStep (const Job& job, FolderStore& store)
   takeNormals (line, cloud, input);
   shiftOrigin (line, cloud, input);
   const EffectiveOptions effective (line);
-  const RunContext run (job.join_threads);
+  Statistics times; // which nobody reads
+  RunMonitor monitor ({{}, {}, {}, line.options.task_callback}, times);
+  const RunContext run (job.join_threads, &monitor);
   Points points;
   Report report;
   const std::array<double, 3> sensor_origin = input.sensor_origin;
@@ -181,7 +183,10 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
   checkMemory (line, plan.cloud_size);
-  StoredStages stages (context);
+  StoredStages stages (context, job.frees_disk ? &store : nullptr);
+  for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
+    for (std::size_t block = 0; block < plan.blocks; ++block)
+      openArrays (store, blockFile (step, block), plan);
   Input input;
   input.cloud_size = plan.cloud_size;
   input.sensor_origin = plan.sensor_origin;
@@ -220,10 +225,17 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
   ArrayWriter writer;
-  const std::vector<std::uint8_t> single (1, is_single ? 1 : 0);
-  writer.add ("triangles", result.triangles);
+  const std::vector<std::uint8_t> single (1, is_single ? 1 : 0), freed (1, job.frees_disk ? 1 : 0);
   writer.add ("single_precision", single);
+  writer.add ("freed", freed);
+  writer.add ("triangles", result.triangles);
   store.put (TRIANGLES, writer, plan.id);
+  if (job.frees_disk) {
+    store.finish (); // the mesh is on the disk before that of which it was made goes
+    for (const char* step : BLOCK_STEPS)
+      for (std::size_t block = 0; block < plan.blocks; ++block)
+        store.remove (blockFile (step, block));
+  }
   return EXIT_OK;
 }
 

@@ -39,6 +39,7 @@ run (Job job)
     planned.prints_steps = job.prints_steps;
     planned.line.options.threads = job.line.options.threads;
     planned.join_threads = job.join_threads;
+    planned.frees_disk = job.frees_disk;
     planned.line.max_memory = job.line.max_memory;
     planned.line.scratch = job.line.scratch;
     planned.line.quiet = job.line.quiet;

@@ -129,6 +129,7 @@ chooseOutliersStep (const StepContext& context)
     neighbors.offsets.resize (n + 1);
     for (std::size_t p = 0; p <= n; ++p)
       neighbors.offsets[p] = static_cast<Index> (p * own);
+    neighbors.findWraps ();
     neighbors.ids.reserve (n * own);
     for (std::size_t block = 0; block < ranges.blocks (); ++block) {
       const std::vector<Index> ids = found.file (block).read<Index> ("ids");

@@ -46,6 +46,13 @@ FolderStore::putBytes (const std::string& name, const char* bytes, std::size_t c
 }
 
 void
+FolderStore::remove (const std::string& name) const
+{
+  std::error_code error; // a file that stays costs room only
+  std::filesystem::remove (path (name), error);
+}
+
+void
 FolderStore::syncBehind (const std::string& name)
 {
   const std::lock_guard<std::mutex> lock (mutex_);

@@ -52,6 +52,9 @@ public:
   /// The same for bytes that an ArrayWriter has made. Two threads may put files at the same time.
   void putBytes (const std::string& name, const char* bytes, std::size_t count);
 
+  /// Removes a file, if it is there. Others that are open go on to read it.
+  void remove (const std::string& name) const;
+
   /// Waits until all files are on the disk. \throws WriteError if one is not; it is removed
   void finish ();
 

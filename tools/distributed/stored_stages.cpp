@@ -29,20 +29,18 @@ appendLists (ArrayFile& file, const std::string& name, CsrLists& all)
 {
   if (all.offsets.empty ())
     all.offsets.push_back (0);
-  const std::size_t before = all.offsets.back ();
-  requireCountable (before + file.count (name), NONE - 1, "the table of neighbours",
-                    "use fewer points or fewer neighbours");
+  const Index before = all.offsets.back (); // modulo 2^32, as all offsets
   appendArray (file, name, all.ids);
   const std::size_t rows = all.offsets.size ();
   appendArray (file, name + ".ends", all.offsets);
   for (std::size_t r = rows; r < all.offsets.size (); ++r)
-    all.offsets[r] += static_cast<Index> (before);
+    all.offsets[r] += before;
 }
 
 } // namespace
 
-StoredStages::StoredStages (const StepContext& context)
-    : context_ (context), outliers_ (readOutliers (context)),
+StoredStages::StoredStages (const StepContext& context, const FolderStore* freed)
+    : context_ (context), freed_ (freed), outliers_ (readOutliers (context)),
       ranges_ (blockRanges (context.plan, context.plan.points - outliers_.size ()))
 {
 }
@@ -53,9 +51,19 @@ StoredStages::forEachBlock (const char* step, Visit&& visit)
 {
   for (std::size_t block = 0; block < context_.plan.blocks; ++block) {
     context_.run.poll ();
+    if (context_.options.task_callback) // makes room where memory is limited
+      context_.options.task_callback ();
     ArrayFile file = openArrays (context_.store, blockFile (step, block), context_.plan);
     visit (file, block);
   }
+}
+
+void
+StoredStages::remove (const char* step) const
+{
+  if (freed_ != nullptr)
+    for (std::size_t block = 0; block < context_.plan.blocks; ++block)
+      freed_->remove (blockFile (step, block));
 }
 
 Points
@@ -79,8 +87,6 @@ StoredStages::planes ()
   LocalPlanes planes;
   CsrLists& neighbors = planes.neighbors;
   neighbors.offsets.reserve (n + 1);
-  requireCountable (n * k, NONE - 1, "the table of neighbours",
-                    "use fewer points or fewer neighbours");
   neighbors.ids.reserve (n * k);
   if (outliers_.empty ()) {
     for (std::size_t p = 0; p <= n; ++p)
@@ -96,6 +102,8 @@ StoredStages::planes ()
       appendLists (file, "renewed", neighbors);
     appendLists (file, "beside", beside);
   });
+  remove ("neighbors");
+  neighbors.findWraps (); // others have fewer entries
   appendRows (beside, neighbors);
   return planes;
 }
@@ -123,6 +131,7 @@ StoredStages::noiseProbes ()
     appendArray (file, "probes.noise", probes.noise);
     appendArray (file, "probes.unevenness", probes.unevenness);
   });
+  remove ("planes");
   return probes;
 }
 
@@ -139,6 +148,7 @@ StoredStages::geometry (LocalPlanes planes, bool with_stars)
   forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
     readVectors (file, "normals", stars.normals);
   });
+  remove ("stars");
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
     appendArray (file, "spacing", geometry.spacing);
     appendLists (file, "far", far);
@@ -166,7 +176,7 @@ StoredStages::triangles ()
   candidates.sure.reserve (sure);
   candidates.doubtful.reserve (doubtful);
   proposed.smoothed_normals.reserve (ranges_.points ());
-  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
+  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t block) {
     readVectors (file, "smoothed_normals", proposed.smoothed_normals);
     std::vector<Triangle> corners;
     const auto readCorners = [&] (const std::string& name) {
@@ -185,6 +195,8 @@ StoredStages::triangles ()
     for (std::size_t t = 0; t < corners.size (); ++t)
       candidates.doubtful.push_back (
           {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});
+    if (freed_ != nullptr)
+      freed_->remove (blockFile ("triangles", block));
   });
   return proposed;
 }

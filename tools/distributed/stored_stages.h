@@ -15,7 +15,9 @@ class StoredStages : public KnownStages
 {
 public:
   /// \param context must outlive this
-  explicit StoredStages (const StepContext& context);
+  /// \param freed   where the files of a step are removed when all of it that is needed has been
+  ///                read; nullptr: they stay
+  explicit StoredStages (const StepContext& context, const FolderStore* freed = nullptr);
 
   Points points (Report& report) override;
   std::vector<Index> outliers () override { return outliers_; }
@@ -30,7 +32,10 @@ private:
   template <typename Visit>
   void forEachBlock (const char* step, Visit&& visit);
 
+  void remove (const char* step) const;
+
   const StepContext& context_;
+  const FolderStore* freed_;
   std::vector<Index> outliers_;
   BlockRanges ranges_; // without outliers
 };

@@ -114,6 +114,12 @@ mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
                             MAP_SHARED | MAP_FIXED, file, 0) == MAP_FAILED)
     error = errno;
   ::close (file);
+#ifdef MADV_NOHUGEPAGE
+  // Else one touch of what was dropped may bring back two megabytes: where few bytes of each page
+  // are needed, faster than anyone can make room.
+  if (error == 0)
+    ::madvise (pointerTo (begin), bytes, MADV_NOHUGEPAGE);
+#endif
   return error;
 }
 

@@ -7,6 +7,7 @@
 #include "text_scanner.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace floater
 namespace
 {
 // Room between the limit and the resident set above which pages are dropped. The other threads may
-// fill it while the watcher sleeps, waits for a processor or works. It is a fraction of the limit,
+// fill it while the watchers sleep, wait for a processor or work. It is a fraction of the limit,
 // and a larger one of a small limit, because threads fill it at the same speed there.
 constexpr double ROOM = 0.20;
 constexpr double ROOM_OF_SMALL = 0.50;
@@ -28,7 +29,8 @@ constexpr double MOST_ROOM_OF_SMALL = 160e6; // bytes
 constexpr double STEP = 0.10;                // fraction of the limit that is dropped at a time
 
 // Bytes that stay in memory: the program with its libraries and stacks, arrays that are not large,
-// and pages in use, which would come back at once.
+// and pages in use, which would come back at once: the positions, when they are put in the order of
+// the curve.
 constexpr double FIXED = 20e6;
 constexpr double PER_POINT = 25.0;
 
@@ -37,6 +39,41 @@ constexpr double PER_POINT = 25.0;
 constexpr double FASTEST_GROWTH = 100e9;
 constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.00025};
 constexpr std::chrono::duration<double> LONGEST_SLEEP{0.005};
+
+// A watcher that gets no processor for some hundredths of a second, because the machine or the
+// host of a virtual one is busy, leaves time for some hundred megabytes. That as many as this are
+// kept out at once, each on a processor of its own, does not happen while a thread fills memory.
+constexpr std::size_t MOST_WATCHERS = 4;
+
+// Processors on which this program may run, MOST_WATCHERS at most. None if that is unknown.
+std::vector<int>
+someProcessors ()
+{
+  std::vector<int> some;
+#ifdef __linux__
+  cpu_set_t all;
+  CPU_ZERO (&all);
+  if (::sched_getaffinity (0, sizeof (all), &all) == 0)
+    for (int i = 0; i < CPU_SETSIZE && some.size () < MOST_WATCHERS; ++i)
+      if (CPU_ISSET (static_cast<std::size_t> (i), &all))
+        some.push_back (i);
+#endif
+  return some;
+}
+
+// Keeps the calling thread on one processor. If that fails, it runs on any.
+void
+stayOn (int processor)
+{
+#ifdef __linux__
+  cpu_set_t one;
+  CPU_ZERO (&one);
+  CPU_SET (static_cast<std::size_t> (processor), &one);
+  ::sched_setaffinity (0, sizeof (one), &one);
+#else
+  (void)processor;
+#endif
+}
 
 } // namespace
 
@@ -134,26 +171,35 @@ MemoryLimit::MemoryLimit (std::size_t bytes, const std::filesystem::path& scratc
 {
   keepLargeArraysIn (scratch_folder,
                      [all = resident_set_] (std::size_t size) { all->makeRoom (size); });
-  watcher_ = std::thread ([this] { watch (); });
+  const std::vector<int> processors = someProcessors ();
+  try {
+    for (const int processor : processors)
+      watchers_.emplace_back ([this, processor] {
+        stayOn (processor);
+        watch ();
+      });
+    if (processors.empty ())
+      watchers_.emplace_back ([this] { watch (); });
+  }
+  catch (const std::exception&) {
+    // No more threads could be started: those that run watch, and the threads that work make room.
+  }
 }
 
 MemoryLimit::~MemoryLimit ()
 {
-  {
-    const std::lock_guard<std::mutex> lock (mutex_);
-    is_ending_ = true;
-  }
-  ended_.notify_all ();
-  watcher_.join ();
+  is_ending_ = true;
+  for (std::thread& watcher : watchers_)
+    watcher.join ();
 }
 
+// Without a lock: a watcher that is kept out must not stop the others.
 void
-MemoryLimit::watch ()
+MemoryLimit::watch () const
 {
-  std::unique_lock<std::mutex> lock (mutex_);
   while (!is_ending_) {
     resident_set_->makeRoom (0);
-    ended_.wait_for (lock, resident_set_->timeToSleep ());
+    std::this_thread::sleep_for (resident_set_->timeToSleep ());
   }
 }
 

@@ -3,15 +3,15 @@
 // Keeps the resident set of the program below a limit.
 #pragma once
 
+#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 namespace pcl
 {
@@ -58,7 +58,7 @@ private:
   int statm_;    // descriptor of /proc/self/statm
 };
 
-/// While it exists, a thread watches the resident set and drops pages before the limit is reached.
+/// While it exists, some threads watch the resident set and drop pages before the limit is reached.
 /// Large arrays stay in their scratch files after its end.
 class MemoryLimit
 {
@@ -78,13 +78,11 @@ public:
   void makeRoom () const { resident_set_->makeRoom (0); }
 
 private:
-  void watch ();
+  void watch () const;
 
   std::shared_ptr<ResidentSet> resident_set_; // shared: large arrays may be made after this
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool is_ending_ = false;
-  std::thread watcher_;
+  std::atomic<bool> is_ending_{false};
+  std::vector<std::thread> watchers_;
 };
 
 } // namespace floater
