@@ -3,8 +3,8 @@
 // Folds beside the boundary.
 #include "mesh/boundary_folds.h"
 
+#include "mesh/connected_mesh.h"
 #include "mesh/fold_repair.h"
-#include "mesh/known_meshes.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -15,21 +15,26 @@ namespace floater
 {
 namespace
 {
+using samples::connected;
 using samples::Mesh;
-
-TriangleMesh
-connected (const Mesh& mesh)
-{
-  TriangleMesh result;
-  result.triangles = mesh.triangles;
-  EXPECT_TRUE (result.connect (mesh.positions.size (), 1));
-  return result;
-}
 
 std::size_t
 foldsOf (const TriangleMesh& changed, const Mesh& mesh)
 {
   return findFolds (changed, mesh.positions, 1).size ();
+}
+
+// Opens folds, and expects all of them to end, that no point is lost, and one boundary loop.
+// Returns how many triangles were taken out.
+std::size_t
+openAll (TriangleMesh& changed, const Mesh& mesh)
+{
+  const std::size_t taken = openBoundaryFolds (changed, mesh.positions, 1);
+  EXPECT_EQ (foldsOf (changed, mesh), 0U);
+  EXPECT_EQ (boundaryLoops (changed, 1).size (), 1U);
+  for (const Index t : changed.triangle_of)
+    EXPECT_NE (t, NONE);
+  return taken;
 }
 
 // Squares of a strip of two rows, cut along diagonals. Point x of row y is 7 y + x.
@@ -67,11 +72,7 @@ TEST (BoundaryFolds, TrianglesBesideTheBoundaryAreTakenOut)
   mesh.positions[10] = {3.0, -0.5, 0.0};
   TriangleMesh changed = connected (mesh);
   ASSERT_GT (foldsOf (changed, mesh), 0U);
-  EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 2U);
-  EXPECT_EQ (foldsOf (changed, mesh), 0U);
-  EXPECT_EQ (boundaryLoops (changed, 1).size (), 1U);
-  for (const Index t : changed.triangle_of)
-    EXPECT_NE (t, NONE);
+  EXPECT_EQ (openAll (changed, mesh), 2U);
 }
 
 TEST (BoundaryFolds, TwoTrianglesAreTakenOutIfOneIsNotEnough)
@@ -85,11 +86,7 @@ TEST (BoundaryFolds, TwoTrianglesAreTakenOutIfOneIsNotEnough)
                     {3, 2, 7}, {4, 3, 6}, {5, 4, 6}, {3, 7, 6}};
   TriangleMesh changed = connected (mesh);
   ASSERT_EQ (foldsOf (changed, mesh), 1U);
-  EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 2U);
-  EXPECT_EQ (foldsOf (changed, mesh), 0U);
-  EXPECT_EQ (boundaryLoops (changed, 1).size (), 1U);
-  for (const Index t : changed.triangle_of)
-    EXPECT_NE (t, NONE);
+  EXPECT_EQ (openAll (changed, mesh), 2U);
 }
 
 TEST (BoundaryFolds, EveryPointKeepsATriangle)

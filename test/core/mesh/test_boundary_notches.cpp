@@ -3,7 +3,7 @@
 // Triangles that only fill notches of the boundary.
 #include "mesh/boundary_notches.h"
 
-#include "mesh/known_meshes.h"
+#include "mesh/connected_mesh.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -16,16 +16,8 @@ namespace floater
 {
 namespace
 {
+using samples::connected;
 using samples::Mesh;
-
-TriangleMesh
-connected (const Mesh& mesh)
-{
-  TriangleMesh result;
-  result.triangles = mesh.triangles;
-  EXPECT_TRUE (result.connect (mesh.positions.size (), 1));
-  return result;
-}
 
 std::size_t
 openNotches (TriangleMesh& mesh, const Mesh& of)
