@@ -67,9 +67,8 @@ public:
     const std::vector<RayPatch> patches = findPointPatches (
         positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
     // Lines on a plane are as even from all directions: they do not tell any. Around the right
-    // direction, the costs rise slowly: of line scans, those 3 degrees beside it had .03 of the
-    // median, and of 20 other clouds, the least one had .28 to .91. So every third direction tells
-    // whether there may be one.
+    // direction, the costs rise slowly. So every third direction tells whether there may be one: of
+    // 80 generated line scans, the least cost of these was .009 to .053 of their median.
     constexpr std::size_t THIRD = 3;
     constexpr double BESIDE = 2.0; // how much more the least cost may be, up to 1.5 degrees beside
     std::vector<RatedViewpoint> thirds;

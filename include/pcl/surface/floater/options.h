@@ -306,8 +306,8 @@ struct Options
   std::function<bool ()> cancelled_callback;
 
   /// Called before each piece of work, by the thread that does it: so by several at the same time,
-  /// and up to some ten thousand times a second. For a caller who watches what
-  /// a run uses, such as memory, and makes room for it. Must not throw, and should be quick.
+  /// and up to some ten thousand times a second. For a caller who watches what a run uses, such as
+  /// memory, and makes room for it. Must not throw, and should be quick.
   std::function<void ()> task_callback;
 };
 
