@@ -214,7 +214,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   }
   geometry.scatter = std::move (noise.scatter);
   reportNoise (noise, noise.is_strong, report);
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), run), report);
 
   if (as_disc)
     return reconstructDisc (points, std::move (geometry), request, result);

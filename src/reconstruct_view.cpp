@@ -59,7 +59,8 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
     reportDoubtfulView (points, found.unused.size (), report);
   if (options.remove_outliers)
     reportOutliersOfView (points, found.unused, report);
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), request.run),
+                        report);
   return useMesh (std::move (surface.mesh), surface.finish, std::move (found), points, geometry,
                   request, result);
 }

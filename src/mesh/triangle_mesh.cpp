@@ -241,17 +241,23 @@ bool
 TriangleMesh::connect (std::size_t points, const RunContext& run)
 {
   run.poll ();
-  const CsrLists leaving = makeCsrLists (points, [this] (const auto& emit) {
+  EdgeTable edges;
+  edges.leaving = makeCsrLists (points, [this] (const auto& emit) {
     for (Index t = 0; t < triangles.size (); ++t)
       for (std::uint8_t side = 0; side < 3; ++side)
         emit (from ({t, side}), 3 * t + side);
+  });
+  edges.ends.resize (edges.leaving.ids.size ());
+  parallelRanges (run, edges.ends.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      edges.ends[i] = to (edges.edge (i));
   });
   triangle_of.assign (points, NONE);
   neighbors.resize (triangles.size ());
   std::atomic<bool> is_manifold{true};
   parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last && is_manifold; ++p)
-      if (!connectFrom (static_cast<Index> (p), leaving))
+      if (!connectFrom (static_cast<Index> (p), edges))
         is_manifold = false;
   });
   if (!is_manifold)
@@ -260,7 +266,7 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
     std::vector<Index> fan_triangles;
     for (std::size_t p = first; p < last && is_manifold; ++p) {
       fan (static_cast<Index> (p), fan_triangles);
-      if (fan_triangles.size () != leaving.row (p).size ())
+      if (fan_triangles.size () != edges.leaving.row (p).size ())
         is_manifold = false; // more than one fan
     }
   });
@@ -268,22 +274,23 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
 }
 
 bool
-TriangleMesh::connectFrom (Index p, const CsrLists& leaving)
+TriangleMesh::connectFrom (Index p, const EdgeTable& edges)
 {
-  const auto edge = [] (Index id) { return MeshEdge{id / 3, static_cast<std::uint8_t> (id % 3)}; };
-  const Row row = leaving.row (p);
-  for (std::size_t i = 0; i < row.size (); ++i) {
-    const MeshEdge e = edge (row[i]);
-    const Index q = to (e);
+  const std::size_t last = edges.leaving.begin (p + 1U);
+  for (std::size_t i = edges.leaving.begin (p); i < last; ++i) {
+    const MeshEdge e = edges.edge (i);
+    const Index q = edges.ends[i];
     if (q == p)
       return false;
-    for (std::size_t j = i + 1; j < row.size (); ++j)
-      if (to (edge (row[j])) == q)
+    for (std::size_t j = i + 1; j < last; ++j)
+      if (edges.ends[j] == q)
         return false; // the same directed edge twice
-    neighbors[e.triangle][e.side] = NONE;
-    for (const Index back : leaving.row (q))
-      if (to (edge (back)) == p)
-        neighbors[e.triangle][e.side] = edge (back).triangle;
+    Index& neighbor = neighbors[e.triangle][e.side];
+    neighbor = NONE;
+    const std::size_t end = edges.leaving.begin (q + 1U);
+    for (std::size_t back = edges.leaving.begin (q); back < end; ++back)
+      if (edges.ends[back] == p)
+        neighbor = edges.edge (back).triangle;
     triangle_of[p] = e.triangle;
   }
   return true;

@@ -134,9 +134,21 @@ struct TriangleMesh
   bool connect (std::size_t points, const RunContext& run);
 
 private:
+  // The directed edges that leave each point, and where they end: what is compared most often is
+  // side by side in memory.
+  struct EdgeTable
+  {
+    CsrLists leaving;        // of each point, its edges, as 3 triangle + side
+    std::vector<Index> ends; // of each of these, the point to which it leads
+
+    MeshEdge edge (std::size_t i) const
+    {
+      return {leaving.ids[i] / 3, static_cast<std::uint8_t> (leaving.ids[i] % 3)};
+    }
+  };
+
   // Sets the neighbours across the edges that leave p. Returns false if an edge leaves p twice.
-  // `leaving` has the edges that leave each point, as 3 triangle + side.
-  bool connectFrom (Index p, const CsrLists& leaving);
+  bool connectFrom (Index p, const EdgeTable& edges);
   void link (Index t, std::uint8_t side, MeshEdge other);
   void set (Index t, const Triangle& corners);
   void setTriangleOf (Index p, Index t);

@@ -3,6 +3,7 @@
 #include "points/coordinate_grid.h"
 
 #include "core/order_statistics.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -113,7 +114,7 @@ isFloatStep (const std::array<AxisGrid, 3>& grids, const AxisGrid& grid, double 
 } // namespace
 
 CoordinateGrid
-findCoordinateGrid (const Points& points, const std::vector<float>& spacing)
+findCoordinateGrid (const Points& points, const std::vector<float>& spacing, const RunContext& run)
 {
   CoordinateGrid found;
   if (points.size () < FEWEST)
@@ -121,8 +122,9 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing)
   std::vector<float> spacings = spacing;
   const auto usual = static_cast<double> (median (spacings));
   std::array<AxisGrid, 3> grids;
-  for (int axis = 0; axis < 3; ++axis)
-    grids[static_cast<std::size_t> (axis)] = lookAlong (points, axis);
+  parallelTasks (run, grids.size (), [&] (std::size_t axis) {
+    grids[axis] = lookAlong (points, static_cast<int> (axis));
+  });
   const bool is_alike_along_all =
       std::all_of (grids.begin (), grids.end (), [&grids] (const AxisGrid& grid) {
         return grid.varies && grid.step > 0.0 && areAlike (grid.step, grids[0].step);

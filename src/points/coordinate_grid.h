@@ -30,7 +30,8 @@ struct CoordinateGrid
 /// Looks at 131,072 points at most, in 30 milliseconds at most.
 /// \param spacing local spacing of each point
 CoordinateGrid
-findCoordinateGrid (const Points& points, const std::vector<float>& spacing);
+findCoordinateGrid (const Points& points, const std::vector<float>& spacing,
+                    const RunContext& run = 1);
 
 } // namespace floater
 } // namespace pcl

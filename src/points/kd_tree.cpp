@@ -110,9 +110,10 @@ KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighb
   result.clear ();
   if (nodes_.empty () || k == 0)
     return;
-  Nearest visit{result, k};
+  Nearest visit (result, std::min (k, items_.size ()));
   Eigen::Vector3d sqr_offsets = Eigen::Vector3d::Zero ();
   search (0, query, sqr_offsets, 0.0, visit);
+  visit.end ();
 }
 
 void

@@ -99,27 +99,41 @@ private:
     Eigen::Vector3d position;
     Index point;
   };
-  // The nearest points found so far, at most k within the reach.
-  struct Nearest
+  // The nearest points found so far, at most k within the reach. The list is as long as it may
+  // become until end () is called.
+  class Nearest
   {
-    std::vector<Neighbor>& found;
-    std::size_t k;
-    double sqr_radius = std::numeric_limits<double>::infinity ();
+  public:
+    Nearest (std::vector<Neighbor>& found, std::size_t k,
+             double sqr_radius = std::numeric_limits<double>::infinity ())
+        : found_ (found), k_ (k), sqr_reach_ (sqr_radius)
+    {
+      found.resize (k);
+    }
 
-    double reach () const { return found.size () < k ? sqr_radius : found.back ().sqr_distance; }
+    double reach () const { return sqr_reach_; }
     void add (const Neighbor& candidate)
     {
-      if (found.size () == k) {
-        if (!(candidate < found.back ()))
+      if (candidate.sqr_distance > sqr_reach_)
+        return;
+      if (count_ == k_) {
+        if (!(candidate < found_[count_ - 1]))
           return;
-        found.pop_back ();
+        --count_;
       }
-      std::size_t at = found.size ();
-      found.push_back (candidate);
-      for (; at > 0 && candidate < found[at - 1]; --at)
-        found[at] = found[at - 1];
-      found[at] = candidate;
+      std::size_t at = count_++;
+      for (; at > 0 && candidate < found_[at - 1]; --at)
+        found_[at] = found_[at - 1];
+      found_[at] = candidate;
+      if (count_ == k_)
+        sqr_reach_ = found_[count_ - 1].sqr_distance;
     }
+    void end () { found_.resize (count_); }
+
+  private:
+    std::vector<Neighbor>& found_;
+    std::size_t k_, count_ = 0;
+    double sqr_reach_;
   };
 
   template <typename Visit>
@@ -144,9 +158,10 @@ KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, d
   result.clear ();
   if (nodes_.empty () || k == 0)
     return;
-  Nearest nearest{result, k, radius * radius};
+  Nearest nearest (result, std::min (k, items_.size ()), radius * radius);
   Eigen::AlignedBox3d box = box_;
   searchIf (0, query, ahead, box, accept, nearest);
+  nearest.end ();
 }
 
 // `box` holds the node; it is the same again on return.
