@@ -16,7 +16,7 @@ namespace floater
 namespace
 {
 constexpr std::size_t PART = 16384;       // points, as a mean: some 700 kB
-constexpr std::size_t MOST_PARTS = 4096;  // each has the page in memory where it ends so far
+constexpr std::size_t MOST_PARTS = 1024;  // each has the page in memory where it ends so far
 constexpr std::size_t SAMPLES = 32;       // of a part; so the largest is less than twice the mean
 constexpr std::uint16_t NO_PART = 0xffff; // for positions that are not finite
 

@@ -25,8 +25,8 @@ struct CurveOrder
 /// the order does not depend on that of the input, but for positions that are equal.
 ///
 /// Positions go to parts of the curve first, by a sample of them, and each part is sorted alone. So
-/// all arrays are read and written from one end to the other, at the ends of up to 4096 parts: all
-/// that has to be in memory are 35 MB, and 40 bytes for each point of a part, a part for each
+/// all arrays are read and written from one end to the other, at the ends of up to 1024 parts: all
+/// that has to be in memory are 9 MB, and 40 bytes for each point of a part, a part for each
 /// thread. The others may lie in mapped files. O(n log n).
 /// \param positions   any; those that are not finite are left out
 /// \param cloud_index of each position; distinct

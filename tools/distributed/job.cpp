@@ -175,7 +175,7 @@ readPlan (const Job& job, const FolderStore& store)
 }
 
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan)
+joinStep (const Job& job, FolderStore& store, const Plan& plan, const DividedCrossing::Deal& deal)
 {
   auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
@@ -184,6 +184,9 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   const StepContext context{store, plan, effective.options, effective.limits, run};
   checkMemory (line, plan.cloud_size);
   StoredStages stages (context, job.frees_disk ? &store : nullptr);
+  DividedCrossing divided (context, store, stages.ranges (), deal);
+  if (deal)
+    stages.divideCrossing (&divided);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
     for (std::size_t block = 0; block < plan.blocks; ++block)
       openArrays (store, blockFile (step, block), plan);
@@ -196,6 +199,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -=
       Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   Result result = reconstruct (std::move (input), options, stages);
+  divided.rethrow ();
   Report& report = result.report;
   RunFigures figures;
   figures.reconstruct_seconds = secondsSince (start);
@@ -230,6 +234,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   writer.add ("freed", freed);
   writer.add ("triangles", result.triangles);
   store.put (TRIANGLES, writer, plan.id);
+  removeCrossing (store, plan);
   if (job.frees_disk) {
     store.finish (); // the mesh is on the disk before that of which it was made goes
     for (const char* step : BLOCK_STEPS)

@@ -32,7 +32,7 @@ constexpr double STEP = 0.10;                // fraction of the limit that is dr
 // and pages in use, which would come back at once: the positions, when they are put in the order of
 // the curve.
 constexpr double FIXED = 20e6;
-constexpr double PER_POINT = 25.0;
+constexpr double PER_POINT = 9.0;
 
 // Largest growth of the resident set, in bytes per second. Dropped pages come back 16 at a time,
 // faster than they can be read.
