@@ -23,9 +23,12 @@ namespace
 {
 using Box = Eigen::AlignedBox3d;
 
-constexpr std::size_t BUCKET = 64;  // triangles, as BlockCutter has points
-constexpr std::size_t SEARCHES = 2; // in a run, at most: before crossing triangles are moved apart,
-                                    // and after
+// Triangles. Each block reads the boxes of all buckets, 0.4 bytes for each point of the mesh, and a
+// tenth more triangles than it has. With 64, it would read 1.5 bytes, and 5 % more triangles.
+constexpr std::size_t BUCKET = 256;
+
+// In a run, at most: before crossing triangles are moved apart, and after.
+constexpr std::size_t SEARCHES = 2;
 
 static_assert (sizeof (Triangle) == 3 * sizeof (Index) &&
                    sizeof (CrossingPair) == 2 * sizeof (Index),

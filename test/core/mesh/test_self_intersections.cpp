@@ -148,6 +148,7 @@ TEST (SelfIntersections, PartsHaveAllPairsTogether)
     const std::vector<CrossingPair> all = crossingOf (mesh);
     const std::vector<Index> order = orderByPoints (mesh.triangles, mesh.positions.size ());
     std::vector<Triangle> sorted;
+    sorted.reserve (order.size ());
     for (const Index t : order)
       sorted.push_back (mesh.triangles[t]);
     for (const std::size_t length : {std::size_t{1}, std::size_t{37}, sorted.size ()}) {
