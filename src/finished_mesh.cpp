@@ -20,10 +20,10 @@ namespace
 // cross themselves, too.
 MeshExamination
 examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-                     const Request& request)
+                     const Request& request, const CrossingSearch& search = {})
 {
   MeshExamination found = examine (mesh, points, geometry, request);
-  checkCrossing (mesh.triangles, points, request.run, found);
+  checkCrossing (mesh.triangles, points, request.run, found, search);
   return found;
 }
 
@@ -40,10 +40,10 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
 
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics)
+         const Request& request, Statistics& statistics, const CrossingSearch& search)
 {
   const Options& options = request.options;
-  checkCrossing (mesh.triangles, points, request.run, found);
+  checkCrossing (mesh.triangles, points, request.run, found, search);
   statistics.self_intersections_found = found.crossing.size ();
   // Where points lie off the surface by noise, so that they were projected to connect them, the
   // true triangles cross each other, too.
@@ -61,7 +61,7 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
   statistics.self_intersection_moves = done.moves;
   statistics.self_intersection_rebuilds = done.rebuilds;
   if (done.flips + done.moves > 0)
-    found = examineWithCrossing (mesh, points, geometry, request);
+    found = examineWithCrossing (mesh, points, geometry, request, search);
 }
 
 Problem

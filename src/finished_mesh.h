@@ -22,10 +22,10 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
          const Request& request);
 
 /// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
-/// again.
+/// again. \param search see checkCrossing
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics);
+         const Request& request, Statistics& statistics, const CrossingSearch& search = {});
 
 /// Makes the result of a mesh.
 /// \return INTERNAL_ERROR if it is no oriented manifold, DEGENERATE if it is empty, or

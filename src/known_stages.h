@@ -5,6 +5,7 @@
 
 #include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
+#include "mesh/self_intersections.h"
 #include "points/noise.h"
 #include "points/points.h"
 #include "request.h"
@@ -21,7 +22,7 @@ namespace floater
 {
 /// What reconstruct () finds out about the surroundings of each point of a surface, if that is
 /// known already. It has to be what reconstruct () would find itself; then the mesh is the same.
-/// Each function is called once at most, in the order of a run.
+/// Each function but the last is called once at most, in the order of a run.
 class KnownStages
 {
 public:
@@ -47,6 +48,10 @@ public:
 
   /// The candidates of these stars.
   virtual ProposedTriangles triangles () = 0;
+
+  /// See findSelfIntersections; of a mesh of these candidates.
+  virtual std::vector<CrossingPair> crossing (const std::vector<Triangle>& triangles,
+                                              const Points& points, const RunContext& run) = 0;
 };
 
 /// Reconstructs a surface of which these stages are known.

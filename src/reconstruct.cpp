@@ -124,10 +124,17 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
 
 Problem
 reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
-                    std::optional<ProposedTriangles> proposed, Result& result)
+                    KnownStages* known, Result& result)
 {
   const Options& options = request.options;
   Report& report = result.report;
+  std::optional<ProposedTriangles> proposed;
+  CrossingSearch search;
+  if (known != nullptr) {
+    proposed = known->triangles ();
+    search = [known] (const std::vector<Triangle>& triangles, const Points& of,
+                      const RunContext& run) { return known->crossing (triangles, of, run); };
+  }
   Surface surface = makeSurface (
       points, geometry,
       {options.holes, options.flip_edges, request.limits.surface, facingHints (points, request)},
@@ -136,7 +143,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
-  uncross (surface.mesh, found, points, geometry, request, report.statistics);
+  uncross (surface.mesh, found, points, geometry, request, report.statistics, search);
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
 }
@@ -218,10 +225,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
 
   if (as_disc)
     return reconstructDisc (points, std::move (geometry), request, result);
-  std::optional<ProposedTriangles> proposed;
-  if (known != nullptr)
-    proposed = known->triangles ();
-  return reconstructSurface (points, std::move (geometry), request, std::move (proposed), result);
+  return reconstructSurface (points, std::move (geometry), request, known, result);
 }
 
 Problem

@@ -356,12 +356,13 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
 
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-               MeshExamination& found)
+               MeshExamination& found, const CrossingSearch& search)
 {
   constexpr std::size_t PLACES = 10; // as in MeshCheck
   if (!found.isManifold ())
     return;
-  found.crossing = findSelfIntersections (triangles, points.positions, run);
+  found.crossing = search ? search (triangles, points, run)
+                          : findSelfIntersections (triangles, points.positions, run);
   found.check.self_intersections = found.crossing.size ();
   for (const CrossingPair& pair : found.crossing) {
     const Index at = triangles[pair.first][0], other_at = triangles[pair.second][0];

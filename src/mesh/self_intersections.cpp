@@ -280,15 +280,18 @@ private:
   std::vector<Sector> sectors_;
 };
 
-// Finds pairs block by block of a tree of boxes.
+// Finds the pairs of some triangles, leaf by leaf of a tree of boxes.
 class PairFinder
 {
 public:
-  PairFinder (const std::vector<Triangle>& triangles, const Positions& positions,
-              const RunContext& run)
-      : triangles_ (triangles), positions_ (positions), run_ (run),
-        order_ (orderByPoints (triangles, positions.size ())), is_plain_ (positions.size ())
+  PairFinder (const std::vector<Triangle>& triangles, std::size_t own_first, std::size_t own_last,
+              const Positions& positions, const RunContext& run)
+      : triangles_ (triangles), own_first_ (own_first), own_last_ (own_last),
+        positions_ (positions), run_ (run), is_plain_ (positions.size ())
   {
+    for (std::size_t t = own_first; t < own_last; ++t)
+      for (const Index p : triangles[t])
+        is_plain_[p] = 1; // if it turns out to be
     const CsrLists around = makeCsrLists (positions.size (), [&] (const auto& emit) {
       for (Index t = 0; t < triangles.size (); ++t)
         for (const Index p : triangles[t])
@@ -297,27 +300,26 @@ public:
     parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
       PlainFans fans (triangles_, positions_);
       for (auto p = static_cast<Index> (first); p < last; ++p)
-        is_plain_[p] = around.row (p).size () > 0 && fans.isPlain (p, around.row (p)) ? 1 : 0;
+        if (is_plain_[p] != 0)
+          is_plain_[p] = fans.isPlain (p, around.row (p)) ? 1 : 0;
     });
-    sorted_.reserve (order_.size ());
-    for (const Index t : order_)
-      sorted_.push_back (triangles[t]);
   }
 
   std::vector<CrossingPair> find () const
   {
     const BoxTree tree (
-        sorted_.size (), [this] (std::size_t i) { return boxOf (sorted_[i], positions_); }, run_);
-    const std::size_t ranges = (tree.leaves () + RANGE_LENGTH - 1) / RANGE_LENGTH;
-    std::vector<std::vector<CrossingPair>> found (ranges);
-    parallelRanges (run_, tree.leaves (), [&] (std::size_t first, std::size_t last) {
+        triangles_.size (), [this] (std::size_t i) { return boxOf (triangles_[i], positions_); },
+        run_);
+    const std::size_t first_leaf = own_first_ / BoxTree::LEAF_SIZE;
+    const std::size_t leaves =
+        (own_last_ + BoxTree::LEAF_SIZE - 1) / BoxTree::LEAF_SIZE - first_leaf;
+    std::vector<std::vector<CrossingPair>> found ((leaves + RANGE_LENGTH - 1) / RANGE_LENGTH);
+    parallelRanges (run_, leaves, [&] (std::size_t first, std::size_t last) {
       std::vector<CrossingPair>& pairs = found[first / RANGE_LENGTH];
-      for (std::size_t leaf = first; leaf < last; ++leaf)
+      for (std::size_t leaf = first_leaf + first; leaf < first_leaf + last; ++leaf)
         tree.forOverlaps (leaf, [&] (std::size_t i, std::size_t j) {
-          if (isCrossing (sorted_[i], sorted_[j])) {
-            const auto [t, u] = std::minmax (order_[i], order_[j]);
-            pairs.push_back ({t, u});
-          }
+          if (i >= own_first_ && i < own_last_ && isCrossing (triangles_[i], triangles_[j]))
+            pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
         });
     });
     std::vector<CrossingPair> all;
@@ -337,11 +339,10 @@ private:
   }
 
   const std::vector<Triangle>& triangles_;
+  const std::size_t own_first_, own_last_;
   const Positions& positions_;
   RunContext run_;
-  std::vector<Index> order_;           // see orderByPoints
-  std::vector<std::uint8_t> is_plain_; // per point, see PlainFans
-  std::vector<Triangle> sorted_;       // their corners in this order
+  std::vector<std::uint8_t> is_plain_; // per corner of an own triangle, see PlainFans
 };
 
 } // namespace
@@ -380,10 +381,37 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
 }
 
 std::vector<CrossingPair>
+findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
+                         std::size_t last, const Positions& positions, const RunContext& run)
+{
+  if (first == last)
+    return {};
+  return PairFinder (triangles, first, last, positions, run).find ();
+}
+
+std::vector<CrossingPair>
+pairsInOrder (const std::vector<CrossingPair>& places, const std::vector<Index>& order)
+{
+  std::vector<CrossingPair> pairs;
+  pairs.reserve (places.size ());
+  for (const CrossingPair& place : places) {
+    const auto [t, u] = std::minmax (order[place.first], order[place.second]);
+    pairs.push_back ({t, u});
+  }
+  std::sort (pairs.begin (), pairs.end ());
+  return pairs;
+}
+
+std::vector<CrossingPair>
 findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& positions,
                        const RunContext& run)
 {
-  return PairFinder (triangles, positions, run).find ();
+  const std::vector<Index> order = orderByPoints (triangles, positions.size ());
+  std::vector<Triangle> sorted;
+  sorted.reserve (order.size ());
+  for (const Index t : order)
+    sorted.push_back (triangles[t]);
+  return pairsInOrder (findSelfIntersectionsOf (sorted, 0, sorted.size (), positions, run), order);
 }
 
 } // namespace floater

@@ -47,6 +47,22 @@ std::vector<CrossingPair>
 findSelfIntersections (const std::vector<Triangle>& triangles,
                        const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
 
+/// The pairs of findSelfIntersections of which the first is among some triangles, which may be
+/// found apart from the others: all parts of a mesh together have all pairs once. \param triangles
+/// in the order of their smallest points (see orderByPoints): those of the part,
+///                   and at least all others whose boxes overlap or touch one of them
+/// \param first,last the part: from `first` to before `last`
+/// \return places in `triangles`, the smaller one first; sorted
+std::vector<CrossingPair>
+findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
+                         std::size_t last, const std::vector<Eigen::Vector3d>& positions,
+                         const RunContext& run);
+
+/// Pairs of places in an order become pairs of triangles. \return sorted
+/// \param order triangle of each place
+std::vector<CrossingPair>
+pairsInOrder (const std::vector<CrossingPair>& places, const std::vector<Index>& order);
+
 /// The box around a triangle.
 inline Eigen::AlignedBox3d
 boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/points.h"
 
-#include "core/parallel.h"
 #include "core/plane_fit.h"
-#include "points/hilbert_curve.h"
+#include "points/curve_sort.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl
 {
@@ -17,56 +17,6 @@ namespace floater
 {
 namespace
 {
-// Place of a position on the axes, in cells. One cell size for all: the curve is to follow
-// distance, not the shape of the box.
-Eigen::Array3d
-inCells (const Eigen::Vector3d& position)
-{
-  constexpr double CELLS = static_cast<double> (1U << HILBERT_BITS) - 1.0;
-  return CELLS * (position.array () + 0.5);
-}
-
-std::uint64_t
-codeOf (const Eigen::Array3d& cell)
-{
-  return hilbertCode ({static_cast<std::uint32_t> (cell.x ()),
-                       static_cast<std::uint32_t> (cell.y ()),
-                       static_cast<std::uint32_t> (cell.z ())});
-}
-
-std::uint64_t
-curveCode (const Eigen::Vector3d& position)
-{
-  return codeOf (inCells (position));
-}
-
-// Position on a curve through the 2^HILBERT_BITS cells a side into which a cell of the curve is
-// divided.
-std::uint64_t
-codeInCell (const Eigen::Vector3d& position)
-{
-  const Eigen::Array3d place = inCells (position);
-  return codeOf (static_cast<double> (1U << HILBERT_BITS) * (place - place.floor ()));
-}
-
-struct Entry
-{
-  std::uint64_t code;
-  Index row;
-};
-
-// Both halves at the same time.
-template <typename Before>
-void
-sortInHalves (std::vector<Entry>& entries, const RunContext& run, const Before& before)
-{
-  const auto middle = entries.begin () + static_cast<std::ptrdiff_t> (entries.size () / 2);
-  parallelTasks (run, 2, [&] (std::size_t half) {
-    std::sort (half == 0 ? entries.begin () : middle, half == 0 ? middle : entries.end (), before);
-  });
-  std::inplace_merge (entries.begin (), middle, entries.end (), before);
-}
-
 // Equal points are neighbours in the order; the first of them, that of the smallest cloud index,
 // stands for the others.
 void
@@ -113,20 +63,14 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
             const RunContext& run)
 {
   Points points;
-  std::vector<Entry> entries;
-  entries.reserve (positions.size ());
   Eigen::AlignedBox3d box;
-  for (std::size_t row = 0; row < positions.size (); ++row) {
-    if (positions[row].allFinite ()) {
+  for (std::size_t row = 0; row < positions.size (); ++row)
+    if (positions[row].allFinite ())
       box.extend (positions[row]);
-      entries.push_back ({0, static_cast<Index> (row)});
-    }
-    else {
+    else
       points.non_finite.push_back (cloud_index[row]);
-    }
-  }
   std::sort (points.non_finite.begin (), points.non_finite.end ());
-  if (entries.empty ())
+  if (box.isEmpty ())
     return points;
 
   points.centre = 0.5 * box.min () + 0.5 * box.max ();
@@ -135,42 +79,9 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
       (box.max () - points.centre).cwiseMax (points.centre - box.min ());
   const double diagonal = 2.0 * half_size.stableNorm ();
   points.scale = diagonal > 0.0 ? diagonal : 1.0;
-
-  const auto scaled = [&] (Index row) -> Eigen::Vector3d {
-    return (positions[row] - points.centre) / points.scale;
-  };
-  parallelRanges (run, entries.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t e = first; e < last; ++e)
-      entries[e].code = curveCode (scaled (entries[e].row));
-  });
-
-  // Ties by a curve within the cell: next to a part that is many times as large, a whole object may
-  // lie in a few cells. Then by coordinates, so that the order does not depend on that of the
-  // cloud.
-  const auto before = [&] (const Entry& a, const Entry& b) {
-    if (a.code != b.code)
-      return a.code < b.code;
-    const Eigen::Vector3d p = scaled (a.row);
-    const Eigen::Vector3d q = scaled (b.row);
-    const std::uint64_t p_code = codeInCell (p);
-    const std::uint64_t q_code = codeInCell (q);
-    if (p_code != q_code)
-      return p_code < q_code;
-    for (int axis = 0; axis < 3; ++axis)
-      if (p[axis] != q[axis])
-        return p[axis] < q[axis];
-    return cloud_index[a.row] < cloud_index[b.row];
-  };
-  sortInHalves (entries, run, before);
-
-  points.positions.resize (entries.size ());
-  points.cloud_index.resize (entries.size ());
-  parallelRanges (run, entries.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t e = first; e < last; ++e) {
-      points.positions[e] = scaled (entries[e].row);
-      points.cloud_index[e] = cloud_index[entries[e].row];
-    }
-  });
+  CurveOrder order = sortAlongCurve (positions, cloud_index, points.centre, points.scale, run);
+  points.positions = std::move (order.positions);
+  points.cloud_index = std::move (order.cloud_index);
   leaveDuplicatesOut (points);
   return points;
 }
@@ -178,18 +89,22 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
 std::vector<Eigen::Vector3f>
 normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points)
 {
-  std::vector<Eigen::Vector3f> of_points;
-  if (normals.empty ())
-    return of_points;
-  of_points.reserve (points.size ());
-  for (const Index cloud_index : points.cloud_index) {
-    // In double precision, where squares of floats neither overflow nor vanish.
-    const Eigen::Vector3d given = normals[cloud_index].cast<double> ();
-    const double length = given.norm ();
-    const bool is_normal = std::isfinite (length) && length > 0.0;
-    of_points.push_back (is_normal ? Eigen::Vector3f ((given / length).cast<float> ())
-                                   : Eigen::Vector3f (Eigen::Vector3f::Zero ()));
-  }
+  // Those of a part of the cloud at a time, which stay in memory while they are looked up in any
+  // order: the others may lie in a mapped file.
+  constexpr std::size_t PART = std::size_t{1} << 22U; // 50 MB
+  std::vector<Eigen::Vector3f> of_points (normals.empty () ? 0 : points.size ());
+  for (std::size_t first = 0; first < normals.size (); first += PART)
+    for (std::size_t p = 0; p < of_points.size (); ++p) {
+      const Index cloud_index = points.cloud_index[p];
+      if (cloud_index < first || cloud_index - first >= PART)
+        continue;
+      // In double precision, where squares of floats neither overflow nor vanish.
+      const Eigen::Vector3d given = normals[cloud_index].cast<double> ();
+      const double length = given.norm ();
+      const bool is_normal = std::isfinite (length) && length > 0.0;
+      of_points[p] = is_normal ? Eigen::Vector3f ((given / length).cast<float> ())
+                               : Eigen::Vector3f (Eigen::Vector3f::Zero ());
+    }
   return of_points;
 }
 

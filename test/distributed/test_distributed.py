@@ -114,6 +114,7 @@ class Case(unittest.TestCase):
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         self.assertTrue(mesh.read_bytes() == expected,
                         f"another mesh on {processes} processes in {blocks} blocks")
+        return outcome.stderr
 
     def expect_failure(self, outcome, code, *words):
         self.assertEqual(outcome.returncode, code, outcome.stderr)
@@ -154,6 +155,30 @@ class Surfaces(Case):
 
     def test_near_sheets(self):
         self.check(self.generate("folded-sheet", "--points", 9000, "--gap", 2), [(2, 5)])
+
+    def test_crossing_triangles_are_searched_by_all(self):
+        """Some are moved apart, so that there is a second search."""
+        cloud = self.generate("folded-sheet", "--points", 9000, "--gap", 2)
+        expected = self.reference(cloud)
+        for processes, blocks in self.PAIRS[1:] if OPTIONS.long else [(2, 1), (2, 5), (3, 64)]:
+            for exchange in ("files", "messages"):
+                with self.subTest(processes=processes, blocks=blocks, exchange=exchange):
+                    told = self.expect_same(expected, [cloud], processes, blocks, "--exchange", exchange,
+                                            "--join-threads", 1)
+                    searches = [line for line in told.split("\n") if line.startswith("crossing: ")]
+                    self.assertEqual(len(searches), 2 if processes > 1 else 0, told)
+                    self.assertEqual([f.name for f in self.path("work").glob("crossing*")], [])
+
+    def test_crossing_triangles_among_outliers(self):
+        write_ply(self.path("terrain.ply"), terrain_points(9000))
+        told = self.expect_same(self.reference(self.path("terrain.ply")), [self.path("terrain.ply")], 2, 5,
+                                "--join-threads", 1)
+        self.assertIn("crossing: 5 blocks done", told)
+
+    def test_crossing_triangles_are_not_divided_for_fewer_threads(self):
+        cloud = self.generate("torus", "--points", 3000)
+        told = self.expect_same(self.reference(cloud), [cloud], 2, 5, "--join-threads", 2)
+        self.assertNotIn("crossing:", told)
 
     def test_empty_blocks(self):
         self.check(self.generate("hemisphere", "--points", 600), [(3, 64)])
@@ -575,7 +600,8 @@ class Restart(Case):
                     self.kill_one_of(process, i)
             if not self.path("work").exists():
                 continue
-            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")}
+            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")
+                     if not f.name.startswith("crossing")}  # these go when the mesh is known
             for name, inode in known.items():
                 self.assertEqual(files.get(name), inode, f"{name} was made again")
             known = files
@@ -584,6 +610,36 @@ class Restart(Case):
         self.assertTrue(mesh.read_bytes() == expected)
         for name, inode in known.items():
             self.assertEqual(self.path("work").joinpath(name).stat().st_ino, inode)
+
+    def test_a_search_for_crossing_triangles_goes_on(self):
+        cloud = self.generate("folded-sheet", "--points", 9000, "--gap", 2)
+        work, mesh = self.path("work"), self.path("mesh.ply")
+        command = mpirun(2) + self.command("--blocks", 5, "--join-threads", 1, cloud, mesh)
+
+        def searches(outcome):
+            return [line.rsplit(",", 1)[0] for line in outcome.stderr.split("\n") if line.startswith("crossing: ")]
+
+        work.joinpath("report.json").mkdir(parents=True)  # it cannot be written, when all is found
+        outcome = run(command)
+        self.assertEqual(outcome.returncode, OUTPUT, outcome.stderr)
+        self.assertEqual(searches(outcome), 2 * ["crossing: 5 blocks done, 0 finished before"])
+        self.assertEqual(sorted(f.name for f in work.glob("crossing*")), [f"crossing.{i}.bin" for i in range(10)])
+        work.joinpath("report.json").rmdir()
+        part = work / "crossing.3.bin"
+        good = part.read_bytes()
+        part.write_bytes(good[:-3] + bytes([good[-3] ^ 4]) + good[-2:])
+        outcome = run(command)
+        self.assertEqual(outcome.returncode, WORK, outcome.stderr)
+        self.assertIn(str(part), outcome.stderr)
+        self.assertIn("damaged", outcome.stderr)
+        self.assertFalse(mesh.exists())
+        part.write_bytes(work.joinpath("crossing.8.bin").read_bytes())  # of another mesh
+        work.joinpath("crossing.9.bin").unlink()
+        outcome = run(command)
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertEqual(searches(outcome), 2 * ["crossing: 1 blocks done, 4 finished before"])
+        self.assertTrue(mesh.read_bytes() == self.reference(cloud))
+        self.assertEqual(list(work.glob("crossing*")), [])
 
     def kill_one_of(self, process, i):
         """Kills one of the processes of the run, or mpirun itself with all."""
@@ -791,6 +847,11 @@ class Errors(Case):
         self.expect_failure(self.again("--max-memory", "30M"), USAGE, "--max-memory")
         self.generate("torus", "--points", 400000)
         self.expect_failure(self.again("--max-memory", "52M"), USAGE, "too small", "400000 points")
+        # Less is needed for the plan alone: 59M.
+        self.expect_failure(self.again("--max-memory", "60M"), USAGE, "too small", "75M")
+        planned = self.again("--max-memory", "60M", "--step", "plan")
+        self.assertEqual(planned.returncode, 0, planned.stderr)
+        self.expect_failure(self.step("join", "--max-memory", "60M"), USAGE, "too small", "75M")
         self.expect_no_mesh()
 
 
@@ -806,8 +867,9 @@ class Messages(Case):
     def test_no_common_folder(self):
         write_ply(self.path("terrain.ply"), terrain_points(6000))
         expected = self.reference(self.path("terrain.ply"))
-        outcome = self.nodes(self.path("terrain.ply"), "--exchange", "messages")
+        outcome = self.nodes(self.path("terrain.ply"), "--exchange", "messages", "--join-threads", 1)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("crossing: 5 blocks done", outcome.stderr)
         self.assertTrue(self.path("mesh.ply").read_bytes() == expected)
 
     def test_no_common_folder_and_no_messages(self):

@@ -287,6 +287,8 @@ TEST_F (LargeArrays, Sizes)
   EXPECT_EQ (formatSize (500'000'001), "501M");
   EXPECT_GT (leastMemory (0), 10 * MEGABYTE);
   EXPECT_GT (leastMemory (10'000'000), leastMemory (1'000'000));
+  EXPECT_GT (leastMemory (10'000'000), leastMemory (10'000'000, KEPT_PER_POINT / 2.0));
+  EXPECT_EQ (leastMemory (0, 1.0), leastMemory (0));
 }
 
 /// Two threads fill and read three times as much as the limit.

@@ -192,6 +192,23 @@ workOnBlocks (const Job& job, const StepContext& context, FolderStore& folder, D
   }
 }
 
+// What `join` deals out, if that is of use: if all processes together have more threads for blocks
+// than this one has for the whole cloud.
+DividedCrossing::Deal
+dealOfJoin (const Job& job, const StepContext& context, Dealer* dealer, const Watch& watch)
+{
+  if (dealer == nullptr ||
+      dealer->processes () * context.run.threads () <= RunContext (job.join_threads).threads ())
+    return {};
+  return [&, dealer] (std::deque<std::size_t> numbers) {
+    const std::size_t blocks = numbers.size ();
+    dealer->run (context, CROSSING, std::move (numbers));
+    say (job, std::string (CROSSING) + ": " + std::to_string (blocks) + " blocks done, " +
+                  std::to_string (context.plan.blocks - blocks) + " finished before, " +
+                  watch.time ());
+  };
+}
+
 int
 workAlone (Job job, FolderStore& folder, Dealer* dealer)
 {
@@ -211,7 +228,8 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   if (!areBlocksFreed (folder, plan))
     workOnBlocks (job, context, folder, dealer, watch);
   if (!isFinished (folder, TRIANGLES, plan))
-    if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
+    if (const int code = joinStep (job, folder, plan, dealOfJoin (job, context, dealer, watch));
+        code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
   const int code = writeStep (job, folder, plan);

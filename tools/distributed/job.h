@@ -5,6 +5,7 @@
 
 #include "block_steps.h"
 #include "command_line.h"
+#include "crossing_step.h"
 #include "merged_cloud.h"
 
 #include <optional>
@@ -69,9 +70,11 @@ int
 planStep (const Job& job, FolderStore& store);
 
 /// Puts together what the blocks have found out.
+/// \param deal has crossing triangles searched on all processes; empty: they are searched here
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan);
+joinStep (const Job& job, FolderStore& store, const Plan& plan,
+          const DividedCrossing::Deal& deal = {});
 
 /// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
 /// block.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "block_steps.h"
+#include "crossing_step.h"
 
 #include "cloud_geometry.h"
 #include "known_stages.h"
@@ -282,6 +283,8 @@ blockStep (const StepContext& context, const std::string& step, std::size_t bloc
   for (std::size_t i = 0; i < BLOCK_STEPS.size (); ++i)
     if (step == BLOCK_STEPS[i])
       return FUNCTIONS[i](context, block);
+  if (step == CROSSING)
+    return crossingStep (context, block);
   throw std::logic_error ("a block step of this name");
 }
 

@@ -201,5 +201,13 @@ StoredStages::triangles ()
   return proposed;
 }
 
+std::vector<CrossingPair>
+StoredStages::crossing (const std::vector<Triangle>& triangles, const Points& points,
+                        const RunContext& run)
+{
+  return divided_ != nullptr ? divided_->find (triangles, points.positions, run)
+                             : findSelfIntersections (triangles, points.positions, run);
+}
+
 } // namespace floater
 } // namespace pcl

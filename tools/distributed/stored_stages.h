@@ -4,6 +4,7 @@
 #pragma once
 
 #include "block_steps.h"
+#include "crossing_step.h"
 #include "known_stages.h"
 
 namespace pcl
@@ -26,6 +27,14 @@ public:
   NoiseProbes noiseProbes () override;
   LocalGeometry geometry (LocalPlanes planes, bool with_stars) override;
   ProposedTriangles triangles () override;
+  std::vector<CrossingPair> crossing (const std::vector<Triangle>& triangles, const Points& points,
+                                      const RunContext& run) override;
+
+  /// Has the search for crossing triangles done by others, too. \param divided must outlive this
+  void divideCrossing (DividedCrossing* divided) { divided_ = divided; }
+
+  /// The points of each block, without outliers.
+  const BlockRanges& ranges () const { return ranges_; }
 
 private:
   // Calls visit (file of a step, block) for all blocks.
@@ -36,6 +45,7 @@ private:
 
   const StepContext& context_;
   const FolderStore* freed_;
+  DividedCrossing* divided_ = nullptr;
   std::vector<Index> outliers_;
   BlockRanges ranges_; // without outliers
 };

@@ -29,10 +29,8 @@ constexpr double MOST_ROOM_OF_SMALL = 160e6; // bytes
 constexpr double STEP = 0.10;                // fraction of the limit that is dropped at a time
 
 // Bytes that stay in memory: the program with its libraries and stacks, arrays that are not large,
-// and pages in use, which would come back at once: the positions, when they are put in the order of
-// the curve.
+// and pages in use, which would come back at once.
 constexpr double FIXED = 20e6;
-constexpr double PER_POINT = 25.0;
 
 // Largest growth of the resident set, in bytes per second. Dropped pages come back 16 at a time,
 // faster than they can be read.
@@ -103,10 +101,10 @@ formatSize (std::size_t bytes)
 }
 
 std::size_t
-leastMemory (std::size_t points)
+leastMemory (std::size_t points, double kept_per_point)
 {
   // What stays in memory must fit below room and step, whichever of the two rooms applies.
-  const double kept = FIXED + PER_POINT * static_cast<double> (points);
+  const double kept = FIXED + kept_per_point * static_cast<double> (points);
   return static_cast<std::size_t> (
       std::max (kept / (1.0 - ROOM - STEP), std::min (kept / (1.0 - ROOM_OF_SMALL - STEP),
                                                       (kept + MOST_ROOM_OF_SMALL) / (1.0 - STEP))));

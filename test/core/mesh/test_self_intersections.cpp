@@ -5,6 +5,7 @@
 
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersection_removal.h"
+#include "mesh/triangle_order.h"
 #include "report_mesh.h"
 
 #include <gtest/gtest.h>
@@ -109,6 +110,56 @@ TEST (SelfIntersections, AllPairsAreFoundForAnyNumberOfThreads)
     EXPECT_GT (all.size (), 100U);
     EXPECT_EQ (crossingOf (mesh), all);
     EXPECT_EQ (crossingOf (mesh, 3), all);
+  }
+}
+
+// The triangles of a range, and those whose boxes overlap one of them, in order.
+std::vector<CrossingPair>
+crossingOfPart (const std::vector<Triangle>& sorted, std::size_t first, std::size_t last,
+                const Positions& positions)
+{
+  const auto isAround = [&] (std::size_t t) {
+    for (std::size_t own = first; own < last; ++own)
+      if (boxOf (sorted[t], positions).intersects (boxOf (sorted[own], positions)))
+        return true;
+    return false;
+  };
+  std::vector<Triangle> part;
+  std::vector<Index> places;
+  std::size_t before = 0;
+  for (std::size_t t = 0; t < sorted.size (); ++t)
+    if (isAround (t)) {
+      before += t < first ? 1 : 0;
+      part.push_back (sorted[t]);
+      places.push_back (static_cast<Index> (t));
+    }
+  std::vector<CrossingPair> pairs =
+      findSelfIntersectionsOf (part, before, before + last - first, positions, 2);
+  EXPECT_TRUE (std::is_sorted (pairs.begin (), pairs.end ()));
+  for (CrossingPair& pair : pairs)
+    pair = {places[pair.first], places[pair.second]};
+  return pairs;
+}
+
+TEST (SelfIntersections, PartsHaveAllPairsTogether)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Mesh mesh = randomTriangles (150, 60, seed);
+    const std::vector<CrossingPair> all = crossingOf (mesh);
+    const std::vector<Index> order = orderByPoints (mesh.triangles, mesh.positions.size ());
+    std::vector<Triangle> sorted;
+    sorted.reserve (order.size ());
+    for (const Index t : order)
+      sorted.push_back (mesh.triangles[t]);
+    for (const std::size_t length : {std::size_t{1}, std::size_t{37}, sorted.size ()}) {
+      std::vector<CrossingPair> found;
+      for (std::size_t first = 0; first < sorted.size (); first += length)
+        for (const CrossingPair& pair : crossingOfPart (
+                 sorted, first, std::min (first + length, sorted.size ()), mesh.positions))
+          found.push_back (pair);
+      EXPECT_EQ (pairsInOrder (found, order), all);
+    }
+    EXPECT_TRUE (findSelfIntersectionsOf (sorted, 7, 7, mesh.positions, 1).empty ());
   }
 }
 
