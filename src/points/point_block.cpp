@@ -16,7 +16,12 @@ namespace
 {
 constexpr std::size_t BLOCK = 131072; // points: the halo then adds a tenth to the work
 constexpr std::size_t BUCKET = 64;    // points; a bucket is about 8 spacings wide, its diagonal 12
-constexpr std::size_t GROUP = 64;     // buckets
+
+std::size_t
+bucketsOf (std::size_t points)
+{
+  return (points + BUCKET - 1) / BUCKET;
+}
 
 // Above one by more than the rounding of a sum of distances.
 constexpr double SAFELY = 1.0 + 1e-9;
@@ -46,28 +51,39 @@ PointBlock::placeOf (Index point) const
 
 BlockCutter::BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
                           const RunContext& run)
+    : BlockCutter (positions,
+                   std::make_shared<const std::vector<Box>> (makeBuckets (positions, run)), blocks)
+{
+}
+
+BlockCutter::BlockCutter (const std::vector<Eigen::Vector3d>& positions,
+                          const std::shared_ptr<const std::vector<Box>>& buckets,
+                          std::size_t blocks)
     : BlockCutter (
-          positions.size (), makeBuckets (positions, run),
-          std::clamp<std::size_t> (
-              blocks, 1, std::max<std::size_t> (1, (positions.size () + BUCKET - 1) / BUCKET)),
+          positions.size (), makeGroups (*buckets),
+          std::clamp<std::size_t> (blocks, 1, std::max<std::size_t> (1, buckets->size ())),
+          [buckets] (std::size_t first, std::size_t last, std::vector<Box>& to) {
+            const auto begin = buckets->begin ();
+            to.insert (to.end (), begin + static_cast<std::ptrdiff_t> (first),
+                       begin + static_cast<std::ptrdiff_t> (last));
+          },
           [&positions] (Index first, Index last, std::vector<Eigen::Vector3d>& to) {
             to.insert (to.end (), positions.begin () + first, positions.begin () + last);
           })
 {
 }
 
-BlockCutter::BlockCutter (std::size_t points, std::vector<Box> buckets, std::size_t blocks,
-                          Read read)
-    : points_ (points), buckets_ (std::move (buckets)), blocks_ (blocks), read_ (std::move (read))
+BlockCutter::BlockCutter (std::size_t points, std::vector<Box> groups, std::size_t blocks,
+                          ReadBuckets read_buckets, Read read)
+    : points_ (points), groups_ (std::move (groups)), blocks_ (blocks),
+      read_buckets_ (std::move (read_buckets)), read_ (std::move (read))
 {
-  for (std::size_t bucket = 0; bucket < buckets_.size (); bucket += GROUP)
-    groups_.push_back (unite (buckets_, bucket, std::min (bucket + GROUP, buckets_.size ())));
 }
 
 std::vector<BlockCutter::Box>
 BlockCutter::makeBuckets (const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
 {
-  std::vector<Box> buckets ((positions.size () + BUCKET - 1) / BUCKET);
+  std::vector<Box> buckets (bucketsOf (positions.size ()));
   parallelRanges (run, buckets.size (), [&] (std::size_t first, std::size_t last) {
     for (std::size_t bucket = first; bucket < last; ++bucket)
       for (std::size_t p = bucket * BUCKET; p < std::min ((bucket + 1) * BUCKET, positions.size ());
@@ -77,11 +93,27 @@ BlockCutter::makeBuckets (const std::vector<Eigen::Vector3d>& positions, const R
   return buckets;
 }
 
+std::vector<BlockCutter::Box>
+BlockCutter::makeGroups (const std::vector<Box>& buckets)
+{
+  std::vector<Box> groups;
+  for (std::size_t bucket = 0; bucket < buckets.size (); bucket += GROUP)
+    groups.push_back (unite (buckets, bucket, std::min (bucket + GROUP, buckets.size ())));
+  return groups;
+}
+
 Index
 BlockCutter::firstOf (std::size_t block, std::size_t blocks, std::size_t points)
 {
-  const std::size_t buckets = (points + BUCKET - 1) / BUCKET;
-  return static_cast<Index> (std::min (points, block * buckets / blocks * BUCKET));
+  return static_cast<Index> (std::min (points, block * bucketsOf (points) / blocks * BUCKET));
+}
+
+BlockCutter::Buckets
+BlockCutter::readBuckets (std::size_t first, std::size_t last) const
+{
+  Buckets buckets{first, last, {}};
+  read_buckets_ (first, last, buckets.boxes);
+  return buckets;
 }
 
 void
@@ -94,19 +126,18 @@ BlockCutter::append (std::size_t first_bucket, std::size_t last_bucket, PointBlo
     block.points.push_back (p);
 }
 
-// Whether a box is near a bucket from `own_first` to before `own_last`.
+// Whether a box is near a bucket of the block.
 bool
-BlockCutter::isNearOwn (const Box& box, std::size_t own_first, std::size_t own_last,
-                        double halo) const
+BlockCutter::isNear (const Box& box, const Buckets& own, double halo) const
 {
-  for (std::size_t first = own_first, last = 0; first < own_last; first = last) {
+  for (std::size_t first = own.first, last = 0; first < own.last; first = last) {
     const std::size_t group = first / GROUP;
-    last = std::min ((group + 1) * GROUP, own_last);
-    if (isWithin (box, groups_[group], halo) &&
-        std::any_of (buckets_.begin () + static_cast<std::ptrdiff_t> (first),
-                     buckets_.begin () + static_cast<std::ptrdiff_t> (last),
-                     [&] (const Box& other) { return isWithin (box, other, halo); }))
-      return true;
+    last = std::min ((group + 1) * GROUP, own.last);
+    if (!isWithin (box, groups_[group], halo))
+      continue;
+    for (std::size_t bucket = first; bucket < last; ++bucket)
+      if (isWithin (box, own[bucket], halo))
+        return true;
   }
   return false;
 }
@@ -115,12 +146,12 @@ PointBlock
 BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls, double widths) const
 {
   PointBlock cut;
-  const std::size_t own_first = block * buckets_.size () / blocks_;
-  const std::size_t own_last = (block + 1) * buckets_.size () / blocks_;
-  const Box own = unite (buckets_, own_first, own_last);
+  const std::size_t count = bucketsOf (points_);
+  const Buckets own = readBuckets (block * count / blocks_, (block + 1) * count / blocks_);
+  const Box own_box = unite (own.boxes, 0, own.boxes.size ());
   std::vector<double> diagonals;
-  for (std::size_t bucket = own_first; bucket < own_last; ++bucket)
-    diagonals.push_back (buckets_[bucket].diagonal ().norm ());
+  for (const Box& box : own.boxes)
+    diagonals.push_back (box.diagonal ().norm ());
   cut.halo = diagonals.empty () ? 0.0 : widths * median (diagonals);
   cut.balls = balls;
 
@@ -128,8 +159,11 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls, double widt
     for (const Ball& ball : balls)
       if (box.squaredExteriorDistance (ball.centre) <= ball.radius * ball.radius)
         return true;
-    return isWithin (box, own, cut.halo) &&
-           (!closely || isNearOwn (box, own_first, own_last, cut.halo));
+    return isWithin (box, own_box, cut.halo) && (!closely || isNear (box, own, cut.halo));
+  };
+  const auto isWantedGroup = [&] (std::size_t group) {
+    const bool has_own = group * GROUP < own.last && own.first < (group + 1) * GROUP;
+    return has_own || isWanted (groups_[group], false);
   };
   std::size_t run_first = 0, run_last = 0; // consecutive buckets that are wanted
   const auto appendBucket = [&] (std::size_t bucket) {
@@ -139,16 +173,17 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls, double widt
     }
     run_last = bucket + 1;
   };
-  for (std::size_t group = 0; group < groups_.size (); ++group) {
-    const std::size_t first = group * GROUP, last = std::min (first + GROUP, buckets_.size ());
-    const bool has_own = first < own_last && own_first < last;
-    if (!has_own && !isWanted (groups_[group], false))
+  for (std::size_t group = 0, end = 0; group < groups_.size (); group = end) {
+    for (end = group; end < groups_.size () && isWantedGroup (end);)
+      ++end;
+    if (end == group) {
+      ++end;
       continue;
-    for (std::size_t bucket = first; bucket < last; ++bucket) {
-      const bool is_own = bucket >= own_first && bucket < own_last;
-      if (is_own || isWanted (buckets_[bucket], true))
-        appendBucket (bucket);
     }
+    const Buckets found = readBuckets (group * GROUP, std::min (end * GROUP, count));
+    for (std::size_t bucket = found.first; bucket < found.last; ++bucket)
+      if (own.has (bucket) || isWanted (found[bucket], true))
+        appendBucket (bucket);
   }
   append (run_first, run_last, cut);
   return cut;

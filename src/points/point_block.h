@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -49,18 +50,28 @@ public:
   using Read =
       std::function<void (Index first, Index last, std::vector<Eigen::Vector3d>& positions)>;
 
+  /// Appends the buckets from `first` to before `last`.
+  using ReadBuckets =
+      std::function<void (std::size_t first, std::size_t last, std::vector<Box>& buckets)>;
+
   /// O(n), 1 byte per point. \param positions of the working set; must outlive the cutter
   /// \param blocks wanted; fewer if they had less than a bucket of points each
   BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
                const RunContext& run);
 
-  /// The same for positions that lie elsewhere. If there are more blocks than buckets, some blocks
-  /// have no points; these cannot be cut. \param buckets see makeBuckets
-  BlockCutter (std::size_t points, std::vector<Box> buckets, std::size_t blocks, Read read);
+  /// The same for positions and buckets that lie elsewhere: 0.012 bytes per point. If there are
+  /// more blocks than buckets, some blocks have no points; these cannot be cut.
+  /// \param groups see makeGroups \param read_buckets those of makeBuckets
+  BlockCutter (std::size_t points, std::vector<Box> groups, std::size_t blocks,
+               ReadBuckets read_buckets, Read read);
 
-  /// The boxes of 64 consecutive points each. O(n).
+  /// Buckets: the boxes of 64 consecutive points each. O(n).
   static std::vector<Box> makeBuckets (const std::vector<Eigen::Vector3d>& positions,
                                        const RunContext& run);
+
+  /// Groups: the boxes of so many consecutive boxes each, such as buckets. O(n).
+  static constexpr std::size_t GROUP = 64;
+  static std::vector<Box> makeGroups (const std::vector<Box>& buckets);
 
   std::size_t blocks () const { return blocks_; }
 
@@ -76,13 +87,27 @@ public:
   PointBlock cut (std::size_t block, const std::vector<Ball>& balls, double widths = 1.0) const;
 
 private:
-  bool isNearOwn (const Box& box, std::size_t own_first, std::size_t own_last, double halo) const;
+  BlockCutter (const std::vector<Eigen::Vector3d>& positions,
+               const std::shared_ptr<const std::vector<Box>>& buckets, std::size_t blocks);
+
+  // Consecutive buckets.
+  struct Buckets
+  {
+    std::size_t first = 0, last = 0;
+    std::vector<Box> boxes;
+
+    const Box& operator[] (std::size_t bucket) const { return boxes[bucket - first]; }
+    bool has (std::size_t bucket) const { return bucket >= first && bucket < last; }
+  };
+
+  Buckets readBuckets (std::size_t first, std::size_t last) const;
+  bool isNear (const Box& box, const Buckets& own, double halo) const;
   void append (std::size_t first_bucket, std::size_t last_bucket, PointBlock& block) const;
 
   std::size_t points_;
-  std::vector<Box> buckets_; // of consecutive points
-  std::vector<Box> groups_;  // of consecutive buckets
+  std::vector<Box> groups_;
   std::size_t blocks_;
+  ReadBuckets read_buckets_;
   Read read_;
 };
 

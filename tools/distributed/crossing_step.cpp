@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles are in the order of their smallest points. A block has those whose smallest point
 // it owns. It needs all triangles whose boxes overlap one of its own, before it or behind: for the
-// pairs, and for the fans around its corners. The boxes of every so many consecutive triangles tell
-// where these are.
+// pairs, and for the fans around its corners. The boxes of every so many consecutive triangles, and
+// those of every so many of these, tell where they are.
 #include "crossing_step.h"
 
 #include "core/parallel.h"
@@ -21,11 +21,9 @@ namespace floater
 {
 namespace
 {
-using Box = Eigen::AlignedBox3d;
-
-// Triangles. Each block reads the boxes of all buckets, 0.4 bytes for each point of the mesh, and a
-// tenth more triangles than it has. With 64, it would read 1.5 bytes, and 5 % more triangles.
-constexpr std::size_t BUCKET = 256;
+// Triangles. Each block reads the boxes of all groups of them, 0.023 bytes for each point of the
+// mesh, the buckets of those near it, and some 5 % more triangles than it has.
+constexpr std::size_t BUCKET = 64;
 
 // In a run, at most: before crossing triangles are moved apart, and after.
 constexpr std::size_t SEARCHES = 2;
@@ -85,7 +83,9 @@ writeMesh (Store& store, const std::string& name, const Plan& plan, std::uint64_
   ArrayWriter writer;
   writer.add ("mesh", &mesh, 1);
   writer.add ("firsts", firsts);
-  writer.add ("buckets", reinterpret_cast<const double*> (buckets.data ()), 6 * buckets.size ());
+  const std::vector<Box> groups = BlockCutter::makeGroups (buckets);
+  addBoxes ("buckets", buckets, writer);
+  addBoxes ("groups", groups, writer);
   writer.add ("corners", reinterpret_cast<const Index*> (sorted.data ()), 3 * sorted.size ());
   store.put (name, writer, plan.id);
 }
@@ -98,23 +98,35 @@ struct Part
   std::size_t first = 0, last = 0; // the own ones
 };
 
-// Places of all buckets whose boxes overlap one of the block, as ranges of triangles.
+// Calls visit for all buckets, ascending, whose boxes overlap one of the block.
 template <typename Visit>
 void
-forBucketsAround (const std::vector<Box>& buckets, std::size_t own_first, std::size_t own_last,
+forBucketsAround (ArrayFile& file, std::size_t own_first, std::size_t own_last,
                   const RunContext& run, Visit&& visit)
 {
+  const std::vector<Box> own_boxes = readBoxes (file, "buckets", own_first, own_last);
   Box all;
-  for (std::size_t b = own_first; b < own_last; ++b)
-    all.extend (buckets[b]);
+  for (const Box& box : own_boxes)
+    all.extend (box);
   const BoxTree own (
-      own_last - own_first, [&] (std::size_t i) { return buckets[own_first + i]; }, run);
-  for (std::size_t b = 0; b < buckets.size (); ++b) {
-    bool overlaps = b >= own_first && b < own_last;
-    if (!overlaps && all.intersects (buckets[b]))
-      own.forOverlaps (buckets[b], [&overlaps] (std::size_t /*i*/) { overlaps = true; });
-    if (overlaps)
-      visit (b);
+      own_boxes.size (), [&] (std::size_t i) { return own_boxes[i]; }, run);
+  const auto isNear = [&] (const Box& box) {
+    bool overlaps = false;
+    if (all.intersects (box))
+      own.forOverlaps (box, [&overlaps] (std::size_t /*i*/) { overlaps = true; });
+    return overlaps;
+  };
+  const std::size_t count = file.count ("buckets") / BOX;
+  const std::vector<Box> groups = readBoxes (file, "groups", 0, file.count ("groups") / BOX);
+  for (std::size_t group = 0; group < groups.size (); ++group) {
+    const std::size_t first = group * BlockCutter::GROUP;
+    const std::size_t last = std::min (first + BlockCutter::GROUP, count);
+    if (!(first < own_last && own_first < last) && !isNear (groups[group]))
+      continue;
+    const std::vector<Box> boxes = readBoxes (file, "buckets", first, last);
+    for (std::size_t bucket = first; bucket < last; ++bucket)
+      if ((bucket >= own_first && bucket < own_last) || isNear (boxes[bucket - first]))
+        visit (bucket);
   }
 }
 
@@ -126,8 +138,6 @@ readPart (ArrayFile& file, std::size_t block, const RunContext& run)
   Part part;
   if (own_first == own_last)
     return part;
-  std::vector<Box> buckets (file.count ("buckets") / 6);
-  file.read ("buckets", 0, 6 * buckets.size (), reinterpret_cast<double*> (buckets.data ()));
   const std::size_t count = file.count ("corners") / 3;
   std::size_t begin = 0, end = 0; // triangles of consecutive buckets, to be read at once
   const auto read = [&] {
@@ -137,7 +147,7 @@ readPart (ArrayFile& file, std::size_t block, const RunContext& run)
     for (std::size_t t = begin; t < end; ++t)
       part.places.push_back (static_cast<Index> (t));
   };
-  forBucketsAround (buckets, own_first / BUCKET, (own_last + BUCKET - 1) / BUCKET, run,
+  forBucketsAround (file, own_first / BUCKET, (own_last + BUCKET - 1) / BUCKET, run,
                     [&] (std::size_t bucket) {
                       if (bucket * BUCKET != end) {
                         read ();

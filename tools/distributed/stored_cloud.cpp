@@ -51,12 +51,14 @@ writePoints (Store& store, const std::string& name, std::uint64_t plan, const Po
              const std::vector<Index>& gross_outliers, const RunContext& run)
 {
   ArrayWriter writer;
-  const std::vector<BlockCutter::Box> buckets = BlockCutter::makeBuckets (points.positions, run);
+  const std::vector<Box> buckets = BlockCutter::makeBuckets (points.positions, run);
   addVectors ("positions", points.positions, writer);
   writer.add ("cloud_index", points.cloud_index);
   addVectors ("normals", points.normals, writer);
   addVectors ("facing_normals", points.facing_normals, writer);
-  writer.add ("buckets", reinterpret_cast<const double*> (buckets.data ()), 6 * buckets.size ());
+  const std::vector<Box> groups = BlockCutter::makeGroups (buckets);
+  addBoxes ("buckets", buckets, writer);
+  addBoxes ("groups", groups, writer);
   writer.add ("non_finite", points.non_finite);
   writer.add ("duplicates", points.duplicates);
   writer.add ("gross_outliers", gross_outliers);

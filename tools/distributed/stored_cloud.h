@@ -19,7 +19,7 @@ namespace floater
 {
 static_assert (sizeof (Eigen::Vector3d) == 3 * sizeof (double) &&
                    sizeof (Eigen::Vector3f) == 3 * sizeof (float) &&
-                   sizeof (BlockCutter::Box) == 6 * sizeof (double),
+                   sizeof (Eigen::AlignedBox3d) == 6 * sizeof (double),
                "they are written and read as plain numbers");
 
 inline void
@@ -63,6 +63,23 @@ readVectors (ArrayFile& file, const std::string& name)
   std::vector<Vector> vectors;
   readVectors (file, name, vectors);
   return vectors;
+}
+
+using Box = BlockCutter::Box;
+constexpr std::size_t BOX = 6; // doubles in a box
+
+inline void
+addBoxes (const std::string& name, const std::vector<Box>& boxes, ArrayWriter& writer)
+{
+  writer.add (name, reinterpret_cast<const double*> (boxes.data ()), BOX * boxes.size ());
+}
+
+inline std::vector<Box>
+readBoxes (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last)
+{
+  std::vector<Box> boxes (last - first);
+  file.read (name, BOX * first, BOX * last, reinterpret_cast<double*> (boxes.data ()));
+  return boxes;
 }
 
 inline std::vector<Eigen::Vector3f>
@@ -114,10 +131,16 @@ public:
       : file_ (openArrays (context.store, with_outliers ? POINTS : pointsLeft (outliers),
                            context.plan)),
         points_ (file_.count ("positions") / 3), ranges_ (blockRanges (context.plan, points_)),
-        cutter_ (points_, readBuckets (), context.plan.blocks,
-                 [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
-                   readVectors (file_, "positions", first, last, positions);
-                 })
+        cutter_ (
+            points_, readBoxes (file_, "groups", 0, file_.count ("groups") / BOX),
+            context.plan.blocks,
+            [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
+              const std::vector<Box> found = readBoxes (file_, "buckets", first, last);
+              buckets.insert (buckets.end (), found.begin (), found.end ());
+            },
+            [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
+              readVectors (file_, "positions", first, last, positions);
+            })
   {
   }
 
@@ -140,13 +163,6 @@ public:
   }
 
 private:
-  std::vector<BlockCutter::Box> readBuckets ()
-  {
-    std::vector<BlockCutter::Box> buckets (file_.count ("buckets") / 6);
-    file_.read ("buckets", 0, 6 * buckets.size (), reinterpret_cast<double*> (buckets.data ()));
-    return buckets;
-  }
-
   ArrayFile file_;
   std::size_t points_;
   BlockRanges ranges_;
