@@ -22,7 +22,9 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
          const Request& request);
 
 /// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
-/// again. \param search see checkCrossing
+/// again.
+///
+/// \param search see checkCrossing
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
          const Request& request, Statistics& statistics, const CrossingSearch& search = {});

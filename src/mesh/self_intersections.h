@@ -48,8 +48,9 @@ findSelfIntersections (const std::vector<Triangle>& triangles,
                        const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
 
 /// The pairs of findSelfIntersections of which the first is among some triangles, which may be
-/// found apart from the others: all parts of a mesh together have all pairs once. \param triangles
-/// in the order of their smallest points (see orderByPoints): those of the part,
+/// found apart from the others: all parts of a mesh together have all pairs once.
+///
+/// \param triangles  in the order of their smallest points (see orderByPoints): those of the part,
 ///                   and at least all others whose boxes overlap or touch one of them
 /// \param first,last the part: from `first` to before `last`
 /// \return places in `triangles`, the smaller one first; sorted

@@ -69,8 +69,9 @@ public:
   static std::vector<Box> makeBuckets (const std::vector<Eigen::Vector3d>& positions,
                                        const RunContext& run);
 
-  /// Groups: the boxes of so many consecutive boxes each, such as buckets. O(n).
-  static constexpr std::size_t GROUP = 64;
+  static constexpr std::size_t GROUP = 64; ///< buckets in a group
+
+  /// Groups: the boxes of GROUP consecutive buckets each, or of other boxes in a row. O(n).
   static std::vector<Box> makeGroups (const std::vector<Box>& buckets);
 
   std::size_t blocks () const { return blocks_; }
