@@ -277,9 +277,14 @@ int
 main (int argc, char** argv)
 {
 #ifdef __GLIBC__
-  // A fixed threshold, so that large arrays go back to the system as soon as they are freed. By
-  // default glibc raises it with the first of them, which costs a tenth more peak memory.
-  mallopt (M_MMAP_THRESHOLD, 1 << 20);
+  // Arrays of a large cloud go back to the system as soon as they are freed; smaller ones stay, and
+  // are used again without being cleared: 4 to 6 % of the time of clouds of 35,000 to 210,000
+  // points. By default glibc raises the threshold with the first array that is freed, up to this
+  // same size, and gives what is free at the end of the heap back each time.
+  constexpr int LARGEST_THRESHOLD = 32 << 20; // that glibc takes
+  mallopt (M_MMAP_THRESHOLD, LARGEST_THRESHOLD);
+  mallopt (M_TRIM_THRESHOLD, 8 * LARGEST_THRESHOLD);
+  mallopt (M_TOP_PAD, LARGEST_THRESHOLD / 8);
 #endif
   const bool may_lack_memory = isAddressSpaceLimited ();
   if (!may_lack_memory)
