@@ -26,7 +26,8 @@ class NotchOpener
 public:
   NotchOpener (const TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
                const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), peel_ (mesh, positions.size (), run)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
+        peel_ (mesh, positions.size (), run)
   {
   }
 
@@ -73,9 +74,12 @@ private:
   {
     const std::size_t step = std::max<std::size_t> (1, mesh_.triangles.size () / SAMPLE);
     std::vector<double> cosines;
-    for (std::size_t t = 0; t < mesh_.triangles.size (); t += step)
+    ProgressLoop progress (run_); // each triangle may bring pages into memory
+    for (std::size_t t = 0; t < mesh_.triangles.size (); t += step) {
+      progress.next ();
       for (std::uint8_t side = 0; side < 3; ++side)
         cosines.push_back (cosineAt ({static_cast<Index> (t), side}));
+    }
     const auto at =
         cosines.begin () +
         static_cast<std::ptrdiff_t> (limits_.usual_share * static_cast<double> (cosines.size ()));
@@ -93,6 +97,7 @@ private:
   const TriangleMesh& mesh_;
   const Positions& positions_;
   const NotchLimits& limits_;
+  const RunContext& run_;
   double limit_ = 0.0;
   BoundaryPeel peel_;
   std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches_;

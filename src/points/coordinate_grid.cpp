@@ -47,13 +47,16 @@ floatStep (double value)
 
 // Points at equal distances along the curve: the same, whatever the order of the cloud.
 std::vector<double>
-sortedCoordinates (const Points& points, int axis)
+sortedCoordinates (const Points& points, int axis, const RunContext& run)
 {
   const std::size_t stride = (points.size () + LOOKED_AT - 1) / LOOKED_AT;
   std::vector<double> values;
   values.reserve (points.size () / stride + 1);
-  for (std::size_t p = 0; p < points.size (); p += stride)
+  ProgressLoop progress (run); // each of them may bring pages into memory
+  for (std::size_t p = 0; p < points.size (); p += stride) {
+    progress.next ();
     values.push_back (points.positions[p][axis]);
+  }
   sortUnique (values);
   return values;
 }
@@ -66,9 +69,9 @@ isMultiple (double difference, double step)
 }
 
 AxisGrid
-lookAlong (const Points& points, int axis)
+lookAlong (const Points& points, int axis, const RunContext& run)
 {
-  const std::vector<double> values = sortedCoordinates (points, axis);
+  const std::vector<double> values = sortedCoordinates (points, axis, run);
   AxisGrid grid;
   grid.varies = values.size () > 1;
   if (!grid.varies)
@@ -123,7 +126,7 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
   const auto usual = static_cast<double> (median (spacings));
   std::array<AxisGrid, 3> grids;
   parallelTasks (run, grids.size (), [&] (std::size_t axis) {
-    grids[axis] = lookAlong (points, static_cast<int> (axis));
+    grids[axis] = lookAlong (points, static_cast<int> (axis), run);
   });
   const bool is_alike_along_all =
       std::all_of (grids.begin (), grids.end (), [&grids] (const AxisGrid& grid) {

@@ -6,10 +6,11 @@ set -euo pipefail
 
 usage () {
   cat <<'END'
-Usage: distributed.sh [--build FOLDER] [--folder FOLDER] [--processes N] [--max-memory SIZE] [POINTS...]
+Usage: distributed.sh [--build FOLDER] [--folder FOLDER] [--processes N] [--max-memory SIZE] [--alone] [POINTS...]
 Makes height fields of so many points (by default 1000000 10000000 30000000), reconstructs each in memory and on
 N processes (2), and prints a table. FOLDER (a temporary one) has to have 600 bytes for each point.
   --max-memory  limit of process 0 for the steps of the whole cloud (no limit)
+  --alone       only N processes and files: no reconstruction in memory, which takes 260 bytes for each point
 END
 }
 
@@ -17,6 +18,7 @@ build=$(dirname "$0")/../../build/dev
 folder=
 processes=2
 limit=()
+alone=false
 points=()
 while (($# > 0)); do
   case "$1" in
@@ -24,6 +26,7 @@ while (($# > 0)); do
     --folder) folder=$2; shift ;;
     --processes) processes=$2; shift ;;
     --max-memory) limit=(--max-memory "$2"); shift ;;
+    --alone) alone=true ;;
     -h | --help) usage; exit 0 ;;
     [1-9]*) points+=("$1") ;;
     *) usage >&2; exit 1 ;;
@@ -47,16 +50,24 @@ echo "| points | in memory | memory | $processes processes | ratio | memory of a
 echo "|---|---:|---:|---:|---:|---:|---:|---:|"
 for n in "${points[@]}"; do
   "$tools/generate/pcl_floater_generate" height-field cloud.ply --points "$n" >/dev/null
-  start=$(now)
-  "$tools/reconstruct/pcl_floater_reconstruct" --json cloud.ply one.ply >one.log
-  one=$(since "$start")
-  one_memory=$(sed -n 's/.*"peak_memory_bytes":\([0-9]*\).*/\1/p' one.log)
+  if ! $alone; then
+    start=$(now)
+    "$tools/reconstruct/pcl_floater_reconstruct" --json cloud.ply one.ply >one.log
+    one=$(since "$start")
+    one_memory=$(sed -n 's/.*"peak_memory_bytes":\([0-9]*\).*/\1/p' one.log)
+  fi
   start=$(now)
   mpirun --oversubscribe --allow-run-as-root --bind-to none -n "$processes" \
     "$tools/distributed/pcl_floater_distributed" --work work "${limit[@]}" cloud.ply many.ply >many.log 2>&1
   many=$(since "$start")
-  cmp one.ply many.ply
+  cp many.log "many.$n.log"
   files=$(du -sb work | cut -f1)
+  if $alone; then
+    rm -rf work many.ply
+    echo "| $n | - | - | $many s | - | $(peak many.log) MB | $((files / n)) bytes a point | - |"
+    continue
+  fi
+  cmp one.ply many.ply
   rm -rf work many.ply
   mpirun --oversubscribe --allow-run-as-root --bind-to none -n "$processes" \
     "$tools/distributed/pcl_floater_distributed" --work work --exchange messages "${limit[@]}" \
@@ -68,5 +79,4 @@ for n in "${points[@]}"; do
     -v files="$files" -v messages="$messages" 'BEGIN {
       printf "| %d | %.1f s | %.0f MB | %.1f s | %.2f | %d MB | %.0f bytes a point | %.0f bytes a point |\n",
              n, one, memory / 1e6, many, many / one, peak, files / n, 1e6 * messages / n }'
-  cp many.log "many.$n.log"
 done

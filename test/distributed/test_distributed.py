@@ -848,11 +848,10 @@ class Errors(Case):
         self.expect_failure(self.again("--max-memory", "30M"), USAGE, "--max-memory")
         self.generate("torus", "--points", 400000)
         self.expect_failure(self.again("--max-memory", "52M"), USAGE, "too small", "400000 points")
-        # Less is needed for the plan alone: 59M.
-        self.expect_failure(self.again("--max-memory", "60M"), USAGE, "too small", "75M")
+        self.expect_failure(self.again("--max-memory", "58M", "--step", "plan"), USAGE, "too small", "59M")
         planned = self.again("--max-memory", "60M", "--step", "plan")
         self.assertEqual(planned.returncode, 0, planned.stderr)
-        self.expect_failure(self.step("join", "--max-memory", "60M"), USAGE, "too small", "75M")
+        self.expect_failure(self.step("join", "--max-memory", "58M"), USAGE, "too small", "59M")
         self.expect_no_mesh()
 
 

@@ -44,16 +44,16 @@ readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts 
   return cloud;
 }
 
-// Bytes of each point that have to stay in memory for the plan alone. Measured with 10 and 30
-// million points: below, more time goes to pages that come back than to all else. `join` needs as
-// much as reconstruct ().
-constexpr double KEPT_BY_PLAN = 9.0;
+// Bytes of each point that have to stay in memory for the steps of the whole cloud. Measured with
+// 10 and 30 million points for `plan`, and with 30 and 100 million for `join`: below, more time
+// goes to pages that come back than to all else.
+constexpr double KEPT_BY_STEP = 9.0;
 
 // Throws UsageError if a step of the whole cloud cannot be kept below the limit.
 void
-checkMemory (const CommandLine& line, std::size_t points, double kept)
+checkMemory (const CommandLine& line, std::size_t points)
 {
-  const std::size_t least = leastMemory (points, kept);
+  const std::size_t least = leastMemory (points, KEPT_BY_STEP);
   if (line.max_memory > 0 && line.max_memory < least)
     throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
                       std::to_string (points) + " points; use " + formatSize (least) + " or more");
@@ -122,8 +122,7 @@ planStep (const Job& job, FolderStore& store)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
   Cloud cloud = readClouds (job.inputs, line.auto_shift || line.shift);
-  // If `join` is to follow, it is told now whether it can.
-  checkMemory (line, cloud.size (), job.step == "plan" ? KEPT_BY_PLAN : KEPT_PER_POINT);
+  checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   shiftOrigin (line, cloud, input);
@@ -188,7 +187,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const DividedCro
   const EffectiveOptions effective (line);
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
-  checkMemory (line, plan.cloud_size, KEPT_PER_POINT);
+  checkMemory (line, plan.cloud_size);
   StoredStages stages (context, job.frees_disk ? &store : nullptr);
   DividedCrossing divided (context, store, stages.ranges (), deal);
   if (deal)
