@@ -36,6 +36,10 @@ constexpr std::size_t MEMORY = 6;    // steps that the direction is made from
 constexpr double SUFFICIENT = 1e-4;  // of the decrease that the slope promises (Armijo)
 constexpr double SHORTEST = 1e-6;    // of a step that is worth it
 constexpr int STEPS_PER_LOOK = 8;    // at the boundary
+// Share by which the diagonal of a Hessian is enlarged where rounding leaves no step that is worth
+// it (Levenberg): from the smallest that is more than rounding, in steps of powers of ten, to 1.
+constexpr double LEAST_DAMPING = 1e-15;
+constexpr double MORE_DAMPING = 1000.0;
 
 Eigen::Matrix2d
 edgesOf (const Plane& x, const Triangle& c)
@@ -157,32 +161,46 @@ private:
   {
     Cholesky solver;
     bool is_analyzed = false;
+    double damping = 0.0;
     for (int step = 0; step < limits_.newton_steps; ++step) {
       run.poll ();
-      const Eigen::SparseMatrix<double> hessian = hessianOf (x);
+      Eigen::SparseMatrix<double> hessian = hessianOf (x);
       if (!is_analyzed)
         solver.analyzePattern (hessian);
       is_analyzed = true;
-      solver.factorize (hessian);
-      if (solver.info () != Eigen::Success)
-        return;
       const Plane gradient = gradientOf (x);
-      // Coordinates of a vertex follow each other.
-      Eigen::VectorXd right (2 * x.rows ());
-      for (Eigen::Index i = 0; i < x.rows (); ++i)
-        right.segment<2> (2 * i) = -gradient.row (i).transpose ();
-      const Eigen::VectorXd solution = solver.solve (right);
-      Plane direction (x.rows (), 2);
-      for (Eigen::Index i = 0; i < x.rows (); ++i)
-        direction.row (i) = solution.segment<2> (2 * i).transpose ();
-      const double slope = gradient.cwiseProduct (direction).sum ();
       const double last_energy = energy;
-      if (!(slope < 0.0) || goAlong (direction, slope, x, energy) == 0.0)
-        return;
+      while (!goByHessian (solver, hessian, gradient, x, energy)) {
+        const double more = std::max (LEAST_DAMPING, MORE_DAMPING * damping);
+        if (more > 1.0)
+          return;
+        hessian.diagonal () *= (1.0 + more) / (1.0 + damping);
+        damping = more;
+      }
+      damping = damping > LEAST_DAMPING ? damping / MORE_DAMPING : 0.0;
       if (energy < limits_.enough ||
           last_energy - energy <= limits_.least_newton_progress * (energy - 4.0))
         return;
     }
+  }
+
+  // One step of Newton's method. \return false if there is none that lowers the energy
+  bool goByHessian (Cholesky& solver, const Eigen::SparseMatrix<double>& hessian,
+                    const Plane& gradient, Plane& x, double& energy) const
+  {
+    solver.factorize (hessian);
+    if (solver.info () != Eigen::Success)
+      return false;
+    // Coordinates of a vertex follow each other.
+    Eigen::VectorXd right (2 * x.rows ());
+    for (Eigen::Index i = 0; i < x.rows (); ++i)
+      right.segment<2> (2 * i) = -gradient.row (i).transpose ();
+    const Eigen::VectorXd solution = solver.solve (right);
+    Plane direction (x.rows (), 2);
+    for (Eigen::Index i = 0; i < x.rows (); ++i)
+      direction.row (i) = solution.segment<2> (2 * i).transpose ();
+    const double slope = gradient.cwiseProduct (direction).sum ();
+    return slope < 0.0 && goAlong (direction, slope, x, energy) > 0.0;
   }
 
   Eigen::SparseMatrix<double> hessianOf (const Plane& x) const
