@@ -31,13 +31,19 @@ namespace floater
 {
 namespace
 {
+struct ScratchArray
+{
+  std::size_t bytes;
+  bool is_fresh; ///< not yet dropped as a whole
+};
+
 /// All arrays in files. Nothing may be freed while the table is locked, because operator delete may
 /// lock it as well. Allocating nodes of the table is safe: they are too small to be in it.
 struct ScratchArrays
 {
-  std::mutex mutex;                         // guards the next three
-  std::map<std::uintptr_t, std::size_t> at; // bytes by address
-  std::uintptr_t hand = 0;                  // where dropNextChunk () continues
+  std::mutex mutex;                          // guards the next three
+  std::map<std::uintptr_t, ScratchArray> at; // by address
+  std::uintptr_t hand = 0;                   // where dropNextChunk () continues
   ScratchUse use;
 
   // Both are set once, before there are arrays.
@@ -120,6 +126,10 @@ mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
   if (error == 0)
     ::madvise (pointerTo (begin), bytes, MADV_NOHUGEPAGE);
 #endif
+  // Nor is anything read ahead while it is filled: Linux keeps what it has read ahead in pieces of
+  // up to two megabytes, and since 6.18 one touch maps a whole piece.
+  if (error == 0)
+    ::madvise (pointerTo (begin), bytes, MADV_RANDOM);
   return error;
 }
 
@@ -163,7 +173,7 @@ mapLargeArray (std::size_t size)
   try {
     if (error == 0) {
       const std::lock_guard<std::mutex> lock (all.mutex);
-      all.at.emplace (begin, bytes);
+      all.at.emplace (begin, ScratchArray{bytes, true});
       all.use.bytes += bytes;
       all.use.peak = std::max (all.use.peak, all.use.bytes);
       return pointerTo (begin);
@@ -187,9 +197,9 @@ unmapLargeArray (void* pointer)
     node = all.at.extract (reinterpret_cast<std::uintptr_t> (pointer));
     if (node.empty ())
       return false;
-    all.use.bytes -= node.mapped ();
+    all.use.bytes -= node.mapped ().bytes;
   }
-  ::munmap (pointer, node.mapped ());
+  ::munmap (pointer, node.mapped ().bytes);
   return true;
 }
 
@@ -227,17 +237,24 @@ dropNextChunk ()
   if (all.at.empty ())
     return 0;
   auto array = all.at.upper_bound (all.hand);
-  if (array != all.at.begin () && all.hand < std::prev (array)->first + std::prev (array)->second)
+  if (array != all.at.begin () &&
+      all.hand < std::prev (array)->first + std::prev (array)->second.bytes)
     --array;
   if (array == all.at.end ()) {
     array = all.at.begin ();
     all.hand = 0;
   }
   const std::uintptr_t begin = std::max (all.hand, array->first);
-  const std::uintptr_t end = std::min (begin + DROPPED_CHUNK, array->first + array->second);
+  const std::uintptr_t end = std::min (begin + DROPPED_CHUNK, array->first + array->second.bytes);
   // With a shared mapping of a file, this removes the pages from the page table; the contents stay
   // in the file.
   ::madvise (pointerTo (begin), end - begin, MADV_DONTNEED);
+  // Dropped as a whole for the first time: now its pages may go to the disk, and are read ahead
+  // when they come back.
+  if (array->second.is_fresh && end == array->first + array->second.bytes) {
+    ::madvise (pointerTo (array->first), array->second.bytes, MADV_NORMAL);
+    array->second.is_fresh = false;
+  }
   all.use.dropped += end - begin;
   all.hand = end;
   return end - begin;
