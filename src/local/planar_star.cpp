@@ -72,9 +72,9 @@ isBefore (const PlanarNeighbor& a, const PlanarNeighbor& b)
   return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
 }
 
-// Sorts by the number of smaller angles. For few neighbours, these comparisons of all pairs, which
-// have no branches, take a third of the time of a sort by comparisons, of which half are
-// mispredicted. \return false if two angles are equal: then only `unsorted` has been changed
+// Sorts by the number of smaller angles. For few neighbours, to compare all pairs, without a
+// branch, takes less time than a sort that mispredicts many of its branches. \return false if two
+// angles are equal: then neither list is sorted
 bool
 sortByCounting (std::vector<PlanarNeighbor>& neighbors, std::vector<PlanarNeighbor>& unsorted)
 {

@@ -37,9 +37,9 @@ constexpr double SUFFICIENT = 1e-4;  // of the decrease that the slope promises 
 constexpr double SHORTEST = 1e-6;    // of a step that is worth it
 constexpr int STEPS_PER_LOOK = 8;    // at the boundary
 // Share by which the diagonal of a Hessian is enlarged where rounding leaves no step that is worth
-// it (Levenberg): from the smallest that is more than rounding, in steps of powers of ten, to 1.
+// it (Levenberg). It begins a little above the rounding of a double, and grows up to 1.
 constexpr double LEAST_DAMPING = 1e-15;
-constexpr double MORE_DAMPING = 1000.0;
+constexpr double MORE_DAMPING = 1000.0; // times, each time that there is none
 
 Eigen::Matrix2d
 edgesOf (const Plane& x, const Triangle& c)
@@ -161,7 +161,6 @@ private:
   {
     Cholesky solver;
     bool is_analyzed = false;
-    double damping = 0.0;
     for (int step = 0; step < limits_.newton_steps; ++step) {
       run.poll ();
       Eigen::SparseMatrix<double> hessian = hessianOf (x);
@@ -170,6 +169,7 @@ private:
       is_analyzed = true;
       const Plane gradient = gradientOf (x);
       const double last_energy = energy;
+      double damping = 0.0;
       while (!goByHessian (solver, hessian, gradient, x, energy)) {
         const double more = std::max (LEAST_DAMPING, MORE_DAMPING * damping);
         if (more > 1.0)
@@ -177,7 +177,6 @@ private:
         hessian.diagonal () *= (1.0 + more) / (1.0 + damping);
         damping = more;
       }
-      damping = damping > LEAST_DAMPING ? damping / MORE_DAMPING : 0.0;
       if (energy < limits_.enough ||
           last_energy - energy <= limits_.least_newton_progress * (energy - 4.0))
         return;

@@ -44,9 +44,9 @@ readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts 
   return cloud;
 }
 
-// Bytes of each point that have to stay in memory for the steps of the whole cloud. Measured with
-// 10 and 30 million points for `plan`, and with 30 and 100 million for `join`: below, more time
-// goes to pages that come back than to all else.
+// Bytes of each point that have to stay in memory for the steps of the whole cloud. Measured for
+// `plan` with 10 and 30 million points: below, more time goes to pages that come back than to all
+// else. `join` was run with 9 (10 million points) and 11 (100 million).
 constexpr double KEPT_BY_STEP = 9.0;
 
 // Throws UsageError if a step of the whole cloud cannot be kept below the limit.
