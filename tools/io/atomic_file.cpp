@@ -221,6 +221,9 @@ AtomicFile::~AtomicFile ()
 void
 AtomicFile::write (const void* bytes, std::size_t size)
 {
+  // The address of an array without elements may be null, which memcpy does not allow.
+  if (size == 0)
+    return;
   if (used_ + size > buffer_.size ())
     flush ();
   if (size > buffer_.size ()) {
