@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -20,6 +21,22 @@ valueAtRank (std::vector<Value>& values, std::size_t rank)
   const auto place = values.begin () + static_cast<std::ptrdiff_t> (rank);
   std::nth_element (values.begin (), place, values.end ());
   return *place;
+}
+
+/// The values that have `low` and `high` others before them. O(n); less than two calls of
+/// valueAtRank (), since the lower one is searched below the upper one.
+/// \param[in,out] values more than `high`; their order changes
+/// \param low,high low <= high
+template <typename Value>
+std::pair<Value, Value>
+valuesAtRanks (std::vector<Value>& values, std::size_t low, std::size_t high)
+{
+  const auto at_low = values.begin () + static_cast<std::ptrdiff_t> (low);
+  const auto at_high = values.begin () + static_cast<std::ptrdiff_t> (high);
+  std::nth_element (values.begin (), at_high, values.end ());
+  if (low < high)
+    std::nth_element (values.begin (), at_low, at_high);
+  return {*at_low, *at_high};
 }
 
 /// The upper one of the two in the middle where their number is even. O(n).

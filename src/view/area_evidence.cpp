@@ -58,8 +58,8 @@ takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSett
 double
 quartileSpread (std::vector<double>& values)
 {
-  const double upper = quantile (values, 0.75);
-  return std::log (upper / quantile (values, 0.25));
+  const auto [lower, upper] = valuesAtRanks (values, values.size () / 4, values.size () * 3 / 4);
+  return std::log (upper / lower);
 }
 
 double

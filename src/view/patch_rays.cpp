@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/patch_rays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,68 +12,56 @@ namespace floater
 {
 PatchRays::PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
                       const Viewpoint& viewpoint)
-    : sqr_distances_ (patch.size ())
+    : x_ (patch.size ()), y_ (patch.size ()), z_ (patch.size ()), sqr_distances_ (patch.size ())
 {
-  x_.reserve (patch.size ());
-  y_.reserve (patch.size ());
-  z_.reserve (patch.size ());
   Eigen::Vector3d first = Eigen::Vector3d::Zero ();
-  for (const Index p : patch) {
+  for (Eigen::Index i = 0; i < x_.size (); ++i) {
+    const Index p = patch[static_cast<std::size_t> (i)];
     const Eigen::Vector3d direction = rayTo (positions[p], viewpoint).direction;
-    if (x_.empty ())
+    if (i == 0)
       first = direction;
     const Eigen::Vector3f offset = (direction - first).cast<float> ();
-    x_.push_back (offset.x ());
-    y_.push_back (offset.y ());
-    z_.push_back (offset.z ());
+    x_[i] = offset.x ();
+    y_[i] = offset.y ();
+    z_[i] = offset.z ();
   }
 }
 
-// Plain loops over arrays of floats, which compilers turn into vector instructions.
+// Whole arrays at once, which Eigen does by vector instructions: the least distance first, and then
+// whose it is.
 PatchRays::Neighbors
 PatchRays::neighborsOf (std::size_t ray, bool with_across)
 {
   constexpr float NONE_YET = std::numeric_limits<float>::infinity ();
-  const std::size_t size = x_.size ();
-  const float x = x_[ray], y = y_[ray], z = z_[ray];
-  float* const sqr_distance = sqr_distances_.data ();
-  for (std::size_t i = 0; i < size; ++i) {
-    const float dx = x_[i] - x, dy = y_[i] - y, dz = z_[i] - z;
-    sqr_distance[i] = dx * dx + dy * dy + dz * dz;
-  }
-  sqr_distance[ray] = NONE_YET;
-  Neighbors found{ray, ray, NONE_YET, NONE_YET, 0.0F};
-  for (std::size_t i = 0; i < size; ++i) {
-    if (sqr_distance[i] >= found.second_distance)
+  const auto own = static_cast<Eigen::Index> (ray);
+  const float x = x_[own], y = y_[own], z = z_[own];
+  Eigen::ArrayXf& sqr_distance = sqr_distances_;
+  sqr_distance = (x_ - x).square () + (y_ - y).square () + (z_ - z).square ();
+  sqr_distance[own] = NONE_YET;
+  const float least = sqr_distance.minCoeff ();
+  const auto nearest = static_cast<Eigen::Index> (
+      std::find (sqr_distance.begin (), sqr_distance.end (), least) - sqr_distance.begin ());
+  if (!(least < NONE_YET) || nearest == sqr_distance.size ())
+    return {ray, ray, NONE_YET, NONE_YET, 0.0F};
+  sqr_distance[nearest] = NONE_YET;
+  Neighbors found{static_cast<std::size_t> (nearest), ray, std::sqrt (least),
+                  std::sqrt (sqr_distance.minCoeff ()), 0.0F};
+  if (!with_across)
+    return found;
+  const float along_x = x_[nearest] - x, along_y = y_[nearest] - y, along_z = z_[nearest] - z;
+  const float half = 0.5F * least; // squared cosine of 45 degrees
+  float least_across = NONE_YET;
+  for (Eigen::Index i = 0; i < sqr_distance.size (); ++i) {
+    if (!(sqr_distance[i] < least_across) || !(sqr_distance[i] > 0.0F))
       continue;
-    if (sqr_distance[i] < found.nearest_distance) {
-      found.second_distance = found.nearest_distance;
-      found.nearest_distance = sqr_distance[i];
-      found.nearest = i;
-    }
-    else
-      found.second_distance = sqr_distance[i];
+    const float part = (x_[i] - x) * along_x + (y_[i] - y) * along_y + (z_[i] - z) * along_z;
+    if (part * part > half * sqr_distance[i])
+      continue;
+    least_across = sqr_distance[i];
+    found.across = static_cast<std::size_t> (i);
   }
-  if (with_across && found.nearest != ray) {
-    const float along_x = x_[found.nearest] - x, along_y = y_[found.nearest] - y,
-                along_z = z_[found.nearest] - z;
-    const float half = 0.5F * found.nearest_distance; // squared cosine of 45 degrees
-    for (std::size_t i = 0; i < size; ++i) {
-      const float part = (x_[i] - x) * along_x + (y_[i] - y) * along_y + (z_[i] - z) * along_z;
-      const bool is_across = part * part <= half * sqr_distance[i] && sqr_distance[i] > 0.0F;
-      sqr_distance[i] = is_across ? sqr_distance[i] : NONE_YET;
-    }
-    sqr_distance[ray] = NONE_YET;
-    float least = NONE_YET;
-    for (std::size_t i = 0; i < size; ++i)
-      if (sqr_distance[i] < least) {
-        least = sqr_distance[i];
-        found.across = i;
-      }
-    found.across_distance = found.across == ray ? 0.0F : std::sqrt (least);
-  }
-  found.nearest_distance = std::sqrt (found.nearest_distance);
-  found.second_distance = std::sqrt (found.second_distance);
+  if (found.across != ray)
+    found.across_distance = std::sqrt (least_across);
   return found;
 }
 

@@ -5,6 +5,8 @@
 
 #include "view/rays.h"
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace pcl
@@ -37,8 +39,8 @@ public:
   Neighbors neighborsOf (std::size_t ray, bool with_across = true);
 
 private:
-  std::vector<float> x_, y_, z_;
-  std::vector<float> sqr_distances_; // to the ray whose neighbours are searched
+  Eigen::ArrayXf x_, y_, z_;
+  Eigen::ArrayXf sqr_distances_; // to the ray whose neighbours are searched
 };
 
 } // namespace floater

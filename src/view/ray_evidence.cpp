@@ -30,8 +30,7 @@ spreadOf (std::vector<double>& values)
   constexpr std::size_t FEW = 10;
   if (values.size () < FEW)
     return 0.0;
-  const double small = valueAtRank (values, values.size () / 10);
-  const double large = valueAtRank (values, values.size () * 9 / 10);
+  const auto [small, large] = valuesAtRanks (values, values.size () / 10, values.size () * 9 / 10);
   constexpr double LARGEST = 10.0; // of the logarithm; a patch without rows has no more
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }
