@@ -9,6 +9,7 @@
 #include "finished_mesh.h"
 #include "known_stages.h"
 #include "local/star_agreement.h"
+#include "parts/local_parts.h"
 #include "problem_of_exception.h"
 #include "published_method.h"
 #include "reconstruct_view.h"
@@ -122,6 +123,15 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
+Surface
+surfaceOfParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
+                const SurfaceSettings& settings, const Request& request)
+{
+  const PartLimits& limits = request.limits.parts;
+  LocalParts work (points, parts, geometry, settings, limits, request.run);
+  return makeSurfaceOfParts (points, parts, work, settings, limits, request.run);
+}
+
 Problem
 reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
                     KnownStages* known, Result& result)
@@ -135,10 +145,12 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
     search = [known] (const std::vector<Triangle>& triangles, const Points& of,
                       const RunContext& run) { return known->crossing (triangles, of, run); };
   }
-  Surface surface = makeSurface (
-      points, geometry,
-      {options.holes, options.flip_edges, request.limits.surface, facingHints (points, request)},
-      request.run, std::move (proposed));
+  const SurfaceSettings settings{options.holes, options.flip_edges, request.limits.surface,
+                                 facingHints (points, request)};
+  const Parts parts (points.size (), request.limits.parts);
+  Surface surface =
+      parts.count () > 1 ? surfaceOfParts (points, parts, geometry, settings, request)
+                         : makeSurface (points, geometry, settings, request.run, std::move (proposed));
   reportOrientationSeam (points, surface.orientation_seam, report);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;

@@ -11,6 +11,7 @@
 #include "local/tangent_planes.h"
 #include "mesh/check.h"
 #include "mesh/self_intersection_removal.h"
+#include "parts/parts.h"
 #include "points/gross_outliers.h"
 #include "points/noise.h"
 #include "points/outliers.h"
@@ -29,6 +30,7 @@ struct Limits
   SheetLimits sheets;
   ReachLimits reach;
   SurfaceLimits surface;
+  PartLimits parts;
   ViewLimits view;
   LoopLimits loop;
   DiscLimits disc;

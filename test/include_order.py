@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ORDER = ["core", "points", "local", "mesh", "floater", "consensus", "view", "texture", "."]
+ORDER = ["core", "points", "local", "mesh", "floater", "consensus", "parts", "view", "texture", "."]
 # Parts of the floater folder; each includes only from those before it.
 WITHIN_FLOATER = ["floater/boundary", "floater/solvers", "floater"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

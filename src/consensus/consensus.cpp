@@ -242,12 +242,9 @@ private:
   std::vector<std::uint8_t> has_room_;
 };
 
-// Candidates for which there is room, with normal agreement by the current normals. Sure ones
-// become doubtful here.
+// Candidates for which there is room. Sure ones become doubtful here.
 std::vector<Candidate>
-findOpen (const std::vector<Eigen::Vector3d>& positions, const CandidateLists& candidates,
-          const TriangleMesh& mesh, const std::vector<Eigen::Vector3f>& normals,
-          const RunContext& run)
+findOpen (const CandidateLists& candidates, const TriangleMesh& mesh, const RunContext& run)
 {
   const Room room (mesh, run);
   std::vector<Candidate> open;
@@ -262,11 +259,6 @@ findOpen (const std::vector<Eigen::Vector3d>& positions, const CandidateLists& c
     if (room.isFor (doubtful.corners))
       open.push_back (doubtful);
   }
-  for (Candidate& candidate : open)
-    setNormalAgreement (positions, normals, candidate);
-  std::stable_sort (open.begin (), open.end (), [] (const Candidate& a, const Candidate& b) {
-    return a.corners[0] < b.corners[0];
-  });
   return open;
 }
 
@@ -322,9 +314,23 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
                  const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,
                  Consensus& consensus, const RunContext& run)
 {
-  const std::vector<Candidate> open = findOpen (positions, candidates, mesh, normals, run);
+  std::vector<Candidate> open = findOpen (candidates, mesh, run);
   if (open.empty ())
     return false;
+  consensus = extendConsensus (positions, std::move (open), mesh, {}, normals, run);
+  return true;
+}
+
+Consensus
+extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> open,
+                 const TriangleMesh& mesh, const std::vector<std::array<Index, 2>>& same_side,
+                 std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+{
+  for (Candidate& candidate : open)
+    setNormalAgreement (positions, normals, candidate);
+  std::stable_sort (open.begin (), open.end (), [] (const Candidate& a, const Candidate& b) {
+    return a.corners[0] < b.corners[0];
+  });
   std::vector<const Candidate*> order = pointersTo (open);
   putInOrder (order);
   run.poll ();
@@ -336,16 +342,19 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
     progress.next ();
     builder.start (corners);
   }
-  builder.orientation ().vote (order.data (), order.data () + order.size (), run);
+  Orientation& orientation = builder.orientation ();
+  for (const auto& [p, q] : same_side)
+    orientation.joinSameSide (p, q);
+  orientation.vote (order.data (), order.data () + order.size (), run);
   for (const Candidate* candidate : order) {
     progress.next ();
     builder.offer (*candidate, true);
   }
 
   const std::vector<const Candidate*>& taken = builder.takenInOrder ();
+  Consensus consensus;
   consensus.triangles.reserve (mesh.triangles.size () + taken.size ());
   consensus.votes.reserve (mesh.triangles.size () + taken.size ());
-  Orientation& orientation = builder.orientation ();
   auto next = taken.begin ();
   const auto appendTakenBefore = [&] (Index p) {
     for (; next != taken.end () && (*next)->corners[0] < p; ++next)
@@ -357,8 +366,8 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
   }
   appendTakenBefore (NONE);
   consensus.seam.swap (builder.seam ());
-  builder.orientation ().turn (normals, run);
-  return true;
+  orientation.turn (normals, run);
+  return consensus;
 }
 
 } // namespace floater

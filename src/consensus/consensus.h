@@ -48,5 +48,14 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
                  const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,
                  Consensus& consensus, const RunContext& run);
 
+/// The same for candidates that are known to have room.
+/// \param open      with corners, votes and circumradius ratio; in any order, but equal ones keep it
+/// \param mesh      all of the mesh around the corners of the candidates, and any more of it
+/// \param same_side points of one component of the mesh whose connection is not part of `mesh`
+Consensus
+extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> open,
+                 const TriangleMesh& mesh, const std::vector<std::array<Index, 2>>& same_side,
+                 std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+
 } // namespace floater
 } // namespace pcl

@@ -4,10 +4,9 @@
 #pragma once
 
 #include "consensus/consensus_mesh.h"
+#include "consensus/hole_closing.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
-#include "mesh/hole_filling.h"
-#include "mesh/open_loops.h"
 #include "points/points.h"
 
 #include <optional>
@@ -24,6 +23,8 @@ struct SurfaceLimits
   OpenLoopLimits open_loops;
   HoleFillingLimits hole_filling;
   FinishLimits finish;
+
+  HoleClosingLimits holeClosing () const { return {open_loops, hole_filling, finish.cost}; }
 };
 
 struct SurfaceSettings
@@ -32,13 +33,16 @@ struct SurfaceSettings
   bool flip_edges = true; ///< flip edges and repair folds
   SurfaceLimits limits = {};
   FacingHints facing = {};
-};
 
-/// A boundary loop of the consensus mesh, kept open or filled, and what is thought of it.
-struct JudgedLoop
-{
-  BoundaryLoop loop;
-  LoopJudgement judgement;
+  FinishSettings finishSettings () const
+  {
+    FinishSettings finish;
+    finish.flip_edges = flip_edges;
+    finish.open_boundary = true;
+    finish.facing = facing;
+    finish.limits = limits.finish;
+    return finish;
+  }
 };
 
 /// The mesh of a surface and how it was made.

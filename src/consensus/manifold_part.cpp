@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl
 {
@@ -19,8 +21,10 @@ namespace
 class FanPruner
 {
 public:
-  FanPruner (const Consensus& consensus, std::size_t points)
-      : triangles_ (consensus.triangles), votes_ (consensus.votes), kept_ (triangles_.size (), 1)
+  FanPruner (const Consensus& consensus, std::size_t points,
+             const std::vector<std::uint8_t>& is_partial)
+      : triangles_ (consensus.triangles), votes_ (consensus.votes), is_partial_ (is_partial),
+        kept_ (triangles_.size (), 1)
   {
     around_ = makeCsrLists (points, [this] (const auto& emit) {
       for (Index t = 0; t < triangles_.size (); ++t)
@@ -29,7 +33,8 @@ public:
     });
   }
 
-  std::vector<Triangle> prune (const RunContext& run)
+  // The triangles that are left; nothing if one at a partial point would have to be dropped.
+  std::optional<std::vector<Triangle>> prune (const RunContext& run)
   {
     // A triangle that is dropped at one point may split the fan of another one. That one is looked
     // at again, in the same round if it comes later.
@@ -41,6 +46,8 @@ public:
         progress.next ();
         const std::size_t known = dirty_.size ();
         keepLargestFan (*p);
+        if (has_left_)
+          return {};
         for (std::size_t i = known; i < dirty_.size (); ++i)
           if (dirty_[i] > *p)
             points.insert (dirty_[i]);
@@ -65,7 +72,7 @@ private:
     std::vector<std::vector<Index>> ranges ((points + RANGE_LENGTH - 1) / RANGE_LENGTH);
     parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p)
-        if (!isOneFan (static_cast<Index> (p)))
+        if (!isPartial (static_cast<Index> (p)) && !isOneFan (static_cast<Index> (p)))
           ranges[first / RANGE_LENGTH].push_back (static_cast<Index> (p));
     });
     std::set<Index> found;
@@ -73,6 +80,8 @@ private:
       found.insert (range.begin (), range.end ());
     return found;
   }
+
+  bool isPartial (Index p) const { return !is_partial_.empty () && is_partial_[p] != 0; }
 
   // True if the triangles around p are one fan, open or closed.
   bool isOneFan (Index p) const
@@ -172,7 +181,10 @@ private:
   void drop (Index t)
   {
     kept_[t] = 0;
-    dirty_.insert (dirty_.end (), triangles_[t].begin (), triangles_[t].end ());
+    for (const Index p : triangles_[t]) {
+      has_left_ = has_left_ || isPartial (p);
+      dirty_.push_back (p);
+    }
   }
 
   bool shareEdge (Index p, Index t, Index u) const
@@ -193,7 +205,9 @@ private:
 
   const std::vector<Triangle>& triangles_;
   const std::vector<std::uint8_t>& votes_;
+  const std::vector<std::uint8_t>& is_partial_;
   std::vector<std::uint8_t> kept_;
+  bool has_left_ = false; // the triangles that are there
   CsrLists around_;
   std::vector<Spoke> ring_;
   std::vector<Index> dirty_;
@@ -201,9 +215,10 @@ private:
 
 // The triangles of a mesh but for small islands.
 std::vector<Triangle>
-withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smallest_island,
-                const RunContext& run)
+withoutIslands (const TriangleMesh& mesh, const NeighborsOf& neighbors_of,
+                std::size_t smallest_island, const RunContext& run)
 {
+  constexpr std::size_t LARGE = std::numeric_limits<std::size_t>::max () / 2;
   const MeshComponents components = findComponents (mesh, run);
   const std::vector<Index>& component = components.of_triangle;
   const Index count = components.count;
@@ -212,19 +227,29 @@ withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors, std::size_t
   ProgressLoop progress (run);
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
-    ++size[component[t]];
+    std::size_t& triangles = size[component[t]];
+    const Triangle& corners = mesh.triangles[t];
+    if (std::any_of (corners.begin (), corners.end (),
+                     [&mesh] (Index p) { return mesh.isPartial (p); }))
+      triangles = LARGE;
+    if (triangles < LARGE)
+      ++triangles;
     for (Index u : mesh.neighbors[t])
       if (u == NONE)
         is_closed[component[t]] = 0;
   }
+  const auto isOfLarger = [&] (Index q, std::size_t triangles) {
+    return mesh.triangle_of[q] == NONE ? mesh.isPartial (q)
+                                       : size[component[mesh.triangle_of[q]]] > triangles;
+  };
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
-    if (size[component[t]] >= smallest_island || is_closed[component[t]] != 0)
+    const std::size_t triangles = size[component[t]];
+    if (triangles >= smallest_island || is_closed[component[t]] != 0)
       continue;
     for (Index p : mesh.triangles[t])
-      for (Index q : neighbors.row (p))
-        if (mesh.triangle_of[q] != NONE &&
-            size[component[mesh.triangle_of[q]]] > size[component[t]])
+      for (Index q : neighbors_of (p))
+        if (isOfLarger (q, triangles))
           is_island[component[t]] = 1;
   }
   std::vector<Triangle> left;
@@ -237,24 +262,39 @@ withoutIslands (const TriangleMesh& mesh, const CsrLists& neighbors, std::size_t
 
 } // namespace
 
-TriangleMesh
-manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
+std::optional<TriangleMesh>
+manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighbors_of,
+              std::size_t smallest_island, std::vector<std::uint8_t> is_partial,
               const RunContext& run)
 {
-  TriangleMesh mesh;
-  mesh.triangles = FanPruner (consensus, neighbors.rows ()).prune (run);
+  std::optional<std::vector<Triangle>> triangles =
+      FanPruner (consensus, points, is_partial).prune (run);
   consensus = {};
-  bool is_manifold = mesh.connect (neighbors.rows (), run);
+  if (!triangles)
+    return {};
+  TriangleMesh mesh;
+  mesh.triangles = std::move (*triangles);
+  mesh.is_partial = std::move (is_partial);
+  bool is_manifold = mesh.connect (points, run);
   if (is_manifold) {
-    std::vector<Triangle> left = withoutIslands (mesh, neighbors, smallest_island, run);
+    std::vector<Triangle> left = withoutIslands (mesh, neighbors_of, smallest_island, run);
     if (left.size () < mesh.triangles.size ()) {
       mesh.triangles.swap (left);
-      is_manifold = mesh.connect (neighbors.rows (), run);
+      is_manifold = mesh.connect (points, run);
     }
   }
   if (!is_manifold)
     throw std::logic_error ("the consensus is no manifold");
   return mesh;
+}
+
+TriangleMesh
+manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
+              const RunContext& run)
+{
+  return *manifoldPart (
+      std::move (consensus), neighbors.rows (), [&neighbors] (Index p) { return neighbors.row (p); },
+      smallest_island, {}, run);
 }
 
 } // namespace floater

@@ -27,6 +27,9 @@ public:
   /// \return false if it does
   bool join (const Triangle& corners, std::uint8_t clockwise);
 
+  /// Joins the sets of two points whose normals point to the same side.
+  void joinSameSide (Index p, Index q) { sides_.join (p, q, false); }
+
   /// Joins the sets of points that candidates connect and that have no common orientation yet. All
   /// candidates between two sets vote together, since a single triangle across a sharp edge or
   /// between sheets may be wrong. Runs in rounds like those of Boruvka's spanning forest: every set

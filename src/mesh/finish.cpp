@@ -17,16 +17,16 @@ constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
 } // namespace
 
 MeshFinish
-finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
+repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
+            const RunContext& run)
 {
+  const auto& [positions, neighbors, spacing, scatter, normals] = input;
   MeshFinish finish;
-  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
-  const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
+  const TriangleCost cost (positions, normals, &spacing, settings.limits.cost);
   run.beginStep (AFTER_INSERTION);
   if (settings.insert_points)
-    insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
+    insertMissingPoints (mesh, neighbors, cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
@@ -37,15 +37,32 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
     // Flips have turned some triangles, so that some normals may have the wrong sign.
     orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, geometry.neighbors, geometry.scatter, cost, positions,
-                  settings.limits.repair, run);
+    moveVertices (mesh, neighbors, scatter, cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
+  return finish;
+}
+
+void
+endMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+         const FinishSettings& settings, const RunContext& run, MeshFinish& finish)
+{
   if (settings.open_boundary && openNotches (mesh, positions, settings.limits.notches, run) +
                                         openBoundaryFolds (mesh, positions, run) >
                                     0)
     finish.folds = findFolds (mesh, positions, run).size ();
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
+}
+
+MeshFinish
+finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
+{
+  MeshFinish finish = repairMesh (mesh,
+                                  {positions, geometry.neighbors, geometry.meshSpacing (),
+                                   geometry.scatter, geometry.stars.normals},
+                                  settings, run);
+  endMesh (mesh, positions, settings, run, finish);
   return finish;
 }
 

@@ -49,6 +49,28 @@ struct MeshFinish
   MeshFacing facing;                 ///< which components were turned round, and why
 };
 
+/// What is known of the points of a mesh, or of a part of one.
+struct RepairInput
+{
+  const std::vector<Eigen::Vector3d>& positions; ///< the vertices lie on them
+  const CsrLists& neighbors;                     ///< nearest first
+  const std::vector<float>& spacing;
+  const std::vector<Index>& scatter;      ///< see LocalGeometry
+  std::vector<Eigen::Vector3f>& normals;  ///< are turned to the side of the mesh
+};
+
+/// The first half of finishMesh: inserts points, flips edges, repairs folds. Of a part of a mesh,
+/// fixed triangles stay.
+MeshFinish
+repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
+            const RunContext& run);
+
+/// The second half of finishMesh: opens the boundary, turns components. For a whole mesh.
+/// \param finish in: of repairMesh
+void
+endMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+         const FinishSettings& settings, const RunContext& run, MeshFinish& finish);
+
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, opens
 /// notches and folds of the boundary, and turns every component to face outwards. O(n log n) at
 /// worst.

@@ -154,9 +154,12 @@ flipChosen (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run,
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
 {
+  const auto isAny = [] (Index, Index) { return true; };
+  if (!mesh.is_fixed.empty () || !mesh.is_partial.empty ())
+    return flipChosen (mesh, cost, run, isAny);
   const MeshBlocks blocks (mesh, run);
   if (blocks.count () <= 1)
-    return flipChosen (mesh, cost, run, [] (Index, Index) { return true; });
+    return flipChosen (mesh, cost, run, isAny);
   // Triangles of one block, away from its ends.
   std::vector<std::uint8_t> is_free (mesh.triangles.size ());
   parallelRanges (run, is_free.size (), [&] (std::size_t first, std::size_t last) {
@@ -166,8 +169,7 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
   std::atomic<std::size_t> flips{0};
   parallelTasks (run, blocks.count (), [&] (std::size_t b) {
     MeshBlock block = blocks.cutOut (mesh, b);
-    flips += flipChosen (block.mesh, cost.countedFrom (block.first), run.withThreads (1),
-                         [] (Index, Index) { return true; });
+    flips += flipChosen (block.mesh, cost.countedFrom (block.first), run.withThreads (1), isAny);
     blocks.putBack (block, b, mesh);
   });
   // Free triangles have changed, but they are the same ones.

@@ -157,8 +157,9 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<I
     if (targets[v] == RepairTarget::BAD || targets[v] == RepairTarget::SCATTERED)
       bad.push_back (v);
   Costs costs{std::max (limits.fewest_costs, limits.costs_of_moves * targets.size ())};
+  const bool is_whole = mesh.is_fixed.empty () && mesh.is_partial.empty ();
   const std::size_t moves_in_blocks =
-      moveInBlocks (mesh, neighbors, targets, cost, limits, run, bad, costs);
+      is_whole ? moveInBlocks (mesh, neighbors, targets, cost, limits, run, bad, costs) : 0;
   VertexRepair repair (mesh, neighbors, targets, cost, limits, run);
   const std::size_t moves = repair.moveAll (std::move (bad), costs.left ());
   const std::size_t kicks = repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));

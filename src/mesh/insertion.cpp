@@ -34,7 +34,7 @@ public:
   {
     std::vector<Index> missing;
     for (Index p = 0; p < mesh_.triangle_of.size (); ++p)
-      if (mesh_.triangle_of[p] == NONE)
+      if (isMissing (p))
         missing.push_back (p);
     if (missing.empty ())
       return 0;
@@ -78,6 +78,9 @@ private:
     }
   };
 
+  // A partial point without a triangle has one that is missing here.
+  bool isMissing (Index p) const { return mesh_.triangle_of[p] == NONE && !mesh_.isPartial (p); }
+
   // Pairs of missing points, the first among the neighbours of the second: once the first is
   // inserted, the second has a place.
   void findAwaiting (const std::vector<Index>& missing)
@@ -86,7 +89,7 @@ private:
     for (Index p : missing) {
       progress.next ();
       for (Index q : neighbors_.row (p))
-        if (mesh_.triangle_of[q] == NONE)
+        if (isMissing (q))
           awaiting_.emplace_back (q, p);
     }
     std::sort (awaiting_.begin (), awaiting_.end ());
@@ -125,7 +128,7 @@ private:
   {
     mesh_.fan (q, fan_);
     for (Index t : fan_) {
-      if (seen_[t] == search_)
+      if (seen_[t] == search_ || !mesh_.isFree (t))
         continue;
       seen_[t] = search_;
       const double limit =

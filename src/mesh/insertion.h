@@ -13,8 +13,8 @@ namespace floater
 /// Inserts every point that is not a vertex but has vertices among its nearest neighbours. Of the
 /// triangles around these, the one whose split at the point costs least is split. The point whose
 /// split costs least comes first, since it shows the next ones where the surface is; a point that
-/// has only missing neighbours follows once one of these is inserted. O(m log m) for m missing
-/// points.
+/// has only missing neighbours follows once one of these is inserted. Fixed triangles stay. O(m log
+/// m) for m missing points.
 /// \param neighbors of each point, nearest first
 /// \param flip      whether edges around each inserted point are flipped at once
 /// \return number of points inserted

@@ -184,6 +184,8 @@ TriangleMesh::split (Index t, Index p)
   const auto u = static_cast<Index> (triangles.size ());
   triangles.resize (u + 2U);
   neighbors.resize (u + 2U, {NONE, NONE, NONE});
+  if (!is_fixed.empty ())
+    is_fixed.resize (u + 2U, 0);
   split (t, p, u, u + 1);
 }
 
@@ -266,7 +268,8 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
     std::vector<Index> fan_triangles;
     for (std::size_t p = first; p < last && is_manifold; ++p) {
       fan (static_cast<Index> (p), fan_triangles);
-      if (fan_triangles.size () != edges.leaving.row (p).size ())
+      if (fan_triangles.size () != edges.leaving.row (p).size () &&
+          !isPartial (static_cast<Index> (p)))
         is_manifold = false; // more than one fan
     }
   });

@@ -53,7 +53,7 @@ struct TriangleMesh
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
   MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
-  /// Of a part of a larger mesh (see MeshBlock); both are empty if nothing is missing.
+  /// Of a part of a larger mesh (see MeshBlock, MeshRegion); both are empty if nothing is missing.
   std::vector<std::uint8_t> is_fixed;   ///< per triangle: it may not be changed
   std::vector<std::uint8_t> is_partial; ///< per point: triangles around it are missing
 
@@ -127,7 +127,8 @@ struct TriangleMesh
   /// Undoes all changes that were recorded since mark () returned this value, the last one first.
   void undo (std::size_t mark);
 
-  /// Sets neighbours and triangle_of from the triangles. O(n).
+  /// Sets neighbours and triangle_of from the triangles. Points that are partial may have several
+  /// fans. O(n).
   /// \param points number of points; corners must be below
   /// \return false if the triangles are no oriented manifold; the mesh is then unusable
   /// \throws IndexLimitReached if there are 2^32 / 3 triangles or more

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parts/local_parts.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+template <typename Value>
+std::vector<Value>
+slice (const std::vector<Value>& values, Index first, Index last)
+{
+  return {values.begin () + first, values.begin () + last};
+}
+
+// The candidates whose first corner is in a range; they are ordered by these.
+CandidateLists
+candidatesOf (const CandidateLists& all, Index first, Index last)
+{
+  const auto range = [&] (const auto& list) {
+    const auto from = [&list] (Index p) {
+      return std::partition_point (list.begin (), list.end (),
+                                   [p] (const auto& one) { return one.corners[0] < p; });
+    };
+    return std::decay_t<decltype (list)> (from (first), from (last));
+  };
+  return {range (all.sure), range (all.doubtful), all.sure_ranks};
+}
+
+} // namespace
+
+LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
+                        const SurfaceSettings& settings, const PartLimits& limits,
+                        const RunContext& run)
+    : points_ (points), parts_ (parts), geometry_ (geometry), settings_ (settings),
+      limits_ (limits), meshes_ (parts.count ())
+{
+  run.beginStage (Stage::CONSENSUS);
+  const ConsensusLimits& consensus = settings.limits.consensus;
+  const std::vector<std::uint8_t> reaches_out = reachesOut (geometry.stars.neighbors, 0, parts);
+  ProposedTriangles proposed =
+      proposeTriangles (points.workingPositions (), geometry.neighbors, geometry.stars,
+                        geometry.spacing, consensus.candidates, run);
+  std::vector<Eigen::Vector3f> normals = std::move (geometry.stars.normals);
+  geometry.stars = {};
+  geometry.stars.normals = std::move (normals);
+  parallelTasks (run, parts.count (), [&] (std::size_t part) {
+    const Index first = parts.first (part), last = parts.last (part);
+    meshes_[part] = makePartMesh (
+        pointsOf (part, points.workingPositions (), geometry.spacing),
+        slice (proposed.smoothed_normals, first, last),
+        divideCandidates (candidatesOf (proposed.candidates, first, last), first, last,
+                          slice (reaches_out, first, last)),
+        [&] (Index p) { return geometry.neighbors.row (p); }, consensus, run.withThreads (1));
+  });
+}
+
+PartPoints
+LocalParts::pointsOf (std::size_t part, const std::vector<Eigen::Vector3d>& positions,
+                      const std::vector<float>& spacing) const
+{
+  const Index first = parts_.first (part), last = parts_.last (part);
+  return {first, slice (positions, first, last),
+          slice (geometry_.stars.normals, first, last), slice (spacing, first, last)};
+}
+
+PartRim
+LocalParts::rim (std::size_t part, std::size_t rings)
+{
+  const std::vector<Eigen::Vector3d>& positions = points_.workingPositions ();
+  const std::vector<Eigen::Vector3f>& normals = geometry_.stars.normals;
+  return findRim (
+      pointsOf (part, positions, geometry_.spacing), meshes_[part],
+      [this] (Index p) { return geometry_.neighbors.row (p); },
+      [&] (const std::vector<Index>& others, std::vector<Eigen::Vector3d>& other_positions,
+           std::vector<Eigen::Vector3f>& other_normals) {
+        for (const Index p : others) {
+          other_positions.push_back (positions[p]);
+          other_normals.push_back (normals[p]);
+        }
+      },
+      rings, settings_.limits.consensus.smallest_island);
+}
+
+void
+LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
+{
+  finished_.resize (parts_.count ());
+  parallelTasks (run, parts_.count (), [&] (std::size_t part) {
+    const Index first = parts_.first (part), last = parts_.last (part);
+    const std::vector<Index>& all = geometry_.scatter;
+    std::vector<Index> scatter (std::lower_bound (all.begin (), all.end (), first),
+                                std::lower_bound (all.begin (), all.end (), last));
+    for (Index& p : scatter)
+      p -= first;
+    finished_[part] = finishPart (
+        pointsOf (part, points_.positions, geometry_.meshSpacing ()),
+        std::move (meshes_[part].triangles), changes[part],
+        [this] (Index p) { return geometry_.neighbors.row (p); }, scatter, settings_.flip_edges,
+        settings_.limits.finish, limits_.rings, run.withThreads (1));
+    meshes_[part] = {};
+    changes[part] = {};
+  });
+}
+
+} // namespace floater
+} // namespace pcl

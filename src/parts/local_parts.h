@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts that are meshed in this process, on all of its threads.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "parts/parts_method.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Meshes the parts when it is made.
+class LocalParts : public PartWork
+{
+public:
+  /// All arguments must outlive this.
+  /// \param geometry the lists of the stars are freed as soon as they are not needed
+  LocalParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
+              const SurfaceSettings& settings, const PartLimits& limits, const RunContext& run);
+
+  PartRim rim (std::size_t part, std::size_t rings) override;
+  void finish (std::vector<PartChange> changes, const RunContext& run) override;
+  FinishedPart finished (std::size_t part) override { return std::move (finished_[part]); }
+
+private:
+  PartPoints pointsOf (std::size_t part, const std::vector<Eigen::Vector3d>& positions,
+                       const std::vector<float>& spacing) const;
+
+  const Points& points_;
+  const Parts& parts_;
+  const LocalGeometry& geometry_;
+  const SurfaceSettings& settings_;
+  const PartLimits& limits_;
+  std::vector<PartMesh> meshes_;
+  std::vector<FinishedPart> finished_;
+};
+
+} // namespace floater
+} // namespace pcl

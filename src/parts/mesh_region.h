@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The triangles around some points of a mesh.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Triangles of a mesh, and their corners. All numbers are those of the mesh.
+struct MeshRegion
+{
+  std::vector<Index> points;            ///< ascending
+  std::vector<std::uint8_t> is_partial; ///< of each: triangles around it are not in the region
+  std::vector<Index> triangles;         ///< ascending
+};
+
+/// All triangles with a corner that is fewer than `rings` edges away from a seed, all triangles that
+/// are asked for besides, and the seeds themselves. O(rings n).
+/// \param points  number of points of the mesh
+/// \param seeds   points of the mesh; need not be vertices
+/// \param besides of each triangle: 1 for those that are in the region anyway; empty: none
+MeshRegion
+regionAround (const std::vector<Triangle>& triangles, std::size_t points,
+              const std::vector<Index>& seeds, std::size_t rings,
+              const std::vector<std::uint8_t>& besides = {});
+
+} // namespace floater
+} // namespace pcl

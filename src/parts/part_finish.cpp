@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parts/part_finish.h"
+
+#include "mesh/insertion.h"
+#include "parts/mesh_region.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+using Edge = std::array<Index, 2>; // from, to
+
+Triangle
+shifted (Triangle corners, Index by)
+{
+  for (Index& p : corners)
+    p += by;
+  return corners;
+}
+
+// Takes triangles out, turns components round and adds triangles.
+void
+apply (const PartChange& change, Index first, std::size_t points, const RunContext& run,
+       std::vector<Triangle>& triangles)
+{
+  if (!change.turned.empty ()) {
+    TriangleMesh mesh;
+    mesh.triangles = std::move (triangles);
+    if (!mesh.connect (points, run))
+      throw std::logic_error ("the mesh of a part is no manifold");
+    const MeshComponents components = findComponents (mesh, run);
+    triangles = std::move (mesh.triangles);
+    std::vector<std::uint8_t> is_turned (components.count, 0);
+    for (const Index c : change.turned)
+      is_turned[c] = 1;
+    for (std::size_t t = 0; t < triangles.size (); ++t)
+      if (is_turned[components.of_triangle[t]] != 0)
+        std::swap (triangles[t][1], triangles[t][2]);
+  }
+  for (const Index t : change.dropped)
+    triangles[t][0] = NONE;
+  triangles.erase (std::remove_if (triangles.begin (), triangles.end (),
+                                   [] (const Triangle& corners) { return corners[0] == NONE; }),
+                   triangles.end ());
+  for (const Triangle& corners : change.added)
+    triangles.push_back (shifted (corners, Index{0} - first));
+}
+
+// Marks points at triangles of several parts as partial, and triangles beside these as fixed.
+void
+fixBesideSeam (const std::vector<Triangle>& seam, const PartPoints& points, TriangleMesh& mesh)
+{
+  mesh.is_partial.assign (points.size (), 0);
+  std::set<Edge> edges;
+  for (const Triangle& corners : seam)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index p = corners[i], q = corners[(i + 1) % 3];
+      if (points.has (p))
+        mesh.is_partial[p - points.first] = 1;
+      edges.insert ({p, q});
+    }
+  mesh.is_fixed.assign (mesh.triangles.size (), 0);
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index p = mesh.from ({t, side}), q = mesh.to ({t, side});
+      if (mesh.is_partial[p] != 0 && mesh.is_partial[q] != 0 &&
+          edges.count ({points.first + q, points.first + p}) > 0)
+        mesh.is_fixed[t] = 1;
+    }
+}
+
+// Lists of the neighbours that are in the part.
+CsrLists
+neighborsWithin (const PartPoints& points, const NeighborSource& neighbors)
+{
+  CsrLists lists;
+  lists.offsets.reserve (points.size () + 1);
+  lists.offsets.push_back (0);
+  for (Index p = 0; p < points.size (); ++p) {
+    for (const Index q : neighbors (points.first + p))
+      if (points.has (q))
+        lists.ids.push_back (q - points.first);
+    lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
+  }
+  return lists;
+}
+
+SeamZone
+takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh& mesh,
+          const NeighborSource& neighbors, const std::vector<Index>& scatter)
+{
+  SeamZone zone;
+  zone.neighbors.offsets.push_back (0);
+  std::vector<Index> place (points.size (), NONE);
+  for (std::size_t i = 0; i < region.points.size (); ++i) {
+    const Index p = region.points[i];
+    place[p] = static_cast<Index> (i);
+    zone.points.push_back (points.first + p);
+    zone.positions.push_back (points.positions[p]);
+    zone.normals.push_back (points.normals[p]);
+    zone.spacing.push_back (points.spacing[p]);
+    zone.is_scatter.push_back (std::binary_search (scatter.begin (), scatter.end (), p) ? 1 : 0);
+    const Row row = neighbors (points.first + p);
+    zone.neighbors.ids.insert (zone.neighbors.ids.end (), row.begin (), row.end ());
+    zone.neighbors.offsets.push_back (static_cast<Index> (zone.neighbors.ids.size ()));
+  }
+  zone.is_partial = region.is_partial;
+  for (const Index t : region.triangles) {
+    const Triangle& corners = mesh.triangles[t];
+    zone.triangles.push_back ({place[corners[0]], place[corners[1]], place[corners[2]]});
+  }
+  return zone;
+}
+
+} // namespace
+
+FinishedPart
+finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
+            const NeighborSource& neighbors, const std::vector<Index>& scatter, bool flip_edges,
+            const FinishLimits& limits, std::size_t rings, const RunContext& run)
+{
+  apply (change, points.first, points.size (), run, triangles);
+  TriangleMesh mesh;
+  mesh.triangles = std::move (triangles);
+  fixBesideSeam (change.seam, points, mesh);
+  if (!mesh.connect (points.size (), run))
+    throw std::logic_error ("the mesh of a part and what was added to it are no manifold");
+
+  FinishedPart finished;
+  {
+    const CsrLists within = neighborsWithin (points, neighbors);
+    orientNormals (mesh, points.positions, points.normals, run);
+    orientMissingNormals (mesh, within, points.normals, run);
+    FinishSettings settings;
+    settings.flip_edges = flip_edges;
+    settings.limits = limits;
+    const MeshFinish finish = repairMesh (
+        mesh, {points.positions, within, points.spacing, scatter, points.normals}, settings, run);
+    finished.flips = finish.flips;
+    finished.folds_after_flips = finish.folds_after_flips;
+  }
+  std::vector<Index> seeds;
+  for (Index p = 0; p < points.size (); ++p)
+    if (mesh.is_partial[p] != 0 || mesh.triangle_of[p] == NONE)
+      seeds.push_back (p);
+  const MeshRegion region = regionAround (mesh.triangles, points.size (), seeds, rings);
+  finished.zone = takeZone (region, points, mesh, neighbors, scatter);
+  finished.triangles.reserve (mesh.triangles.size () - region.triangles.size ());
+  auto in_zone = region.triangles.begin ();
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    if (in_zone != region.triangles.end () && *in_zone == t)
+      ++in_zone;
+    else
+      finished.triangles.push_back (shifted (mesh.triangles[t], points.first));
+  return finished;
+}
+
+} // namespace floater
+} // namespace pcl

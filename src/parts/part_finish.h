@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The last changes of the mesh of one part, away from the others.
+#pragma once
+
+#include "mesh/finish.h"
+#include "parts/part_mesh.h"
+#include "parts/stitching.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The triangles of a part around those that have corners in several parts, and all that is known of
+/// their corners. Points are those of the cloud.
+struct SeamZone
+{
+  std::vector<Index> points; ///< of the part, ascending: corners, and those without a triangle
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> normals; ///< oriented like the triangles
+  std::vector<float> spacing;
+  std::vector<std::uint8_t> is_partial; ///< triangles of the part around the point are missing here
+  std::vector<std::uint8_t> is_scatter;
+  CsrLists neighbors; ///< of each point, nearest first
+  std::vector<Triangle> triangles;
+};
+
+/// A finished part.
+struct FinishedPart
+{
+  std::vector<Triangle> triangles; ///< but for those in the zone; corners are points
+  SeamZone zone;
+  std::size_t flips = 0;
+  std::size_t folds_after_flips = 0; ///< see MeshFinish
+};
+
+/// Applies the changes of the stitching to the mesh of a part, inserts points that have no triangle,
+/// flips edges and repairs folds, as finishMesh does. Triangles beside one that has corners in
+/// another part are left as they are. O(n log n) at worst.
+/// \param points    of the part; the positions are those on which the vertices lie
+/// \param triangles see PartMesh
+/// \param scatter   points of the part around which the cloud is flat at no scale, ascending;
+///                  counted from its first point on
+/// \param rings     see SeamZone: of triangles in the zone
+FinishedPart
+finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
+            const NeighborSource& neighbors, const std::vector<Index>& scatter, bool flip_edges,
+            const FinishLimits& limits, std::size_t rings, const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

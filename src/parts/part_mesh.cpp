@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parts/part_mesh.h"
+
+#include "consensus/consensus.h"
+#include "consensus/manifold_part.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+PartCandidates
+divideCandidates (const CandidateLists& of_part, Index first, Index last,
+                  const std::vector<std::uint8_t>& reaches_out)
+{
+  const auto isInside = [&] (const Triangle& corners) {
+    return std::all_of (corners.begin (), corners.end (),
+                        [&] (Index p) { return p >= first && p < last; });
+  };
+  const auto reachesOutAt = [&] (Index p) { return reaches_out[p - first] != 0; };
+  const auto counted = [first] (const Triangle& corners) {
+    return Triangle{corners[0] - first, corners[1] - first, corners[2] - first};
+  };
+  PartCandidates divided;
+  divided.inside.sure_ranks = of_part.sure_ranks;
+  divided.inside.sure.reserve (of_part.sure.size ());
+  for (const SureTriangle& sure : of_part.sure)
+    if (isInside (sure.corners))
+      divided.inside.sure.push_back ({counted (sure.corners), sure.clockwise, sure.rank, false});
+    else
+      divided.left.push_back ({sure.corners, 3, 0, 0.0F, 0.0F});
+  for (const Candidate& doubtful : of_part.doubtful) {
+    const Triangle& corners = doubtful.corners;
+    if (isInside (corners) && std::none_of (corners.begin (), corners.end (), reachesOutAt)) {
+      divided.inside.doubtful.push_back (doubtful);
+      divided.inside.doubtful.back ().corners = counted (corners);
+    }
+    else
+      divided.left.push_back (doubtful);
+  }
+  return divided;
+}
+
+std::vector<std::uint8_t>
+reachesOut (const CsrLists& stars, Index first, const Parts& parts)
+{
+  std::vector<std::uint8_t> reaches (stars.rows ());
+  Index part_first = 0, part_last = 0;
+  for (std::size_t r = 0; r < reaches.size (); ++r) {
+    const auto p = static_cast<Index> (first + r);
+    if (p >= part_last) {
+      const std::size_t part = parts.partOf (p);
+      part_first = parts.first (part);
+      part_last = parts.last (part);
+    }
+    const Row row = stars.row (r);
+    reaches[r] = std::any_of (row.begin (), row.end (),
+                              [&] (Index q) { return q < part_first || q >= part_last; })
+                     ? 1
+                     : 0;
+  }
+  return reaches;
+}
+
+namespace
+{
+std::vector<Index>
+findRoom (const TriangleMesh& mesh)
+{
+  std::vector<std::uint8_t> has_room (mesh.triangle_of.size (), 0);
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE)
+        has_room[mesh.from ({t, side})] = has_room[mesh.to ({t, side})] = 1;
+  std::vector<Index> points;
+  for (Index p = 0; p < has_room.size (); ++p)
+    if (has_room[p] != 0 || mesh.triangle_of[p] == NONE)
+      points.push_back (p);
+  return points;
+}
+
+// Appends the candidates that have room at all corners to those that are left.
+void
+appendOpen (const CandidateLists& inside, const std::vector<Index>& with_room, Index first,
+            std::size_t points, std::vector<Candidate>& open)
+{
+  std::vector<std::uint8_t> has_room (points, 0);
+  for (const Index p : with_room)
+    has_room[p] = 1;
+  const auto offer = [&] (Candidate candidate) {
+    Triangle& corners = candidate.corners;
+    if (!std::all_of (corners.begin (), corners.end (),
+                      [&] (Index p) { return has_room[p] != 0; }))
+      return;
+    for (Index& p : corners)
+      p += first;
+    open.push_back (candidate);
+  };
+  for (const SureTriangle& sure : inside.sure)
+    offer ({sure.corners, 3, 0, 0.0F, 0.0F});
+  for (const Candidate& doubtful : inside.doubtful)
+    offer (doubtful);
+}
+
+} // namespace
+
+PartMesh
+makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
+              PartCandidates candidates, const NeighborSource& neighbors,
+              const ConsensusLimits& limits, const RunContext& run)
+{
+  std::vector<Index> row;
+  const auto neighborsWithin = [&] (Index p) {
+    row.clear ();
+    for (const Index q : neighbors (points.first + p))
+      if (points.has (q))
+        row.push_back (q - points.first);
+    return Row{row.data (), row.data () + row.size ()};
+  };
+  PartMesh part;
+  part.smoothed = std::move (smoothed);
+  TriangleMesh mesh = *manifoldPart (
+      buildConsensus (points.positions, candidates.inside, part.smoothed, run), points.size (),
+      neighborsWithin, limits.smallest_island, {}, run);
+  MeshComponents components = findComponents (mesh, run);
+  part.with_room = findRoom (mesh);
+  part.open = std::move (candidates.left);
+  appendOpen (candidates.inside, part.with_room, points.first, points.size (), part.open);
+  part.triangles = std::move (mesh.triangles);
+  part.component = std::move (components.of_triangle);
+  part.components = components.count;
+  return part;
+}
+
+} // namespace floater
+} // namespace pcl

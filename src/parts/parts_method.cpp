@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parts/parts_method.h"
+
+#include "core/parallel.h"
+#include "parts/seam_finish.h"
+#include "parts/stitching.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Sees more of the parts until that is enough.
+Stitching
+stitchParts (const Parts& parts, PartWork& work, double unit, const SurfaceSettings& settings,
+             std::size_t rings, const RunContext& run)
+{
+  constexpr std::size_t MOST_RINGS = std::size_t{1} << 20U; // more than any part has
+  for (; rings < MOST_RINGS; rings *= 2) {
+    std::vector<PartRim> rims (parts.count ());
+    parallelTasks (run, parts.count (),
+                   [&] (std::size_t part) { rims[part] = work.rim (part, rings); });
+    if (std::optional<Stitching> stitching = stitch (std::move (rims), parts, unit, settings, run))
+      return std::move (*stitching);
+  }
+  throw std::logic_error ("parts of a mesh cannot be stitched");
+}
+
+} // namespace
+
+Surface
+makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
+                    const SurfaceSettings& settings, const PartLimits& limits,
+                    const RunContext& run)
+{
+  Surface surface;
+  run.beginStage (Stage::CONSENSUS);
+  Stitching stitching =
+      stitchParts (parts, work, 1.0 / points.scale, settings, limits.rings, run);
+  surface.holes_filled = stitching.holes.filled;
+  surface.doubtful_loops = std::move (stitching.holes.doubtful);
+  surface.orientation_seam = std::move (stitching.orientation_seam);
+
+  run.beginStage (Stage::FLIPS);
+  work.finish (std::move (stitching.parts), run);
+  std::vector<SeamZone> zones;
+  MeshFinish& finish = surface.finish;
+  for (std::size_t part = 0; part < parts.count (); ++part) {
+    run.poll ();
+    FinishedPart finished = work.finished (part);
+    finish.flips += finished.flips;
+    finish.folds_after_flips += finished.folds_after_flips;
+    std::vector<Triangle>& all = surface.mesh.triangles;
+    all.reserve (2 * points.size ());
+    all.insert (all.end (), finished.triangles.begin (), finished.triangles.end ());
+    zones.push_back (std::move (finished.zone));
+  }
+  const FinishedSeam seam =
+      finishSeam (zones, stitching.seam, settings.flip_edges, settings.limits.finish, run);
+  zones = {};
+  finish.flips += seam.flips;
+  finish.folds_after_flips += seam.folds_after_flips;
+  surface.mesh.triangles.insert (surface.mesh.triangles.end (), seam.triangles.begin (),
+                                 seam.triangles.end ());
+  if (!surface.mesh.connect (points.size (), run))
+    throw std::logic_error ("the finished parts do not fit");
+  finish.folds = findFolds (surface.mesh, points.positions, run).size ();
+  endMesh (surface.mesh, points.positions, settings.finishSettings (), run, finish);
+  return surface;
+}
+
+} // namespace floater
+} // namespace pcl
