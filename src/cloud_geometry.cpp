@@ -76,8 +76,9 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
 }
 
 Noise
-measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSettings& settings,
-                        const Request& request, const NoiseProbes* known, Report& report)
+measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable& neighbors,
+                        const NeighborSettings& settings, const Request& request,
+                        const NoiseProbes* known, Report& report)
 {
   const Options& options = request.options;
   const Limits& limits = request.limits;
@@ -85,7 +86,7 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSetti
   const bool drops_scatter = options.scatter == ScatterPolicy::DROP;
   if (!options.denoise && !drops_scatter)
     return {};
-  Noise noise = measureNoise (points.positions, planes.neighbors, limits.noise, run, known);
+  Noise noise = measureNoise (points.positions, neighbors, limits.noise, run, known);
   if (drops_scatter)
     noise.scatter = exceptLoop (std::move (noise.scatter), points, options.disc.boundary.loop);
   reportScatter (points, noise.scatter, report);
@@ -95,9 +96,9 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSetti
     if (checkPoints (points))
       return {}; // the caller tells
     std::optional<KdTree> tree;
-    CsrLists neighbors =
+    CsrLists of_rest =
         findNeighbors (points, settings, run, asksForDisc (options) ? nullptr : &tree);
-    planes = fitLocalPlanes (points, std::move (neighbors), std::move (tree),
+    planes = fitLocalPlanes (points, std::move (of_rest), std::move (tree),
                              starSettings (request), run, limits.planes);
     if (options.denoise)
       noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);

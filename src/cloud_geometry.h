@@ -32,11 +32,13 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
 /// Measures noise and looks for scatter, which has no surface at any scale; it is taken out if that
 /// is asked for, but for points that the user's loop names.
 /// \param planes of the points; made anew where points are taken out
+/// \param neighbors those of the planes
 /// \return nothing noisy if noise is not to be projected away
 /// \param known  of every NOISE_PROBES-th point, if they have been measured before
 Noise
-measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborSettings& settings,
-                        const Request& request, const NoiseProbes* known, Report& report);
+measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable& neighbors,
+                        const NeighborSettings& settings, const Request& request,
+                        const NoiseProbes* known, Report& report);
 
 /// How the stars of the points are made.
 StarSettings

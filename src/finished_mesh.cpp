@@ -40,16 +40,18 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
 
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, const CrossingSearch& search)
+         const Request& request, Statistics& statistics, const Uncrosser& by)
 {
   const Options& options = request.options;
-  checkCrossing (mesh.triangles, points, request.run, found, search);
+  checkCrossing (mesh.triangles, points, request.run, found, by.search);
   statistics.self_intersections_found = found.crossing.size ();
   // Where points lie off the surface by noise, so that they were projected to connect them, the
   // true triangles cross each other, too.
   if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty () ||
       !points.projected.empty ())
     return;
+  if (by.complete)
+    by.complete ();
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, points.positions, normals, request.run);
   const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
@@ -61,7 +63,7 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
   statistics.self_intersection_moves = done.moves;
   statistics.self_intersection_rebuilds = done.rebuilds;
   if (done.flips + done.moves > 0)
-    found = examineWithCrossing (mesh, points, geometry, request, search);
+    found = examineWithCrossing (mesh, points, geometry, request, by.search);
 }
 
 Problem

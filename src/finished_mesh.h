@@ -12,6 +12,8 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
+#include <functional>
+
 namespace pcl
 {
 namespace floater
@@ -21,13 +23,18 @@ MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request);
 
+/// Who does parts of uncross; each may be empty.
+struct Uncrosser
+{
+  CrossingSearch search;           ///< see checkCrossing
+  std::function<void ()> complete; ///< called before neighbours and normals of the geometry are read
+};
+
 /// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
 /// again.
-///
-/// \param search see checkCrossing
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, const CrossingSearch& search = {});
+         const Request& request, Statistics& statistics, const Uncrosser& by = {});
 
 /// Makes the result of a mesh.
 /// \return INTERNAL_ERROR if it is no oriented manifold, DEGENERATE if it is empty, or

@@ -6,6 +6,7 @@
 #include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
 #include "mesh/self_intersections.h"
+#include "parts/parts_method.h"
 #include "points/noise.h"
 #include "points/points.h"
 #include "request.h"
@@ -13,7 +14,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace pcl
@@ -22,7 +23,7 @@ namespace floater
 {
 /// What reconstruct () finds out about the surroundings of each point of a surface, if that is
 /// known already. It has to be what reconstruct () would find itself; then the mesh is the same.
-/// Each function but the last is called once at most, in the order of a run.
+/// The functions are called in the order of a run.
 class KnownStages
 {
 public:
@@ -34,7 +35,10 @@ public:
   /// Points that lie off any surface, ascending.
   virtual std::vector<Index> outliers () = 0;
 
-  /// Of the points without outliers: `neighbors`, with those beside lines. The rest is not read.
+  /// Of points without outliers: the neighbours, with those beside lines. Row i is that of points[i].
+  virtual CsrLists neighborsOf (const std::vector<Index>& points) = 0;
+
+  /// Of all points without outliers: `neighbors`, with those beside lines. The rest is not read.
   virtual LocalPlanes planes () = 0;
 
   /// See takeAreaSamples.
@@ -46,7 +50,14 @@ public:
   /// The geometry around each point. \param with_stars whether their lists are read
   virtual LocalGeometry geometry (LocalPlanes planes, bool with_stars) = 0;
 
-  /// The candidates of these stars.
+  /// The spacing of that geometry alone.
+  virtual std::vector<float> spacing () = 0;
+
+  /// The parts of a cloud that has several, as they are meshed where that geometry is known.
+  /// \param scatter points around which the cloud is flat at no scale, ascending
+  virtual std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter) = 0;
+
+  /// The candidates of these stars, of a cloud that is one part.
   virtual ProposedTriangles triangles () = 0;
 
   /// See findSelfIntersections; of a mesh of these candidates.

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -123,41 +124,75 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
+// A surface of several parts.
 Surface
 surfaceOfParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
-                const SurfaceSettings& settings, const Request& request)
+                const SurfaceSettings& settings, const Request& request, KnownStages* known)
 {
   const PartLimits& limits = request.limits.parts;
+  if (known != nullptr) {
+    const std::unique_ptr<PartWork> work = known->parts (geometry.scatter);
+    return makeSurfaceOfParts (points, parts, *work, settings, limits, request.run);
+  }
   LocalParts work (points, parts, geometry, settings, limits, request.run);
   return makeSurfaceOfParts (points, parts, work, settings, limits, request.run);
 }
 
+Surface
+surfaceAsAWhole (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
+                 const Request& request, KnownStages* known)
+{
+  std::optional<ProposedTriangles> proposed;
+  if (known != nullptr)
+    proposed = known->triangles ();
+  return makeSurface (points, geometry, settings, request.run, std::move (proposed));
+}
+
+// \param geometry if stages are known: without neighbours and normals where these are not needed
 Problem
 reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
                     KnownStages* known, Result& result)
 {
   const Options& options = request.options;
   Report& report = result.report;
-  std::optional<ProposedTriangles> proposed;
-  CrossingSearch search;
-  if (known != nullptr) {
-    proposed = known->triangles ();
-    search = [known] (const std::vector<Triangle>& triangles, const Points& of,
-                      const RunContext& run) { return known->crossing (triangles, of, run); };
-  }
   const SurfaceSettings settings{options.holes, options.flip_edges, request.limits.surface,
                                  facingHints (points, request)};
   const Parts parts (points.size (), request.limits.parts);
-  Surface surface =
-      parts.count () > 1 ? surfaceOfParts (points, parts, geometry, settings, request)
-                         : makeSurface (points, geometry, settings, request.run, std::move (proposed));
+  Surface surface = parts.count () > 1
+                        ? surfaceOfParts (points, parts, geometry, settings, request, known)
+                        : surfaceAsAWhole (points, geometry, settings, request, known);
   reportOrientationSeam (points, surface.orientation_seam, report);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
-  uncross (surface.mesh, found, points, geometry, request, report.statistics, search);
+  Uncrosser uncrosser;
+  if (known != nullptr) {
+    uncrosser.search = [known] (const std::vector<Triangle>& triangles, const Points& of,
+                                const RunContext& run) {
+      return known->crossing (triangles, of, run);
+    };
+    uncrosser.complete = [known, &geometry] {
+      if (geometry.neighbors.rows () == 0)
+        geometry = known->geometry (known->planes (), false);
+    };
+  }
+  uncross (surface.mesh, found, points, geometry, request, report.statistics, uncrosser);
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
+}
+
+// The neighbours of the planes. If stages are known, they are read when they are needed.
+NeighborTable
+neighborTable (LocalPlanes& planes, KnownStages* known)
+{
+  if (known == nullptr)
+    return planes.neighbors;
+  return {[known] (const std::vector<Index>& points) { return known->neighborsOf (points); },
+          [known, &planes] () -> const CsrLists& {
+            if (planes.neighbors.rows () == 0)
+              planes = known->planes ();
+            return planes.neighbors;
+          }};
 }
 
 // A cloud of which nobody tells where it was seen from, or that is no scan.
@@ -187,10 +222,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return problem;
   run.beginStage (Stage::STARS);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes = known != nullptr
-                           ? known->planes ()
-                           : fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars,
-                                             run, limits.planes);
+  LocalPlanes planes; // of stages that are known: read when they are needed
+  if (known == nullptr)
+    planes = fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run,
+                             limits.planes);
+  const NeighborTable table = neighborTable (planes, known);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
   const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
@@ -200,14 +236,14 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
     if (const std::optional<Problem> problem = reconstructFrom (
-            findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
+            findViewpoint (points, table, samples, search, limits.view.evidence, run)))
       return *problem;
   }
   const std::size_t with_scatter = points.size ();
   std::optional<NoiseProbes> probes;
   if (known != nullptr)
     probes = known->noiseProbes ();
-  Noise noise = measureNoiseAndScatter (points, planes, settings, request,
+  Noise noise = measureNoiseAndScatter (points, planes, table, settings, request,
                                         probes ? &*probes : nullptr, report);
   if (points.size () != with_scatter)
     known = nullptr; // all that follows is of fewer points
@@ -216,9 +252,15 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                       " of no surface: " + problem.message + "; keep the scatter";
     return problem;
   }
-  LocalGeometry geometry = known != nullptr
-                               ? known->geometry (std::move (planes), noise.noisy_points > 0)
-                               : makeLocalGeometry (points, std::move (planes), stars, run);
+  LocalGeometry geometry;
+  if (known == nullptr)
+    geometry = makeLocalGeometry (points, std::move (planes), stars, run);
+  else if (noise.noisy_points == 0 && Parts (points.size (), limits.parts).count () > 1)
+    geometry.spacing = known->spacing (); // the parts know the rest
+  else {
+    table.all ();
+    geometry = known->geometry (std::move (planes), noise.noisy_points > 0);
+  }
   noise.is_strong =
       noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
   if (noise.is_strong) {

@@ -285,7 +285,7 @@ private:
 };
 
 Places
-measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,
                const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known)
 {
   Samples samples (positions, run);
@@ -301,7 +301,7 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& ne
       points.reserve (count);
       for (std::size_t i = 0; i < count; ++i)
         points.push_back (static_cast<Index> (i * stride * CENTRES));
-      measured = probeNoise (positions, neighbors, points, samples.all (), limits, run);
+      measured = probeNoise (positions, neighbors.all (), points, samples.all (), limits, run);
     }
     else {
       measured = *known;
@@ -359,7 +359,7 @@ summarize (std::vector<float> relative, Noise& noise)
 } // namespace
 
 Noise
-measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,
               const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known)
 {
   const std::size_t n = positions.size ();
@@ -377,6 +377,7 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
     return noise;
   const std::vector<float> around =
       smoothed (positions, places.noise, centres, limits.quantile, run);
+  const CsrLists& all_neighbors = neighbors.all ();
   std::vector<float> relative (n, 0.0F);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
@@ -384,7 +385,7 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
       // The nearest in space: the curve jumps, and so would the noise.
       centres.nearest (positions[p], 1, found);
       const float here = around[found.front ().point / CENTRES];
-      const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
+      const double spacing = spacingOf (positions, static_cast<Index> (p), all_neighbors.row (p));
       if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
         continue; // a caller's search may find no neighbours: then there is no spacing
       noise.at_point[p] = here;

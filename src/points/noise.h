@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/neighbor_table.h"
 #include "points/point_sample.h"
 
 #include <vector>
@@ -90,7 +91,7 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 /// along a space-filling curve \param neighbors of each point, nearest first
 /// \param known of every NOISE_PROBES-th point, if they have been measured before
 Noise
-measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,
               const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known = nullptr);
 
 /// Whether points have to be projected before they are connected: so many are noisy, and so little

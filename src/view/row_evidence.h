@@ -5,6 +5,7 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
+#include "points/neighbor_table.h"
 #include "points/points.h"
 #include "view/patch_rays.h"
 
@@ -25,7 +26,7 @@ struct RowEvidence
 /// \param neighbors nearest first
 /// \param count number of points that are looked at, spread evenly over their order. O(count).
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
+findRows (const Points& points, const NeighborTable& neighbors, std::size_t count,
           const RunContext& run);
 
 /// Patches of points that are near each other in space, around points that are spread evenly over

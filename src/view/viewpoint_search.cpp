@@ -25,7 +25,7 @@ namespace
 class ViewpointSearch
 {
 public:
-  ViewpointSearch (const Points& points, const CsrLists& neighbors,
+  ViewpointSearch (const Points& points, const NeighborTable& neighbors,
                    const std::vector<AreaSample>& samples, const SearchLimits& limits,
                    const EvidenceLimits& evidence, const RunContext& run)
       : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
@@ -65,7 +65,7 @@ public:
     // Whatever the direction, rays of a patch lead to points that are near each other.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (
-        positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
+        positions_, neighbors_.all (), std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
     // Lines on a plane are as even from all directions: they do not tell any. Around the right
     // direction, the costs rise slowly. So every third direction tells whether there may be one: of
     // 80 generated line scans, the least cost of these was .009 to .053 of their median.
@@ -339,7 +339,7 @@ private:
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
-  const CsrLists& neighbors_;
+  const NeighborTable& neighbors_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
   EvidenceLimits coarse_; // fewer patches, while a place is searched
@@ -363,7 +363,7 @@ limitToCloud (EvidenceLimits limits, std::size_t points)
 } // namespace
 
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const CsrLists& neighbors,
+findViewpoint (const Points& points, const NeighborTable& neighbors,
                const std::vector<AreaSample>& samples, const SearchLimits& limits,
                const EvidenceLimits& evidence, const RunContext& run)
 {
@@ -382,7 +382,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
 }
 
 std::optional<Viewpoint>
-findViewpointOfEven (const Points& points, const CsrLists& neighbors,
+findViewpointOfEven (const Points& points, const NeighborTable& neighbors,
                      const std::vector<AreaSample>& samples, const SearchLimits& limits,
                      const EvidenceLimits& evidence, const RunContext& run)
 {

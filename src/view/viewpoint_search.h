@@ -3,6 +3,7 @@
 // Finds the place from which a cloud was seen, where nobody tells.
 #pragma once
 
+#include "points/neighbor_table.h"
 #include "points/points.h"
 #include "view/area_evidence.h"
 #include "view/ray_evidence.h"
@@ -73,14 +74,14 @@ struct SearchLimits
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const CsrLists& neighbors,
+findViewpoint (const Points& points, const NeighborTable& neighbors,
                const std::vector<AreaSample>& samples, const SearchLimits& limits,
                const EvidenceLimits& evidence, const RunContext& run);
 
 /// The same of a cloud that is sampled evenly, which findViewpoint leaves out. It needs a view only
 /// if it is noisy.
 std::optional<Viewpoint>
-findViewpointOfEven (const Points& points, const CsrLists& neighbors,
+findViewpointOfEven (const Points& points, const NeighborTable& neighbors,
                      const std::vector<AreaSample>& samples, const SearchLimits& limits,
                      const EvidenceLimits& evidence, const RunContext& run);
 

@@ -225,7 +225,7 @@ DividedCrossing::findOnAll (const std::vector<Triangle>& triangles,
       writeMesh (folder_, meshFile (search_), context_.plan, mesh, sorted,
                  makeBuckets (sorted, positions, run), ranges_);
     }
-    deal_ (std::move (numbers));
+    deal_ (CROSSING, std::move (numbers));
     folder_.remove (meshFile (search_));
   }
   std::vector<CrossingPair> places;

@@ -28,8 +28,8 @@ crossingStep (const StepContext& context, std::size_t number);
 class DividedCrossing
 {
 public:
-  /// Has CROSSING done for these numbers.
-  using Deal = std::function<void (std::deque<std::size_t> numbers)>;
+  /// Has a step done for these numbers.
+  using Deal = std::function<void (const std::string& step, std::deque<std::size_t> numbers)>;
 
   /// \param context, ranges must outlive this \param ranges of the points of the mesh
   DividedCrossing (const StepContext& context, FolderStore& folder, const BlockRanges& ranges,

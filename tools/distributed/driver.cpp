@@ -164,49 +164,65 @@ areBlocksFreed (FolderStore& folder, const Plan& plan)
          openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("freed").front () != 0;
 }
 
-// Does all blocks of all steps that are not finished.
+// Does a step for those of so many blocks or parts that are not finished.
+void
+workOn (const Job& job, const StepContext& context, FolderStore& folder, Dealer* dealer,
+        const Watch& watch, const char* step, std::size_t count)
+{
+  std::deque<std::size_t> left;
+  for (std::size_t number = 0; number < count; ++number)
+    if (!isFinished (folder, blockFile (step, number), context.plan))
+      left.push_back (number);
+  const std::size_t finished = count - left.size ();
+  {
+    const HeapReuse reuse;
+    if (dealer != nullptr)
+      dealer->run (context, step, std::move (left));
+    else
+      for (const std::size_t number : left)
+        blockStep (context, step, number);
+  }
+  say (job, std::string (step) + ": " + std::to_string (count - finished) + " " +
+                (step == std::string (MESH) ? "parts" : "blocks") + " done, " +
+                std::to_string (finished) + " finished before, " + watch.time ());
+}
+
+// Does all steps of the blocks, and meshes the parts.
 void
 workOnBlocks (const Job& job, const StepContext& context, FolderStore& folder, Dealer* dealer,
               const Watch& watch)
 {
   const Plan& plan = context.plan;
   for (const char* step : BLOCK_STEPS) {
-    std::deque<std::size_t> blocks;
-    for (std::size_t block = 0; block < plan.blocks; ++block)
-      if (!isFinished (folder, blockFile (step, block), plan))
-        blocks.push_back (block);
-    const std::size_t finished = plan.blocks - blocks.size ();
-    {
-      const HeapReuse reuse;
-      if (dealer != nullptr)
-        dealer->run (context, step, std::move (blocks));
-      else
-        for (const std::size_t block : blocks)
-          blockStep (context, step, block);
-    }
-    say (job, std::string (step) + ": " + std::to_string (plan.blocks - finished) +
-                  " blocks done, " + std::to_string (finished) + " finished before, " +
-                  watch.time ());
+    workOn (job, context, folder, dealer, watch, step, plan.blocks);
     if (step == BLOCK_STEPS.front () && !isFinished (folder, OUTLIERS, plan))
       chooseOutliersStep (context);
   }
+  if (const std::size_t parts = countMeshFiles (plan, context.limits); parts > 0)
+    workOn (job, context, folder, dealer, watch, MESH, parts);
 }
 
-// What `join` deals out, if that is of use: if all processes together have more threads for blocks
-// than this one has for the whole cloud.
-DividedCrossing::Deal
-dealOfJoin (const Job& job, const StepContext& context, Dealer* dealer, const Watch& watch)
+// What `join` deals out, if that is of use: parts if all processes together have as many threads for
+// them as this one has for the whole cloud, the search for crossing triangles if they have more,
+// since the mesh has to be written for it.
+JoinDeals
+dealsOfJoin (const Job& job, const StepContext& context, Dealer* dealer, const Watch& watch)
 {
-  if (dealer == nullptr ||
-      dealer->processes () * context.run.threads () <= RunContext (job.join_threads).threads ())
-    return {};
-  return [&, dealer] (std::deque<std::size_t> numbers) {
-    const std::size_t blocks = numbers.size ();
-    dealer->run (context, CROSSING, std::move (numbers));
-    say (job, std::string (CROSSING) + ": " + std::to_string (blocks) + " blocks done, " +
-                  std::to_string (context.plan.blocks - blocks) + " finished before, " +
-                  watch.time ());
+  JoinDeals deals;
+  if (dealer == nullptr)
+    return deals;
+  const auto deal = [&, dealer] (const std::string& step, std::deque<std::size_t> numbers) {
+    const std::size_t count = numbers.size ();
+    dealer->run (context, step, std::move (numbers));
+    say (job, step + ": " + std::to_string (count) + " done, " + watch.time ());
   };
+  const int threads = dealer->processes () * context.run.threads ();
+  const int join_threads = RunContext (job.join_threads).threads ();
+  if (threads >= join_threads)
+    deals.finish = deal;
+  if (threads > join_threads)
+    deals.crossing = deal;
+  return deals;
 }
 
 int
@@ -228,7 +244,7 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   if (!areBlocksFreed (folder, plan))
     workOnBlocks (job, context, folder, dealer, watch);
   if (!isFinished (folder, TRIANGLES, plan))
-    if (const int code = joinStep (job, folder, plan, dealOfJoin (job, context, dealer, watch));
+    if (const int code = joinStep (job, folder, plan, dealsOfJoin (job, context, dealer, watch));
         code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
@@ -282,9 +298,12 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
                                                 : joinStep (job, folder, plan);
   if (step == "write")
     return writeStep (job, folder, plan);
-  if (job.block >= plan.blocks)
+  const bool is_of_part = step == MESH;
+  const std::size_t count = is_of_part ? countMeshFiles (plan, effective.limits) : plan.blocks;
+  if (job.block >= count)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
-                      std::to_string (plan.blocks) + " blocks, which are numbered from 0");
+                      std::to_string (count) + (is_of_part ? " parts" : " blocks") +
+                      ", which are numbered from 0");
   const HeapReuse reuse;
   if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
     blockStep (context, step, job.block);
@@ -334,6 +353,11 @@ printSteps (const Job& job, FolderStore& folder)
     if (step == BLOCK_STEPS.front ())
       std::printf ("%soutliers\n\n", command.c_str ());
   }
+  const std::size_t parts = countMeshFiles (plan, EffectiveOptions (job.line).limits);
+  for (std::size_t part = 0; part < parts; ++part)
+    std::printf ("%s%s --block %zu\n", command.c_str (), MESH, part);
+  if (parts > 0)
+    std::printf ("\n");
   std::printf ("%sjoin\n\n%swrite\n", command.c_str (), command.c_str ());
 }
 

@@ -180,7 +180,7 @@ readPlan (const Job& job, const FolderStore& store)
 }
 
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const DividedCrossing::Deal& deal)
+joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals& deals)
 {
   auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
@@ -188,13 +188,17 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const DividedCro
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
   checkMemory (line, plan.cloud_size);
-  StoredStages stages (context, job.frees_disk ? &store : nullptr);
-  DividedCrossing divided (context, store, stages.ranges (), deal);
-  if (deal)
+  StoredStages stages (context, store, job.frees_disk ? &store : nullptr);
+  stages.divideFinish (deals.finish);
+  DividedCrossing divided (context, store, stages.ranges (), deals.crossing);
+  if (deals.crossing)
     stages.divideCrossing (&divided);
+  const std::size_t mesh_files = countMeshFiles (plan, effective.limits);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
     for (std::size_t block = 0; block < plan.blocks; ++block)
       openArrays (store, blockFile (step, block), plan);
+  for (std::size_t part = 0; part < mesh_files; ++part)
+    openArrays (store, blockFile (MESH, part), plan);
   Input input;
   input.cloud_size = plan.cloud_size;
   input.sensor_origin = plan.sensor_origin;
@@ -240,11 +244,14 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const DividedCro
   writer.add ("triangles", result.triangles);
   store.put (TRIANGLES, writer, plan.id);
   removeCrossing (store, plan);
+  removeFinished (store, plan, effective.limits);
   if (job.frees_disk) {
     store.finish (); // the mesh is on the disk before that of which it was made goes
     for (const char* step : BLOCK_STEPS)
       for (std::size_t block = 0; block < plan.blocks; ++block)
         store.remove (blockFile (step, block));
+    for (std::size_t part = 0; part < mesh_files; ++part)
+      store.remove (blockFile (MESH, part));
   }
   return EXIT_OK;
 }

@@ -7,6 +7,7 @@
 #include "command_line.h"
 #include "crossing_step.h"
 #include "merged_cloud.h"
+#include "part_steps.h"
 
 #include <optional>
 #include <string>
@@ -69,12 +70,17 @@ defaultBlocks (std::size_t points);
 int
 planStep (const Job& job, FolderStore& store);
 
+/// What `join` has done on all processes; what is empty is done here.
+struct JoinDeals
+{
+  StoredParts::Deal finish;
+  DividedCrossing::Deal crossing;
+};
+
 /// Puts together what the blocks have found out.
-/// \param deal has crossing triangles searched on all processes; empty: they are searched here
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan,
-          const DividedCrossing::Deal& deal = {});
+joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals& deals = {});
 
 /// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
 /// block.

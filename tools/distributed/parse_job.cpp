@@ -57,13 +57,15 @@ stepNames ()
 {
   std::vector<std::string> names (SINGLE_STEPS.begin (), SINGLE_STEPS.end ());
   names.insert (names.end (), BLOCK_STEPS.begin (), BLOCK_STEPS.end ());
+  names.emplace_back (MESH);
   return names;
 }
 
 bool
 isBlockStep (const std::string& step)
 {
-  return std::find (BLOCK_STEPS.begin (), BLOCK_STEPS.end (), step) != BLOCK_STEPS.end ();
+  return step == MESH ||
+         std::find (BLOCK_STEPS.begin (), BLOCK_STEPS.end (), step) != BLOCK_STEPS.end ();
 }
 
 void
@@ -87,7 +89,7 @@ addSteps (CLI::App& app, Job& job)
   app.add_option_function<std::string> (
          "--step", choose,
          "do this step only: plan, outliers, join, write, or for a\nblock: neighbors, planes, "
-         "stars, triangles")
+         "stars, triangles, or for a part:\nmesh")
       ->option_text ("NAME (all)")
       ->group (group);
   const auto setBlock = [&job] (const std::string& word) {
@@ -95,7 +97,7 @@ addSteps (CLI::App& app, Job& job)
       throw CLI::ValidationError ("--block", "'" + word + "' is not a whole number");
     job.has_block = true;
   };
-  app.add_option_function<std::string> ("--block", setBlock, "block of the step, from 0")
+  app.add_option_function<std::string> ("--block", setBlock, "block or part of the step, from 0")
       ->option_text ("N")
       ->group (group);
   app.add_flag ("--print-steps", job.prints_steps,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "block_steps.h"
 #include "crossing_step.h"
+#include "part_steps.h"
 
 #include "cloud_geometry.h"
 #include "known_stages.h"
@@ -100,7 +101,8 @@ writeStars (const StepContext& context, std::size_t block, const OwnStars& own,
 void
 writeTriangles (const StepContext& context, std::size_t block, const CandidateLists& candidates,
                 const std::vector<Eigen::Vector3f>& smoothed, const std::vector<float>& spacing,
-                const CsrLists& stars, const std::vector<std::uint8_t>& open, const CsrLists& far)
+                const CsrLists& stars, const std::vector<std::uint8_t>& open, const CsrLists& far,
+                const std::vector<std::uint8_t>& reaches_out)
 {
   ArrayWriter writer;
   std::vector<Index> sure_corners, doubtful_corners;
@@ -129,6 +131,7 @@ writeTriangles (const StepContext& context, std::size_t block, const CandidateLi
   writeLists ("stars", stars, writer);
   writer.add ("open", open);
   writeLists ("far", far, writer);
+  writer.add ("reaches_out", reaches_out);
   context.store.put (blockFile ("triangles", block), writer, context.plan.id);
 }
 
@@ -216,7 +219,7 @@ trianglesStep (const StepContext& context, std::size_t block)
 {
   OwnBlock own_block (context, block);
   if (own_block.isEmpty ()) {
-    writeTriangles (context, block, {}, {}, {}, {}, {}, {});
+    writeTriangles (context, block, {}, {}, {}, {}, {}, {}, {});
     return;
   }
   StoredCloud& cloud = own_block.cloud;
@@ -272,7 +275,8 @@ trianglesStep (const StepContext& context, std::size_t block)
   writeTriangles (context, block, candidates,
                   {smoothed.begin () + own_first, smoothed.begin () + own_last},
                   {spacing.begin () + own_first, spacing.begin () + own_last}, ended.stars,
-                  ended.open, ended.far);
+                  ended.open, ended.far,
+                  reachesOut (ended.stars, first, Parts (cloud.points (), context.limits.parts)));
 }
 
 void
@@ -283,6 +287,10 @@ blockStep (const StepContext& context, const std::string& step, std::size_t bloc
   for (std::size_t i = 0; i < BLOCK_STEPS.size (); ++i)
     if (step == BLOCK_STEPS[i])
       return FUNCTIONS[i](context, block);
+  if (step == MESH)
+    return meshStep (context, block);
+  if (step == FINISH)
+    return finishStep (context, block);
   if (step == CROSSING)
     return crossingStep (context, block);
   throw std::logic_error ("a block step of this name");

@@ -39,8 +39,10 @@ appendLists (ArrayFile& file, const std::string& name, CsrLists& all)
 
 } // namespace
 
-StoredStages::StoredStages (const StepContext& context, const FolderStore* freed)
-    : context_ (context), freed_ (freed), outliers_ (readOutliers (context)),
+StoredStages::StoredStages (const StepContext& context, FolderStore& folder,
+                            const FolderStore* freed)
+    : context_ (context), folder_ (folder),
+      freed_ (partsOf (context).count () > 1 ? nullptr : freed), outliers_ (readOutliers (context)),
       ranges_ (blockRanges (context.plan, context.plan.points - outliers_.size ()))
 {
 }
@@ -76,6 +78,12 @@ StoredStages::points (Report& report)
   reportGrossOutliers (gross_outliers, report);
   reportPoints (points, report);
   return points;
+}
+
+CsrLists
+StoredStages::neighborsOf (const std::vector<Index>& points)
+{
+  return StoredNeighbors (context_, outliers_, ranges_).all (points);
 }
 
 LocalPlanes
@@ -160,6 +168,23 @@ StoredStages::geometry (LocalPlanes planes, bool with_stars)
   geometry.neighbors = std::move (planes.neighbors);
   appendRows (far, geometry.neighbors);
   return geometry;
+}
+
+std::vector<float>
+StoredStages::spacing ()
+{
+  std::vector<float> spacing;
+  spacing.reserve (ranges_.points ());
+  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
+    appendArray (file, "spacing", spacing);
+  });
+  return spacing;
+}
+
+std::unique_ptr<PartWork>
+StoredStages::parts (const std::vector<Index>& scatter)
+{
+  return std::make_unique<StoredParts> (context_, folder_, scatter, finish_);
 }
 
 ProposedTriangles

@@ -6,6 +6,7 @@
 #include "block_steps.h"
 #include "crossing_step.h"
 #include "known_stages.h"
+#include "part_steps.h"
 
 namespace pcl
 {
@@ -17,21 +18,28 @@ class StoredStages : public KnownStages
 public:
   /// \param context must outlive this
   /// \param freed   where the files of a step are removed when all of it that is needed has been
-  ///                read; nullptr: they stay
-  explicit StoredStages (const StepContext& context, const FolderStore* freed = nullptr);
+  ///                read; nullptr: they stay, as they do of a cloud that has several parts
+  /// \param folder  for what the parts write
+  StoredStages (const StepContext& context, FolderStore& folder, const FolderStore* freed = nullptr);
 
   Points points (Report& report) override;
   std::vector<Index> outliers () override { return outliers_; }
+  CsrLists neighborsOf (const std::vector<Index>& points) override;
   LocalPlanes planes () override;
   std::vector<AreaSample> areaSamples () override;
   NoiseProbes noiseProbes () override;
   LocalGeometry geometry (LocalPlanes planes, bool with_stars) override;
+  std::vector<float> spacing () override;
+  std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter) override;
   ProposedTriangles triangles () override;
   std::vector<CrossingPair> crossing (const std::vector<Triangle>& triangles, const Points& points,
                                       const RunContext& run) override;
 
   /// Has the search for crossing triangles done by others, too. \param divided must outlive this
   void divideCrossing (DividedCrossing* divided) { divided_ = divided; }
+
+  /// Has parts finished by others, too.
+  void divideFinish (StoredParts::Deal deal) { finish_ = std::move (deal); }
 
   /// The points of each block, without outliers.
   const BlockRanges& ranges () const { return ranges_; }
@@ -44,7 +52,9 @@ private:
   void remove (const char* step) const;
 
   const StepContext& context_;
+  FolderStore& folder_;
   const FolderStore* freed_;
+  StoredParts::Deal finish_;
   DividedCrossing* divided_ = nullptr;
   std::vector<Index> outliers_;
   BlockRanges ranges_; // without outliers

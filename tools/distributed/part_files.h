@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is written of a part.
+#pragma once
+
+#include "array_file.h"
+#include "parts/part_finish.h"
+#include "parts/part_rim.h"
+
+#include <deque>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Arrays of a part for a file. All that is added must outlive this.
+class PartWriter
+{
+public:
+  ArrayWriter& arrays () { return arrays_; }
+
+  void addTriangles (const std::string& name, const std::vector<Triangle>& triangles);
+  void addRim (const PartRim& rim);
+  void addFinished (const FinishedPart& part);
+  void addChanges (const std::vector<PartChange>& changes);
+
+private:
+  template <typename T>
+  std::vector<T>& keep ();
+
+  ArrayWriter arrays_;
+  // Arrays that are made for the file, where they stay.
+  std::deque<std::vector<Index>> indices_;
+  std::deque<std::vector<Triangle>> triangles_;
+  std::vector<std::uint8_t> marks_;
+  std::vector<float> ratios_;
+};
+
+std::vector<Triangle>
+readTriangles (ArrayFile& file, const std::string& name);
+
+PartRim
+readRim (ArrayFile& file);
+
+FinishedPart
+readFinished (ArrayFile& file);
+
+PartChange
+readChange (ArrayFile& file, std::size_t part);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "part_steps.h"
+
+#include "core/parallel.h"
+#include "part_files.h"
+#include "stored_cloud.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+constexpr const char* CHANGES = "changes.bin"; // what `join` has decided of the parts
+
+// What the blocks have found out about the points of a part.
+class StoredPart
+{
+public:
+  StoredPart (const StepContext& context, std::size_t part)
+      : context_ (context), outliers_ (readOutliers (context)), cloud_ (context, outliers_, false),
+        parts_ (cloud_.points (), context.limits.parts),
+        first_ (part < parts_.count () ? parts_.first (part) : 0),
+        last_ (part < parts_.count () ? parts_.last (part) : 0),
+        neighbors_ (context, outliers_, cloud_.ranges ()),
+        stars_ (context.store, context.plan, cloud_.ranges (), "stars"),
+        triangles_ (context.store, context.plan, cloud_.ranges (), "triangles")
+  {
+  }
+
+  bool isEmpty () const { return first_ == last_; }
+
+  PartPoints points ()
+  {
+    const std::vector<Index> own = pointsFrom (first_, last_);
+    return {first_, cloud_.gather (own), gatherVectors (stars_, "normals", own),
+            triangles_.gather<float> ("spacing", own)};
+  }
+
+  std::vector<Eigen::Vector3f> smoothed ()
+  {
+    return gatherVectors (triangles_, "smoothed_normals", pointsFrom (first_, last_));
+  }
+
+  PartCandidates candidates ()
+  {
+    CandidateLists all;
+    all.sure_ranks = context_.limits.surface.consensus.candidates.sure_ranks;
+    const BlockRanges& ranges = cloud_.ranges ();
+    for (std::size_t block = ranges.blockOf (first_); block <= ranges.blockOf (last_ - 1); ++block)
+      appendCandidates (triangles_.file (block), all);
+    return divideCandidates (
+        all, first_, last_,
+        triangles_.gather<std::uint8_t> ("reaches_out", pointsFrom (first_, last_)));
+  }
+
+  // Valid as long as this.
+  NeighborSource neighbors ()
+  {
+    if (rows_.rows () == 0) {
+      const std::vector<Index> own = pointsFrom (first_, last_);
+      rows_ = neighbors_.all (own);
+      appendRows (triangles_.gatherLists ("far", own), rows_);
+    }
+    return [this] (Index p) { return rows_.row (p - first_); };
+  }
+
+  OtherPoints others ()
+  {
+    return [this] (const std::vector<Index>& points, std::vector<Eigen::Vector3d>& positions,
+                   std::vector<Eigen::Vector3f>& normals) {
+      positions = cloud_.gather (points);
+      normals = gatherVectors (stars_, "normals", points);
+    };
+  }
+
+  Index first () const { return first_; }
+  Index last () const { return last_; }
+
+private:
+  // Those whose first corner is in the part.
+  void appendCandidates (ArrayFile& file, CandidateLists& all) const
+  {
+    const auto inPart = [this] (const std::vector<Triangle>& corners) {
+      const auto from = [&corners] (Index p) {
+        return static_cast<std::size_t> (
+            std::partition_point (corners.begin (), corners.end (),
+                                  [p] (const Triangle& t) { return t[0] < p; }) -
+            corners.begin ());
+      };
+      return std::pair (from (first_), from (last_));
+    };
+    std::vector<Triangle> corners = readTriangles (file, "sure.corners");
+    std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks");
+    auto [begin, end] = inPart (corners);
+    for (std::size_t t = begin; t < end; ++t)
+      all.sure.push_back ({corners[t], marks[2 * t], marks[2 * t + 1], false});
+    corners = readTriangles (file, "doubtful.corners");
+    marks = file.read<std::uint8_t> ("doubtful.marks");
+    const std::vector<float> values = file.read<float> ("doubtful.values");
+    std::tie (begin, end) = inPart (corners);
+    for (std::size_t t = begin; t < end; ++t)
+      all.doubtful.push_back (
+          {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});
+  }
+
+  const StepContext& context_;
+  std::vector<Index> outliers_;
+  StoredCloud cloud_;
+  Parts parts_;
+  Index first_, last_;
+  StoredNeighbors neighbors_;
+  Slices stars_, triangles_;
+  CsrLists rows_;
+};
+
+PartMesh
+meshOf (StoredPart& stored, const PartPoints& points, const StepContext& context)
+{
+  return makePartMesh (points, stored.smoothed (), stored.candidates (), stored.neighbors (),
+                       context.limits.surface.consensus, context.run);
+}
+
+PartRim
+rimOf (StoredPart& stored, const PartPoints& points, const PartMesh& mesh, std::size_t rings,
+       const StepContext& context)
+{
+  return findRim (points, mesh, stored.neighbors (), stored.others (), rings,
+                  context.limits.surface.consensus.smallest_island);
+}
+
+// Tells what was decided from what was decided in another run.
+std::uint64_t
+identify (const std::vector<PartChange>& changes, const std::vector<Index>& scatter)
+{
+  std::uint64_t value = 0;
+  const auto add = [&value] (const auto& list) {
+    const std::uint64_t count = list.size ();
+    value = XXH3_64bits_withSeed (&count, sizeof (count), value);
+    value = XXH3_64bits_withSeed (list.data (), list.size () * sizeof (list[0]), value);
+  };
+  for (const PartChange& change : changes) {
+    add (change.dropped);
+    add (change.turned);
+    add (change.added);
+    add (change.seam);
+  }
+  add (scatter);
+  return value;
+}
+
+} // namespace
+
+Parts
+partsOf (const StepContext& context)
+{
+  return {context.plan.points - readOutliers (context).size (), context.limits.parts};
+}
+
+std::size_t
+countMeshFiles (const Plan& plan, const Limits& limits)
+{
+  const std::size_t parts = Parts (plan.points, limits.parts).count ();
+  return parts > 1 ? parts : 0;
+}
+
+void
+meshStep (const StepContext& context, std::size_t part)
+{
+  StoredPart stored (context, part);
+  PartMesh mesh;
+  PartRim rim;
+  if (!stored.isEmpty ()) {
+    const PartPoints points = stored.points ();
+    mesh = meshOf (stored, points, context);
+    rim = rimOf (stored, points, mesh, context.limits.parts.rings, context);
+  }
+  PartWriter writer;
+  writer.addTriangles ("triangles", mesh.triangles);
+  writer.addRim (rim);
+  context.store.put (blockFile (MESH, part), writer.arrays (), context.plan.id);
+}
+
+void
+finishStep (const StepContext& context, std::size_t part)
+{
+  StoredPart stored (context, part);
+  ArrayFile changes = openArrays (context.store, CHANGES, context.plan);
+  const auto id = changes.read<std::uint64_t> ("id");
+  std::vector<Index> scatter;
+  for (const Index p : changes.read<Index> ("scatter"))
+    if (p >= stored.first () && p < stored.last ())
+      scatter.push_back (p - stored.first ());
+  std::vector<Triangle> triangles;
+  {
+    ArrayFile mesh = openArrays (context.store, blockFile (MESH, part), context.plan);
+    triangles = readTriangles (mesh, "triangles");
+  }
+  const FinishedPart finished =
+      finishPart (stored.points (), std::move (triangles), readChange (changes, part),
+                  stored.neighbors (), scatter, context.options.flip_edges,
+                  context.limits.surface.finish, context.limits.parts.rings, context.run);
+  PartWriter writer;
+  writer.arrays ().add ("id", id);
+  writer.addFinished (finished);
+  context.store.put (blockFile (FINISH, part), writer.arrays (), context.plan.id);
+}
+
+PartRim
+StoredParts::rim (std::size_t part, std::size_t rings)
+{
+  if (rings == context_.limits.parts.rings) {
+    ArrayFile file = openArrays (context_.store, blockFile (MESH, part), context_.plan);
+    return readRim (file);
+  }
+  StoredPart stored (context_, part); // more of it than is in the file
+  const PartPoints points = stored.points ();
+  return rimOf (stored, points, meshOf (stored, points, context_), rings, context_);
+}
+
+bool
+StoredParts::isFinished (std::size_t part, std::uint64_t changes) const
+{
+  const std::string name = blockFile (FINISH, part);
+  if (!folder_.has (name))
+    return false;
+  ArrayFile file = openArrays (folder_, name, context_.plan);
+  file.verify ();
+  return file.read<std::uint64_t> ("id").front () == changes;
+}
+
+void
+StoredParts::finish (std::vector<PartChange> changes, const RunContext& run)
+{
+  const std::uint64_t id = identify (changes, scatter_);
+  std::deque<std::size_t> left;
+  for (std::size_t part = 0; part < parts_.count (); ++part)
+    if (!isFinished (part, id))
+      left.push_back (part);
+  if (left.empty ())
+    return;
+  PartWriter writer;
+  writer.arrays ().add ("id", &id, 1);
+  writer.arrays ().add ("scatter", scatter_);
+  writer.addChanges (changes);
+  folder_.put (CHANGES, writer.arrays (), context_.plan.id);
+  if (deal_)
+    deal_ (FINISH, std::move (left));
+  else
+    parallelTasks (run, left.size (), [&] (std::size_t i) {
+      const RunContext one = run.withThreads (1);
+      finishStep ({context_.store, context_.plan, context_.options, context_.limits, one}, left[i]);
+    });
+}
+
+FinishedPart
+StoredParts::finished (std::size_t part)
+{
+  ArrayFile file = openArrays (context_.store, blockFile (FINISH, part), context_.plan);
+  return readFinished (file);
+}
+
+void
+removeFinished (const FolderStore& folder, const Plan& plan, const Limits& limits)
+{
+  folder.remove (CHANGES);
+  for (std::size_t part = 0; part < countMeshFiles (plan, limits); ++part)
+    folder.remove (blockFile (FINISH, part));
+}
+
+} // namespace floater
+} // namespace pcl

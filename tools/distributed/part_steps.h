@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of a large cloud, as they are meshed and finished by whichever process has time. Parts
+// depend on the number of points only, not on the blocks.
+#pragma once
+
+#include "block_steps.h"
+#include "parts/parts_method.h"
+
+#include <deque>
+#include <functional>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The step after those of the blocks: it is done for each part, if there are several.
+constexpr const char* MESH = "mesh";
+
+/// What a process is asked to do within `join`, for each part.
+constexpr const char* FINISH = "finish";
+
+/// The parts of the points without outliers.
+Parts
+partsOf (const StepContext& context);
+
+/// Files of MESH: one for each part, or none. Known as soon as there is a plan; if outliers are taken
+/// out, there may be one part less, whose file is empty then.
+std::size_t
+countMeshFiles (const Plan& plan, const Limits& limits);
+
+/// Meshes a part, and writes the mesh and its rim.
+void
+meshStep (const StepContext& context, std::size_t part);
+
+/// Finishes a part, with what `join` has decided.
+void
+finishStep (const StepContext& context, std::size_t part);
+
+/// The parts, for makeSurfaceOfParts.
+class StoredParts : public PartWork
+{
+public:
+  /// Has a step done for these numbers.
+  using Deal = std::function<void (const std::string& step, std::deque<std::size_t> numbers)>;
+
+  /// \param context, folder must outlive this
+  /// \param scatter  see finishPart
+  /// \param deal     empty: parts are finished by the threads of the run
+  StoredParts (const StepContext& context, FolderStore& folder, std::vector<Index> scatter,
+               Deal deal)
+      : context_ (context), folder_ (folder), scatter_ (std::move (scatter)),
+        deal_ (std::move (deal)), parts_ (partsOf (context))
+  {
+  }
+
+  PartRim rim (std::size_t part, std::size_t rings) override;
+  void finish (std::vector<PartChange> changes, const RunContext& run) override;
+  FinishedPart finished (std::size_t part) override;
+
+private:
+  bool isFinished (std::size_t part, std::uint64_t changes) const;
+
+  const StepContext& context_;
+  FolderStore& folder_;
+  std::vector<Index> scatter_;
+  Deal deal_;
+  Parts parts_;
+};
+
+/// Removes what parts have left in the work folder when the mesh is known.
+void
+removeFinished (const FolderStore& folder, const Plan& plan, const Limits& limits);
+
+} // namespace floater
+} // namespace pcl
