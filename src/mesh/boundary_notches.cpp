@@ -9,6 +9,7 @@
 #include <cmath>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 namespace pcl
 {
@@ -18,25 +19,42 @@ namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-// A sample of the corners tells how obtuse they are: of so many triangles.
-constexpr std::size_t SAMPLE = 20'000;
+// Of the angle opposite to an edge; 1 if points coincide.
+double
+cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
+{
+  const Eigen::Vector3d& corner = positions[mesh.corner (e)];
+  const Eigen::Vector3d a = positions[mesh.from (e)] - corner;
+  const Eigen::Vector3d b = positions[mesh.to (e)] - corner;
+  const double product = a.norm () * b.norm ();
+  return product > 0.0 ? a.dot (b) / product : 1.0;
+}
+
+// A cosine below which are the usual share of all corners.
+double
+usualCosine (std::vector<double> corners, double share)
+{
+  const auto at = corners.begin () +
+                  static_cast<std::ptrdiff_t> (share * static_cast<double> (corners.size ()));
+  std::nth_element (corners.begin (), at, corners.end ());
+  return *at;
+}
 
 class NotchOpener
 {
 public:
-  NotchOpener (const TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
-               const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
-        peel_ (mesh, positions.size (), run)
+  NotchOpener (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size (), run)
   {
   }
 
-  /// Number of triangles to take out.
-  std::size_t run ()
+  /// Number of triangles to take out, with cosines below the limit.
+  std::size_t run (std::vector<double> corners, const NotchLimits& limits)
   {
     if (peel_.edges ().empty ())
       return 0;
-    limit_ = std::min (limits_.largest_cosine, usualCosine ());
+    limit_ =
+        std::min (limits.largest_cosine, usualCosine (std::move (corners), limits.usual_share));
     for (const MeshEdge e : peel_.edges ())
       offer (e);
     std::size_t count = 0;
@@ -59,45 +77,15 @@ public:
 private:
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
 
-  // Of the angle opposite to an edge; 1 if points coincide.
-  double cosineAt (MeshEdge e) const
-  {
-    const Eigen::Vector3d& corner = positions_[mesh_.corner (e)];
-    const Eigen::Vector3d a = positions_[mesh_.from (e)] - corner;
-    const Eigen::Vector3d b = positions_[mesh_.to (e)] - corner;
-    const double product = a.norm () * b.norm ();
-    return product > 0.0 ? a.dot (b) / product : 1.0;
-  }
-
-  // A cosine below which are the usual share of all corners.
-  double usualCosine () const
-  {
-    const std::size_t step = std::max<std::size_t> (1, mesh_.triangles.size () / SAMPLE);
-    std::vector<double> cosines;
-    ProgressLoop progress (run_); // each triangle may bring pages into memory
-    for (std::size_t t = 0; t < mesh_.triangles.size (); t += step) {
-      progress.next ();
-      for (std::uint8_t side = 0; side < 3; ++side)
-        cosines.push_back (cosineAt ({static_cast<Index> (t), side}));
-    }
-    const auto at =
-        cosines.begin () +
-        static_cast<std::ptrdiff_t> (limits_.usual_share * static_cast<double> (cosines.size ()));
-    std::nth_element (cosines.begin (), at, cosines.end ());
-    return *at;
-  }
-
   void offer (MeshEdge e)
   {
-    const double cosine = cosineAt (e);
+    const double cosine = cosineAt (e, mesh_, positions_);
     if (cosine < limit_)
       notches_.emplace (cosine, e.triangle, e.side);
   }
 
   const TriangleMesh& mesh_;
   const Positions& positions_;
-  const NotchLimits& limits_;
-  const RunContext& run_;
   double limit_ = 0.0;
   BoundaryPeel peel_;
   std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches_;
@@ -105,15 +93,38 @@ private:
 
 } // namespace
 
+std::vector<double>
+sampleCorners (const TriangleMesh& mesh, const Positions& positions, std::size_t triangles,
+               const RunContext& run)
+{
+  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / triangles);
+  std::vector<double> cosines;
+  ProgressLoop progress (run); // each triangle may bring pages into memory
+  for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
+    progress.next ();
+    for (std::uint8_t side = 0; side < 3; ++side)
+      cosines.push_back (cosineAt ({static_cast<Index> (t), side}, mesh, positions));
+  }
+  return cosines;
+}
+
+std::size_t
+openNotches (TriangleMesh& mesh, const Positions& positions, std::vector<double> corners,
+             const NotchLimits& limits, const RunContext& run)
+{
+  NotchOpener opener (mesh, positions, run);
+  const std::size_t count = opener.run (std::move (corners), limits);
+  if (count > 0)
+    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
+  return count;
+}
+
 std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
              const RunContext& run)
 {
-  NotchOpener opener (mesh, positions, limits, run);
-  const std::size_t count = opener.run ();
-  if (count > 0)
-    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
-  return count;
+  return openNotches (mesh, positions, sampleCorners (mesh, positions, CORNER_SAMPLE, run), limits,
+                      run);
 }
 
 } // namespace floater

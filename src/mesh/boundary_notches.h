@@ -30,13 +30,27 @@ struct NotchLimits
   double largest_cosine = -0.02; ///< 91 degrees: in a grid, rounding does not decide
 };
 
+/// Triangles whose corners tell how obtuse corners are.
+constexpr std::size_t CORNER_SAMPLE = 20'000;
+
+/// The cosines of the corners of so many triangles, spread evenly over the mesh.
+std::vector<double>
+sampleCorners (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               std::size_t triangles, const RunContext& run);
+
 /// Takes out triangles with one boundary edge and an unusually obtuse angle opposite to it, the
 /// most obtuse ones first, and then those that come to lie at the boundary by that. Every point
 /// keeps a triangle: the corner of the angle must be inside before. So neither the number of
 /// components nor of boundary loops changes, nor the genus. O(n); the same for any number of
 /// threads.
 ///
+/// \param corners see sampleCorners, of the whole surface
 /// \return number of triangles taken out
+std::size_t
+openNotches (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             std::vector<double> corners, const NotchLimits& limits, const RunContext& run);
+
+/// The same for a whole mesh.
 std::size_t
 openNotches (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const NotchLimits& limits, const RunContext& run);

@@ -15,7 +15,8 @@ namespace floater
 /// Notes which triangles are to be taken from the boundary of a mesh; the mesh stays as it is.
 /// A triangle may be taken if it has one boundary edge, and its other corner is inside. So every
 /// point keeps a triangle, the mesh stays a manifold, and neither the number of components nor of
-/// boundary loops changes, nor the genus.
+/// boundary loops changes, nor the genus. Of a part of a mesh, edges between partial points are not
+/// at the boundary, and partial points count as if they were.
 class BoundaryPeel
 {
 public:
@@ -28,12 +29,15 @@ public:
     for (Index t = 0; t < mesh.triangles.size (); ++t) {
       progress.next ();
       for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] == NONE) {
+        if (mesh.neighbors[t][side] == NONE && !isEndOfPart ({t, side})) {
           edges_.push_back ({t, side});
           is_at_boundary_[mesh.from (edges_.back ())] = 1;
           is_at_boundary_[mesh.to (edges_.back ())] = 1;
         }
     }
+    for (Index p = 0; p < mesh.is_partial.size (); ++p)
+      if (mesh.is_partial[p] != 0)
+        is_at_boundary_[p] = 1;
   }
 
   /// The boundary edges of the mesh, in the order of its triangles.
@@ -45,7 +49,7 @@ public:
   bool isBoundary (MeshEdge e) const
   {
     const Index other = mesh_.neighbors[e.triangle][e.side];
-    return other == NONE || isTaken (other);
+    return other == NONE ? !isEndOfPart (e) : isTaken (other);
   }
 
   /// \param e a boundary edge of what is left
@@ -64,6 +68,11 @@ public:
   std::vector<std::uint8_t> takenTriangles () && { return std::move (is_taken_); }
 
 private:
+  bool isEndOfPart (MeshEdge e) const
+  {
+    return mesh_.isPartial (mesh_.from (e)) && mesh_.isPartial (mesh_.to (e));
+  }
+
   const TriangleMesh& mesh_;
   std::vector<MeshEdge> edges_;
   std::vector<std::uint8_t> is_taken_;       // per triangle

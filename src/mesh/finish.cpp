@@ -6,6 +6,8 @@
 #include "mesh/flips.h"
 #include "mesh/insertion.h"
 
+#include <utility>
+
 namespace pcl
 {
 namespace floater
@@ -25,8 +27,8 @@ repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& 
   orientNormals (mesh, positions, normals, run);
   const TriangleCost cost (positions, normals, &spacing, settings.limits.cost);
   run.beginStep (AFTER_INSERTION);
-  if (settings.insert_points)
-    insertMissingPoints (mesh, neighbors, cost, settings.flip_edges, run);
+  if (settings.insert_points && isAnyMissing (mesh))
+    insertMissingPoints (mesh, neighbors.all (), cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
@@ -37,21 +39,21 @@ repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& 
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
     // Flips have turned some triangles, so that some normals may have the wrong sign.
     orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, neighbors, scatter, cost, positions, settings.limits.repair, run);
+    moveVertices (mesh, neighbors.all (), scatter, cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
   return finish;
 }
 
 void
-endMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-         const FinishSettings& settings, const RunContext& run, MeshFinish& finish)
+openBoundary (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              std::vector<double> corners, const NotchLimits& limits, const RunContext& run,
+              MeshFinish& finish)
 {
-  if (settings.open_boundary && openNotches (mesh, positions, settings.limits.notches, run) +
-                                        openBoundaryFolds (mesh, positions, run) >
-                                    0)
+  if (openNotches (mesh, positions, std::move (corners), limits, run) +
+          openBoundaryFolds (mesh, positions, run) >
+      0)
     finish.folds = findFolds (mesh, positions, run).size ();
-  finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
 }
 
 MeshFinish
@@ -62,7 +64,10 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                                   {positions, geometry.neighbors, geometry.meshSpacing (),
                                    geometry.scatter, geometry.stars.normals},
                                   settings, run);
-  endMesh (mesh, positions, settings, run, finish);
+  if (settings.open_boundary)
+    openBoundary (mesh, positions, sampleCorners (mesh, positions, CORNER_SAMPLE, run),
+                  settings.limits.notches, run, finish);
+  finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;
 }
 

@@ -9,6 +9,7 @@
 #include "mesh/fold_repair.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
+#include "points/neighbor_table.h"
 
 #include <limits>
 #include <vector>
@@ -53,23 +54,26 @@ struct MeshFinish
 struct RepairInput
 {
   const std::vector<Eigen::Vector3d>& positions; ///< the vertices lie on them
-  const CsrLists& neighbors;                     ///< nearest first
+  NeighborTable neighbors;                       ///< all are read only where there is something
+                                                 ///< to insert or to repair
   const std::vector<float>& spacing;
   const std::vector<Index>& scatter;      ///< see LocalGeometry
   std::vector<Eigen::Vector3f>& normals;  ///< are turned to the side of the mesh
 };
 
-/// The first half of finishMesh: inserts points, flips edges, repairs folds. Of a part of a mesh,
+/// The first part of finishMesh: inserts points, flips edges, repairs folds. Of a part of a mesh,
 /// fixed triangles stay.
 MeshFinish
 repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
             const RunContext& run);
 
-/// The second half of finishMesh: opens the boundary, turns components. For a whole mesh.
-/// \param finish in: of repairMesh
+/// Takes out what only fills notches of the boundary, or folds it.
+/// \param corners see openNotches
+/// \param[in,out] finish of repairMesh
 void
-endMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-         const FinishSettings& settings, const RunContext& run, MeshFinish& finish);
+openBoundary (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              std::vector<double> corners, const NotchLimits& limits, const RunContext& run,
+              MeshFinish& finish);
 
 /// Inserts points that have no triangle, flips edges, repairs the folds that are left, opens
 /// notches and folds of the boundary, and turns every component to face outwards. O(n log n) at

@@ -19,6 +19,13 @@ namespace
 {
 constexpr std::size_t LARGEST_STAR = 200; // triangles: the largest k of the options
 
+// A partial point without a triangle has one that is not seen here.
+bool
+isMissing (const TriangleMesh& mesh, Index p)
+{
+  return mesh.triangle_of[p] == NONE && !mesh.isPartial (p);
+}
+
 // Inserts points one by one, each time the one whose place costs least.
 class PointInserter
 {
@@ -78,8 +85,7 @@ private:
     }
   };
 
-  // A partial point without a triangle has one that is missing here.
-  bool isMissing (Index p) const { return mesh_.triangle_of[p] == NONE && !mesh_.isPartial (p); }
+  bool isMissing (Index p) const { return floater::isMissing (mesh_, p); }
 
   // Pairs of missing points, the first among the neighbours of the second: once the first is
   // inserted, the second has a place.
@@ -189,11 +195,32 @@ private:
 
 } // namespace
 
+bool
+isAnyMissing (const TriangleMesh& mesh)
+{
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
+    if (isMissing (mesh, p))
+      return true;
+  return false;
+}
+
 std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
                      bool flip, const RunContext& run)
 {
   return PointInserter (mesh, neighbors, cost, flip, run).run ();
+}
+
+void
+orientMissingNormal (const TriangleMesh& mesh, Index p, const Row& neighbors,
+                     std::vector<Eigen::Vector3f>& normals)
+{
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+  for (const Index q : neighbors)
+    if (mesh.triangle_of[q] != NONE)
+      sum += normals[q];
+  if (normals[p].dot (sum) < 0.0F)
+    normals[p] = -normals[p];
 }
 
 void
@@ -203,14 +230,8 @@ orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
   ProgressLoop progress (run);
   for (Index p = 0; p < normals.size (); ++p) {
     progress.next ();
-    if (mesh.triangle_of[p] != NONE)
-      continue;
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
-    for (Index q : neighbors.row (p))
-      if (mesh.triangle_of[q] != NONE)
-        sum += normals[q];
-    if (normals[p].dot (sum) < 0.0F)
-      normals[p] = -normals[p];
+    if (mesh.triangle_of[p] == NONE)
+      orientMissingNormal (mesh, p, neighbors.row (p), normals);
   }
 }
 

@@ -10,6 +10,10 @@ namespace pcl
 {
 namespace floater
 {
+/// Whether there are points that insertMissingPoints would insert if it could. O(n).
+bool
+isAnyMissing (const TriangleMesh& mesh);
+
 /// Inserts every point that is not a vertex but has vertices among its nearest neighbours. Of the
 /// triangles around these, the one whose split at the point costs least is split. The point whose
 /// split costs least comes first, since it shows the next ones where the surface is; a point that
@@ -21,6 +25,12 @@ namespace floater
 std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
                      bool flip, const RunContext& run);
+
+/// Gives the normal of a point that is not a vertex the side of the mean normal of those of these
+/// neighbours that are vertices.
+void
+orientMissingNormal (const TriangleMesh& mesh, Index p, const Row& neighbors,
+                     std::vector<Eigen::Vector3f>& normals);
 
 /// Gives the normal of every point that is not a vertex the side of the mean normal of those
 /// nearest neighbours that are vertices. O(n).

@@ -40,7 +40,10 @@ LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry&
                         const SurfaceSettings& settings, const PartLimits& limits,
                         const RunContext& run)
     : points_ (points), parts_ (parts), geometry_ (geometry), settings_ (settings),
-      limits_ (limits), meshes_ (parts.count ())
+      limits_ (limits), meshes_ (parts.count ()),
+      neighbors_ ([table = NeighborTable (geometry.neighbors)] (const std::vector<Index>& some) {
+        return table.some (some);
+      })
 {
   run.beginStage (Stage::CONSENSUS);
   const ConsensusLimits& consensus = settings.limits.consensus;
@@ -58,7 +61,7 @@ LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry&
         slice (proposed.smoothed_normals, first, last),
         divideCandidates (candidatesOf (proposed.candidates, first, last), first, last,
                           slice (reaches_out, first, last)),
-        [&] (Index p) { return geometry.neighbors.row (p); }, consensus, run.withThreads (1));
+        neighbors_, consensus, run.withThreads (1));
   });
 }
 
@@ -78,7 +81,7 @@ LocalParts::rim (std::size_t part, std::size_t rings)
   const std::vector<Eigen::Vector3f>& normals = geometry_.stars.normals;
   return findRim (
       pointsOf (part, positions, geometry_.spacing), meshes_[part],
-      [this] (Index p) { return geometry_.neighbors.row (p); },
+      neighbors_,
       [&] (const std::vector<Index>& others, std::vector<Eigen::Vector3d>& other_positions,
            std::vector<Eigen::Vector3f>& other_normals) {
         for (const Index p : others) {
@@ -102,9 +105,8 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
       p -= first;
     finished_[part] = finishPart (
         pointsOf (part, points_.positions, geometry_.meshSpacing ()),
-        std::move (meshes_[part].triangles), changes[part],
-        [this] (Index p) { return geometry_.neighbors.row (p); }, scatter, settings_.flip_edges,
-        settings_.limits.finish, limits_.rings, run.withThreads (1));
+        std::move (meshes_[part].triangles), changes[part], neighbors_, scatter,
+        settings_.flip_edges, settings_.limits.finish, limits_, parts_.count (), run.withThreads (1));
     meshes_[part] = {};
     changes[part] = {};
   });

@@ -5,6 +5,7 @@
 
 #include "local/local_geometry.h"
 #include "parts/parts_method.h"
+#include "points/neighbor_table.h"
 
 #include <vector>
 
@@ -35,6 +36,7 @@ private:
   const SurfaceSettings& settings_;
   const PartLimits& limits_;
   std::vector<PartMesh> meshes_;
+  NeighborRows neighbors_;
   std::vector<FinishedPart> finished_;
 };
 

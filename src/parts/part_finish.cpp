@@ -4,8 +4,10 @@
 
 #include "mesh/insertion.h"
 #include "parts/mesh_region.h"
+#include "points/neighbor_table.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -77,28 +79,114 @@ fixBesideSeam (const std::vector<Triangle>& seam, const PartPoints& points, Tria
     }
 }
 
-// Lists of the neighbours that are in the part.
+// The neighbours of some points of the part that are in the part; all counted from its first point.
 CsrLists
-neighborsWithin (const PartPoints& points, const NeighborSource& neighbors)
+neighborsWithin (const PartPoints& points, const NeighborRows& neighbors, std::vector<Index> some)
 {
-  CsrLists lists;
-  lists.offsets.reserve (points.size () + 1);
-  lists.offsets.push_back (0);
-  for (Index p = 0; p < points.size (); ++p) {
-    for (const Index q : neighbors (points.first + p))
+  for (Index& p : some)
+    p += points.first;
+  const CsrLists rows = neighbors (some);
+  CsrLists within;
+  within.ids.reserve (rows.ids.size ());
+  within.offsets.reserve (rows.offsets.size ());
+  within.offsets.push_back (0);
+  for (std::size_t i = 0; i < some.size (); ++i) {
+    for (const Index q : rows.row (i))
       if (points.has (q))
-        lists.ids.push_back (q - points.first);
-    lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
+        within.ids.push_back (q - points.first);
+    within.offsets.push_back (static_cast<Index> (within.ids.size ()));
   }
-  return lists;
+  return within;
+}
+
+// All of them, as soon as they are asked for.
+class NeighborsWithin
+{
+public:
+  NeighborsWithin (const PartPoints& points, const NeighborRows& neighbors)
+      : points_ (points), neighbors_ (neighbors)
+  {
+  }
+
+  NeighborTable table ()
+  {
+    return {[this] (const std::vector<Index>& some) {
+              return neighborsWithin (points_, neighbors_, some);
+            },
+            [this] () -> const CsrLists& {
+              if (all_.rows () == 0) {
+                std::vector<Index> own (points_.size ());
+                std::iota (own.begin (), own.end (), Index{0});
+                all_ = neighborsWithin (points_, neighbors_, std::move (own));
+              }
+              return all_;
+            }};
+  }
+
+private:
+  const PartPoints& points_;
+  const NeighborRows& neighbors_;
+  CsrLists all_;
+};
+
+std::vector<Index>
+withoutTriangle (const TriangleMesh& mesh)
+{
+  std::vector<Index> points;
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
+    if (mesh.triangle_of[p] == NONE)
+      points.push_back (p);
+  return points;
+}
+
+// Points from where on triangles are in the zone: those at triangles of several parts, at the
+// boundary, or without a triangle.
+std::vector<Index>
+seedsOfZone (const TriangleMesh& mesh)
+{
+  std::vector<std::uint8_t> is_seed = mesh.is_partial;
+  for (const Index p : withoutTriangle (mesh))
+    is_seed[p] = 1;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE)
+        is_seed[mesh.from ({t, side})] = is_seed[mesh.to ({t, side})] = 1;
+  std::vector<Index> seeds;
+  for (Index p = 0; p < is_seed.size (); ++p)
+    if (is_seed[p] != 0)
+      seeds.push_back (p);
+  return seeds;
+}
+
+// Folded edges of triangles that are not in the zone.
+std::size_t
+countFoldsOutside (const MeshRegion& zone, const TriangleMesh& mesh,
+                   const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+{
+  const auto isInZone = [&zone] (Index t) {
+    return std::binary_search (zone.triangles.begin (), zone.triangles.end (), t);
+  };
+  std::size_t count = 0;
+  for (const MeshEdge& e : findFolds (mesh, positions, run))
+    count += isInZone (e.triangle) && isInZone (mesh.mate (e).triangle) ? 0 : 1;
+  return count;
+}
+
+// The normals of points without a triangle, by those around (see orientMissingNormals).
+void
+orientMissing (const TriangleMesh& mesh, PartPoints& points, const NeighborRows& neighbors)
+{
+  const std::vector<Index> missing = withoutTriangle (mesh);
+  const CsrLists rows = neighborsWithin (points, neighbors, missing);
+  for (std::size_t i = 0; i < missing.size (); ++i)
+    orientMissingNormal (mesh, missing[i], rows.row (i), points.normals);
 }
 
 SeamZone
 takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh& mesh,
-          const NeighborSource& neighbors, const std::vector<Index>& scatter)
+          const NeighborRows& neighbors, const std::vector<Index>& scatter)
 {
   SeamZone zone;
-  zone.neighbors.offsets.push_back (0);
   std::vector<Index> place (points.size (), NONE);
   for (std::size_t i = 0; i < region.points.size (); ++i) {
     const Index p = region.points[i];
@@ -108,10 +196,8 @@ takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh
     zone.normals.push_back (points.normals[p]);
     zone.spacing.push_back (points.spacing[p]);
     zone.is_scatter.push_back (std::binary_search (scatter.begin (), scatter.end (), p) ? 1 : 0);
-    const Row row = neighbors (points.first + p);
-    zone.neighbors.ids.insert (zone.neighbors.ids.end (), row.begin (), row.end ());
-    zone.neighbors.offsets.push_back (static_cast<Index> (zone.neighbors.ids.size ()));
   }
+  zone.neighbors = neighbors (zone.points);
   zone.is_partial = region.is_partial;
   for (const Index t : region.triangles) {
     const Triangle& corners = mesh.triangles[t];
@@ -124,8 +210,9 @@ takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh
 
 FinishedPart
 finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
-            const NeighborSource& neighbors, const std::vector<Index>& scatter, bool flip_edges,
-            const FinishLimits& limits, std::size_t rings, const RunContext& run)
+            const NeighborRows& neighbors, const std::vector<Index>& scatter, bool flip_edges,
+            const FinishLimits& limits, const PartLimits& part_limits, std::size_t parts,
+            const RunContext& run)
 {
   apply (change, points.first, points.size (), run, triangles);
   TriangleMesh mesh;
@@ -134,24 +221,24 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
   if (!mesh.connect (points.size (), run))
     throw std::logic_error ("the mesh of a part and what was added to it are no manifold");
 
+  orientNormals (mesh, points.positions, points.normals, run);
+  orientMissing (mesh, points, neighbors);
   FinishedPart finished;
   {
-    const CsrLists within = neighborsWithin (points, neighbors);
-    orientNormals (mesh, points.positions, points.normals, run);
-    orientMissingNormals (mesh, within, points.normals, run);
+    NeighborsWithin within (points, neighbors);
     FinishSettings settings;
     settings.flip_edges = flip_edges;
     settings.limits = limits;
     const MeshFinish finish = repairMesh (
-        mesh, {points.positions, within, points.spacing, scatter, points.normals}, settings, run);
+        mesh, {points.positions, within.table (), points.spacing, scatter, points.normals}, settings,
+        run);
     finished.flips = finish.flips;
     finished.folds_after_flips = finish.folds_after_flips;
   }
-  std::vector<Index> seeds;
-  for (Index p = 0; p < points.size (); ++p)
-    if (mesh.is_partial[p] != 0 || mesh.triangle_of[p] == NONE)
-      seeds.push_back (p);
-  const MeshRegion region = regionAround (mesh.triangles, points.size (), seeds, rings);
+  const MeshRegion region =
+      regionAround (mesh.triangles, points.size (), seedsOfZone (mesh), part_limits.rings);
+  finished.corners = sampleCorners (mesh, points.positions, CORNER_SAMPLE / parts + 1, run);
+  finished.folds = countFoldsOutside (region, mesh, points.positions, run);
   finished.zone = takeZone (region, points, mesh, neighbors, scatter);
   finished.triangles.reserve (mesh.triangles.size () - region.triangles.size ());
   auto in_zone = region.triangles.begin ();

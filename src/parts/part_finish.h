@@ -13,8 +13,8 @@ namespace pcl
 {
 namespace floater
 {
-/// The triangles of a part around those that have corners in several parts, and all that is known of
-/// their corners. Points are those of the cloud.
+/// The triangles of a part around those that have corners in several parts, and around the boundary,
+/// and all that is known of their corners. Points are those of the cloud.
 struct SeamZone
 {
   std::vector<Index> points; ///< of the part, ascending: corners, and those without a triangle
@@ -34,6 +34,8 @@ struct FinishedPart
   SeamZone zone;
   std::size_t flips = 0;
   std::size_t folds_after_flips = 0; ///< see MeshFinish
+  std::size_t folds = 0;             ///< that are left, at triangles that are not in the zone
+  std::vector<double> corners;       ///< see sampleCorners
 };
 
 /// Applies the changes of the stitching to the mesh of a part, inserts points that have no triangle,
@@ -43,11 +45,12 @@ struct FinishedPart
 /// \param triangles see PartMesh
 /// \param scatter   points of the part around which the cloud is flat at no scale, ascending;
 ///                  counted from its first point on
-/// \param rings     see SeamZone: of triangles in the zone
+/// \param parts     number of parts, which share a sample of corners
 FinishedPart
 finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
-            const NeighborSource& neighbors, const std::vector<Index>& scatter, bool flip_edges,
-            const FinishLimits& limits, std::size_t rings, const RunContext& run);
+            const NeighborRows& neighbors, const std::vector<Index>& scatter, bool flip_edges,
+            const FinishLimits& limits, const PartLimits& part_limits, std::size_t parts,
+            const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -109,13 +109,13 @@ appendOpen (const CandidateLists& inside, const std::vector<Index>& with_room, I
 
 PartMesh
 makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
-              PartCandidates candidates, const NeighborSource& neighbors,
+              PartCandidates candidates, const NeighborRows& neighbors,
               const ConsensusLimits& limits, const RunContext& run)
 {
   std::vector<Index> row;
   const auto neighborsWithin = [&] (Index p) {
     row.clear ();
-    for (const Index q : neighbors (points.first + p))
+    for (const Index q : neighbors ({points.first + p}).ids)
       if (points.has (q))
         row.push_back (q - points.first);
     return Row{row.data (), row.data () + row.size ()};

@@ -60,14 +60,15 @@ struct PartMesh
                                  ///< corners; corners are points
 };
 
-/// Some neighbours of a point of the cloud, nearest first; valid until it is called again.
-using NeighborSource = std::function<Row (Index point)>;
+/// The neighbours of some points of the part, nearest first: row i is that of points[i], which are
+/// ascending. All are points of the cloud.
+using NeighborRows = std::function<CsrLists (const std::vector<Index>& points)>;
 
 /// The consensus of the candidates inside, and its manifold part (see makeConsensusMesh). O(n).
 /// \param smoothed smoothed normals of the points
 PartMesh
 makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
-              PartCandidates candidates, const NeighborSource& neighbors,
+              PartCandidates candidates, const NeighborRows& neighbors,
               const ConsensusLimits& limits, const RunContext& run);
 
 } // namespace floater

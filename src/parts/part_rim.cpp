@@ -58,36 +58,32 @@ addPoints (std::vector<Index> more, MeshRegion& region)
 } // namespace
 
 PartRim
-findRim (const PartPoints& points, const PartMesh& mesh, const NeighborSource& neighbors,
+findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& neighbors,
          const OtherPoints& others, std::size_t rings, std::size_t smallest)
 {
   MeshRegion region = regionAround (mesh.triangles, points.size (), mesh.with_room, rings,
                                     inSmallComponents (mesh, smallest));
   // Points that may come to lie at the boundary, and are looked at then.
-  const std::vector<Index> with_row =
-      regionAround (mesh.triangles, points.size (), mesh.with_room,
-                    rings - std::min (rings, BEHIND_BOUNDARY))
-          .points;
+  std::vector<Index> with_row = regionAround (mesh.triangles, points.size (), mesh.with_room,
+                                              rings - std::min (rings, BEHIND_BOUNDARY))
+                                    .points;
+  for (Index& p : with_row)
+    p += points.first;
+  const CsrLists rows = neighbors (with_row);
   PartRim rim;
   std::vector<Index> within; // neighbours in the part
-  CsrLists rows;
-  rows.offsets.push_back (0);
-  for (const Index p : with_row) {
-    for (const Index q : neighbors (points.first + p)) {
-      rows.ids.push_back (q);
-      if (points.has (q))
-        within.push_back (q - points.first);
-      else
-        rim.others.push_back (q);
-    }
-    rows.offsets.push_back (static_cast<Index> (rows.ids.size ()));
-  }
+  for (const Index q : rows.ids)
+    if (points.has (q))
+      within.push_back (q - points.first);
+    else
+      rim.others.push_back (q);
   addPoints (std::move (within), region);
   sortUnique (rim.others);
   others (rim.others, rim.other_positions, rim.other_normals);
 
   std::vector<Index> place (points.size (), NONE);
-  auto room = mesh.with_room.begin (), of_row = with_row.begin ();
+  auto room = mesh.with_room.begin ();
+  auto of_row = with_row.begin ();
   rim.neighbors.offsets.push_back (0);
   for (std::size_t i = 0; i < region.points.size (); ++i) {
     const Index p = region.points[i];
@@ -100,7 +96,7 @@ findRim (const PartPoints& points, const PartMesh& mesh, const NeighborSource& n
     const bool has_room = room != mesh.with_room.end () && *room == p;
     rim.has_room.push_back (has_room ? 1 : 0);
     room += has_room ? 1 : 0;
-    if (of_row != with_row.end () && *of_row == p) {
+    if (of_row != with_row.end () && *of_row == points.first + p) {
       const Row row = rows.row (static_cast<std::size_t> (of_row - with_row.begin ()));
       rim.neighbors.ids.insert (rim.neighbors.ids.end (), row.begin (), row.end ());
       ++of_row;

@@ -46,7 +46,7 @@ using OtherPoints =
 /// The rim of a part: all triangles with a corner that is fewer than `rings` edges away from a point
 /// with room, and all of components of fewer than `smallest` triangles. O(rings n).
 PartRim
-findRim (const PartPoints& points, const PartMesh& mesh, const NeighborSource& neighbors,
+findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& neighbors,
          const OtherPoints& others, std::size_t rings, std::size_t smallest);
 
 } // namespace floater

@@ -49,28 +49,32 @@ makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
   run.beginStage (Stage::FLIPS);
   work.finish (std::move (stitching.parts), run);
   std::vector<SeamZone> zones;
+  std::vector<double> corners;
   MeshFinish& finish = surface.finish;
   for (std::size_t part = 0; part < parts.count (); ++part) {
     run.poll ();
     FinishedPart finished = work.finished (part);
     finish.flips += finished.flips;
     finish.folds_after_flips += finished.folds_after_flips;
+    finish.folds += finished.folds;
     std::vector<Triangle>& all = surface.mesh.triangles;
     all.reserve (2 * points.size ());
     all.insert (all.end (), finished.triangles.begin (), finished.triangles.end ());
+    corners.insert (corners.end (), finished.corners.begin (), finished.corners.end ());
     zones.push_back (std::move (finished.zone));
   }
-  const FinishedSeam seam =
-      finishSeam (zones, stitching.seam, settings.flip_edges, settings.limits.finish, run);
+  const FinishedSeam seam = finishSeam (zones, stitching.seam, std::move (corners),
+                                        settings.finishSettings (), limits.rings, run);
   zones = {};
-  finish.flips += seam.flips;
-  finish.folds_after_flips += seam.folds_after_flips;
+  finish.flips += seam.finish.flips;
+  finish.folds_after_flips += seam.finish.folds_after_flips;
+  finish.folds += seam.finish.folds;
   surface.mesh.triangles.insert (surface.mesh.triangles.end (), seam.triangles.begin (),
                                  seam.triangles.end ());
   if (!surface.mesh.connect (points.size (), run))
     throw std::logic_error ("the finished parts do not fit");
-  finish.folds = findFolds (surface.mesh, points.positions, run).size ();
-  endMesh (surface.mesh, points.positions, settings.finishSettings (), run, finish);
+  finish.facing = faceOutwards (surface.mesh, points.positions, settings.facing,
+                                settings.limits.finish.facing, run);
   return surface;
 }
 

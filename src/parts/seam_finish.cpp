@@ -3,9 +3,11 @@
 #include "parts/seam_finish.h"
 
 #include "parts/joined_points.h"
+#include "parts/mesh_region.h"
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl
 {
@@ -62,49 +64,58 @@ joinZones (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam
   return joined;
 }
 
-// Fixes the triangles at edges between partial points that have no triangle on the other side: it
-// may be one that is in no zone.
-void
-fixAtEnds (TriangleMesh& mesh)
+// Which triangles are not to be repaired: those that are not near to one with corners in several
+// parts, or to a point without a triangle, and those at edges between partial points that have no
+// triangle on the other side. It may be one that is in no zone.
+std::vector<std::uint8_t>
+findFixed (const TriangleMesh& mesh, std::size_t first_of_seam, std::size_t rings)
 {
-  mesh.is_fixed.assign (mesh.triangles.size (), 0);
+  std::vector<Index> seeds;
+  for (std::size_t t = first_of_seam; t < mesh.triangles.size (); ++t)
+    seeds.insert (seeds.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
+    if (mesh.triangle_of[p] == NONE)
+      seeds.push_back (p);
+  std::vector<std::uint8_t> is_fixed (mesh.triangles.size (), 1);
+  for (const Index t : regionAround (mesh.triangles, mesh.triangle_of.size (), seeds, rings).triangles)
+    is_fixed[t] = 0;
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] == NONE && mesh.isPartial (mesh.from ({t, side})) &&
           mesh.isPartial (mesh.to ({t, side})))
-        mesh.is_fixed[t] = 1;
+        is_fixed[t] = 1;
+  return is_fixed;
 }
 
 } // namespace
 
 FinishedSeam
-finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam, bool flip_edges,
-            const FinishLimits& limits, const RunContext& run)
+finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam,
+            std::vector<double> corners, const FinishSettings& settings, std::size_t rings,
+            const RunContext& run)
 {
   JoinedZones joined = joinZones (zones, seam);
   TriangleMesh& mesh = joined.mesh;
   const std::size_t first_of_seam = mesh.triangles.size () - seam.size ();
   if (!mesh.connect (joined.points.size (), run))
     throw std::logic_error ("the triangles between parts do not fit");
-  fixAtEnds (mesh);
+  mesh.is_fixed = findFixed (mesh, first_of_seam, rings);
   std::size_t folds_of_parts = 0; // which they have told already
   for (const MeshEdge& e : findFolds (mesh, joined.positions, run))
     folds_of_parts += std::max (e.triangle, mesh.mate (e).triangle) < first_of_seam ? 1 : 0;
-  FinishSettings settings;
-  settings.flip_edges = flip_edges;
-  settings.limits = limits;
-  const MeshFinish finish = repairMesh (
+  FinishedSeam finished;
+  MeshFinish& finish = finished.finish;
+  finish = repairMesh (
       mesh, {joined.positions, joined.neighbors, joined.spacing, joined.scatter, joined.normals},
       settings, run);
-  FinishedSeam finished;
-  finished.flips = finish.flips;
-  finished.folds_after_flips =
-      finish.folds_after_flips - std::min (finish.folds_after_flips, folds_of_parts);
+  finish.folds_after_flips -= std::min (finish.folds_after_flips, folds_of_parts);
+  mesh.is_fixed.clear ();
+  if (settings.open_boundary)
+    openBoundary (mesh, joined.positions, std::move (corners), settings.limits.notches, run, finish);
   finished.triangles.reserve (mesh.triangles.size ());
-  for (const Triangle& corners : mesh.triangles)
-    finished.triangles.push_back ({joined.points.pointAt (corners[0]),
-                                   joined.points.pointAt (corners[1]),
-                                   joined.points.pointAt (corners[2])});
+  for (const auto& [a, b, c] : mesh.triangles)
+    finished.triangles.push_back (
+        {joined.points.pointAt (a), joined.points.pointAt (b), joined.points.pointAt (c)});
   return finished;
 }
 

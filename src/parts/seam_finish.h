@@ -11,21 +11,24 @@ namespace pcl
 {
 namespace floater
 {
-/// The mesh where parts meet.
+/// The mesh where parts meet, and around its boundary.
 struct FinishedSeam
 {
   std::vector<Triangle> triangles; ///< of all zones, and those between them; corners are points
-  std::size_t flips = 0;
-  std::size_t folds_after_flips = 0; ///< but for those that parts have told
+  MeshFinish finish; ///< but for what parts have told; of folds, those that are left in all zones
 };
 
-/// Inserts points that have no triangle, flips edges and repairs folds in the zones around the
-/// triangles with corners in several parts (see repairMesh). Triangles beside those that are not in
-/// a zone stay. O(m log m) at worst, for m points in all zones.
+/// Inserts points that have no triangle, flips edges and repairs folds around the triangles with
+/// corners in several parts (see repairMesh), and opens the boundary of the whole mesh (see
+/// openBoundary). Triangles beside those that are not in a zone stay. O(m log m) at worst, for m
+/// points in all zones.
 /// \param zones of all parts \param seam see Stitching
+/// \param corners those of all parts, see sampleCorners
+/// \param rings   of triangles around these that are repaired
 FinishedSeam
-finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam, bool flip_edges,
-            const FinishLimits& limits, const RunContext& run);
+finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam,
+            std::vector<double> corners, const FinishSettings& settings, std::size_t rings,
+            const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

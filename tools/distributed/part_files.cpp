@@ -96,8 +96,10 @@ PartWriter::addFinished (const FinishedPart& part)
   writeLists ("neighbors", zone.neighbors, arrays_);
   addTriangles ("zone", zone.triangles);
   auto& counts = keep<Index> ();
-  counts = {static_cast<Index> (part.flips), static_cast<Index> (part.folds_after_flips)};
+  counts = {static_cast<Index> (part.flips), static_cast<Index> (part.folds_after_flips),
+            static_cast<Index> (part.folds)};
   arrays_.add ("counts", counts);
+  arrays_.add ("corners", part.corners);
 }
 
 void
@@ -176,6 +178,8 @@ readFinished (ArrayFile& file)
   const std::vector<Index> counts = file.read<Index> ("counts");
   part.flips = counts[0];
   part.folds_after_flips = counts[1];
+  part.folds = counts[2];
+  part.corners = file.read<double> ("corners");
   return part;
 }
 

@@ -62,14 +62,13 @@ public:
   }
 
   // Valid as long as this.
-  NeighborSource neighbors ()
+  NeighborRows neighbors ()
   {
-    if (rows_.rows () == 0) {
-      const std::vector<Index> own = pointsFrom (first_, last_);
-      rows_ = neighbors_.all (own);
-      appendRows (triangles_.gatherLists ("far", own), rows_);
-    }
-    return [this] (Index p) { return rows_.row (p - first_); };
+    return [this] (const std::vector<Index>& points) {
+      CsrLists rows = neighbors_.all (points);
+      appendRows (triangles_.gatherLists ("far", points), rows);
+      return rows;
+    };
   }
 
   OtherPoints others ()
@@ -118,7 +117,6 @@ private:
   Index first_, last_;
   StoredNeighbors neighbors_;
   Slices stars_, triangles_;
-  CsrLists rows_;
 };
 
 PartMesh
@@ -206,7 +204,8 @@ finishStep (const StepContext& context, std::size_t part)
   const FinishedPart finished =
       finishPart (stored.points (), std::move (triangles), readChange (changes, part),
                   stored.neighbors (), scatter, context.options.flip_edges,
-                  context.limits.surface.finish, context.limits.parts.rings, context.run);
+                  context.limits.surface.finish, context.limits.parts, partsOf (context).count (),
+                  context.run);
   PartWriter writer;
   writer.arrays ().add ("id", id);
   writer.addFinished (finished);
