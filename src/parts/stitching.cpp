@@ -211,16 +211,19 @@ findPartlySeen (const JoinedRims& joined)
 
 // Sorts the triangles of the mesh out: which are new, which of the parts are left, and which of
 // their components have been turned round.
+// \param filled number of triangles at the end that fill holes, be it in the place of others
 // \return false if all that was seen of a component has gone, but not all of it was seen
 bool
-findChanges (const TriangleMesh& mesh, const JoinedRims& joined, const Parts& parts,
-             Stitching& stitching)
+findChanges (const TriangleMesh& mesh, std::size_t filled, const JoinedRims& joined,
+             const Parts& parts, Stitching& stitching)
 {
   std::vector<std::uint8_t> is_left (joined.origins.size (), 0);
   std::map<std::pair<Index, Index>, bool> is_turned; // of each component of a part
   stitching.parts.resize (parts.count ());
-  for (const Triangle& corners : mesh.triangles) {
-    if (const Origin* origin = joined.find (corners)) {
+  for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
+    const Triangle& corners = mesh.triangles[t];
+    const bool is_filling = t + filled >= mesh.triangles.size ();
+    if (const Origin* origin = is_filling ? nullptr : joined.find (corners)) {
       is_left[static_cast<std::size_t> (origin - joined.origins.data ())] = 1;
       is_turned[{origin->part, origin->component}] = corners != origin->turning;
       continue;
@@ -280,13 +283,14 @@ stitch (std::vector<PartRim> rims, const Parts& parts, double unit, const Surfac
   for (std::size_t p = 0; p < joined.normals.size (); ++p)
     if (joined.normals[p].dot (joined.smoothed[p]) < 0.0F)
       joined.normals[p] = -joined.normals[p];
+  const std::size_t unfilled = mesh->triangles.size ();
   stitching.holes =
       closeHoles (*mesh, std::move (*loops), components.count, joined.positions, joined.neighbors,
                   joined.normals, unit, settings.holes, limits.holeClosing (), run);
   for (JudgedLoop& judged : stitching.holes.doubtful)
     for (Index& p : judged.loop.points)
       p = joined.points.pointAt (p);
-  if (!findChanges (*mesh, joined, parts, stitching))
+  if (!findChanges (*mesh, mesh->triangles.size () - unfilled, joined, parts, stitching))
     return {};
   return stitching;
 }
