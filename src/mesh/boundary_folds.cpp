@@ -54,6 +54,8 @@ private:
         continue;
       }
       const MeshEdge beside = mesh_.mate (e);
+      if (beside.triangle == NONE) // where a part of a mesh ends
+        continue;
       for (const std::uint8_t outer : otherSides (beside)) {
         const MeshEdge first{beside.triangle, outer};
         if (!peel_.isBoundary (first) || !peel_.mayTake (first))
