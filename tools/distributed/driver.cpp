@@ -104,7 +104,7 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
   const EffectiveOptions effective (job.line);
   const RunContext run (job.line.options.threads);
-  const HeapReuse reuse;
+  const HeapReuse reuse (nullptr);
   std::optional<Plan> plan;
   for (;;) {
     processes.send (0, {});
@@ -167,7 +167,7 @@ areBlocksFreed (FolderStore& folder, const Plan& plan)
 // Does all blocks of all steps that are not finished.
 void
 workOnBlocks (const Job& job, const StepContext& context, FolderStore& folder, Dealer* dealer,
-              const Watch& watch)
+              const MemoryLimit* limit, const Watch& watch)
 {
   const Plan& plan = context.plan;
   for (const char* step : BLOCK_STEPS) {
@@ -177,7 +177,7 @@ workOnBlocks (const Job& job, const StepContext& context, FolderStore& folder, D
         blocks.push_back (block);
     const std::size_t finished = plan.blocks - blocks.size ();
     {
-      const HeapReuse reuse;
+      const HeapReuse reuse (limit);
       if (dealer != nullptr)
         dealer->run (context, step, std::move (blocks));
       else
@@ -226,7 +226,7 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   const RunContext run (job.line.options.threads);
   const StepContext context{folder, plan, effective.options, effective.limits, run};
   if (!areBlocksFreed (folder, plan))
-    workOnBlocks (job, context, folder, dealer, watch);
+    workOnBlocks (job, context, folder, dealer, limit.get (), watch);
   if (!isFinished (folder, TRIANGLES, plan))
     if (const int code = joinStep (job, folder, plan, dealOfJoin (job, context, dealer, watch));
         code != EXIT_OK)
@@ -285,7 +285,7 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
   if (job.block >= plan.blocks)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (plan.blocks) + " blocks, which are numbered from 0");
-  const HeapReuse reuse;
+  const HeapReuse reuse (limit.get ());
   if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
     blockStep (context, step, job.block);
   return EXIT_OK;

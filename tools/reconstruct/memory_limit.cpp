@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "memory_limit.h"
 
+#include "array_pool.h"
 #include "file_bytes.h"
 #include "large_arrays.h"
 #include "text_scanner.h"
@@ -160,8 +161,24 @@ ResidentSet::makeRoom (std::size_t bytes) const
 std::chrono::duration<double>
 ResidentSet::timeToSleep () const
 {
+  if (areAllInPool () && scratchUse ().bytes == 0) // it does not grow beyond that
+    return LONGEST_SLEEP;
   const std::chrono::duration<double> safe{(high_ - resident ()) / FASTEST_GROWTH};
   return std::clamp (safe, SHORTEST_SLEEP, LONGEST_SLEEP);
+}
+
+// What is not in large arrays has the room of a step: blocks of half a million points have 20 MB of
+// it, where the limit is a few hundred.
+std::size_t
+ResidentSet::forArrays () const
+{
+  return static_cast<std::size_t> (std::max (0.0, (1.0 - STEP) * limit_ - FIXED));
+}
+
+std::size_t
+ResidentSet::forArraysBesideFiles () const
+{
+  return static_cast<std::size_t> (std::max (0.0, low_ - FIXED));
 }
 
 MemoryLimit::MemoryLimit (std::size_t bytes, const std::filesystem::path& scratch_folder)
