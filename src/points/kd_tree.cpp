@@ -140,5 +140,31 @@ KdTree::within (const Eigen::Vector3d& query, double radius, std::vector<Neighbo
   std::sort (result.begin (), result.end ());
 }
 
+bool
+KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
+                 std::vector<Index>& points) const
+{
+  struct Collect
+  {
+    std::vector<Index>& points;
+    double sqr_radius;
+    std::size_t most;
+
+    double reach () const { return points.size () <= most ? sqr_radius : -1.0; }
+    void add (const Neighbor& candidate)
+    {
+      if (candidate.sqr_distance <= sqr_radius)
+        points.push_back (candidate.point);
+    }
+  };
+  points.clear ();
+  if (nodes_.empty ())
+    return true;
+  Collect visit{points, radius * radius, most};
+  Eigen::Vector3d sqr_offsets = Eigen::Vector3d::Zero ();
+  search (0, query, sqr_offsets, 0.0, visit);
+  return points.size () <= most;
+}
+
 } // namespace floater
 } // namespace pcl

@@ -77,6 +77,11 @@ public:
   /// All points within `radius` of `query` (that distance included), nearest first.
   void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
+  /// All points within `radius` of `query` (that distance included), in no order. \return false if
+  /// there are more than `most`, and not all were found
+  bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
+                std::vector<Index>& points) const;
+
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. What lies behind the plane through `query` with the normal `ahead` need not
   /// be looked at, and accept has to refuse it; zero: there is no such plane. The result is

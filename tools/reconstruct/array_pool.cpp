@@ -149,7 +149,7 @@ private:
       ::madvise (reinterpret_cast<void*> (begin), end - begin, MADV_DONTNEED);
   }
 
-  std::mutex mutex_; // guards what is no atomic, and all changes
+  std::mutex mutex_;                               // guards what is no atomic, and all changes
   std::atomic<std::uintptr_t> first_{0}, last_{0}; // addresses; both 0: there are none
   std::size_t capacity_ = 0, beside_files_ = 0;    // bytes
   std::atomic<bool> is_open_{false}, have_all_fit_{false};
@@ -180,8 +180,9 @@ std::size_t
 memoryOfMachine ()
 {
   const long pages = ::sysconf (_SC_PHYS_PAGES), bytes = ::sysconf (_SC_PAGESIZE);
-  return pages > 0 && bytes > 0 ? static_cast<std::size_t> (pages) * static_cast<std::size_t> (bytes)
-                                : 0;
+  return pages > 0 && bytes > 0
+             ? static_cast<std::size_t> (pages) * static_cast<std::size_t> (bytes)
+             : 0;
 }
 
 bool
