@@ -14,14 +14,14 @@ namespace
 {
 // Points that share a ball. More points need fewer balls, which have more points for each of them.
 // 16 was faster than 24 and 32 on a height field, as were the two below than their neighbours.
-constexpr std::size_t GROUP = 16;
+constexpr std::size_t GROUP = 24;
 
-// The ball has all points around each of the group that are nearer than so many times the reach of
-// the first: the distance to its last neighbour, at most.
-constexpr double MARGIN = 0.9;
+// The ball has all points around each of the group that are nearer than so many times the distance
+// to the last neighbour of the point before the group.
+constexpr double MARGIN = 1.3;
 
-// A group ends where it is wider than this many reaches: the curve has jumped.
-constexpr double WIDEST = 2.0;
+// A group ends where it is wider than this many such distances: the curve has jumped.
+constexpr double WIDEST = 2.5;
 
 // A ball may hold so many points for each neighbour. On surfaces, it holds 6 mostly. With many
 // more, the density varies so much that the tree is better.
@@ -73,18 +73,15 @@ SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t firs
 {
   radius_ = -1.0;
   const Eigen::Vector3d& begin = positions_[points[first]];
-  double reach = last_reach_ + (begin - last_).norm ();
-  if (!(reach < WIDEST * last_reach_)) { // or none was found yet
+  if (last_reach_ == KdTree::EVERYWHERE) // none was found yet
     nearest (begin);
-    reach = last_reach_;
-  }
-  if (!(reach > SHORTEST) || !(reach < KdTree::EVERYWHERE))
+  if (!(last_reach_ > SHORTEST) || last_reach_ == KdTree::EVERYWHERE)
     return first + 1;
   Eigen::AlignedBox3d box (begin);
   std::size_t last = first + 1;
   for (; last < std::min (points.size (), first + GROUP); ++last) {
     const Eigen::AlignedBox3d wider = box.merged (Eigen::AlignedBox3d (positions_[points[last]]));
-    if (!(wider.diagonal ().norm () <= WIDEST * reach))
+    if (!(wider.diagonal ().norm () <= WIDEST * last_reach_))
       break;
     box = wider;
   }
@@ -92,7 +89,7 @@ SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t firs
   double farthest = 0.0;
   for (std::size_t i = first; i < last; ++i)
     farthest = std::max (farthest, (positions_[points[i]] - centre_).norm ());
-  const double radius = farthest + MARGIN * reach;
+  const double radius = farthest + MARGIN * last_reach_;
   if (!tree_.collect (centre_, radius, MOST_POINTS * k_, ball_))
     return last;
   radius_ = radius;
