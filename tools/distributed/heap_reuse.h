@@ -34,9 +34,8 @@ class HeapReuse
 public:
   /// \param limit that must not be exceeded; nullptr: there is none
   explicit HeapReuse (const MemoryLimit* limit)
-      : pool_ (limit == nullptr ? memoryOfMachine () : limit->residentSet ().forArrays (),
-               limit == nullptr ? memoryOfMachine ()
-                                : limit->residentSet ().forArraysBesideFiles ())
+      : pool_ (limit == nullptr ? memoryOfMachine () : limit->residentSet ().poolInMemory (),
+               limit == nullptr ? 0 : limit->residentSet ().poolInFile ())
   {
 #ifdef __GLIBC__
     mallopt (M_MMAP_MAX, 0);

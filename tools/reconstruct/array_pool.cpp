@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each array is at the first gap into which it fits, so that the memory in use stays together at
-// the begin of the range. There are some hundred arrays at most: each has a megabyte or more.
+// the begin of a range. There are some hundred arrays at most: each has a megabyte or more.
 #include "array_pool.h"
+
+#include "large_arrays.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -23,95 +25,41 @@ namespace
 constexpr std::size_t HUGE_PAGE = std::size_t{1} << 21U; // of the processors that have such pages
 
 std::size_t
-roundedUp (std::size_t bytes, std::size_t unit)
+roundedUp (std::size_t bytes)
 {
-  return (bytes + unit - 1) / unit * unit;
+  return (bytes + POOL_ALIGNMENT - 1) / POOL_ALIGNMENT * POOL_ALIGNMENT;
 }
 
-class Pool
+char*
+pointerTo (std::uintptr_t address)
+{
+  return reinterpret_cast<char*> (address);
+}
+
+/// Addresses with arrays. All but has () is called with a lock.
+class Range
 {
 public:
-  void open (std::size_t most, std::size_t beside_files)
-  {
-    const std::lock_guard<std::mutex> lock (mutex_);
-    most = most / POOL_ALIGNMENT * POOL_ALIGNMENT;
-    if (arrays_.empty () && most != last_ - first_) {
-      unmap ();
-      map (most);
-    }
-    capacity_ = std::min<std::size_t> (most, last_ - first_);
-    beside_files_ = std::min (beside_files / POOL_ALIGNMENT * POOL_ALIGNMENT, capacity_);
-    is_open_ = capacity_ > 0;
-    have_all_fit_ = capacity_ > 0;
-  }
+  explicit Range (bool is_in_file) : is_in_file_ (is_in_file) {}
 
-  void close ()
-  {
-    const std::lock_guard<std::mutex> lock (mutex_);
-    is_open_ = false;
-    have_all_fit_ = false;
-    shrink (0);
-  }
+  bool has (std::uintptr_t address) const { return address >= first_ && address < last_; }
+  bool isEmpty () const { return arrays_.empty (); }
 
-  bool haveAllFit () const { return have_all_fit_; }
-
-  void* make (std::size_t size)
-  {
-    if (!is_open_ || size > PTRDIFF_MAX - POOL_ALIGNMENT)
-      return nullptr;
-    const std::size_t bytes = roundedUp (size, POOL_ALIGNMENT);
-    const std::lock_guard<std::mutex> lock (mutex_);
-    if (!is_open_) // meanwhile
-      return nullptr;
-    std::uintptr_t begin = first_;
-    for (const auto& [array, end] : arrays_) {
-      if (array - begin >= bytes)
-        break;
-      begin = end;
-    }
-    if (first_ + capacity_ < begin || first_ + capacity_ - begin < bytes) {
-      have_all_fit_ = false;
-      shrink (beside_files_);
-      return nullptr;
-    }
-    try {
-      arrays_.emplace (begin, begin + bytes);
-    }
-    catch (const std::bad_alloc&) {
-      return nullptr;
-    }
-    return reinterpret_cast<void*> (begin);
-  }
-
-  bool free (void* pointer)
-  {
-    const auto begin = reinterpret_cast<std::uintptr_t> (pointer);
-    if (begin < first_ || begin >= last_)
-      return false;
-    const std::lock_guard<std::mutex> lock (mutex_);
-    const auto array = arrays_.find (begin);
-    if (array == arrays_.end ())
-      return false;
-    const std::uintptr_t end = array->second;
-    arrays_.erase (array);
-    giveBack (begin, end);
-    if (arrays_.empty () && !is_open_)
-      unmap ();
-    return true;
-  }
-
-private:
-  // All of these are called with the lock.
+  /// Reserves addresses. There are less, or none, if the system has no more.
   void map (std::size_t bytes)
   {
-    // As many as there are, if the user has limited them.
-    for (; bytes >= HUGE_PAGE; bytes /= 2) {
-      void* all = ::mmap (nullptr, bytes, PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-      if (all == MAP_FAILED)
+    if (bytes == last_ - first_)
+      return;
+    unmap ();
+    for (bytes = bytes / POOL_ALIGNMENT * POOL_ALIGNMENT; bytes >= HUGE_PAGE; bytes /= 2) {
+      void* all = is_in_file_ ? mapLargeArray (bytes)
+                              : ::mmap (nullptr, bytes, PROT_READ | PROT_WRITE,
+                                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+      if (all == nullptr || all == MAP_FAILED)
         continue;
 #ifdef MADV_HUGEPAGE
-      ::madvise (all, bytes, MADV_HUGEPAGE);
+      if (!is_in_file_)
+        ::madvise (all, bytes, MADV_HUGEPAGE);
 #endif
       first_ = reinterpret_cast<std::uintptr_t> (all);
       last_ = first_ + bytes / POOL_ALIGNMENT * POOL_ALIGNMENT;
@@ -121,18 +69,38 @@ private:
 
   void unmap ()
   {
-    if (last_ > first_)
-      ::munmap (reinterpret_cast<void*> (first_.load ()), last_ - first_);
+    const std::uintptr_t first = first_, last = last_;
     last_ = 0;
     first_ = 0;
+    if (last > first && is_in_file_)
+      unmapLargeArray (pointerTo (first));
+    else if (last > first)
+      ::munmap (pointerTo (first), last - first);
   }
 
-  // Lowers the capacity. What is free above goes back to the system.
-  void shrink (std::size_t capacity)
+  /// \return nullptr if it does not fit; may throw std::bad_alloc
+  void* make (std::size_t bytes)
   {
-    capacity_ = std::min (capacity_, capacity);
-    if (arrays_.empty () && !is_open_)
-      return unmap ();
+    std::uintptr_t begin = first_;
+    for (const auto& [array, end] : arrays_) {
+      if (array - begin >= bytes)
+        break;
+      begin = end;
+    }
+    if (last_ - begin < bytes)
+      return nullptr;
+    arrays_.emplace (begin, begin + bytes);
+    return pointerTo (begin);
+  }
+
+  bool free (std::uintptr_t begin)
+  {
+    return arrays_.erase (begin) > 0;
+  }
+
+  /// Gives what is free back to the system.
+  void giveBack () const
+  {
     std::uintptr_t begin = first_;
     for (const auto& [array, end] : arrays_) {
       giveBack (begin, array);
@@ -141,19 +109,90 @@ private:
     giveBack (begin, last_);
   }
 
-  // Gives memory that is free back to the system, if it is above the capacity.
-  void giveBack (std::uintptr_t begin, std::uintptr_t end) const
+private:
+  static void giveBack (std::uintptr_t begin, std::uintptr_t end)
   {
-    begin = std::max<std::uintptr_t> (begin, first_ + capacity_);
     if (begin < end)
-      ::madvise (reinterpret_cast<void*> (begin), end - begin, MADV_DONTNEED);
+      ::madvise (pointerTo (begin), end - begin, MADV_DONTNEED);
   }
 
-  std::mutex mutex_;                               // guards what is no atomic, and all changes
-  std::atomic<std::uintptr_t> first_{0}, last_{0}; // addresses; both 0: there are none
-  std::size_t capacity_ = 0, beside_files_ = 0;    // bytes
-  std::atomic<bool> is_open_{false}, have_all_fit_{false};
+  bool is_in_file_;
+  std::atomic<std::uintptr_t> first_{0}, last_{0};  // both 0: there are no addresses
   std::map<std::uintptr_t, std::uintptr_t> arrays_; // from the begin of each to its end
+};
+
+class Pool
+{
+public:
+  void open (std::size_t in_memory, std::size_t in_file)
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    if (in_memory_.isEmpty ())
+      in_memory_.map (in_memory);
+    if (in_file_.isEmpty ())
+      in_file_.unmap ();
+    have_all_fit_ = scratchUse ().bytes == 0;
+    if (in_file_.isEmpty () && hasScratchFolder ())
+      in_file_.map (in_file);
+    is_open_ = true;
+  }
+
+  void close ()
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    is_open_ = false;
+    have_all_fit_ = false;
+    for (Range* range : {&in_memory_, &in_file_})
+      if (range->isEmpty ())
+        range->unmap ();
+      else
+        range->giveBack ();
+  }
+
+  bool haveAllFit () const { return have_all_fit_; }
+
+  void* make (std::size_t size)
+  {
+    if (!is_open_ || size > PTRDIFF_MAX - POOL_ALIGNMENT)
+      return nullptr;
+    try {
+      const std::lock_guard<std::mutex> lock (mutex_);
+      if (!is_open_) // any more
+        return nullptr;
+      if (void* array = in_memory_.make (roundedUp (size)))
+        return array;
+      // As soon as one has not fit, others are in files of their own: for each of them, the thread
+      // that makes it makes room.
+      if (have_all_fit_)
+        if (void* array = in_file_.make (roundedUp (size)))
+          return array;
+    }
+    catch (const std::bad_alloc&) {
+      // There is no memory for the entry: it fits no more than a large array.
+    }
+    have_all_fit_ = false;
+    return nullptr;
+  }
+
+  bool free (void* pointer)
+  {
+    const auto begin = reinterpret_cast<std::uintptr_t> (pointer);
+    for (Range* range : {&in_memory_, &in_file_})
+      if (range->has (begin)) {
+        const std::lock_guard<std::mutex> lock (mutex_);
+        if (!range->free (begin))
+          continue;
+        if (range->isEmpty () && !is_open_)
+          range->unmap ();
+        return true;
+      }
+    return false;
+  }
+
+private:
+  std::mutex mutex_; // guards the ranges
+  Range in_memory_{false}, in_file_{true};
+  std::atomic<bool> is_open_{false}, have_all_fit_{false};
 };
 
 // Never destroyed, because arrays may be freed until the process ends.
@@ -166,9 +205,9 @@ pool ()
 
 } // namespace
 
-ArrayPool::ArrayPool (std::size_t most, std::size_t beside_files)
+ArrayPool::ArrayPool (std::size_t in_memory, std::size_t in_file)
 {
-  pool ().open (most, beside_files);
+  pool ().open (in_memory, in_file);
 }
 
 ArrayPool::~ArrayPool ()

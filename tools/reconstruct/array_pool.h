@@ -13,18 +13,19 @@ namespace floater
 /// are such multiples, so that operator delete hardly ever looks for one of these in a pool.
 constexpr std::size_t POOL_ALIGNMENT = 4096;
 
-/// As long as this lives, large arrays (see LARGE_ARRAY) are made in one range of addresses if they
-/// fit there, and not in scratch files. So their sum is bounded, with all gaps between them. Memory
-/// of arrays that are freed stays in the pool for the next ones, until the pool ends. Arrays may
-/// outlive it; their memory goes when they are freed. There may be one pool at a time, for all
-/// threads. Where the system has no such addresses, no array is in it.
+/// As long as this lives, large arrays (see LARGE_ARRAY) are made in ranges of addresses if they
+/// fit there, and not in files of their own. So their sum is bounded, with all gaps between them.
+/// Memory of arrays that are freed stays in the pool for the next ones, until the pool ends. Arrays
+/// may outlive it; their memory goes when all of their range are freed. There may be one pool at a
+/// time, for all threads. Where the system has no such addresses, no array is in it.
 class ArrayPool
 {
 public:
-  /// \param most bytes of the pool
-  /// \param beside_files the same as soon as one array has not fit: it and others are in scratch
-  /// files then, and their pages need room
-  explicit ArrayPool (std::size_t most, std::size_t beside_files = 0);
+  /// \param in_memory bytes of the pool that always stay in memory
+  /// \param in_file bytes behind these, in a scratch file if there is a folder for that. Its pages
+  /// stay in memory until an array does not fit; then they may be dropped as those of all others,
+  /// and new arrays are in files of their own
+  explicit ArrayPool (std::size_t in_memory, std::size_t in_file = 0);
   ~ArrayPool ();
   ArrayPool (const ArrayPool&) = delete;
   ArrayPool& operator= (const ArrayPool&) = delete;
@@ -36,7 +37,8 @@ public:
 std::size_t
 memoryOfMachine ();
 
-/// Whether there is a pool and all large arrays have fit into it. Else memory may fill fast.
+/// Whether there is a pool into which all large arrays have fit since it was made, and there were
+/// no others in files before. Then memory cannot grow beyond that, and nothing need be dropped.
 bool
 areAllInPool ();
 

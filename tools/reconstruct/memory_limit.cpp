@@ -144,6 +144,8 @@ void
 ResidentSet::makeRoom (std::size_t bytes) const
 {
   const auto wanted = static_cast<double> (bytes);
+  if (areAllInPool ()) // and bounded
+    return;
   if (resident () + wanted <= high_)
     return;
   giveBackMappedFiles ();
@@ -161,24 +163,26 @@ ResidentSet::makeRoom (std::size_t bytes) const
 std::chrono::duration<double>
 ResidentSet::timeToSleep () const
 {
-  if (areAllInPool () && scratchUse ().bytes == 0) // it does not grow beyond that
+  if (areAllInPool ())
     return LONGEST_SLEEP;
   const std::chrono::duration<double> safe{(high_ - resident ()) / FASTEST_GROWTH};
   return std::clamp (safe, SHORTEST_SLEEP, LONGEST_SLEEP);
 }
 
-// What is not in large arrays has the room of a step: blocks of half a million points have 20 MB of
-// it, where the limit is a few hundred.
 std::size_t
-ResidentSet::forArrays () const
+ResidentSet::poolInMemory () const
 {
-  return static_cast<std::size_t> (std::max (0.0, (1.0 - STEP) * limit_ - FIXED));
+  return static_cast<std::size_t> (std::max (0.0, low_ - STEP * limit_ - FIXED));
 }
 
+// Arrays of a pool need no room, because they cannot grow beyond it. A step is left for what is in
+// no large array: 20 MB beside blocks of half a million points, for which the limit is some
+// hundred.
 std::size_t
-ResidentSet::forArraysBesideFiles () const
+ResidentSet::poolInFile () const
 {
-  return static_cast<std::size_t> (std::max (0.0, low_ - FIXED));
+  const double all = (1.0 - STEP) * limit_ - FIXED;
+  return static_cast<std::size_t> (std::max (0.0, all - static_cast<double> (poolInMemory ())));
 }
 
 MemoryLimit::MemoryLimit (std::size_t bytes, const std::filesystem::path& scratch_folder)

@@ -54,10 +54,10 @@ public:
   /// Time during which the resident set cannot come near the limit.
   std::chrono::duration<double> timeToSleep () const;
 
-  /// Bytes that arrays may have which stay in memory: if there are no scratch files, and beside
-  /// those.
-  std::size_t forArrays () const;
-  std::size_t forArraysBesideFiles () const;
+  /// Bytes of an ArrayPool: those that stay in memory also if other arrays are in scratch files,
+  /// and those that stay there if there are no others.
+  std::size_t poolInMemory () const;
+  std::size_t poolInFile () const;
 
 private:
   double resident () const; // bytes; 0 if unknown
