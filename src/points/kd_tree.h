@@ -40,13 +40,22 @@ public:
   virtual void looked (const Eigen::Vector3d& centre, double radius) = 0;
 };
 
-/// kd-tree with buckets at its leaves. Built by medians: O(n log n), 40 bytes per point, the same
-/// for any number of threads. Queries are exact, ties in distance are broken by index, and any
-/// number of threads may query at once.
+/// The order of points that a tree is made of.
+enum class PointOrder
+{
+  ANY,        ///< the tree sorts them: O(n log n)
+  ALONG_CURVE ///< most are near the one before, as in a working set. The tree leaves them so: O(n)
+};
+
+/// Tree of boxes with buckets of points at its leaves. It is a kd-tree, built by medians, or halves
+/// the points in their order. 46 bytes per point, the same for any number of threads. Queries are
+/// exact, ties in distance are broken by index, and any number of threads may query at once. The
+/// order of the points changes the time of queries, and not what they find.
 class KdTree
 {
 public:
-  explicit KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run = 1);
+  explicit KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run = 1,
+                   PointOrder order = PointOrder::ANY);
 
   /// Tells this watch of all searches from now on whose callers tell the tree; nullptr: none.
   void setWatch (SearchWatch* watch) { watch_ = watch; }
@@ -77,6 +86,11 @@ public:
   /// All points within `radius` of `query` (that distance included), nearest first.
   void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
+  /// All points within `radius` of `query` (that distance included), in no order. \return false if
+  /// there are more than `most`, and not all were found
+  bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
+                std::vector<Index>& points) const;
+
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. What lies behind the plane through `query` with the normal `ahead` need not
   /// be looked at, and accept has to refuse it; zero: there is no such plane. The result is
@@ -88,11 +102,19 @@ public:
 private:
   struct Node
   {
-    double split; // coordinate of the plane between the children
-    Index first;  // of the points below this node
-    Index last;   // one past
-    Index right;  // the left child is the next node; NONE at a leaf
-    std::uint8_t axis;
+    Eigen::AlignedBox3d box; // of the points below this node
+    Index first;             // of these points
+    Index last;              // one past
+    Index right;             // the left child is the next node; NONE at a leaf
+
+    double sqrDistance (const Eigen::Vector3d& query) const
+    {
+      return (box.min () - query).cwiseMax (query - box.max ()).cwiseMax (0.0).squaredNorm ();
+    }
+    double sqrDistanceOfCentre (const Eigen::Vector3d& query) const
+    {
+      return (0.5 * (box.min () + box.max ()) - query).squaredNorm ();
+    }
   };
   struct Item
   {
@@ -137,17 +159,16 @@ private:
   };
 
   template <typename Visit>
-  void search (Index node, const Eigen::Vector3d& query, Eigen::Vector3d& sqr_offsets,
-               double sqr_box_distance, Visit& visit) const;
+  void search (Index node, const Eigen::Vector3d& query, Visit& visit) const;
   template <typename Accept>
   void searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
-                 Eigen::AlignedBox3d& box, Accept& accept, Nearest& nearest) const;
-  void build (Index first, Index last, const RunContext& run, std::vector<Node>& nodes);
+                 Accept& accept, Nearest& nearest) const;
+  void build (Index first, Index last, const RunContext& run, PointOrder order,
+              std::vector<Node>& nodes);
 
   std::vector<Item> items_; // in the order of the leaves
   std::vector<Node> nodes_;
   SearchWatch* watch_ = nullptr;
-  Eigen::AlignedBox3d box_; // of all points
 };
 
 template <typename Accept>
@@ -159,25 +180,24 @@ KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, d
   if (nodes_.empty () || k == 0)
     return;
   Nearest nearest (result, std::min (k, items_.size ()), radius * radius);
-  Eigen::AlignedBox3d box = box_;
-  searchIf (0, query, ahead, box, accept, nearest);
+  searchIf (0, query, ahead, accept, nearest);
   nearest.end ();
 }
 
-// `box` holds the node; it is the same again on return.
 template <typename Accept>
 void
 KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
-                  Eigen::AlignedBox3d& box, Accept& accept, Nearest& nearest) const
+                  Accept& accept, Nearest& nearest) const
 {
-  if (box.squaredExteriorDistance (query) > nearest.reach ())
+  const Node& here = nodes_[node];
+  if (here.box.squaredExteriorDistance (query) > nearest.reach ())
     return;
   double farthest_ahead = 0.0;
   for (int i = 0; i < 3; ++i)
-    farthest_ahead += ahead[i] * ((ahead[i] < 0.0 ? box.min ()[i] : box.max ()[i]) - query[i]);
+    farthest_ahead +=
+        ahead[i] * ((ahead[i] < 0.0 ? here.box.min ()[i] : here.box.max ()[i]) - query[i]);
   if (farthest_ahead < 0.0)
     return;
-  const Node& here = nodes_[node];
   if (here.right == NONE) {
     for (Index i = here.first; i < here.last; ++i) {
       const Neighbor neighbor{(items_[i].position - query).squaredNorm (), items_[i].point};
@@ -186,15 +206,11 @@ KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3
     }
     return;
   }
-  const int axis = here.axis;
-  const bool left_first = query[axis] < here.split;
-  for (const bool left : {left_first, !left_first}) {
-    double& bound = left ? box.max ()[axis] : box.min ()[axis];
-    const double previous = bound;
-    bound = here.split;
-    searchIf (left ? node + 1 : here.right, query, ahead, box, accept, nearest);
-    bound = previous;
-  }
+  const Index left = node + 1;
+  const bool left_first =
+      nodes_[left].sqrDistance (query) <= nodes_[here.right].sqrDistance (query);
+  searchIf (left_first ? left : here.right, query, ahead, accept, nearest);
+  searchIf (left_first ? here.right : left, query, ahead, accept, nearest);
 }
 
 } // namespace floater

@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "points/point_block.h"
+#include "points/sequential_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,12 +37,13 @@ searchWhole (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, st
              const KdTree& tree, const RunContext& run, std::vector<Index>& ids)
 {
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    found.reserve (k + 2);
-    for (std::size_t i = first; i < last; ++i) {
-      tree.nearest (positions[rows[i]], k + 1, found);
-      writeRow (found, rows[i], k, ids.data () + i * k);
-    }
+    std::vector<Index> points;
+    for (std::size_t i = first; i < last; ++i)
+      points.push_back (rows[i]);
+    SequentialSearch (tree, positions, k + 1)
+        .search (points, [&] (std::size_t i, const std::vector<Neighbor>& found) {
+          writeRow (found, points[i], k, ids.data () + (first + i) * k);
+        });
   });
 }
 
@@ -53,18 +55,22 @@ searchBlock (BlockSearch& search, const Rows& rows, std::size_t begin, std::size
   const PointBlock& block = search.block ();
   const KdTree& tree = search.tree ();
   parallelRanges (run, end - begin, [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    found.reserve (k + 2);
+    std::vector<Index> places;
     Index place = block.placeOf (rows[begin + first]);
     for (std::size_t i = begin + first; i < begin + last; ++i) {
       while (block.points[place] < rows[i])
         ++place;
-      tree.nearest (block.positions[place], k + 1, found);
-      tree.lookedForNearest (block.positions[place], k + 1, found);
-      for (Neighbor& neighbor : found)
-        neighbor.point = block.points[neighbor.point];
-      writeRow (found, rows[i], k, ids + (i - begin) * k);
+      places.push_back (place);
     }
+    std::vector<Neighbor> named;
+    SequentialSearch (tree, block.positions, k + 1)
+        .search (places, [&] (std::size_t i, const std::vector<Neighbor>& found) {
+          tree.lookedForNearest (block.positions[places[i]], k + 1, found);
+          named = found;
+          for (Neighbor& neighbor : named)
+            neighbor.point = block.points[neighbor.point];
+          writeRow (named, block.points[places[i]], k, ids + (first + i) * k);
+        });
   });
 }
 

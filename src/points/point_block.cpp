@@ -207,7 +207,7 @@ const KdTree&
 BlockSearch::tree ()
 {
   if (!tree_) {
-    tree_.emplace (block_.positions, run_);
+    tree_.emplace (block_.positions, run_, PointOrder::ALONG_CURVE);
     tree_->setWatch (this);
   }
   return *tree_;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The replaced operators new and delete, scratch files, and the memory limit. Their state is that
-// of the process: once a scratch folder is set, it stays set.
+// The replaced operators new and delete, scratch files, pools, and the memory limit. Their state is
+// that of the process: once a scratch folder is set, it stays set.
+#include "array_pool.h"
 #include "atomic_file.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
@@ -18,6 +19,7 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -139,8 +141,16 @@ useAllForms ()
 TEST_F (LargeArrays, AllFormsOfNewAndDelete)
 {
   useAllForms ();
+  {
+    const ArrayPool pool (100 * LARGE_ARRAY);
+    useAllForms ();
+  }
   keepLargeArraysIn (folder_);
   useAllForms ();
+  {
+    const ArrayPool pool (5 * LARGE_ARRAY); // into which some do not fit
+    useAllForms ();
+  }
   EXPECT_EQ (scratchUse ().bytes, 0U);
 }
 
@@ -227,6 +237,100 @@ TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
                static_cast<std::ptrdiff_t> (COUNT));
 }
 
+TEST_F (LargeArrays, PoolIsInMemoryAndThenInOneFile)
+{
+  keepLargeArraysIn (folder_);
+  {
+    const std::vector<char> before (LARGE_ARRAY, 'a');
+    const ArrayPool pool (4 * LARGE_ARRAY);
+    EXPECT_FALSE (areAllInPool ());
+  }
+  {
+    const ArrayPool pool (4 * LARGE_ARRAY, 6 * LARGE_ARRAY);
+    EXPECT_EQ (scratchUse ().bytes, 6 * LARGE_ARRAY);
+    const std::vector<char> first (3 * LARGE_ARRAY, 'b'), second (5 * LARGE_ARRAY, 'c');
+    const std::vector<char> third (LARGE_ARRAY, 'd');
+    EXPECT_EQ (scratchUse ().bytes, 6 * LARGE_ARRAY);
+    EXPECT_TRUE (areAllInPool ());
+    dropAll ();                                            // loses nothing
+    const std::vector<char> fourth (2 * LARGE_ARRAY, 'e'); // does not fit
+    EXPECT_EQ (scratchUse ().bytes, 8 * LARGE_ARRAY);
+    EXPECT_FALSE (areAllInPool ());
+    for (const auto& [array, value] : {std::pair (&first, 'b'), std::pair (&second, 'c'),
+                                       std::pair (&third, 'd'), std::pair (&fourth, 'e')})
+      EXPECT_EQ (std::count (array->begin (), array->end (), value),
+                 static_cast<std::ptrdiff_t> (array->size ()));
+  }
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+TEST_F (LargeArrays, PoolUsesMemoryAgainUntilItEnds)
+{
+  if (IS_SANITIZED)
+    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
+  constexpr std::size_t SIZE = 40 * MEGABYTE;
+  const std::size_t before = memoryStatus ("VmRSS");
+  std::vector<char> longest;
+  {
+    const ArrayPool pool (4 * SIZE);
+    longest.assign (SIZE, 'l');
+    const auto addressOf = [] (const std::vector<char>& array) {
+      return reinterpret_cast<std::uintptr_t> (array.data ());
+    };
+    const std::uintptr_t address = addressOf (std::vector<char> (SIZE, 'a'));
+    for (int i = 0; i < 20; ++i) {
+      const std::vector<char> again (SIZE - i, 'b');
+      EXPECT_EQ (addressOf (again), address);
+    }
+    // Of all gaps, the first one into which it fits.
+    std::vector<char> one (SIZE, '1');
+    const std::vector<char> two (SIZE, '2');
+    const std::uintptr_t gap = addressOf (one);
+    std::vector<char> ().swap (one);
+    const std::vector<char> three (SIZE, '3');
+    EXPECT_EQ (addressOf (three), gap);
+    EXPECT_GT (memoryStatus ("VmRSS"), before + 3 * SIZE - MEGABYTE);
+  }
+  EXPECT_LT (memoryStatus ("VmRSS"), before + SIZE + 8 * MEGABYTE);
+  EXPECT_EQ (std::count (longest.begin (), longest.end (), 'l'), std::ptrdiff_t{SIZE});
+  {
+    // The range of the last pool is still in use, and this one has no other.
+    const ArrayPool pool (4 * SIZE);
+    const std::vector<char> more (SIZE, 'm');
+    EXPECT_EQ (std::count (longest.begin (), longest.end (), 'l'), std::ptrdiff_t{SIZE});
+    EXPECT_TRUE (areAllInPool ());
+  }
+  std::vector<char> ().swap (longest);
+  EXPECT_LT (memoryStatus ("VmRSS"), before + 8 * MEGABYTE);
+  EXPECT_FALSE (areAllInPool ());
+}
+
+/// Arrays of several threads must not overlap, in a pool and beside it.
+TEST_F (LargeArrays, PoolOfSeveralThreads)
+{
+  keepLargeArraysIn (folder_);
+  constexpr int THREADS = 4, ROUNDS = 200;
+  const ArrayPool pool (6 * MEGABYTE, 4 * MEGABYTE);
+  std::atomic<std::size_t> wrong{0};
+  std::vector<std::thread> threads;
+  threads.reserve (THREADS);
+  for (int t = 0; t < THREADS; ++t)
+    threads.emplace_back ([&wrong, t] {
+      for (int round = 0; round < ROUNDS; ++round) {
+        const std::vector<int> one ((1 + (t + round) % 3) * MEGABYTE / sizeof (int), t);
+        const std::vector<int> other (MEGABYTE / sizeof (int), round);
+        const auto ones = static_cast<std::size_t> (std::count (one.begin (), one.end (), t));
+        wrong += one.size () - ones;
+        wrong += static_cast<std::size_t> (
+            std::count_if (other.begin (), other.end (), [round] (int i) { return i != round; }));
+      }
+    });
+  for (std::thread& thread : threads)
+    thread.join ();
+  EXPECT_EQ (wrong, 0U);
+  EXPECT_EQ (scratchUse ().bytes, 4 * MEGABYTE);
+}
+
 TEST_F (LargeArrays, FolderThatCannotBeUsed)
 {
   const auto message = [] (const std::filesystem::path& folder) -> std::string {
@@ -292,17 +396,26 @@ TEST_F (LargeArrays, Sizes)
 }
 
 /// Two threads fill and read three times as much as the limit.
-TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
+void
+expectBelowLimit (const std::filesystem::path& folder, bool has_pool)
 {
-  if (IS_SANITIZED)
-    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
   constexpr std::size_t LIMIT = 240 * MEGABYTE;
   constexpr int ARRAYS = 50;
   constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
   std::ofstream ("/proc/self/clear_refs") << 5; // resets the peak
   if (memoryStatus ("VmHWM") > LIMIT / 2)
     GTEST_SKIP () << "the memory of earlier tests cannot be separated";
-  const MemoryLimit limit (LIMIT, folder_);
+  const MemoryLimit limit (LIMIT, folder);
+  std::optional<ArrayPool> pool;
+  if (has_pool) {
+    const std::size_t in_memory = limit.residentSet ().poolInMemory ();
+    const std::size_t in_file = limit.residentSet ().poolInFile ();
+    EXPECT_GT (in_memory + in_file, LIMIT / 4 * 3);
+    pool.emplace (in_memory, in_file);
+    const std::vector<char> fits (in_memory - POOL_ALIGNMENT, 'a');
+    const std::vector<char> fits_too (in_file - POOL_ALIGNMENT, 'b');
+    EXPECT_TRUE (areAllInPool ());
+  }
   std::vector<std::vector<std::uint64_t>> arrays (ARRAYS);
   std::atomic<std::size_t> wrong{0};
   const auto work = [&] (int first) {
@@ -320,8 +433,23 @@ TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
   work (1);
   other.join ();
   EXPECT_EQ (wrong, 0U);
-  EXPECT_GT (scratchUse ().bytes, 3 * LIMIT);
+  EXPECT_GT (scratchUse ().bytes, (has_pool ? 2 : 3) * LIMIT);
   EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
+}
+
+TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
+{
+  if (IS_SANITIZED)
+    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
+  expectBelowLimit (folder_, false);
+}
+
+/// The first arrays are in the pool, which is then found to be too small.
+TEST_F (LargeArrays, ResidentSetWithPoolStaysBelowTheLimit)
+{
+  if (IS_SANITIZED)
+    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
+  expectBelowLimit (folder_, true);
 }
 
 } // namespace

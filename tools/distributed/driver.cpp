@@ -104,7 +104,7 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
   const EffectiveOptions effective (job.line);
   const RunContext run (job.line.options.threads);
-  const HeapReuse reuse;
+  const HeapReuse reuse (nullptr);
   std::optional<Plan> plan;
   for (;;) {
     processes.send (0, {});
@@ -164,60 +164,73 @@ areBlocksFreed (FolderStore& folder, const Plan& plan)
          openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("freed").front () != 0;
 }
 
+// Who works on blocks and parts, and what is told of it.
+struct Workers
+{
+  const Job& job;
+  const StepContext& context;
+  FolderStore& folder;
+  Dealer* dealer;           // nullptr: this process does all
+  const MemoryLimit* limit; // nullptr: there is none
+  const Watch& watch;
+};
+
 // Does a step for those of so many blocks or parts that are not finished.
 void
-workOn (const Job& job, const StepContext& context, FolderStore& folder, Dealer* dealer,
-        const Watch& watch, const char* step, std::size_t count)
+workOn (const Workers& workers, const char* step, std::size_t count)
 {
+  const StepContext& context = workers.context;
   std::deque<std::size_t> left;
   for (std::size_t number = 0; number < count; ++number)
-    if (!isFinished (folder, blockFile (step, number), context.plan))
+    if (!isFinished (workers.folder, blockFile (step, number), context.plan))
       left.push_back (number);
   const std::size_t finished = count - left.size ();
   {
-    const HeapReuse reuse;
-    if (dealer != nullptr)
-      dealer->run (context, step, std::move (left));
+    const HeapReuse reuse (workers.limit);
+    if (workers.dealer != nullptr)
+      workers.dealer->run (context, step, std::move (left));
     else
       for (const std::size_t number : left)
         blockStep (context, step, number);
   }
-  say (job, std::string (step) + ": " + std::to_string (count - finished) + " " +
-                (step == std::string (MESH) ? "parts" : "blocks") + " done, " +
-                std::to_string (finished) + " finished before, " + watch.time ());
+  say (workers.job, std::string (step) + ": " + std::to_string (count - finished) + " " +
+                        (step == std::string (MESH) ? "parts" : "blocks") + " done, " +
+                        std::to_string (finished) + " finished before, " + workers.watch.time ());
 }
 
 // Does all steps of the blocks, and meshes the parts.
 void
-workOnBlocks (const Job& job, const StepContext& context, FolderStore& folder, Dealer* dealer,
-              const Watch& watch)
+workOnBlocks (const Workers& workers)
 {
-  const Plan& plan = context.plan;
+  const StepContext& context = workers.context;
   for (const char* step : BLOCK_STEPS) {
-    workOn (job, context, folder, dealer, watch, step, plan.blocks);
-    if (step == BLOCK_STEPS.front () && !isFinished (folder, OUTLIERS, plan))
+    workOn (workers, step, context.plan.blocks);
+    if (step == BLOCK_STEPS.front () && !isFinished (workers.folder, OUTLIERS, context.plan))
       chooseOutliersStep (context);
   }
-  if (const std::size_t parts = countMeshFiles (plan, context.limits); parts > 0)
-    workOn (job, context, folder, dealer, watch, MESH, parts);
+  if (const std::size_t parts = countMeshFiles (context.plan, context.limits); parts > 0)
+    workOn (workers, MESH, parts);
 }
 
 // What `join` deals out, if that is of use: parts if all processes together have as many threads for
 // them as this one has for the whole cloud, the search for crossing triangles if they have more,
 // since the mesh has to be written for it.
 JoinDeals
-dealsOfJoin (const Job& job, const StepContext& context, Dealer* dealer, const Watch& watch)
+dealsOfJoin (const Workers& workers)
 {
   JoinDeals deals;
-  if (dealer == nullptr)
+  if (workers.dealer == nullptr)
     return deals;
-  const auto deal = [&, dealer] (const std::string& step, std::deque<std::size_t> numbers) {
+  const auto deal = [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
     const std::size_t count = numbers.size ();
-    dealer->run (context, step, std::move (numbers));
-    say (job, step + ": " + std::to_string (count) + " done, " + watch.time ());
+    {
+      const HeapReuse reuse (workers.limit);
+      workers.dealer->run (workers.context, step, std::move (numbers));
+    }
+    say (workers.job, step + ": " + std::to_string (count) + " done, " + workers.watch.time ());
   };
-  const int threads = dealer->processes () * context.run.threads ();
-  const int join_threads = RunContext (job.join_threads).threads ();
+  const int threads = workers.dealer->processes () * workers.context.run.threads ();
+  const int join_threads = RunContext (workers.job.join_threads).threads ();
   if (threads >= join_threads)
     deals.finish = deal;
   if (threads > join_threads)
@@ -241,10 +254,11 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   const EffectiveOptions effective (job.line);
   const RunContext run (job.line.options.threads);
   const StepContext context{folder, plan, effective.options, effective.limits, run};
+  const Workers workers{job, context, folder, dealer, limit.get (), watch};
   if (!areBlocksFreed (folder, plan))
-    workOnBlocks (job, context, folder, dealer, watch);
+    workOnBlocks (workers);
   if (!isFinished (folder, TRIANGLES, plan))
-    if (const int code = joinStep (job, folder, plan, dealsOfJoin (job, context, dealer, watch));
+    if (const int code = joinStep (job, folder, plan, dealsOfJoin (workers));
         code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
@@ -304,7 +318,7 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (count) + (is_of_part ? " parts" : " blocks") +
                       ", which are numbered from 0");
-  const HeapReuse reuse;
+  const HeapReuse reuse (limit.get ());
   if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
     blockStep (context, step, job.block);
   return EXIT_OK;

@@ -3,6 +3,9 @@
 // How memory is allocated while blocks are worked on.
 #pragma once
 
+#include "array_pool.h"
+#include "memory_limit.h"
+
 #ifdef __GLIBC__
 #include <malloc.h>
 
@@ -29,7 +32,10 @@ useOneHeap ()
 class HeapReuse
 {
 public:
-  HeapReuse ()
+  /// \param limit that must not be exceeded; nullptr: there is none
+  explicit HeapReuse (const MemoryLimit* limit)
+      : pool_ (limit == nullptr ? memoryOfMachine () : limit->residentSet ().poolInMemory (),
+               limit == nullptr ? 0 : limit->residentSet ().poolInFile ())
   {
 #ifdef __GLIBC__
     mallopt (M_MMAP_MAX, 0);
@@ -49,6 +55,9 @@ public:
   HeapReuse& operator= (const HeapReuse&) = delete;
   HeapReuse (HeapReuse&&) = delete;
   HeapReuse& operator= (HeapReuse&&) = delete;
+
+private:
+  ArrayPool pool_; // of large arrays; the rest is in the heap
 };
 
 } // namespace floater

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "memory_limit.h"
 
+#include "array_pool.h"
 #include "file_bytes.h"
 #include "large_arrays.h"
 #include "text_scanner.h"
@@ -143,6 +144,8 @@ void
 ResidentSet::makeRoom (std::size_t bytes) const
 {
   const auto wanted = static_cast<double> (bytes);
+  if (areAllInPool ()) // and bounded
+    return;
   if (resident () + wanted <= high_)
     return;
   giveBackMappedFiles ();
@@ -160,8 +163,26 @@ ResidentSet::makeRoom (std::size_t bytes) const
 std::chrono::duration<double>
 ResidentSet::timeToSleep () const
 {
+  if (areAllInPool ())
+    return LONGEST_SLEEP;
   const std::chrono::duration<double> safe{(high_ - resident ()) / FASTEST_GROWTH};
   return std::clamp (safe, SHORTEST_SLEEP, LONGEST_SLEEP);
+}
+
+std::size_t
+ResidentSet::poolInMemory () const
+{
+  return static_cast<std::size_t> (std::max (0.0, low_ - STEP * limit_ - FIXED));
+}
+
+// Arrays of a pool need no room, because they cannot grow beyond it. A step is left for what is in
+// no large array: 20 MB beside blocks of half a million points, for which the limit is some
+// hundred.
+std::size_t
+ResidentSet::poolInFile () const
+{
+  const double all = (1.0 - STEP) * limit_ - FIXED;
+  return static_cast<std::size_t> (std::max (0.0, all - static_cast<double> (poolInMemory ())));
 }
 
 MemoryLimit::MemoryLimit (std::size_t bytes, const std::filesystem::path& scratch_folder)

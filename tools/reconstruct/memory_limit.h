@@ -54,6 +54,11 @@ public:
   /// Time during which the resident set cannot come near the limit.
   std::chrono::duration<double> timeToSleep () const;
 
+  /// Bytes of an ArrayPool: those that stay in memory also if other arrays are in scratch files,
+  /// and those that stay there if there are no others.
+  std::size_t poolInMemory () const;
+  std::size_t poolInFile () const;
+
 private:
   double resident () const; // bytes; 0 if unknown
 
@@ -81,6 +86,8 @@ public:
   /// more make room, also where the watcher gets no processor. Microseconds if nothing is to be
   /// dropped.
   void makeRoom () const { resident_set_->makeRoom (0); }
+
+  const ResidentSet& residentSet () const { return *resident_set_; }
 
 private:
   void watch () const;

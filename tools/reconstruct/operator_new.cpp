@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Operators new and delete that put large arrays into scratch files once there is a scratch folder.
+// Operators new and delete that put large arrays into a pool as long as there is one, and into
+// scratch files once there is a scratch folder.
+#include "array_pool.h"
 #include "large_arrays.h"
 
 #include <algorithm>
@@ -18,6 +20,9 @@ namespace
 void*
 allocate (std::size_t size, std::size_t alignment) noexcept
 {
+  if (size >= LARGE_ARRAY && alignment <= POOL_ALIGNMENT)
+    if (void* pointer = makeInPool (size))
+      return pointer;
   if (size >= LARGE_ARRAY && alignment <= LARGE_ARRAY_ALIGNMENT && hasScratchFolder ())
     return mapLargeArray (size);
   if (alignment <= alignof (std::max_align_t))
@@ -52,11 +57,14 @@ allocateOrNull (std::size_t size, std::size_t alignment = alignof (std::max_alig
 void
 release (void* pointer) noexcept
 {
-  const bool may_be_mapped =
-      reinterpret_cast<std::uintptr_t> (pointer) % LARGE_ARRAY_ALIGNMENT == 0 &&
-      hasScratchFolder ();
-  if (pointer == nullptr || !may_be_mapped || !unmapLargeArray (pointer))
-    std::free (pointer);
+  const auto address = reinterpret_cast<std::uintptr_t> (pointer);
+  if (address % POOL_ALIGNMENT == 0 && address != 0) {
+    if (freeInPool (pointer))
+      return;
+    if (address % LARGE_ARRAY_ALIGNMENT == 0 && hasScratchFolder () && unmapLargeArray (pointer))
+      return;
+  }
+  std::free (pointer);
 }
 
 } // namespace
