@@ -6,17 +6,21 @@ set -euo pipefail
 work=$1
 shift
 pcl_floater_distributed --work "$work" --step plan "$@"
-blocks=$(sed -n 's/^ *"blocks": \([0-9]*\).*/\1/p' "$work/manifest.json")
+count () { sed -n 's/^ *"'"$1"'": \([0-9]*\).*/\1/p' "$work/manifest.json"; }
+steps=(neighbors outliers planes stars triangles)
+(($(count parts) == 0)) || steps+=(mesh stitch finish)
 after=()
-for step in neighbors outliers planes stars triangles join write; do
+for step in "${steps[@]}" join write; do
   command="pcl_floater_distributed --work '$work' --step $step"
   options=(--parsable "${after[@]}")
   case "$step" in
-    outliers | join | write) ;;
-    *)
-      options+=("--array=0-$((blocks - 1))%64")
-      command+=" --block \$SLURM_ARRAY_TASK_ID"
-      ;;
+    neighbors | planes | stars | triangles) tasks=$(count blocks) ;;
+    mesh | finish) tasks=$(count parts) ;;
+    *) tasks=0 ;;
   esac
+  if ((tasks > 0)); then
+    options+=("--array=0-$((tasks - 1))%64")
+    command+=" --block \$SLURM_ARRAY_TASK_ID"
+  fi
   after=("--dependency=afterok:$(sbatch "${options[@]}" --wrap "$command")")
 done

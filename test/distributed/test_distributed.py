@@ -532,6 +532,98 @@ echo "$RANDOM" | tee last
         self.expect_same(expected, [cloud], 1, 3, "--max-memory", "150M")
 
 
+class Parts(Case):
+    """Clouds that are meshed in parts, of half a million points at most."""
+    POINTS = 560000
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = pathlib.Path(tempfile.mkdtemp(prefix="pcl_floater_parts."))
+        cls.cloud, cls.mesh = cls.shared / "cloud.ply", cls.shared / "reference.ply"
+        for command in ([OPTIONS.generate, "cut-out", cls.cloud, "--points", cls.POINTS, "--holes", 40],
+                        [OPTIONS.reconstruct, "-q", cls.cloud, cls.mesh]):
+            outcome = run(command)
+            assert outcome.returncode == 0, outcome.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.shared, ignore_errors=True)
+
+    def check(self, processes, blocks, *options):
+        return self.expect_same(self.mesh.read_bytes(), [self.cloud], processes, blocks, *options)
+
+    def test_processes_and_blocks(self):
+        for processes, blocks in [(2, 5), (1, 2), (3, 64), (7, 5)] if OPTIONS.long else [(3, 5)]:
+            with self.subTest(processes=processes, blocks=blocks):
+                told = self.check(processes, blocks)
+                self.assertIn("mesh: 2 parts done", told)
+                self.assertEqual([f.name for f in self.path("work").glob("finish*")], [])
+                self.assertFalse((self.path("work") / "changes.bin").exists())
+
+    def test_messages_and_less_memory(self):
+        told = self.check(2, 3, "--exchange", "messages", "--max-memory", "300M", "--free-disk")
+        self.assertIn("finish: 2 parts done", told)
+        self.assertEqual(sorted(f.name for f in self.path("work").iterdir()),
+                         ["manifest.json", "mesh.bin", "outliers.bin", "points.bin", "report.json"])
+
+    def test_printed_steps_and_restart(self):
+        mesh = self.path("mesh.ply")
+        outcome = run(self.command("--step", "plan", self.cloud, mesh))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        printed = run(self.command("--print-steps"))
+        groups = [group.split("\n") for group in printed.stdout.rstrip("\n").split("\n\n")]
+        self.assertEqual([len(group) for group in groups], [2, 1, 2, 2, 2, 2, 1, 2, 1, 1])
+        lines = [line for group in groups for line in reversed(group)]
+        finish = [line for line in lines if "--step finish" in line]
+        work = self.path("work")
+        for line in lines[:lines.index(finish[0]) + 1]:
+            outcome = run([OPTIONS.distributed] + line.replace("'", "").split()[1:])
+            self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        done = {f.name: f.stat().st_mtime_ns for f in work.glob("finish.*")}
+        self.assertEqual(len(done), 1)
+        # What is damaged is told, and what is finished is not done again.
+        part = work / "mesh.0.bin"
+        saved = part.read_bytes()
+        part.write_bytes(saved[:-1000])
+        self.expect_failure(self.step("join"), WORK, "mesh.0.bin", "is truncated")
+        part.write_bytes(saved)
+        outcome = run(self.command(self.cloud, mesh))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("mesh: 0 parts done, 2 finished before", outcome.stderr)
+        self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+        self.expect_failure(self.step("finish", "--block", 2), USAGE, "there are only 2 parts")
+        self.assertEqual(self.step("finish", "--block", 1).returncode, 0)
+
+    def test_ended_while_parts_are_finished(self):
+        mesh = self.path("mesh.ply")
+        command = self.command("--blocks", 2, self.cloud, mesh)
+        program = subprocess.Popen([str(word) for word in command], stderr=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL)
+        changes = self.path("work") / "changes.bin"
+        while program.poll() is None and not changes.exists():
+            time.sleep(0.01)
+        program.send_signal(signal.SIGKILL)
+        program.wait()
+        self.assertFalse(mesh.exists())
+        outcome = run(command)
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        for step in STEPS:
+            self.assertIn(f"{step}: 0 blocks done, 2 finished before", outcome.stderr)
+        self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+
+    def test_one_part_is_left_without_outliers(self):
+        """The plan has two parts, as the points with outliers would have."""
+        write_ply(self.path("terrain.ply"), terrain_points(523500))
+        expected = self.reference(self.path("terrain.ply"))
+        self.expect_same(expected, [self.path("terrain.ply")], 2, 2)
+        manifest = json.loads((self.path("work") / "manifest.json").read_text())
+        self.assertEqual(manifest["parts"], 2)
+
+    def test_slurm_script_has_the_steps_of_parts(self):
+        script = (pathlib.Path(__file__).resolve().parent / "submit.sh").read_text()
+        self.assertIn("steps+=(mesh stitch finish)", script)
+
+
 class Disk(Case):
     def check(self, cloud, *options, processes=1):
         expected = self.reference(cloud)

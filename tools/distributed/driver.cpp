@@ -175,6 +175,15 @@ struct Workers
   const Watch& watch;
 };
 
+void
+sayDone (const Workers& workers, const std::string& step, std::size_t done, std::size_t before)
+{
+  const bool is_of_parts = step == MESH || step == FINISH;
+  say (workers.job, step + ": " + std::to_string (done) + (is_of_parts ? " parts" : " blocks") +
+                        " done, " + std::to_string (before) + " finished before, " +
+                        workers.watch.time ());
+}
+
 // Does a step for those of so many blocks or parts that are not finished.
 void
 workOn (const Workers& workers, const char* step, std::size_t count)
@@ -193,9 +202,7 @@ workOn (const Workers& workers, const char* step, std::size_t count)
       for (const std::size_t number : left)
         blockStep (context, step, number);
   }
-  say (workers.job, std::string (step) + ": " + std::to_string (count - finished) + " " +
-                        (step == std::string (MESH) ? "parts" : "blocks") + " done, " +
-                        std::to_string (finished) + " finished before, " + workers.watch.time ());
+  sayDone (workers, step, count - finished, finished);
 }
 
 // Does all steps of the blocks, and meshes the parts.
@@ -208,8 +215,8 @@ workOnBlocks (const Workers& workers)
     if (step == BLOCK_STEPS.front () && !isFinished (workers.folder, OUTLIERS, context.plan))
       chooseOutliersStep (context);
   }
-  if (const std::size_t parts = countMeshFiles (context.plan, context.limits); parts > 0)
-    workOn (workers, MESH, parts);
+  if (context.plan.parts > 0)
+    workOn (workers, MESH, context.plan.parts);
 }
 
 // What `join` deals out, if that is of use: parts if all processes together have as many threads for
@@ -222,12 +229,14 @@ dealsOfJoin (const Workers& workers)
   if (workers.dealer == nullptr)
     return deals;
   const auto deal = [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
+    const StepContext& context = workers.context;
+    const std::size_t all = step == FINISH ? partsOf (context).count () : context.plan.blocks;
     const std::size_t count = numbers.size ();
     {
       const HeapReuse reuse (workers.limit);
-      workers.dealer->run (workers.context, step, std::move (numbers));
+      workers.dealer->run (context, step, std::move (numbers));
     }
-    say (workers.job, step + ": " + std::to_string (count) + " done, " + workers.watch.time ());
+    sayDone (workers, step, count, all - count);
   };
   const int threads = workers.dealer->processes () * workers.context.run.threads ();
   const int join_threads = RunContext (workers.job.join_threads).threads ();
@@ -307,19 +316,23 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
       chooseOutliersStep (context);
     return EXIT_OK;
   }
-  if (step == "join")
+  if (step == "join" || step == STITCH)
     return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
+           : step == STITCH                     ? stitchStep (job, folder, plan)
                                                 : joinStep (job, folder, plan);
   if (step == "write")
     return writeStep (job, folder, plan);
-  const bool is_of_part = step == MESH;
-  const std::size_t count = is_of_part ? countMeshFiles (plan, effective.limits) : plan.blocks;
+  const bool is_of_part = step == MESH || step == FINISH;
+  const std::size_t count = is_of_part ? plan.parts : plan.blocks;
   if (job.block >= count)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (count) + (is_of_part ? " parts" : " blocks") +
                       ", which are numbered from 0");
+  const bool is_done = step == FINISH ? isFinished (folder, TRIANGLES, plan) ||
+                                            isPartFinished (context, folder, job.block)
+                                      : isFinished (folder, blockFile (step.c_str (), job.block), plan);
   const HeapReuse reuse (limit.get ());
-  if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
+  if (!is_done)
     blockStep (context, step, job.block);
   return EXIT_OK;
 }
@@ -360,19 +373,26 @@ printSteps (const Job& job, FolderStore& folder)
 {
   const Plan plan = readPlan (job, folder);
   const std::string command = "pcl_floater_distributed --work '" + job.work.string () + "' --step ";
+  const auto print = [&command] (const char* step) {
+    std::printf ("%s%s\n\n", command.c_str (), step);
+  };
+  const auto printAll = [&command] (const char* step, std::size_t count) {
+    for (std::size_t number = 0; number < count; ++number)
+      std::printf ("%s%s --block %zu\n", command.c_str (), step, number);
+    std::printf ("\n");
+  };
   for (const char* step : BLOCK_STEPS) {
-    for (std::size_t block = 0; block < plan.blocks; ++block)
-      std::printf ("%s%s --block %zu\n", command.c_str (), step, block);
-    std::printf ("\n");
+    printAll (step, plan.blocks);
     if (step == BLOCK_STEPS.front ())
-      std::printf ("%soutliers\n\n", command.c_str ());
+      print ("outliers");
   }
-  const std::size_t parts = countMeshFiles (plan, EffectiveOptions (job.line).limits);
-  for (std::size_t part = 0; part < parts; ++part)
-    std::printf ("%s%s --block %zu\n", command.c_str (), MESH, part);
-  if (parts > 0)
-    std::printf ("\n");
-  std::printf ("%sjoin\n\n%swrite\n", command.c_str (), command.c_str ());
+  if (plan.parts > 0) {
+    printAll (MESH, plan.parts);
+    print (STITCH);
+    printAll (FINISH, plan.parts);
+  }
+  print ("join");
+  std::printf ("%swrite\n", command.c_str ());
 }
 
 } // namespace floater

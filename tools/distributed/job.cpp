@@ -147,6 +147,8 @@ planStep (const Job& job, FolderStore& store)
   plan.parameters = parametersText (job);
   plan.points = points.size ();
   plan.blocks = job.blocks > 0 ? job.blocks : defaultBlocks (points.size ());
+  const std::size_t parts = Parts (points.size (), effective.limits.parts).count ();
+  plan.parts = parts > 1 ? parts : 0;
   plan.cloud_size = report.statistics.cloud_points;
   plan.selected_points = report.statistics.selected_points;
   plan.lattice_width = points.lattice_width;
@@ -193,11 +195,10 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals&
   DividedCrossing divided (context, store, stages.ranges (), deals.crossing);
   if (deals.crossing)
     stages.divideCrossing (&divided);
-  const std::size_t mesh_files = countMeshFiles (plan, effective.limits);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
     for (std::size_t block = 0; block < plan.blocks; ++block)
       openArrays (store, blockFile (step, block), plan);
-  for (std::size_t part = 0; part < mesh_files; ++part)
+  for (std::size_t part = 0; part < plan.parts; ++part)
     openArrays (store, blockFile (MESH, part), plan);
   Input input;
   input.cloud_size = plan.cloud_size;
@@ -210,6 +211,8 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals&
   Result result = reconstruct (std::move (input), options, stages);
   divided.rethrow ();
   Report& report = result.report;
+  if (report.status == RunStatus::CANCELLED) // see stitchStep; nobody else does so
+    return EXIT_OK;
   RunFigures figures;
   figures.reconstruct_seconds = secondsSince (start);
 
@@ -244,16 +247,24 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals&
   writer.add ("triangles", result.triangles);
   store.put (TRIANGLES, writer, plan.id);
   removeCrossing (store, plan);
-  removeFinished (store, plan, effective.limits);
+  removeFinished (store, plan);
   if (job.frees_disk) {
     store.finish (); // the mesh is on the disk before that of which it was made goes
     for (const char* step : BLOCK_STEPS)
       for (std::size_t block = 0; block < plan.blocks; ++block)
         store.remove (blockFile (step, block));
-    for (std::size_t part = 0; part < mesh_files; ++part)
+    for (std::size_t part = 0; part < plan.parts; ++part)
       store.remove (blockFile (MESH, part));
   }
   return EXIT_OK;
+}
+
+int
+stitchStep (const Job& job, FolderStore& store, const Plan& plan)
+{
+  JoinDeals deals;
+  deals.finish = [] (const std::string&, const std::deque<std::size_t>&) { throw Cancelled (); };
+  return joinStep (job, store, plan, deals);
 }
 
 int

@@ -20,6 +20,9 @@ namespace floater
 /// Exit code if a file of the work folder cannot be used.
 constexpr int EXIT_WORK = 7;
 
+/// Step of the whole cloud that may be done before `join`, so that parts are finished as steps.
+constexpr const char* STITCH = "stitch";
+
 /// What the user asked for.
 struct Job
 {
@@ -81,6 +84,11 @@ struct JoinDeals
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
 joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals& deals = {});
+
+/// The first half of joinStep, up to where parts are finished: what they need for that is then in the
+/// work folder. If the mesh is not made of parts, all of joinStep.
+int
+stitchStep (const Job& job, FolderStore& store, const Plan& plan);
 
 /// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
 /// block.

@@ -50,22 +50,25 @@ Exit codes:
   7  a file of the work folder is missing, damaged, of another version, or of another plan
 )";
 
-constexpr std::array<const char*, 4> SINGLE_STEPS{"plan", "outliers", "join", "write"};
+constexpr std::array<const char*, 5> SINGLE_STEPS{"plan", "outliers", STITCH, "join", "write"};
+constexpr std::array<const char*, 2> PART_STEPS{MESH, FINISH};
 
 std::vector<std::string>
 stepNames ()
 {
   std::vector<std::string> names (SINGLE_STEPS.begin (), SINGLE_STEPS.end ());
   names.insert (names.end (), BLOCK_STEPS.begin (), BLOCK_STEPS.end ());
-  names.emplace_back (MESH);
+  names.insert (names.end (), PART_STEPS.begin (), PART_STEPS.end ());
   return names;
 }
 
 bool
 isBlockStep (const std::string& step)
 {
-  return step == MESH ||
-         std::find (BLOCK_STEPS.begin (), BLOCK_STEPS.end (), step) != BLOCK_STEPS.end ();
+  const auto isIn = [&step] (const auto& steps) {
+    return std::find (steps.begin (), steps.end (), step) != steps.end ();
+  };
+  return isIn (BLOCK_STEPS) || isIn (PART_STEPS);
 }
 
 void
@@ -88,8 +91,8 @@ addSteps (CLI::App& app, Job& job)
   };
   app.add_option_function<std::string> (
          "--step", choose,
-         "do this step only: plan, outliers, join, write, or for a\nblock: neighbors, planes, "
-         "stars, triangles, or for a part:\nmesh")
+         "do this step only: plan, outliers, stitch, join, write;\nfor a block: neighbors, planes, "
+         "stars, triangles; or for a\npart of a large cloud: mesh, finish")
       ->option_text ("NAME (all)")
       ->group (group);
   const auto setBlock = [&job] (const std::string& word) {

@@ -162,13 +162,6 @@ partsOf (const StepContext& context)
   return {context.plan.points - readOutliers (context).size (), context.limits.parts};
 }
 
-std::size_t
-countMeshFiles (const Plan& plan, const Limits& limits)
-{
-  const std::size_t parts = Parts (plan.points, limits.parts).count ();
-  return parts > 1 ? parts : 0;
-}
-
 void
 meshStep (const StepContext& context, std::size_t part)
 {
@@ -201,6 +194,8 @@ finishStep (const StepContext& context, std::size_t part)
     ArrayFile mesh = openArrays (context.store, blockFile (MESH, part), context.plan);
     triangles = readTriangles (mesh, "triangles");
   }
+  if (stored.isEmpty ()) // it is one part less than was planned
+    return;
   const FinishedPart finished =
       finishPart (stored.points (), std::move (triangles), readChange (changes, part),
                   stored.neighbors (), scatter, context.options.flip_edges,
@@ -225,31 +220,31 @@ StoredParts::rim (std::size_t part, std::size_t rings)
 }
 
 bool
-StoredParts::isFinished (std::size_t part, std::uint64_t changes) const
+isPartFinished (const StepContext& context, const FolderStore& folder, std::size_t part)
 {
-  const std::string name = blockFile (FINISH, part);
-  if (!folder_.has (name))
+  if (!folder.has (blockFile (FINISH, part)))
     return false;
-  ArrayFile file = openArrays (folder_, name, context_.plan);
+  ArrayFile file = openArrays (context.store, blockFile (FINISH, part), context.plan);
   file.verify ();
-  return file.read<std::uint64_t> ("id").front () == changes;
+  ArrayFile changes = openArrays (context.store, CHANGES, context.plan);
+  return file.read<std::uint64_t> ("id") == changes.read<std::uint64_t> ("id");
 }
 
 void
 StoredParts::finish (std::vector<PartChange> changes, const RunContext& run)
 {
   const std::uint64_t id = identify (changes, scatter_);
-  std::deque<std::size_t> left;
-  for (std::size_t part = 0; part < parts_.count (); ++part)
-    if (!isFinished (part, id))
-      left.push_back (part);
-  if (left.empty ())
-    return;
   PartWriter writer;
   writer.arrays ().add ("id", &id, 1);
   writer.arrays ().add ("scatter", scatter_);
   writer.addChanges (changes);
   folder_.put (CHANGES, writer.arrays (), context_.plan.id);
+  std::deque<std::size_t> left;
+  for (std::size_t part = 0; part < parts_.count (); ++part)
+    if (!isPartFinished (context_, folder_, part))
+      left.push_back (part);
+  if (left.empty ())
+    return;
   if (deal_)
     deal_ (FINISH, std::move (left));
   else
@@ -267,10 +262,10 @@ StoredParts::finished (std::size_t part)
 }
 
 void
-removeFinished (const FolderStore& folder, const Plan& plan, const Limits& limits)
+removeFinished (const FolderStore& folder, const Plan& plan)
 {
   folder.remove (CHANGES);
-  for (std::size_t part = 0; part < countMeshFiles (plan, limits); ++part)
+  for (std::size_t part = 0; part < plan.parts; ++part)
     folder.remove (blockFile (FINISH, part));
 }
 

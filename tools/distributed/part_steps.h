@@ -18,17 +18,12 @@ namespace floater
 /// The step after those of the blocks: it is done for each part, if there are several.
 constexpr const char* MESH = "mesh";
 
-/// What a process is asked to do within `join`, for each part.
+/// What is done of each part when `join` has stitched them together, within it or as a step.
 constexpr const char* FINISH = "finish";
 
 /// The parts of the points without outliers.
 Parts
 partsOf (const StepContext& context);
-
-/// Files of MESH: one for each part, or none. Known as soon as there is a plan; if outliers are taken
-/// out, there may be one part less, whose file is empty then.
-std::size_t
-countMeshFiles (const Plan& plan, const Limits& limits);
 
 /// Meshes a part, and writes the mesh and its rim.
 void
@@ -37,6 +32,10 @@ meshStep (const StepContext& context, std::size_t part);
 /// Finishes a part, with what `join` has decided.
 void
 finishStep (const StepContext& context, std::size_t part);
+
+/// Whether the part is finished, with what was decided last.
+bool
+isPartFinished (const StepContext& context, const FolderStore& folder, std::size_t part);
 
 /// The parts, for makeSurfaceOfParts.
 class StoredParts : public PartWork
@@ -60,8 +59,6 @@ public:
   FinishedPart finished (std::size_t part) override;
 
 private:
-  bool isFinished (std::size_t part, std::uint64_t changes) const;
-
   const StepContext& context_;
   FolderStore& folder_;
   std::vector<Index> scatter_;
@@ -71,7 +68,7 @@ private:
 
 /// Removes what parts have left in the work folder when the mesh is known.
 void
-removeFinished (const FolderStore& folder, const Plan& plan, const Limits& limits);
+removeFinished (const FolderStore& folder, const Plan& plan);
 
 } // namespace floater
 } // namespace pcl

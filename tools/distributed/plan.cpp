@@ -59,6 +59,7 @@ contents (const Plan& plan)
           {"parameters", plan.parameters},
           {"points", plan.points},
           {"blocks", plan.blocks},
+          {"parts", plan.parts},
           {"cloud_points", plan.cloud_size},
           {"selected_points", plan.selected_points},
           {"lattice_width", plan.lattice_width},
@@ -139,6 +140,7 @@ parseManifest (const std::string& text, const std::string& name)
     json.at ("parameters").get_to (plan.parameters);
     json.at ("points").get_to (plan.points);
     json.at ("blocks").get_to (plan.blocks);
+    json.at ("parts").get_to (plan.parts);
     json.at ("cloud_points").get_to (plan.cloud_size);
     json.at ("selected_points").get_to (plan.selected_points);
     json.at ("lattice_width").get_to (plan.lattice_width);
