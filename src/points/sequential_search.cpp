@@ -24,9 +24,9 @@ constexpr double MARGIN = 1.3;
 // A group ends where it is wider than this many such distances: the curve has jumped.
 constexpr double WIDEST = 2.5;
 
-// A ball may hold so many points for each neighbour: with the widths above, (WIDEST / 2 + MARGIN)^2,
-// or 7, on a plane of even density. With many more, the density varies so much that the tree is
-// better.
+// A ball may hold so many points for each neighbour: with the widths above, (WIDEST / 2 +
+// MARGIN)^2, or 7, on a plane of even density. With many more, the density varies so much that the
+// tree is better.
 constexpr std::size_t MOST_POINTS = 32;
 
 // The last neighbour of most points is not farther than so many times that of the point before.
