@@ -45,7 +45,7 @@ fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> 
     if (known)
       planes.tree.emplace (std::move (*known));
     else
-      planes.tree.emplace (positions, run);
+      planes.tree.emplace (positions, run, PointOrder::ALONG_CURVE);
     planes.beside =
         findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
                          Rows::all (positions.size ()), limits.least_aspect, settings.reach, run);

@@ -31,7 +31,7 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
   const std::size_t blocks = chooseBlocks (positions.size (), settings.blocks, run);
   if (tree == nullptr || blocks > 1)
     return findNearestNeighbors (positions, rows, settings.options.k, blocks, run);
-  tree->emplace (positions, run);
+  tree->emplace (positions, run, PointOrder::ALONG_CURVE);
   return findNearestNeighbors (positions, rows, settings.options.k, **tree, run);
 }
 

@@ -35,11 +35,27 @@ expectEqual (const std::vector<Neighbor>& found, const std::vector<Neighbor>& ex
   }
 }
 
+// All points within a radius, in any order, if there are not more than are wanted.
+void
+expectCollected (const KdTree& tree, const Eigen::Vector3d& query, double radius,
+                 const std::vector<Neighbor>& expected)
+{
+  std::vector<Index> points, wanted;
+  for (const Neighbor& neighbor : expected)
+    wanted.push_back (neighbor.point);
+  std::sort (wanted.begin (), wanted.end ());
+  ASSERT_TRUE (tree.collect (query, radius, wanted.size (), points));
+  std::sort (points.begin (), points.end ());
+  EXPECT_EQ (points, wanted);
+  if (!wanted.empty ()) {
+    EXPECT_FALSE (tree.collect (query, radius, wanted.size () - 1, points));
+  }
+}
+
 // Queries at the points themselves, between them and outside of their box.
 void
-compare (const Positions& points, std::size_t queries, std::uint64_t seed)
+compareTree (const KdTree& tree, const Positions& points, std::size_t queries, std::uint64_t seed)
 {
-  const KdTree tree (points);
   RandomStream random (seed);
   std::vector<Neighbor> found;
   for (std::size_t i = 0; i < queries; ++i) {
@@ -62,13 +78,29 @@ compare (const Positions& points, std::size_t queries, std::uint64_t seed)
             return neighbor.sqr_distance > radius * radius;
           });
       expectEqual (found, expected, static_cast<std::size_t> (beyond - expected.begin ()));
+      expectCollected (tree, query, radius, found);
     }
   }
+}
+
+void
+compare (const Positions& points, std::size_t queries, std::uint64_t seed)
+{
+  for (const PointOrder order : {PointOrder::ANY, PointOrder::ALONG_CURVE})
+    compareTree (KdTree (points, 1, order), points, queries, seed);
 }
 
 TEST (KdTree, RandomPoints)
 {
   compare (samples::randomPoints (3000, 1), 150, 2);
+}
+
+// Enough points for several threads.
+TEST (KdTree, BuiltBySeveralThreads)
+{
+  const Positions points = samples::randomPoints (40000, 12);
+  for (const PointOrder order : {PointOrder::ANY, PointOrder::ALONG_CURVE})
+    compareTree (KdTree (points, 3, order), points, 6, 13);
 }
 
 TEST (KdTree, AnySmallNumberOfPoints)
