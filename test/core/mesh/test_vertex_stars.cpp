@@ -3,6 +3,8 @@
 // Loops over the triangles around points, on several threads.
 #include "mesh/vertex_stars.h"
 
+#include "mesh/facing_objects.h"
+#include "mesh/known_meshes.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -53,6 +55,46 @@ TEST (VertexStars, HaveTheTrianglesOfEachPointInTheirOrder)
   EXPECT_EQ (TriangleRanges ({}, 0, 2).count (), 0U);
 }
 
+// A torus of three ranges of points and two chunks of triangles.
+TriangleMesh
+largeTorus (samples::Positions& positions)
+{
+  samples::Mesh torus = samples::torus (200, 170);
+  positions = torus.positions;
+  TriangleMesh mesh;
+  mesh.triangles = torus.triangles;
+  EXPECT_TRUE (mesh.connect (positions.size (), 1));
+  return mesh;
+}
+
+TEST (VertexStars, SumsOfComponentsAreThoseOfOneThread)
+{
+  samples::Positions positions;
+  const TriangleMesh mesh = largeTorus (positions);
+  const MeshComponents found = findComponents (mesh, 1);
+  FacingHints hints;
+  hints.sensor = Eigen::Vector3d (3.0, 2.0, 5.0);
+  const std::vector<Eigen::Vector3f> up (positions.size (), Eigen::Vector3f::UnitZ ());
+  hints.normals = &up;
+  const std::vector<FacingSums> one = sumComponents (mesh, positions, found, hints, {}, 1);
+  ASSERT_EQ (one.size (), 1U);
+  EXPECT_EQ (one[0].triangles, mesh.triangles.size ());
+  EXPECT_TRUE (one[0].is_closed);
+  EXPECT_EQ (one[0].at, 0U);
+  EXPECT_NEAR (one[0].area_vector.norm (), 0.0, 1e-9);
+  // Of a torus with the radii 1 and 0.4.
+  EXPECT_NEAR (std::abs (one[0].volume) / 6.0, 2.0 * samples::PI * samples::PI * 0.16, 0.01);
+  EXPECT_NEAR (one[0].area / 2.0, 4.0 * samples::PI * samples::PI * 0.4, 0.05);
+  for (const int threads : {2, 5}) {
+    const FacingSums more = sumComponents (mesh, positions, found, hints, {}, threads)[0];
+    EXPECT_EQ (more.area_vector, one[0].area_vector);
+    EXPECT_EQ (more.area, one[0].area);
+    EXPECT_EQ (more.volume, one[0].volume);
+    EXPECT_EQ (more.seen, one[0].seen);
+    EXPECT_EQ (more.in_sight, one[0].in_sight);
+    EXPECT_EQ (more.contradictory, one[0].contradictory);
+  }
+}
 } // namespace
 } // namespace floater
 } // namespace pcl
