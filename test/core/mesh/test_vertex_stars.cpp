@@ -4,6 +4,7 @@
 #include "mesh/vertex_stars.h"
 
 #include "mesh/facing_objects.h"
+#include "mesh/flips.h"
 #include "mesh/known_meshes.h"
 #include "samples.h"
 
@@ -65,6 +66,34 @@ largeTorus (samples::Positions& positions)
   mesh.triangles = torus.triangles;
   EXPECT_TRUE (mesh.connect (positions.size (), 1));
   return mesh;
+}
+
+TEST (VertexStars, NormalsAreTurnedToTheSideOfTheirAreas)
+{
+  samples::Positions positions;
+  const TriangleMesh mesh = largeTorus (positions);
+  positions.emplace_back (0, 0, 0); // no vertex
+  RandomStream random (4);
+  std::vector<Eigen::Vector3f> normals (positions.size ()), area (positions.size ());
+  for (std::size_t p = 0; p < normals.size (); ++p) {
+    normals[p] =
+        Eigen::Vector3d (random.uniform () - 0.5, random.uniform () - 0.5, random.uniform () - 0.5)
+            .cast<float> ();
+    area[p].setZero ();
+  }
+  for (const Triangle& t : mesh.triangles)
+    for (const Index p : t)
+      area[p] += areaVectorOf (t, positions).cast<float> ();
+  std::vector<Eigen::Vector3f> expected = normals;
+  for (std::size_t p = 0; p < normals.size (); ++p)
+    if (expected[p].dot (area[p]) < 0.0F)
+      expected[p] = -expected[p];
+  EXPECT_EQ (expected.back (), normals.back ());
+  for (const int threads : {1, 2, 5}) {
+    std::vector<Eigen::Vector3f> turned = normals;
+    orientNormals (mesh, positions, turned, threads);
+    EXPECT_EQ (turned, expected);
+  }
 }
 
 TEST (VertexStars, SumsOfComponentsAreThoseOfOneThread)
