@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace pcl
 {
@@ -14,6 +16,9 @@ namespace floater
 {
 /// Disjoint sets of the elements 0 to size - 1. The smallest element of a set represents it, in
 /// whatever order the sets were joined. Amortized O(log size) for each call.
+///
+/// Threads may use it at the same time as long as each one joins elements of a range of its own,
+/// and no element of the range is in one set with others: then it touches nothing else.
 class DisjointSets
 {
 public:
@@ -37,6 +42,22 @@ public:
     b = find (b);
     parent_[std::max (a, b)] = std::min (a, b);
     return a != b;
+  }
+
+  /// The number of each element's set, from 0 in the order of their smallest elements, NONE for
+  /// sets that are left out. The sets are used up. O(size). \param is_numbered called with the
+  /// smallest element of each set, ascending: false leaves it out
+  template <typename IsNumbered>
+  std::vector<Index> number (IsNumbered&& is_numbered) &&
+  {
+    Index sets = 0;
+    // Parents are smaller than their children, so that they have their numbers before these.
+    for (Index element = 0; element < parent_.size (); ++element)
+      if (parent_[element] != element)
+        parent_[element] = parent_[parent_[element]];
+      else
+        parent_[element] = is_numbered (element) ? sets++ : NONE;
+    return std::move (parent_);
   }
 
 private:

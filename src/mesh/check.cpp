@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/check.h"
 
-#include "core/csr_lists.h"
 #include "core/disjoint_sets.h"
-#include "core/geometry.h"
-
-#include <Eigen/Geometry>
+#include "core/parallel.h"
+#include "mesh/surroundings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +17,6 @@ namespace floater
 {
 namespace
 {
-using BoundaryEdge = std::pair<Index, Index>; // from, to: the surface on the left
-
-bool
-isProper (const Triangle& t, std::size_t points)
-{
-  return t[0] < points && t[1] < points && t[2] < points && t[0] != t[1] && t[1] != t[2] &&
-         t[2] != t[0];
-}
-
 class Examiner
 {
 public:
@@ -35,7 +24,7 @@ public:
             const std::vector<float>& spacing, const RunContext& run, const CheckLimits& limits,
             MeshExamination& found)
       : triangles_ (triangles), points_ (points), spacing_ (spacing), run_ (run), limits_ (limits),
-        found_ (found), check_ (found.check), sets_ (points.size ()), slot_ (points.size (), NONE)
+        found_ (found), check_ (found.check)
   {
   }
 
@@ -43,189 +32,102 @@ public:
   void examine ()
   {
     const std::size_t points = points_.positions.size ();
-    indexCorners ();
-    ProgressLoop progress (run_, points);
-    for (Index p = 0; p < points; ++p) {
-      progress.next ();
-      if (triangles_at_.row (p).size () == 0)
-        found_.unused.push_back (p);
-      else
-        lookAround (p);
-    }
-    check_.euler_characteristic = static_cast<std::int64_t> (points - found_.unused.size ()) -
-                                  static_cast<std::int64_t> (edges_) +
-                                  static_cast<std::int64_t> (triangles_at_.ids.size () / 3);
-    check_.longest_edge = std::sqrt (sqr_longest_);
-    found_.longest_inside = std::sqrt (sqr_longest_inside_);
-    std::vector<Index> ().swap (triangles_at_.ids); // the offsets are still needed
-    countComponents ();
+    DisjointSets sets (points); // of points that are connected by edges
+    std::size_t proper = triangles_.size ();
+    const Surroundings all = lookAround (sets, proper);
+    check_.nonmanifold_vertices = all.nonmanifold_vertices;
+    check_.nonmanifold_edges += all.nonmanifold_edges;
+    check_.orientation_conflicts = all.orientation_conflicts;
+    check_.degenerate_triangles += all.degenerate_triangles;
+    check_.folds = all.folds;
+    check_.euler_characteristic = static_cast<std::int64_t> (points - all.unused.size ()) -
+                                  static_cast<std::int64_t> (all.edges) +
+                                  static_cast<std::int64_t> (proper);
+    check_.longest_edge = std::sqrt (all.sqr_longest);
+    const auto [a, b] = all.longest_at;
+    if (all.sqr_longest > 0.0)
+      check_.longest_edge_at = {points_.cloud_index[a], points_.cloud_index[b]};
+    found_.longest_inside = std::sqrt (all.sqr_longest_inside);
+    found_.longest_inside_at = all.longest_inside_at;
+    found_.long_edges = all.long_edges;
+    found_.broken_at = std::min (found_.broken_at, all.broken_at);
+    found_.fold_at = all.fold_at;
+    found_.degenerate_at = all.degenerate_at;
+    found_.unused = all.unused;
+    boundary_ = all.boundary;
+    countComponents (std::move (sets));
   }
 
-  // Sorted.
+  // Sorted by the points from which they lead.
   const std::vector<BoundaryEdge>& boundary () const { return boundary_; }
 
-  Index componentOf (Index p) { return component_[sets_.find (p)]; }
+  Index componentOf (Index p) const { return component_[p]; }
 
 private:
-  // An edge from the current point, and the triangles at it.
-  struct Spoke
+  // \param proper set to the number of proper triangles
+  Surroundings lookAround (DisjointSets& sets, std::size_t& proper)
   {
-    Index to;
-    Index out = 0, in = 0;           // triangles that run along it from the point, and to the point
-    Index left = NONE, right = NONE; // third corners of an outgoing and of an incoming triangle
-    Index fan;                       // disjoint sets: another spoke of the same fan, or itself
-  };
+    const TriangleRanges ranges (triangles_, points_.size (), run_);
+    proper -= ranges.leftOut ();
+    if (ranges.leftOut () > 0)
+      noteImproper ();
+    std::vector<Surroundings> parts (ranges.count ());
+    parallelTasks (run_, ranges.count (), [&] (std::size_t r) {
+      SurroundingsCheck check (triangles_, points_, spacing_, limits_, sets);
+      parts[r] = check.lookAround (ranges, r, run_);
+    });
+    Surroundings all;
+    ProgressLoop progress (run_);
+    for (Surroundings& part : parts) {
+      for (const auto& [p, q] : part.leaving) {
+        progress.next ();
+        sets.join (p, q);
+      }
+      all.append (std::move (part));
+    }
+    return all;
+  }
 
-  void indexCorners ()
+  void noteImproper ()
   {
     const std::size_t points = points_.size ();
-    ProgressLoop progress (run_);
     for (const Triangle& t : triangles_) {
-      progress.next ();
-      if (!isProper (t, points))
-        noteImproper (t);
-    }
-    triangles_at_ = makeCsrLists (points, [&] (const auto& emit) {
-      for (Index t = 0; t < triangles_.size (); ++t)
-        if (isProper (triangles_[t], points))
-          for (const Index p : triangles_[t])
-            emit (p, t);
-    });
-  }
-
-  void noteImproper (const Triangle& t)
-  {
-    ++check_.nonmanifold_edges;
-    ++check_.degenerate_triangles;
-    for (const Index p : t)
-      if (p < points_.positions.size ())
-        note (found_.broken_at, p);
-  }
-
-  static void note (Index& place, Index p) { place = std::min (place, p); }
-
-  Index spokeTo (Index q)
-  {
-    if (slot_[q] == NONE) {
-      slot_[q] = static_cast<Index> (spokes_.size ());
-      spokes_.push_back ({q, 0, 0, NONE, NONE, slot_[q]});
-    }
-    return slot_[q];
-  }
-
-  Index fanOf (Index spoke)
-  {
-    while (spokes_[spoke].fan != spoke)
-      spoke = spokes_[spoke].fan = spokes_[spokes_[spoke].fan].fan;
-    return spoke;
-  }
-
-  void lookAround (Index p)
-  {
-    spokes_.clear ();
-    std::size_t joins = 0;
-    for (const Index triangle : triangles_at_.row (p)) {
-      const Triangle& t = triangles_[triangle];
-      const std::size_t side = t[0] == p ? 0 : t[1] == p ? 1 : 2;
-      const Index q = t[side == 2 ? 0 : side + 1], r = t[side == 0 ? 2 : side - 1];
-      if (p < q && p < r)
-        lookAtTriangle (p, q, r);
-      const Index a = spokeTo (q), b = spokeTo (r);
-      ++spokes_[a].out;
-      spokes_[a].left = r;
-      ++spokes_[b].in;
-      spokes_[b].right = q;
-      const Index fan_a = fanOf (a), fan_b = fanOf (b);
-      joins += fan_a != fan_b ? 1 : 0;
-      spokes_[std::max (fan_a, fan_b)].fan = std::min (fan_a, fan_b);
-    }
-    // Two triangles on the same three points close a fan that has no inside.
-    const bool is_flat = spokes_.size () == 2 && spokes_[0].out + spokes_[0].in == 2;
-    if (joins + 1 < spokes_.size () || is_flat) {
-      ++check_.nonmanifold_vertices;
-      note (found_.broken_at, p);
-    }
-    for (const Spoke& spoke : spokes_) {
-      slot_[spoke.to] = NONE;
-      if (spoke.out + spoke.in == 1 && spoke.out == 1)
-        boundary_.emplace_back (p, spoke.to);
-      if (p < spoke.to)
-        lookAtEdge (p, spoke);
-    }
-  }
-
-  void lookAtTriangle (Index a, Index b, Index c)
-  {
-    const Eigen::Vector3d ab = points_.positions[b] - points_.positions[a];
-    const Eigen::Vector3d ac = points_.positions[c] - points_.positions[a];
-    const double sqr_longest =
-        std::max ({ab.squaredNorm (), ac.squaredNorm (), (ac - ab).squaredNorm ()});
-    const double sqr_height = ab.cross (ac).squaredNorm () / sqr_longest;
-    const double precision = limits_.precision * points_.diagonal;
-    const double flat = limits_.flat_height;
-    if (sqr_height > precision * precision || sqr_height > flat * flat * sqr_longest)
-      return;
-    ++check_.degenerate_triangles;
-    note (found_.degenerate_at, a);
-  }
-
-  void lookAtEdge (Index p, const Spoke& spoke)
-  {
-    const Index q = spoke.to;
-    ++edges_;
-    sets_.join (p, q);
-    const Eigen::Vector3d pq = points_.positions[q] - points_.positions[p];
-    const double scale = 0.5 * (static_cast<double> (spacing_[p]) + spacing_[q]);
-    const double sqr_length = scale > 0.0 ? pq.squaredNorm () / (scale * scale) : 0.0;
-    if (sqr_length > sqr_longest_) {
-      sqr_longest_ = sqr_length;
-      check_.longest_edge_at = {points_.cloud_index[p], points_.cloud_index[q]};
-    }
-    if (spoke.out + spoke.in == 1)
-      return;
-    if (spoke.out != 1 || spoke.in != 1) {
-      ++(spoke.out + spoke.in > 2 ? check_.nonmanifold_edges : check_.orientation_conflicts);
-      note (found_.broken_at, p);
-      return;
-    }
-    if (sqr_length > limits_.long_edge * limits_.long_edge) {
-      ++found_.long_edges;
-      if (sqr_length > sqr_longest_inside_) {
-        sqr_longest_inside_ = sqr_length;
-        found_.longest_inside_at = {p, q};
-      }
-    }
-    const std::vector<Eigen::Vector3d>& at = points_.positions;
-    if (isFold (areaVector (at[p], at[q], at[spoke.left]),
-                areaVector (at[p], at[spoke.right], at[q]))) {
-      ++check_.folds;
-      note (found_.fold_at, p);
+      if (isProper (t, points))
+        continue;
+      ++check_.nonmanifold_edges;
+      ++check_.degenerate_triangles;
+      for (const Index p : t)
+        if (p < points)
+          found_.broken_at = std::min (found_.broken_at, p);
     }
   }
 
   // Components by vertices. They are those by edges unless a vertex has several fans.
-  void countComponents ()
+  void countComponents (DisjointSets sets)
   {
-    std::vector<Index>& points_of_root = slot_;
-    std::fill (points_of_root.begin (), points_of_root.end (), 0);
-    for (Index p = 0; p < points_of_root.size (); ++p)
-      if (triangles_at_.offsets[p] < triangles_at_.offsets[p + 1])
-        ++points_of_root[sets_.find (p)];
-    component_.assign (points_of_root.size (), NONE);
-    for (Index p = 0; p < points_of_root.size (); ++p) {
-      const std::size_t count = points_of_root[p];
-      if (count == 0)
-        continue;
-      component_[p] = static_cast<Index> (check_.components++);
-      found_.component_points.push_back (count);
-      found_.largest_component = std::max (found_.largest_component, count);
-      if (found_.smallest_component_at == NONE || count < found_.smallest_component) {
-        found_.smallest_component = count;
-        found_.smallest_component_at = p;
+    std::vector<Index> first_points; // of each component
+    auto unused = found_.unused.begin ();
+    component_ = std::move (sets).number ([&] (Index p) {
+      while (unused != found_.unused.end () && *unused < p)
+        ++unused;
+      if (unused != found_.unused.end () && *unused == p)
+        return false;
+      first_points.push_back (p);
+      return true;
+    });
+    std::vector<std::size_t>& counts = found_.component_points;
+    counts.assign (first_points.size (), 0);
+    for (const Index c : component_)
+      if (c != NONE)
+        ++counts[c];
+    for (Index c = 0; c < counts.size (); ++c) {
+      found_.largest_component = std::max (found_.largest_component, counts[c]);
+      if (c == 0 || counts[c] < found_.smallest_component) {
+        found_.smallest_component = counts[c];
+        found_.smallest_component_at = first_points[c];
       }
     }
-    if (check_.nonmanifold_vertices > 0)
-      check_.components = componentsByEdges ();
+    check_.components = check_.nonmanifold_vertices > 0 ? componentsByEdges () : counts.size ();
   }
 
   std::size_t componentsByEdges () const
@@ -255,14 +157,8 @@ private:
   CheckLimits limits_;
   MeshExamination& found_;
   MeshCheck& check_;
-  CsrLists triangles_at_;        // triangles around each point
-  DisjointSets sets_;            // of points that are connected by edges
-  std::vector<Index> slot_;      // per point: the spoke of the current point that leads to it
-  std::vector<Index> component_; // of each root of the sets
-  std::vector<Spoke> spokes_;
+  std::vector<Index> component_; // of each point, NONE if it is not used
   std::vector<BoundaryEdge> boundary_;
-  std::size_t edges_ = 0;
-  double sqr_longest_ = 0.0, sqr_longest_inside_ = 0.0; // in local spacings
 };
 
 // Boundary edges in cycles. Where the mesh is no manifold, a walk ends at a point that no edge

@@ -2,38 +2,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/facing_objects.h"
 
+#include "core/parallel.h"
+
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 namespace pcl
 {
 namespace floater
 {
-std::vector<FacingSums>
-sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run)
+namespace
 {
-  std::vector<FacingSums> sums (found.count);
-  std::vector<Index> origin (found.count, NONE); // volumes are measured from there, for precision
-  ProgressLoop progress (run);
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    progress.next ();
-    const Triangle& corners = mesh.triangles[t];
-    FacingSums& sum = sums[found.of_triangle[t]];
-    if (sum.triangles++ == 0)
-      origin[found.of_triangle[t]] = corners[0];
+// Triangles that are summed by one task. The sums of tasks are added in their order, so that
+// threads do not matter.
+constexpr std::size_t SUMMED = 65536;
+
+// The sums of each component over consecutive triangles.
+class PartialSums
+{
+public:
+  PartialSums () = default;
+  PartialSums (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const MeshComponents& found, const FacingHints& hints, std::size_t first,
+               std::size_t last)
+  {
+    std::unordered_map<Index, std::size_t> places; // of components in parts_
+    Index current = NONE;                          // component
+    std::size_t place = 0;
+    for (std::size_t t = first; t < last; ++t) {
+      const Triangle& corners = mesh.triangles[t];
+      if (found.of_triangle[t] != current) {
+        current = found.of_triangle[t];
+        place = places.emplace (current, parts_.size ()).first->second;
+        if (place == parts_.size ())
+          parts_.push_back ({current, corners[0], {}});
+      }
+      Part& part = parts_[place];
+      add (mesh.neighbors[t], corners, positions, hints, positions[part.origin], part.sum);
+    }
+  }
+
+  // \param origin of each component, NONE if nothing was added yet
+  void addTo (std::vector<FacingSums>& sums, std::vector<Index>& origin,
+              const std::vector<Eigen::Vector3d>& positions) &&
+  {
+    const std::vector<Part> parts = std::move (parts_); // their memory is given back here
+    for (const Part& part : parts) {
+      FacingSums& sum = sums[part.component];
+      sum.add (part.sum, 1.0);
+      Index& from = origin[part.component];
+      if (from == NONE)
+        from = part.origin;
+      // The volume as measured from the origin of all.
+      sum.volume += (positions[part.origin] - positions[from]).dot (part.sum.area_vector);
+    }
+  }
+
+private:
+  struct Part
+  {
+    Index component;
+    Index origin; // volumes are measured from there, for precision
+    FacingSums sum;
+  };
+
+  static void add (const std::array<Index, 3>& neighbors, const Triangle& corners,
+                   const std::vector<Eigen::Vector3d>& positions, const FacingHints& hints,
+                   const Eigen::Vector3d& origin, FacingSums& sum)
+  {
+    ++sum.triangles;
     const Eigen::Vector3d area_vector = areaVectorOf (corners, positions);
     const double area = area_vector.norm ();
     sum.area_vector += area_vector;
     sum.area += area;
     sum.from_above += std::abs (area_vector.z ());
-    sum.volume +=
-        (positions[corners[0]] - positions[origin[found.of_triangle[t]]]).dot (area_vector);
+    sum.volume += (positions[corners[0]] - origin).dot (area_vector);
     for (std::size_t i = 0; i < 3; ++i) {
       sum.at = std::min (sum.at, corners[i]);
       sum.box.extend (positions[corners[i]]);
-      sum.is_closed = sum.is_closed && mesh.neighbors[t][i] != NONE;
+      sum.is_closed = sum.is_closed && neighbors[i] != NONE;
     }
     if (hints.normals != nullptr)
       for (const Index p : corners) {
@@ -49,6 +97,27 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
       sum.in_sight += std::abs (solid_angle);
     }
   }
+
+  std::vector<Part> parts_;
+};
+
+} // namespace
+
+std::vector<FacingSums>
+sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
+               const RunContext& run)
+{
+  const std::size_t triangles = mesh.triangles.size ();
+  std::vector<PartialSums> parts ((triangles + SUMMED - 1) / SUMMED);
+  parallelTasks (run, parts.size (), [&] (std::size_t i) {
+    parts[i] = PartialSums (mesh, positions, found, hints, i * SUMMED,
+                            std::min (triangles, (i + 1) * SUMMED));
+  });
+  std::vector<FacingSums> sums (found.count);
+  std::vector<Index> origin (found.count, NONE);
+  for (PartialSums& part : parts)
+    std::move (part).addTo (sums, origin, positions);
   for (FacingSums& sum : sums)
     if (std::abs (sum.along) < limits.normals_share * sum.told) {
       sum.contradictory = sum.told;

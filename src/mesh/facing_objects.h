@@ -73,7 +73,8 @@ areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-/// The sums of each component, by the sensor and the normals of the hints. O(n).
+/// The sums of each component, by the sensor and the normals of the hints. O(n), on all threads.
+/// They do not depend on the number of threads.
 std::vector<FacingSums>
 sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "mesh/mesh_blocks.h"
+#include "mesh/vertex_stars.h"
 
 #include <algorithm>
 #include <atomic>
@@ -24,18 +25,22 @@ void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
-  std::vector<Eigen::Vector3f> area (normals.size (), Eigen::Vector3f::Zero ());
-  ProgressLoop progress (run);
-  for (const Triangle& t : mesh.triangles) {
-    progress.next ();
-    const Eigen::Vector3f area_vector =
-        areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).cast<float> ();
-    for (Index p : t)
-      area[p] += area_vector;
-  }
-  for (std::size_t p = 0; p < normals.size (); ++p)
-    if (normals[p].dot (area[p]) < 0.0F)
-      normals[p] = -normals[p];
+  const TriangleRanges ranges (mesh.triangles, normals.size (), run);
+  parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+    const std::size_t first = ranges.firstPoint (r), points = ranges.lastPoint (r) - first;
+    std::vector<Eigen::Vector3f> area (points, Eigen::Vector3f::Zero ());
+    ranges.forEach (r, [&] (Index triangle) {
+      const Triangle& t = mesh.triangles[triangle];
+      const Eigen::Vector3f area_vector =
+          areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).cast<float> ();
+      for (const Index p : t)
+        if (p - first < points) // also false if p is below
+          area[p - first] += area_vector;
+    });
+    for (std::size_t p = 0; p < points; ++p)
+      if (normals[first + p].dot (area[p]) < 0.0F)
+        normals[first + p] = -normals[first + p];
+  });
 }
 
 double

@@ -14,7 +14,7 @@ namespace pcl
 namespace floater
 {
 /// Gives every normal the sign for which most of the area around its point faces along it. Normals
-/// of points without triangles stay as they are. O(n).
+/// of points without triangles stay as they are. O(n), on all threads.
 void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                std::vector<Eigen::Vector3f>& normals, const RunContext& run);

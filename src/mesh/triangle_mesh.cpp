@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/triangle_mesh.h"
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
+#include <utility>
 
 namespace pcl
 {
@@ -13,6 +14,9 @@ namespace floater
 {
 namespace
 {
+// Triangles whose components are found by one task. Long enough that few edges leave them.
+constexpr std::size_t JOINED = 65536;
+
 // The triangles around a point, one by one: anti-clockwise, then from where it began clockwise.
 class FanWalk
 {
@@ -239,66 +243,6 @@ TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
   setTriangleOf (p, NONE);
 }
 
-bool
-TriangleMesh::connect (std::size_t points, const RunContext& run)
-{
-  run.poll ();
-  EdgeTable edges;
-  edges.leaving = makeCsrLists (points, [this] (const auto& emit) {
-    for (Index t = 0; t < triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        emit (from ({t, side}), 3 * t + side);
-  });
-  edges.ends.resize (edges.leaving.ids.size ());
-  parallelRanges (run, edges.ends.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      edges.ends[i] = to (edges.edge (i));
-  });
-  triangle_of.assign (points, NONE);
-  neighbors.resize (triangles.size ());
-  std::atomic<bool> is_manifold{true};
-  parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last && is_manifold; ++p)
-      if (!connectFrom (static_cast<Index> (p), edges))
-        is_manifold = false;
-  });
-  if (!is_manifold)
-    return false;
-  parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
-    std::vector<Index> fan_triangles;
-    for (std::size_t p = first; p < last && is_manifold; ++p) {
-      fan (static_cast<Index> (p), fan_triangles);
-      if (fan_triangles.size () != edges.leaving.row (p).size () &&
-          !isPartial (static_cast<Index> (p)))
-        is_manifold = false; // more than one fan
-    }
-  });
-  return is_manifold;
-}
-
-bool
-TriangleMesh::connectFrom (Index p, const EdgeTable& edges)
-{
-  const std::size_t last = edges.leaving.begin (p + 1U);
-  for (std::size_t i = edges.leaving.begin (p); i < last; ++i) {
-    const MeshEdge e = edges.edge (i);
-    const Index q = edges.ends[i];
-    if (q == p)
-      return false;
-    for (std::size_t j = i + 1; j < last; ++j)
-      if (edges.ends[j] == q)
-        return false; // the same directed edge twice
-    Index& neighbor = neighbors[e.triangle][e.side];
-    neighbor = NONE;
-    const std::size_t end = edges.leaving.begin (q + 1U);
-    for (std::size_t back = edges.leaving.begin (q); back < end; ++back)
-      if (edges.ends[back] == p)
-        neighbor = edges.edge (back).triangle;
-    triangle_of[p] = e.triangle;
-  }
-  return true;
-}
-
 std::vector<std::vector<Index>>
 boundaryLoops (const TriangleMesh& mesh, const RunContext& run)
 {
@@ -329,28 +273,32 @@ boundaryLoops (const TriangleMesh& mesh, const RunContext& run)
 MeshComponents
 findComponents (const TriangleMesh& mesh, const RunContext& run)
 {
-  MeshComponents components;
-  std::vector<Index>& component = components.of_triangle;
-  component.assign (mesh.triangles.size (), NONE);
-  std::vector<Index> front;
-  ProgressLoop progress (run);
-  for (Index start = 0; start < component.size (); ++start) {
-    if (component[start] != NONE)
-      continue;
-    component[start] = components.count;
-    front.assign (1, start);
-    while (!front.empty ()) {
-      progress.next ();
-      const Index t = front.back ();
-      front.pop_back ();
-      for (Index u : mesh.neighbors[t])
-        if (u != NONE && component[u] == NONE) {
-          component[u] = components.count;
-          front.push_back (u);
+  const std::size_t triangles = mesh.triangles.size ();
+  DisjointSets sets (triangles);
+  // The sets of a range are its own until all ranges are done: edges that leave it wait.
+  std::vector<std::vector<std::pair<Index, Index>>> leaving ((triangles + JOINED - 1) / JOINED);
+  parallelTasks (run, leaving.size (), [&] (std::size_t range) {
+    const std::size_t first = range * JOINED, last = std::min (triangles, first + JOINED);
+    for (std::size_t t = first; t < last; ++t)
+      for (const Index u : mesh.neighbors[t])
+        if (u < t) { // each edge once; NONE is above
+          if (u < first)
+            leaving[range].emplace_back (u, static_cast<Index> (t));
+          else
+            sets.join (u, static_cast<Index> (t));
         }
+  });
+  ProgressLoop progress (run);
+  for (const std::vector<std::pair<Index, Index>>& edges : leaving)
+    for (const auto& [u, t] : edges) {
+      progress.next ();
+      sets.join (u, t);
     }
+  MeshComponents components;
+  components.of_triangle = std::move (sets).number ([&components] (Index) {
     ++components.count;
-  }
+    return true;
+  });
   return components;
 }
 

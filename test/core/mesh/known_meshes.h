@@ -38,10 +38,10 @@ pointsAt (const Positions& positions)
 }
 
 inline MeshExamination
-check (const Mesh& mesh, float spacing = 0.1F)
+check (const Mesh& mesh, float spacing = 0.1F, int threads = 1)
 {
   return checkMesh (mesh.triangles, pointsAt (mesh.positions),
-                    std::vector<float> (mesh.positions.size (), spacing), 1);
+                    std::vector<float> (mesh.positions.size (), spacing), threads);
 }
 
 /// A grid of cells, each cut in two; vertex (x, y) is `index (x, y)` at `place (x, y)`.

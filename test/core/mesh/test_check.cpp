@@ -10,7 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <numeric>
+#include <random>
+#include <sstream>
 #include <string>
 
 namespace pcl
@@ -84,6 +88,110 @@ TEST (MeshCheck, KnownSurfaces)
   const Mesh nothing{{{0, 0, 0}, {1, 0, 0}}, {}};
   expectSound (nothing, 0, 0, 0, {});
   expectSound ({}, 0, 0, 0, {});
+}
+
+// Everything that was found, so that two examinations can be compared.
+std::string
+textOf (const MeshExamination& found)
+{
+  std::ostringstream text;
+  text << std::hexfloat;
+  const MeshCheck& c = found.check;
+  text << c.nonmanifold_edges << ' ' << c.nonmanifold_vertices << ' ' << c.orientation_conflicts
+       << ' ' << c.degenerate_triangles << ' ' << c.folds << ' ' << c.components << ' '
+       << c.euler_characteristic << ' ' << c.genus << ' ' << c.longest_edge << ' '
+       << c.longest_edge_at[0] << ' ' << c.longest_edge_at[1] << ' ' << found.broken_at << ' '
+       << found.fold_at << ' ' << found.degenerate_at << ' ' << found.long_edges << ' '
+       << found.longest_inside << ' ' << found.longest_inside_at.first << ' '
+       << found.longest_inside_at.second << ' ' << found.smallest_component << ' '
+       << found.smallest_component_at << ' ' << found.largest_component;
+  for (const std::size_t points : found.component_points)
+    text << " c" << points;
+  for (const Index p : found.unused)
+    text << " u" << p;
+  for (const BoundaryLoop& loop : found.loops) {
+    text << " loop " << loop.component << ' ' << loop.length << ' ' << loop.width;
+    for (const Index p : loop.points)
+      text << ' ' << p;
+  }
+  return text.str ();
+}
+
+void
+expectSameOnAllThreads (const Mesh& mesh)
+{
+  const std::string expected = textOf (check (mesh));
+  for (const int threads : {2, 5})
+    EXPECT_EQ (textOf (check (mesh, 0.1F, threads)), expected) << threads;
+}
+
+// Loops and components that go through several of the ranges in which points are looked at.
+TEST (MeshCheck, ThreadsDoNotMatter)
+{
+  constexpr Index SIDE = 150; // 22,801 points
+  Mesh holed = sheet (SIDE);
+  RandomStream random (5);
+  for (Eigen::Vector3d& p : holed.positions)
+    p.z () = 0.2 * random.uniform ();
+  holed.positions[SIDE * SIDE / 3].x () += 50.0; // long edges, and folds
+  expectSameOnAllThreads (holed);
+  // A slit of many rows, from one of which to the next are 151 points.
+  holed.triangles.erase (std::remove_if (holed.triangles.begin (), holed.triangles.end (),
+                                         [] (const Triangle& t) {
+                                           const Index row = t[0] / (SIDE + 1),
+                                                       column = t[0] % (SIDE + 1);
+                                           return column == 75 && row > 20 && row < 130;
+                                         }),
+                         holed.triangles.end ());
+  expectSound (holed, 1, 0, 0, {4 * SIDE, 2 * (109 + 1)});
+  expectSameOnAllThreads (holed);
+  // The points of both are mixed, and the triangles in random order.
+  Mesh mixed = beside (holed, torus (100, 100));
+  std::vector<Index> place (mixed.positions.size () + 10); // some are not used
+  std::iota (place.begin (), place.end (), Index{0});
+  std::shuffle (place.begin (), place.end (), std::mt19937 (1));
+  Positions positions (place.size (), Eigen::Vector3d::Zero ());
+  for (std::size_t p = 0; p < mixed.positions.size (); ++p)
+    positions[place[p]] = mixed.positions[p];
+  mixed.positions = positions;
+  for (Triangle& t : mixed.triangles)
+    for (Index& p : t)
+      p = place[p];
+  std::shuffle (mixed.triangles.begin (), mixed.triangles.end (), std::mt19937 (2));
+  expectSound (mixed, 2, 0, 1, {4 * SIDE, 2 * (109 + 1)});
+  expectSameOnAllThreads (mixed);
+  // Broken in many ways.
+  for (int i = 0; i < 300; ++i) {
+    Triangle t;
+    for (Index& p : t)
+      p = static_cast<Index> (random.below (mixed.positions.size () + 100));
+    mixed.triangles.push_back (t);
+    mixed.triangles.push_back (Triangle (mixed.triangles[random.below (10000)]));
+  }
+  EXPECT_FALSE (check (mixed).isManifold ());
+  expectSameOnAllThreads (mixed);
+}
+
+// Around one point are so many triangles that nothing may compare all of them with all.
+TEST (MeshCheck, AHub)
+{
+  constexpr Index AROUND = 200000;
+  Mesh cone;
+  cone.positions.emplace_back (0, 0, 1);
+  for (Index i = 0; i < AROUND; ++i) {
+    const double angle = 2.0 * samples::PI * i / AROUND;
+    cone.positions.emplace_back (std::cos (angle), std::sin (angle), 0.0);
+    cone.triangles.push_back ({0, 1 + i, 1 + (i + 1) % AROUND});
+  }
+  expectSound (cone, 1, 1, 0, {AROUND});
+  cone.triangles.erase (cone.triangles.begin () + 5);
+  cone.triangles.erase (cone.triangles.begin () + 70);
+  const MeshExamination found = check (cone); // two fans
+  EXPECT_EQ (found.check.nonmanifold_vertices, 1U);
+  EXPECT_EQ (found.check.components, 2U);
+  TriangleMesh connected;
+  connected.triangles = cone.triangles;
+  EXPECT_FALSE (connected.connect (cone.positions.size (), 2));
 }
 
 TEST (MeshCheck, LoopsNameTheirComponents)

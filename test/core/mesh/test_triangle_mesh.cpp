@@ -6,6 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+
 namespace pcl
 {
 namespace floater
@@ -192,6 +197,84 @@ TEST (TriangleMesh, ConnectTakesManifolds)
   EXPECT_TRUE (boundaryLoops (mesh, 1).empty ());
   mesh = meshOf ({}, 3);
   EXPECT_EQ (mesh.triangle_of, (std::vector<Index>{NONE, NONE, NONE}));
+}
+
+// Triangles of a large grid with points and triangles in random order.
+std::vector<Triangle>
+mixedGrid (Index side)
+{
+  std::vector<Triangle> triangles = gridTriangles (side);
+  std::vector<Index> place (side * side);
+  std::iota (place.begin (), place.end (), Index{0});
+  std::shuffle (place.begin (), place.end (), std::mt19937 (1));
+  for (Triangle& t : triangles)
+    for (Index& p : t)
+      p = place[p];
+  std::shuffle (triangles.begin (), triangles.end (), std::mt19937 (2));
+  return triangles;
+}
+
+TEST (TriangleMesh, ConnectFindsTheSameOnAllThreads)
+{
+  constexpr Index SIDE = 150; // points in two ranges
+  for (const std::vector<Triangle>& triangles : {gridTriangles (SIDE), mixedGrid (SIDE)}) {
+    std::map<std::pair<Index, Index>, Index> triangle_at; // left of each directed edge
+    for (Index t = 0; t < triangles.size (); ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        triangle_at[{triangles[t][i], triangles[t][(i + 1) % 3]}] = t;
+    for (const int threads : {1, 2, 5}) {
+      TriangleMesh mesh;
+      mesh.triangles = triangles;
+      ASSERT_TRUE (mesh.connect (SIDE * SIDE + 3, threads));
+      for (Index t = 0; t < triangles.size (); ++t)
+        for (std::uint8_t side = 0; side < 3; ++side) {
+          const auto across = triangle_at.find ({mesh.to ({t, side}), mesh.from ({t, side})});
+          EXPECT_EQ (mesh.neighbors[t][side], across == triangle_at.end () ? NONE : across->second);
+          EXPECT_GE (mesh.triangle_of[triangles[t][side]], t); // the last one
+        }
+      EXPECT_EQ (mesh.triangle_of[SIDE * SIDE + 2], NONE);
+    }
+  }
+}
+
+TEST (TriangleMesh, ComponentsAreNumberedByTheirFirstTriangles)
+{
+  constexpr Index SIDE = 300; // triangles in three ranges
+  for (const bool is_mixed : {false, true}) {
+    TriangleMesh mesh;
+    for (const Triangle& t : is_mixed ? mixedGrid (SIDE) : gridTriangles (SIDE))
+      if (is_mixed || t[0] / SIDE % 7 != 3) // strips
+        mesh.triangles.push_back (t);
+    ASSERT_TRUE (mesh.connect (SIDE * SIDE, 1));
+    if (is_mixed) // so many neighbours are cut off that there are many components
+      for (Index t = 0; t < mesh.triangles.size (); ++t)
+        for (std::uint8_t side = 0; side < 3; ++side)
+          if (mesh.neighbors[t][side] != NONE && (t + mesh.neighbors[t][side]) % 3 == 0)
+            mesh.neighbors[t][side] = NONE;
+    std::vector<Index> expected (mesh.triangles.size (), NONE);
+    Index count = 0;
+    for (Index start = 0; start < expected.size (); ++start) {
+      if (expected[start] != NONE)
+        continue;
+      std::vector<Index> front (1, start);
+      while (!front.empty ()) {
+        const Index t = front.back ();
+        front.pop_back ();
+        expected[t] = count;
+        for (const Index u : mesh.neighbors[t])
+          if (u != NONE && expected[u] == NONE)
+            front.push_back (u);
+      }
+      ++count;
+    }
+    EXPECT_GT (count, 40U);
+    for (const int threads : {1, 2, 5}) {
+      const MeshComponents components = findComponents (mesh, threads);
+      EXPECT_EQ (components.count, count);
+      EXPECT_EQ (components.of_triangle, expected);
+    }
+  }
+  EXPECT_EQ (findComponents ({}, 2).count, 0U);
 }
 
 TEST (TriangleMesh, ConnectRefusesWhatIsNoOrientedManifold)

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Neighbours from triangles.
+#include "core/index_limit.h"
+#include "core/parallel.h"
+#include "mesh/triangle_mesh.h"
+#include "mesh/vertex_stars.h"
+
+#include <atomic>
+#include <unordered_map>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// Wedges up to which comparing all with all is faster than a hash table. Measured.
+constexpr std::size_t MANY = 32;
+
+// Looks at the triangles around one point after the other. Both triangles of an edge are around
+// each of its ends, so that nothing else needs to be looked at.
+class StarConnector
+{
+public:
+  explicit StarConnector (TriangleMesh& mesh) : mesh_ (mesh) {}
+
+  // Sets the neighbours across the edges that leave p, and its triangle. Returns false if an edge
+  // leaves it twice, or if it is not partial and has several fans.
+  bool connect (Index p, const VertexStar& star)
+  {
+    mesh_.triangle_of[p] = star.size () == 0 ? NONE : star[star.size () - 1].triangle;
+    if (!indexLeaving (star))
+      return false;
+    // The wedge that follows another one anti-clockwise begins at the edge at which that one ends.
+    after_.assign (star.size (), NONE);
+    before_.assign (star.size (), NONE);
+    for (Index i = 0; i < star.size (); ++i) {
+      const Index j = wedgeTo (star[i].previous, star);
+      after_[i] = j;
+      if (j != NONE)
+        before_[j] = i;
+    }
+    for (std::size_t i = 0; i < star.size (); ++i) {
+      const Index t = star[i].triangle;
+      mesh_.neighbors[t][TriangleMesh::previous (mesh_.sideOf (t, p))] =
+          before_[i] == NONE ? NONE : star[before_[i]].triangle;
+    }
+    return mesh_.isPartial (p) || isOneFan ();
+  }
+
+private:
+  // Returns false if two edges lead to the same point.
+  bool indexLeaving (const VertexStar& star)
+  {
+    if (star.size () > MANY) {
+      leaving_ = {}; // not clear (): that goes through the buckets of an earlier, larger one
+      for (Index i = 0; i < star.size (); ++i)
+        if (!leaving_.emplace (star[i].next, i).second)
+          return false;
+      return true;
+    }
+    for (std::size_t i = 1; i < star.size (); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (star[i].next == star[j].next)
+          return false;
+    return true;
+  }
+
+  // The wedge whose first edge leads to q, NONE if there is none.
+  Index wedgeTo (Index q, const VertexStar& star) const
+  {
+    if (star.size () > MANY) {
+      const auto found = leaving_.find (q);
+      return found == leaving_.end () ? NONE : found->second;
+    }
+    for (Index i = 0; i < star.size (); ++i)
+      if (star[i].next == q)
+        return i;
+    return NONE;
+  }
+
+  bool isOneFan () const
+  {
+    if (after_.empty ())
+      return true;
+    Index start = 0;
+    for (Index i = 0; i < before_.size (); ++i)
+      if (before_[i] == NONE)
+        start = i; // of an open fan
+    // Where an edge leads to p twice, the walk may go round without its start.
+    std::size_t count = 1;
+    for (Index i = after_[start]; i != NONE && i != start && count <= after_.size (); i = after_[i])
+      ++count;
+    return count == after_.size ();
+  }
+
+  TriangleMesh& mesh_;
+  std::vector<Index> after_, before_;        // of each wedge: the next ones of the fan, or NONE
+  std::unordered_map<Index, Index> leaving_; // of many wedges: each one by its first edge
+};
+
+} // namespace
+
+bool
+TriangleMesh::connect (std::size_t points, const RunContext& run)
+{
+  // Edges are counted elsewhere.
+  requireCountable (3 * triangles.size (), NONE - 1, "a table of edges", "use fewer points");
+  run.poll ();
+  triangle_of.resize (points);
+  neighbors.resize (triangles.size ());
+  const TriangleRanges ranges (triangles, points, run);
+  std::atomic<bool> is_manifold{ranges.leftOut () == 0};
+  parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+    if (!is_manifold)
+      return;
+    const VertexStars stars (triangles, ranges, r);
+    StarConnector connector (*this);
+    for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r) && is_manifold; ++p)
+      if (!connector.connect (static_cast<Index> (p), stars.of (p)))
+        is_manifold = false;
+  });
+  return is_manifold;
+}
+
+} // namespace floater
+} // namespace pcl

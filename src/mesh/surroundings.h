@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the triangles around each point form, for the examination of a mesh.
+#pragma once
+
+#include "core/disjoint_sets.h"
+#include "mesh/check.h"
+#include "mesh/vertex_stars.h"
+
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// From, to: the surface on the left.
+using BoundaryEdge = std::pair<Index, Index>;
+
+/// What was found around some points. Places are the smallest points, NONE if there is none.
+struct Surroundings
+{
+  std::size_t edges = 0; ///< whose smaller end is one of the points, as of all that follows
+  std::size_t nonmanifold_vertices = 0, nonmanifold_edges = 0, orientation_conflicts = 0;
+  std::size_t degenerate_triangles = 0, folds = 0, long_edges = 0;
+  Index broken_at = NONE, degenerate_at = NONE, fold_at = NONE;
+  double sqr_longest = 0.0, sqr_longest_inside = 0.0; ///< in local spacings
+  std::pair<Index, Index> longest_at{}, longest_inside_at{};
+  std::vector<Index> unused;          ///< points without triangles, ascending
+  std::vector<BoundaryEdge> boundary; ///< sorted by the points from which they lead
+  std::vector<BoundaryEdge> leaving;  ///< edges to points of other ranges, in any direction
+
+  /// Takes over what was found around the points that follow, but for the edges that leave.
+  void append (Surroundings&& next);
+};
+
+/// Looks at the triangles and edges around the points of a range, one after the other.
+class SurroundingsCheck
+{
+public:
+  /// \param sets of the points; those that edges within the range connect are joined
+  SurroundingsCheck (const std::vector<Triangle>& triangles, const Points& points,
+                     const std::vector<float>& spacing, const CheckLimits& limits,
+                     DisjointSets& sets)
+      : triangles_ (triangles), points_ (points), spacing_ (spacing), limits_ (limits), sets_ (sets)
+  {
+  }
+
+  Surroundings lookAround (const TriangleRanges& ranges, std::size_t r, const RunContext& run);
+
+private:
+  // An edge from the current point, and the triangles at it.
+  struct Spoke
+  {
+    Index to;
+    Index out = 0, in = 0;           // triangles that run along it from the point, and to the point
+    Index left = NONE, right = NONE; // third corners of an outgoing and of an incoming triangle
+    Index fan;                       // disjoint sets: another spoke of the same fan, or itself
+  };
+
+  Index spokeTo (Index q);
+  Index fanOf (Index spoke);
+  void lookAt (Index p, const VertexStar& star);
+  void lookAtTriangle (Index a, Index b, Index c);
+  void lookAtEdge (Index p, const Spoke& spoke);
+
+  const std::vector<Triangle>& triangles_;
+  const Points& points_;
+  const std::vector<float>& spacing_;
+  const CheckLimits& limits_;
+  DisjointSets& sets_;
+  std::size_t last_ = 0; // where the range ends
+  Surroundings found_;
+  std::vector<Spoke> spokes_;
+  std::unordered_map<Index, Index>
+      place_; // of many spokes: each one by the point to which it leads
+};
+
+} // namespace floater
+} // namespace pcl

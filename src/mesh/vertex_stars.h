@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The triangles around points, range by range of the points, for loops on all threads.
+#pragma once
+
+#include "core/run_context.h"
+#include "core/types.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Whether the corners are three points below `points`.
+inline bool
+isProper (const Triangle& t, std::size_t points)
+{
+  return t[0] < points && t[1] < points && t[2] < points && t[0] != t[1] && t[1] != t[2] &&
+         t[2] != t[0];
+}
+
+/// The triangles that have a corner in each range of points. If the triangles lie in the order of
+/// their points, nearly all of them are in one range only: 4 bytes per triangle, at most 12.
+class TriangleRanges
+{
+public:
+  /// Points of a range. Measured: half or twice as many are no faster. What is kept of a range is
+  /// about as large as a second-level cache, and few edges leave it.
+  static constexpr std::size_t LENGTH = 16384;
+
+  /// Leaves out triangles that are not proper. O(triangles), on all threads.
+  TriangleRanges (const std::vector<Triangle>& triangles, std::size_t points,
+                  const RunContext& run);
+
+  std::size_t count () const { return begins_.size () - 1; }
+  std::size_t points () const { return points_; }
+  std::size_t firstPoint (std::size_t r) const { return r * LENGTH; }
+  std::size_t lastPoint (std::size_t r) const { return std::min (points_, (r + 1) * LENGTH); }
+
+  /// Triangles that are in no range.
+  std::size_t leftOut () const { return left_out_; }
+
+  /// Calls body (t) for each triangle of a range, ascending.
+  template <typename Body>
+  void forEach (std::size_t r, Body&& body) const
+  {
+    for (std::size_t i = begins_[r]; i < begins_[r + 1]; ++i)
+      body (ids_[i]);
+  }
+
+private:
+  std::size_t points_, left_out_ = 0;
+  std::vector<std::size_t> begins_; // of each range in ids_, and where the last one ends
+  std::vector<Index> ids_;
+};
+
+/// A triangle seen from one of its corners.
+struct Wedge
+{
+  Index triangle;
+  Index next, previous; ///< its other corners, anti-clockwise
+};
+
+/// The triangles around one point, ascending.
+struct VertexStar
+{
+  const Wedge* first;
+  const Wedge* last;
+
+  const Wedge* begin () const { return first; }
+  const Wedge* end () const { return last; }
+  std::size_t size () const { return static_cast<std::size_t> (last - first); }
+  const Wedge& operator[] (std::size_t i) const { return first[i]; }
+};
+
+/// The stars of the points of one range. While it exists, 12 bytes per corner in the range.
+class VertexStars
+{
+public:
+  /// \param r the range; the triangles are those of the ranges
+  VertexStars (const std::vector<Triangle>& triangles, const TriangleRanges& ranges, std::size_t r);
+
+  /// \param p a point of the range
+  VertexStar of (std::size_t p) const
+  {
+    return {wedges_.data () + begins_[p - first_], wedges_.data () + begins_[p - first_ + 1]};
+  }
+
+private:
+  std::size_t first_; // point of the range
+  std::vector<std::size_t> begins_;
+  std::vector<Wedge> wedges_;
+};
+
+} // namespace floater
+} // namespace pcl
