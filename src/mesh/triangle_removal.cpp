@@ -24,6 +24,8 @@ public:
 
   void run ()
   {
+    if (changed_.empty ())
+      return; // nothing is taken out, and no array over all triangles is needed
     ProgressLoop progress (run_);
     while (!changed_.empty ()) {
       progress.next ();
@@ -78,8 +80,6 @@ private:
     for (std::size_t t = 0; t < place.size (); ++t)
       if (is_removed_[t] == 0)
         place[t] = kept++;
-    if (kept == place.size ())
-      return;
     run_.poll ();
     std::fill (mesh_.triangle_of.begin (), mesh_.triangle_of.end (), NONE);
     for (std::size_t t = 0; t < place.size (); ++t) {
