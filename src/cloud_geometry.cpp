@@ -98,8 +98,8 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable
     std::optional<KdTree> tree;
     CsrLists of_rest =
         findNeighbors (points, settings, run, asksForDisc (options) ? nullptr : &tree);
-    planes = fitLocalPlanes (points, std::move (of_rest), std::move (tree),
-                             starSettings (request), run, limits.planes);
+    planes = fitLocalPlanes (points, std::move (of_rest), std::move (tree), starSettings (request),
+                             run, limits.planes);
     if (options.denoise)
       noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
     noise.scatter.clear (); // all of it has been taken out

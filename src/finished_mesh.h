@@ -26,8 +26,9 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
 /// Who does parts of uncross; each may be empty.
 struct Uncrosser
 {
-  CrossingSearch search;           ///< see checkCrossing
-  std::function<void ()> complete; ///< called before neighbours and normals of the geometry are read
+  CrossingSearch search; ///< see checkCrossing
+  std::function<void ()>
+      complete; ///< called before neighbours and normals of the geometry are read
 };
 
 /// Finds triangles that cross each other. Where there are any, changes the mesh and examines it

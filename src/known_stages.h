@@ -35,7 +35,8 @@ public:
   /// Points that lie off any surface, ascending.
   virtual std::vector<Index> outliers () = 0;
 
-  /// Of points without outliers: the neighbours, with those beside lines. Row i is that of points[i].
+  /// Of points without outliers: the neighbours, with those beside lines. Row i is that of
+  /// points[i].
   virtual CsrLists neighborsOf (const std::vector<Index>& points) = 0;
 
   /// Of all points without outliers: `neighbors`, with those beside lines. The rest is not read.

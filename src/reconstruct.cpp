@@ -224,8 +224,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   const StarSettings stars = starSettings (request);
   LocalPlanes planes; // of stages that are known: read when they are needed
   if (known == nullptr)
-    planes = fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run,
-                             limits.planes);
+    planes =
+        fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes);
   const NeighborTable table = neighborTable (planes, known);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;

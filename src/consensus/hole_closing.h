@@ -34,11 +34,10 @@ struct ClosedHoles
   std::vector<JudgedLoop> doubtful; ///< in the order of their smallest points, see isDoubtful
 };
 
-/// Chooses the loops that are kept open and fills the others. O(n) and what judgeLoops and fillHoles
-/// take.
-/// \param loops      of the mesh, ascending by their smallest points
-/// \param components number of components of the mesh
-/// \param neighbors, normals of each point; those of points of loops, and of the points around, are
+/// Chooses the loops that are kept open and fills the others. O(n) and what judgeLoops and
+/// fillHoles take. \param loops      of the mesh, ascending by their smallest points \param
+/// components number of components of the mesh \param neighbors, normals of each point; those of
+/// points of loops, and of the points around, are
 ///                   read
 /// \param unit       length of one unit of the cloud in the unit of the positions
 ClosedHoles

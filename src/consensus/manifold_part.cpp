@@ -293,8 +293,8 @@ manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smalle
               const RunContext& run)
 {
   return *manifoldPart (
-      std::move (consensus), neighbors.rows (), [&neighbors] (Index p) { return neighbors.row (p); },
-      smallest_island, {}, run);
+      std::move (consensus), neighbors.rows (),
+      [&neighbors] (Index p) { return neighbors.row (p); }, smallest_island, {}, run);
 }
 
 } // namespace floater

@@ -57,8 +57,8 @@ struct RepairInput
   NeighborTable neighbors;                       ///< all are read only where there is something
                                                  ///< to insert or to repair
   const std::vector<float>& spacing;
-  const std::vector<Index>& scatter;      ///< see LocalGeometry
-  std::vector<Eigen::Vector3f>& normals;  ///< are turned to the side of the mesh
+  const std::vector<Index>& scatter;     ///< see LocalGeometry
+  std::vector<Eigen::Vector3f>& normals; ///< are turned to the side of the mesh
 };
 
 /// The first part of finishMesh: inserts points, flips edges, repairs folds. Of a part of a mesh,

@@ -33,8 +33,8 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// again only after a triangle around it has changed.
 ///
 /// Every step that is kept lowers the cost of the mesh. The boundary stays. O(n) at worst, O(bad
-/// vertices) where few are bad. Blocks of a whole mesh are repaired first, on all threads, then what
-/// is left between them. Of a part of a mesh, fixed triangles stay; it takes one thread.
+/// vertices) where few are bad. Blocks of a whole mesh are repaired first, on all threads, then
+/// what is left between them. Of a part of a mesh, fixed triangles stay; it takes one thread.
 /// \param neighbors nearest neighbours of each point, where places for it are searched
 /// \param scatter   points around which the cloud is flat at no scale, ascending
 /// \return number of moves and kicks that were kept

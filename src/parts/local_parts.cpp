@@ -56,12 +56,11 @@ LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry&
   geometry.stars.normals = std::move (normals);
   parallelTasks (run, parts.count (), [&] (std::size_t part) {
     const Index first = parts.first (part), last = parts.last (part);
-    meshes_[part] = makePartMesh (
-        pointsOf (part, points.workingPositions (), geometry.spacing),
-        slice (proposed.smoothed_normals, first, last),
-        divideCandidates (candidatesOf (proposed.candidates, first, last), first, last,
-                          slice (reaches_out, first, last)),
-        neighbors_, consensus, run.withThreads (1));
+    meshes_[part] = makePartMesh (pointsOf (part, points.workingPositions (), geometry.spacing),
+                                  slice (proposed.smoothed_normals, first, last),
+                                  divideCandidates (candidatesOf (proposed.candidates, first, last),
+                                                    first, last, slice (reaches_out, first, last)),
+                                  neighbors_, consensus, run.withThreads (1));
   });
 }
 
@@ -70,8 +69,8 @@ LocalParts::pointsOf (std::size_t part, const std::vector<Eigen::Vector3d>& posi
                       const std::vector<float>& spacing) const
 {
   const Index first = parts_.first (part), last = parts_.last (part);
-  return {first, slice (positions, first, last),
-          slice (geometry_.stars.normals, first, last), slice (spacing, first, last)};
+  return {first, slice (positions, first, last), slice (geometry_.stars.normals, first, last),
+          slice (spacing, first, last)};
 }
 
 PartRim
@@ -80,8 +79,7 @@ LocalParts::rim (std::size_t part, std::size_t rings)
   const std::vector<Eigen::Vector3d>& positions = points_.workingPositions ();
   const std::vector<Eigen::Vector3f>& normals = geometry_.stars.normals;
   return findRim (
-      pointsOf (part, positions, geometry_.spacing), meshes_[part],
-      neighbors_,
+      pointsOf (part, positions, geometry_.spacing), meshes_[part], neighbors_,
       [&] (const std::vector<Index>& others, std::vector<Eigen::Vector3d>& other_positions,
            std::vector<Eigen::Vector3f>& other_normals) {
         for (const Index p : others) {
@@ -103,10 +101,10 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
                                 std::lower_bound (all.begin (), all.end (), last));
     for (Index& p : scatter)
       p -= first;
-    finished_[part] = finishPart (
-        pointsOf (part, points_.positions, geometry_.meshSpacing ()),
-        std::move (meshes_[part].triangles), changes[part], neighbors_, scatter,
-        settings_.flip_edges, settings_.limits.finish, limits_, parts_.count (), run.withThreads (1));
+    finished_[part] = finishPart (pointsOf (part, points_.positions, geometry_.meshSpacing ()),
+                                  std::move (meshes_[part].triangles), changes[part], neighbors_,
+                                  scatter, settings_.flip_edges, settings_.limits.finish, limits_,
+                                  parts_.count (), run.withThreads (1));
     meshes_[part] = {};
     changes[part] = {};
   });

@@ -230,8 +230,8 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
     settings.flip_edges = flip_edges;
     settings.limits = limits;
     const MeshFinish finish = repairMesh (
-        mesh, {points.positions, within.table (), points.spacing, scatter, points.normals}, settings,
-        run);
+        mesh, {points.positions, within.table (), points.spacing, scatter, points.normals},
+        settings, run);
     finished.flips = finish.flips;
     finished.folds_after_flips = finish.folds_after_flips;
   }

@@ -13,8 +13,8 @@ namespace pcl
 {
 namespace floater
 {
-/// The triangles of a part around those that have corners in several parts, and around the boundary,
-/// and all that is known of their corners. Points are those of the cloud.
+/// The triangles of a part around those that have corners in several parts, and around the
+/// boundary, and all that is known of their corners. Points are those of the cloud.
 struct SeamZone
 {
   std::vector<Index> points; ///< of the part, ascending: corners, and those without a triangle
@@ -38,12 +38,11 @@ struct FinishedPart
   std::vector<double> corners;       ///< see sampleCorners
 };
 
-/// Applies the changes of the stitching to the mesh of a part, inserts points that have no triangle,
-/// flips edges and repairs folds, as finishMesh does. Triangles beside one that has corners in
-/// another part are left as they are. O(n log n) at worst.
-/// \param points    of the part; the positions are those on which the vertices lie
-/// \param triangles see PartMesh
-/// \param scatter   points of the part around which the cloud is flat at no scale, ascending;
+/// Applies the changes of the stitching to the mesh of a part, inserts points that have no
+/// triangle, flips edges and repairs folds, as finishMesh does. Triangles beside one that has
+/// corners in another part are left as they are. O(n log n) at worst. \param points    of the part;
+/// the positions are those on which the vertices lie \param triangles see PartMesh \param scatter
+/// points of the part around which the cloud is flat at no scale, ascending;
 ///                  counted from its first point on
 /// \param parts     number of parts, which share a sample of corners
 FinishedPart

@@ -92,8 +92,7 @@ appendOpen (const CandidateLists& inside, const std::vector<Index>& with_room, I
     has_room[p] = 1;
   const auto offer = [&] (Candidate candidate) {
     Triangle& corners = candidate.corners;
-    if (!std::all_of (corners.begin (), corners.end (),
-                      [&] (Index p) { return has_room[p] != 0; }))
+    if (!std::all_of (corners.begin (), corners.end (), [&] (Index p) { return has_room[p] != 0; }))
       return;
     for (Index& p : corners)
       p += first;
@@ -122,9 +121,9 @@ makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
   };
   PartMesh part;
   part.smoothed = std::move (smoothed);
-  TriangleMesh mesh = *manifoldPart (
-      buildConsensus (points.positions, candidates.inside, part.smoothed, run), points.size (),
-      neighborsWithin, limits.smallest_island, {}, run);
+  TriangleMesh mesh =
+      *manifoldPart (buildConsensus (points.positions, candidates.inside, part.smoothed, run),
+                     points.size (), neighborsWithin, limits.smallest_island, {}, run);
   MeshComponents components = findComponents (mesh, run);
   part.with_room = findRoom (mesh);
   part.open = std::move (candidates.left);

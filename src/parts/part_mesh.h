@@ -50,14 +50,14 @@ reachesOut (const CsrLists& stars, Index first, const Parts& parts);
 /// The consensus mesh of a part.
 struct PartMesh
 {
-  std::vector<Triangle> triangles;       ///< corners are counted from the first point of the part on
-  std::vector<Index> component;          ///< of each triangle
-  Index components = 0;                  ///< number of them
+  std::vector<Triangle> triangles; ///< corners are counted from the first point of the part on
+  std::vector<Index> component;    ///< of each triangle
+  Index components = 0;            ///< number of them
   std::vector<Eigen::Vector3f> smoothed; ///< smoothed normals, oriented like the triangles
-  std::vector<Index> with_room;  ///< points without a triangle, and those at the boundary, ascending;
-                                 ///< counted as the corners
-  std::vector<Candidate> open;   ///< candidates that are left, and those inside that have room at all
-                                 ///< corners; corners are points
+  std::vector<Index> with_room;          ///< points without a triangle, and those at the boundary,
+                                ///< ascending; counted as the corners
+  std::vector<Candidate> open; ///< candidates that are left, and those inside that have room at all
+                               ///< corners; corners are points
 };
 
 /// The neighbours of some points of the part, nearest first: row i is that of points[i], which are

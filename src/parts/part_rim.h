@@ -43,8 +43,8 @@ using OtherPoints =
     std::function<void (const std::vector<Index>& points, std::vector<Eigen::Vector3d>& positions,
                         std::vector<Eigen::Vector3f>& normals)>;
 
-/// The rim of a part: all triangles with a corner that is fewer than `rings` edges away from a point
-/// with room, and all of components of fewer than `smallest` triangles. O(rings n).
+/// The rim of a part: all triangles with a corner that is fewer than `rings` edges away from a
+/// point with room, and all of components of fewer than `smallest` triangles. O(rings n).
 PartRim
 findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& neighbors,
          const OtherPoints& others, std::size_t rings, std::size_t smallest);

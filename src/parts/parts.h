@@ -20,19 +20,19 @@ struct PartLimits
   std::size_t points = std::size_t{1} << 19U;
 
   /// Rings of points that are seen of a part, from where it ends or where triangles of several
-  /// parts are. More are looked at where that does not suffice. Judging a boundary loop takes 4, and
-  /// stitching moves boundaries by 2 at most, but in rare cases.
+  /// parts are. More are looked at where that does not suffice. Judging a boundary loop takes 4,
+  /// and stitching moves boundaries by 2 at most, but in rare cases.
   std::size_t rings = 6;
 };
 
-/// The parts of a cloud: points that follow each other along the space-filling curve. They depend on
-/// the number of points only.
+/// The parts of a cloud: points that follow each other along the space-filling curve. They depend
+/// on the number of points only.
 class Parts
 {
 public:
   Parts (std::size_t points, const PartLimits& limits)
-      : points_ (points), count_ (std::max<std::size_t> (
-                              1, (points + limits.points - 1) / limits.points))
+      : points_ (points),
+        count_ (std::max<std::size_t> (1, (points + limits.points - 1) / limits.points))
   {
   }
 

@@ -32,8 +32,8 @@ public:
   virtual FinishedPart finished (std::size_t part) = 0;
 };
 
-/// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES and
-/// FLIPS. What is decided for all parts together is where their meshes end: O(n / sqrt (m)) for
+/// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES
+/// and FLIPS. What is decided for all parts together is where their meshes end: O(n / sqrt (m)) for
 /// parts of m points, but for the mesh itself. O(n log n).
 /// \param points their positions are read only to face the mesh
 Surface

@@ -77,7 +77,8 @@ findFixed (const TriangleMesh& mesh, std::size_t first_of_seam, std::size_t ring
     if (mesh.triangle_of[p] == NONE)
       seeds.push_back (p);
   std::vector<std::uint8_t> is_fixed (mesh.triangles.size (), 1);
-  for (const Index t : regionAround (mesh.triangles, mesh.triangle_of.size (), seeds, rings).triangles)
+  for (const Index t :
+       regionAround (mesh.triangles, mesh.triangle_of.size (), seeds, rings).triangles)
     is_fixed[t] = 0;
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     for (std::uint8_t side = 0; side < 3; ++side)
@@ -111,7 +112,8 @@ finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& sea
   finish.folds_after_flips -= std::min (finish.folds_after_flips, folds_of_parts);
   mesh.is_fixed.clear ();
   if (settings.open_boundary)
-    openBoundary (mesh, joined.positions, std::move (corners), settings.limits.notches, run, finish);
+    openBoundary (mesh, joined.positions, std::move (corners), settings.limits.notches, run,
+                  finish);
   finished.triangles.reserve (mesh.triangles.size ());
   for (const auto& [a, b, c] : mesh.triangles)
     finished.triangles.push_back (

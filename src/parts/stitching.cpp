@@ -126,8 +126,8 @@ joinRims (const std::vector<PartRim>& rims, const RunContext& run)
         p = joined.points.placeOf (rim.points[p]);
       const Index component = rim.component[t];
       joined.mesh.triangles.push_back (corners);
-      joined.origins.push_back ({ascending (corners), corners, static_cast<Index> (part),
-                                 rim.numbers[t], component});
+      joined.origins.push_back (
+          {ascending (corners), corners, static_cast<Index> (part), rim.numbers[t], component});
       if (last_of[component] != NONE)
         joined.same_side.push_back ({last_of[component], corners[0]});
       last_of[component] = corners[0];
@@ -189,11 +189,11 @@ findLoops (const TriangleMesh& mesh, const MeshComponents& components, const Joi
     loops.push_back (std::move (loop));
   }
   const MeshRegion around = regionAround (mesh.triangles, mesh.triangle_of.size (), ends, EDGES);
-  const bool are_seen =
-      std::none_of (around.points.begin (), around.points.end (),
-                    [&mesh] (Index p) { return mesh.isPartial (p); }) &&
-      std::none_of (ends.begin (), ends.end (),
-                    [&joined] (Index p) { return joined.neighbors.row (p).size () == 0; });
+  const bool are_seen = std::none_of (around.points.begin (), around.points.end (),
+                                      [&mesh] (Index p) { return mesh.isPartial (p); }) &&
+                        std::none_of (ends.begin (), ends.end (), [&joined] (Index p) {
+                          return joined.neighbors.row (p).size () == 0;
+                        });
   return are_seen ? std::move (loops) : std::optional<std::vector<BoundaryLoop>> ();
 }
 
@@ -262,9 +262,8 @@ stitch (std::vector<PartRim> rims, const Parts& parts, double unit, const Surfac
   const SurfaceLimits& limits = settings.limits;
   JoinedRims joined = joinRims (rims, run);
   rims = {};
-  Consensus consensus =
-      extendConsensus (joined.positions, std::move (joined.open), joined.mesh, joined.same_side,
-                       joined.smoothed, run);
+  Consensus consensus = extendConsensus (joined.positions, std::move (joined.open), joined.mesh,
+                                         joined.same_side, joined.smoothed, run);
   Stitching stitching;
   stitching.orientation_seam = findOrientationSeam (consensus.seam, limits.consensus.shortest_seam);
   for (Triangle& corners : stitching.orientation_seam)

@@ -26,16 +26,15 @@ struct PartChange
 struct Stitching
 {
   std::vector<PartChange> parts;
-  std::vector<Triangle> seam; ///< all triangles with corners in several parts
-  ClosedHoles holes;          ///< loops of points
+  std::vector<Triangle> seam;             ///< all triangles with corners in several parts
+  ClosedHoles holes;                      ///< loops of points
   std::vector<Triangle> orientation_seam; ///< see Surface
 };
 
 /// Offers the candidates for which there is room in the meshes of all parts, chooses the loops that
-/// are kept open, and fills the others (see extendConsensus, manifoldPart and closeHoles). The result
-/// is that for the whole mesh, since it is not sought where triangles are missing. O(m log m) for m
-/// points in all rims.
-/// \param rims of all parts; freed as soon as they have been read
+/// are kept open, and fills the others (see extendConsensus, manifoldPart and closeHoles). The
+/// result is that for the whole mesh, since it is not sought where triangles are missing. O(m log
+/// m) for m points in all rims. \param rims of all parts; freed as soon as they have been read
 /// \param unit length of one unit of the cloud in the unit of the positions
 /// \return nothing if more of the parts has to be seen
 std::optional<Stitching>

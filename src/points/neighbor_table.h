@@ -18,7 +18,7 @@ class NeighborTable
 {
 public:
   using Some = std::function<CsrLists (const std::vector<Index>& points)>;
-  using All = std::function<const CsrLists& ()>;
+  using All = std::function<const CsrLists&()>;
 
   /// Of lists in memory, which must outlive this.
   NeighborTable (const CsrLists& lists) // implicit

@@ -219,9 +219,9 @@ workOnBlocks (const Workers& workers)
     workOn (workers, MESH, context.plan.parts);
 }
 
-// What `join` deals out, if that is of use: parts if all processes together have as many threads for
-// them as this one has for the whole cloud, the search for crossing triangles if they have more,
-// since the mesh has to be written for it.
+// What `join` deals out, if that is of use: parts if all processes together have as many threads
+// for them as this one has for the whole cloud, the search for crossing triangles if they have
+// more, since the mesh has to be written for it.
 JoinDeals
 dealsOfJoin (const Workers& workers)
 {
@@ -267,8 +267,7 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   if (!areBlocksFreed (folder, plan))
     workOnBlocks (workers);
   if (!isFinished (folder, TRIANGLES, plan))
-    if (const int code = joinStep (job, folder, plan, dealsOfJoin (workers));
-        code != EXIT_OK)
+    if (const int code = joinStep (job, folder, plan, dealsOfJoin (workers)); code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
   const int code = writeStep (job, folder, plan);
@@ -328,9 +327,10 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (count) + (is_of_part ? " parts" : " blocks") +
                       ", which are numbered from 0");
-  const bool is_done = step == FINISH ? isFinished (folder, TRIANGLES, plan) ||
-                                            isPartFinished (context, folder, job.block)
-                                      : isFinished (folder, blockFile (step.c_str (), job.block), plan);
+  const bool is_done =
+      step == FINISH
+          ? isFinished (folder, TRIANGLES, plan) || isPartFinished (context, folder, job.block)
+          : isFinished (folder, blockFile (step.c_str (), job.block), plan);
   const HeapReuse reuse (limit.get ());
   if (!is_done)
     blockStep (context, step, job.block);

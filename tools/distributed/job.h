@@ -85,8 +85,8 @@ struct JoinDeals
 int
 joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals& deals = {});
 
-/// The first half of joinStep, up to where parts are finished: what they need for that is then in the
-/// work folder. If the mesh is not made of parts, all of joinStep.
+/// The first half of joinStep, up to where parts are finished: what they need for that is then in
+/// the work folder. If the mesh is not made of parts, all of joinStep.
 int
 stitchStep (const Job& job, FolderStore& store, const Plan& plan);
 

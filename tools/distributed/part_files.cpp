@@ -10,7 +10,8 @@ namespace floater
 {
 namespace
 {
-static_assert (sizeof (Triangle) == 3 * sizeof (Index), "they are written and read as plain numbers");
+static_assert (sizeof (Triangle) == 3 * sizeof (Index),
+               "they are written and read as plain numbers");
 
 std::vector<Triangle>
 readTriangles (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last)

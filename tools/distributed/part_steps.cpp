@@ -196,11 +196,10 @@ finishStep (const StepContext& context, std::size_t part)
   }
   if (stored.isEmpty ()) // it is one part less than was planned
     return;
-  const FinishedPart finished =
-      finishPart (stored.points (), std::move (triangles), readChange (changes, part),
-                  stored.neighbors (), scatter, context.options.flip_edges,
-                  context.limits.surface.finish, context.limits.parts, partsOf (context).count (),
-                  context.run);
+  const FinishedPart finished = finishPart (
+      stored.points (), std::move (triangles), readChange (changes, part), stored.neighbors (),
+      scatter, context.options.flip_edges, context.limits.surface.finish, context.limits.parts,
+      partsOf (context).count (), context.run);
   PartWriter writer;
   writer.arrays ().add ("id", id);
   writer.addFinished (finished);

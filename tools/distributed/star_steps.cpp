@@ -272,11 +272,10 @@ trianglesStep (const StepContext& context, std::size_t block)
     for (Index& corner : doubtful.corners)
       corner = points[corner];
   const OwnStars ended = takeStars (stars, Rows::range (own_first, own_last), local);
-  writeTriangles (context, block, candidates,
-                  {smoothed.begin () + own_first, smoothed.begin () + own_last},
-                  {spacing.begin () + own_first, spacing.begin () + own_last}, ended.stars,
-                  ended.open, ended.far,
-                  reachesOut (ended.stars, first, Parts (cloud.points (), context.limits.parts)));
+  writeTriangles (
+      context, block, candidates, {smoothed.begin () + own_first, smoothed.begin () + own_last},
+      {spacing.begin () + own_first, spacing.begin () + own_last}, ended.stars, ended.open,
+      ended.far, reachesOut (ended.stars, first, Parts (cloud.points (), context.limits.parts)));
 }
 
 void

@@ -20,7 +20,8 @@ public:
   /// \param freed   where the files of a step are removed when all of it that is needed has been
   ///                read; nullptr: they stay, as they do of a cloud that has several parts
   /// \param folder  for what the parts write
-  StoredStages (const StepContext& context, FolderStore& folder, const FolderStore* freed = nullptr);
+  StoredStages (const StepContext& context, FolderStore& folder,
+                const FolderStore* freed = nullptr);
 
   Points points (Report& report) override;
   std::vector<Index> outliers () override { return outliers_; }

@@ -62,8 +62,7 @@ TEST (MeshRegion, SeedsWithoutTrianglesAndTrianglesBesides)
   const Index alone = SIDE * SIDE; // a point more than the grid has
   const MeshRegion region = regionAround (triangles, SIDE * SIDE + 1, {alone}, 3, besides);
   EXPECT_EQ (region.triangles, std::vector<Index> (1, static_cast<Index> (triangles.size () - 1)));
-  EXPECT_EQ (region.points,
-             (std::vector<Index>{at (7, 7), at (7, 8), at (8, 8), alone}));
+  EXPECT_EQ (region.points, (std::vector<Index>{at (7, 7), at (7, 8), at (8, 8), alone}));
   EXPECT_EQ (region.is_partial, (std::vector<std::uint8_t>{1, 1, 1, 0}));
 }
 

@@ -71,8 +71,8 @@ TEST (PartMesh, ReachesOut)
   EXPECT_EQ (reachesOut (stars, 62, parts), (std::vector<std::uint8_t>{0, 1, 1}));
 }
 
-// What is decided where parts meet does not depend on how much of them is seen, but for the side of a
-// whole component, which nothing decides here.
+// What is decided where parts meet does not depend on how much of them is seen, but for the side of
+// a whole component, which nothing decides here.
 void
 expectSame (const Stitching& a, const Stitching& b)
 {
