@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of several lists in one order.
+// Some points of a cloud, with numbers of their own.
 #pragma once
 
-#include "core/order_statistics.h"
 #include "core/types.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -17,14 +17,10 @@ namespace floater
 class JoinedPoints
 {
 public:
-  /// Adds points; those that are there already count once.
-  void add (const std::vector<Index>& points)
-  {
-    points_.insert (points_.end (), points.begin (), points.end ());
-  }
+  JoinedPoints () = default;
 
-  /// To be called when all points have been added.
-  void sort () { sortUnique (points_); }
+  /// \param points ascending, each once
+  explicit JoinedPoints (std::vector<Index> points) : points_ (std::move (points)) {}
 
   std::size_t size () const { return points_.size (); }
 

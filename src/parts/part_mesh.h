@@ -55,7 +55,7 @@ struct PartMesh
   Index components = 0;            ///< number of them
   std::vector<Eigen::Vector3f> smoothed; ///< smoothed normals, oriented like the triangles
   std::vector<Index> with_room;          ///< points without a triangle, and those at the boundary,
-                                ///< ascending; counted as the corners
+                                         ///< ascending; counted as the corners
   std::vector<Candidate> open; ///< candidates that are left, and those inside that have room at all
                                ///< corners; corners are points
 };

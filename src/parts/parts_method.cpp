@@ -6,6 +6,7 @@
 #include "parts/seam_finish.h"
 #include "parts/stitching.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,22 @@ namespace floater
 {
 namespace
 {
+// As many rims at a time as there are threads.
+JoinedRims
+joinRims (const Parts& parts, PartWork& work, std::size_t rings, const RunContext& run)
+{
+  RimJoiner joiner;
+  const auto at_once = static_cast<std::size_t> (run.threads ());
+  for (std::size_t first = 0; first < parts.count (); first += at_once) {
+    std::vector<PartRim> rims (std::min (at_once, parts.count () - first));
+    parallelTasks (run, rims.size (),
+                   [&] (std::size_t i) { rims[i] = work.rim (first + i, rings); });
+    for (const PartRim& rim : rims)
+      joiner.add (rim);
+  }
+  return std::move (joiner).join (run);
+}
+
 // Sees more of the parts until that is enough.
 Stitching
 stitchParts (const Parts& parts, PartWork& work, double unit, const SurfaceSettings& settings,
@@ -22,10 +39,8 @@ stitchParts (const Parts& parts, PartWork& work, double unit, const SurfaceSetti
 {
   constexpr std::size_t MOST_RINGS = std::size_t{1} << 20U; // more than any part has
   for (; rings < MOST_RINGS; rings *= 2) {
-    std::vector<PartRim> rims (parts.count ());
-    parallelTasks (run, parts.count (),
-                   [&] (std::size_t part) { rims[part] = work.rim (part, rings); });
-    if (std::optional<Stitching> stitching = stitch (std::move (rims), parts, unit, settings, run))
+    if (std::optional<Stitching> stitching =
+            stitch (joinRims (parts, work, rings, run), parts, unit, settings, run))
       return std::move (*stitching);
   }
   throw std::logic_error ("parts of a mesh cannot be stitched");
@@ -47,7 +62,7 @@ makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
 
   run.beginStage (Stage::FLIPS);
   work.finish (std::move (stitching.parts), run);
-  std::vector<SeamZone> zones;
+  JoinedZones zones;
   std::vector<double> corners;
   MeshFinish& finish = surface.finish;
   for (std::size_t part = 0; part < parts.count (); ++part) {
@@ -60,11 +75,10 @@ makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
     all.reserve (2 * points.size ());
     all.insert (all.end (), finished.triangles.begin (), finished.triangles.end ());
     corners.insert (corners.end (), finished.corners.begin (), finished.corners.end ());
-    zones.push_back (std::move (finished.zone));
+    zones.add (finished.zone);
   }
-  const FinishedSeam seam = finishSeam (zones, stitching.seam, std::move (corners),
+  const FinishedSeam seam = finishSeam (std::move (zones), stitching.seam, std::move (corners),
                                         settings.finishSettings (), limits.rings, run);
-  zones = {};
   finish.flips += seam.finish.flips;
   finish.folds_after_flips += seam.finish.folds_after_flips;
   finish.folds += seam.finish.folds;

@@ -15,53 +15,19 @@ namespace floater
 {
 namespace
 {
-// The zones of all parts, whose points are places in `points`.
-struct JoinedZones
+// The neighbours that are in the zones.
+void
+toPlaces (const JoinedPoints& points, CsrLists& lists)
 {
-  JoinedPoints points;
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::Vector3f> normals;
-  std::vector<float> spacing;
-  std::vector<Index> scatter;
-  CsrLists neighbors;
-  TriangleMesh mesh; // the triangles of the seam last
-};
-
-JoinedZones
-joinZones (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam)
-{
-  JoinedZones joined;
-  for (const SeamZone& zone : zones)
-    joined.points.add (zone.points);
-  joined.points.sort ();
-  // Parts are in the order of their points, and each point is of one part.
-  joined.neighbors.offsets.push_back (0);
-  Index before = 0;
-  for (const SeamZone& zone : zones) {
-    joined.positions.insert (joined.positions.end (), zone.positions.begin (),
-                             zone.positions.end ());
-    joined.normals.insert (joined.normals.end (), zone.normals.begin (), zone.normals.end ());
-    joined.spacing.insert (joined.spacing.end (), zone.spacing.begin (), zone.spacing.end ());
-    joined.mesh.is_partial.insert (joined.mesh.is_partial.end (), zone.is_partial.begin (),
-                                   zone.is_partial.end ());
-    for (std::size_t i = 0; i < zone.points.size (); ++i) {
-      if (zone.is_scatter[i] != 0)
-        joined.scatter.push_back (before + static_cast<Index> (i));
-      for (const Index q : zone.neighbors.row (i))
-        if (const Index at = joined.points.placeOf (q); at != NONE)
-          joined.neighbors.ids.push_back (at);
-      joined.neighbors.offsets.push_back (static_cast<Index> (joined.neighbors.ids.size ()));
-    }
-    for (const Triangle& corners : zone.triangles)
-      joined.mesh.triangles.push_back (
-          {before + corners[0], before + corners[1], before + corners[2]});
-    before += static_cast<Index> (zone.points.size ());
+  CsrLists within;
+  within.offsets.push_back (0);
+  for (std::size_t r = 0; r < lists.rows (); ++r) {
+    for (const Index q : lists.row (r))
+      if (const Index at = points.placeOf (q); at != NONE)
+        within.ids.push_back (at);
+    within.offsets.push_back (static_cast<Index> (within.ids.size ()));
   }
-  for (const Triangle& corners : seam)
-    joined.mesh.triangles.push_back ({joined.points.placeOf (corners[0]),
-                                      joined.points.placeOf (corners[1]),
-                                      joined.points.placeOf (corners[2])});
-  return joined;
+  lists = std::move (within);
 }
 
 // Which triangles are not to be repaired: those that are not near to one with corners in several
@@ -90,34 +56,61 @@ findFixed (const TriangleMesh& mesh, std::size_t first_of_seam, std::size_t ring
 
 } // namespace
 
-FinishedSeam
-finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam,
-            std::vector<double> corners, const FinishSettings& settings, std::size_t rings,
-            const RunContext& run)
+void
+JoinedZones::add (const SeamZone& zone)
 {
-  JoinedZones joined = joinZones (zones, seam);
-  TriangleMesh& mesh = joined.mesh;
-  const std::size_t first_of_seam = mesh.triangles.size () - seam.size ();
-  if (!mesh.connect (joined.points.size (), run))
+  const auto before = static_cast<Index> (points.size ());
+  const auto append = [] (const auto& values, auto& all) {
+    all.insert (all.end (), values.begin (), values.end ());
+  };
+  append (zone.points, points);
+  append (zone.positions, positions);
+  append (zone.normals, normals);
+  append (zone.spacing, spacing);
+  append (zone.is_partial, is_partial);
+  if (neighbors.offsets.empty ())
+    neighbors.offsets.push_back (0);
+  const auto entries = static_cast<Index> (neighbors.ids.size ());
+  append (zone.neighbors.ids, neighbors.ids);
+  for (std::size_t i = 0; i < zone.points.size (); ++i) {
+    neighbors.offsets.push_back (entries + zone.neighbors.offsets[i + 1]);
+    if (zone.is_scatter[i] != 0)
+      scatter.push_back (before + static_cast<Index> (i));
+  }
+  for (const auto& [a, b, c] : zone.triangles)
+    triangles.push_back ({before + a, before + b, before + c});
+}
+
+FinishedSeam
+finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<double> corners,
+            const FinishSettings& settings, std::size_t rings, const RunContext& run)
+{
+  const JoinedPoints points (std::move (zones.points));
+  toPlaces (points, zones.neighbors);
+  TriangleMesh mesh; // the triangles of the seam last
+  mesh.triangles = std::move (zones.triangles);
+  mesh.is_partial = std::move (zones.is_partial);
+  const std::size_t first_of_seam = mesh.triangles.size ();
+  for (const auto& [a, b, c] : seam)
+    mesh.triangles.push_back ({points.placeOf (a), points.placeOf (b), points.placeOf (c)});
+  if (!mesh.connect (points.size (), run))
     throw std::logic_error ("the triangles between parts do not fit");
   mesh.is_fixed = findFixed (mesh, first_of_seam, rings);
   std::size_t folds_of_parts = 0; // which they have told already
-  for (const MeshEdge& e : findFolds (mesh, joined.positions, run))
+  for (const MeshEdge& e : findFolds (mesh, zones.positions, run))
     folds_of_parts += std::max (e.triangle, mesh.mate (e).triangle) < first_of_seam ? 1 : 0;
   FinishedSeam finished;
   MeshFinish& finish = finished.finish;
   finish = repairMesh (
-      mesh, {joined.positions, joined.neighbors, joined.spacing, joined.scatter, joined.normals},
+      mesh, {zones.positions, zones.neighbors, zones.spacing, zones.scatter, zones.normals},
       settings, run);
   finish.folds_after_flips -= std::min (finish.folds_after_flips, folds_of_parts);
   mesh.is_fixed.clear ();
   if (settings.open_boundary)
-    openBoundary (mesh, joined.positions, std::move (corners), settings.limits.notches, run,
-                  finish);
+    openBoundary (mesh, zones.positions, std::move (corners), settings.limits.notches, run, finish);
   finished.triangles.reserve (mesh.triangles.size ());
   for (const auto& [a, b, c] : mesh.triangles)
-    finished.triangles.push_back (
-        {joined.points.pointAt (a), joined.points.pointAt (b), joined.points.pointAt (c)});
+    finished.triangles.push_back ({points.pointAt (a), points.pointAt (b), points.pointAt (c)});
   return finished;
 }
 

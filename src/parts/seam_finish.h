@@ -11,6 +11,22 @@ namespace pcl
 {
 namespace floater
 {
+/// The zones of all parts. Points are places in `points`.
+struct JoinedZones
+{
+  std::vector<Index> points; ///< ascending
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<float> spacing;
+  std::vector<Index> scatter; ///< ascending
+  CsrLists neighbors;         ///< points of the cloud
+  std::vector<std::uint8_t> is_partial;
+  std::vector<Triangle> triangles;
+
+  /// In the order of the parts.
+  void add (const SeamZone& zone);
+};
+
 /// The mesh where parts meet, and around its boundary.
 struct FinishedSeam
 {
@@ -22,13 +38,12 @@ struct FinishedSeam
 /// corners in several parts (see repairMesh), and opens the boundary of the whole mesh (see
 /// openBoundary). Triangles beside those that are not in a zone stay. O(m log m) at worst, for m
 /// points in all zones.
-/// \param zones of all parts \param seam see Stitching
+/// \param seam    see Stitching
 /// \param corners those of all parts, see sampleCorners
 /// \param rings   of triangles around these that are repaired
 FinishedSeam
-finishSeam (const std::vector<SeamZone>& zones, const std::vector<Triangle>& seam,
-            std::vector<double> corners, const FinishSettings& settings, std::size_t rings,
-            const RunContext& run);
+finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<double> corners,
+            const FinishSettings& settings, std::size_t rings, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -6,7 +6,6 @@
 #include "consensus/manifold_part.h"
 #include "consensus/orientation_seam.h"
 #include "core/disjoint_sets.h"
-#include "parts/joined_points.h"
 #include "parts/mesh_region.h"
 
 #include <algorithm>
@@ -20,134 +19,6 @@ namespace floater
 {
 namespace
 {
-// A triangle of a part, by its corners, which are places.
-struct Origin
-{
-  Triangle corners; // ascending
-  Triangle turning; // as they are in the part
-  Index part, number, component;
-};
-
-Triangle
-ascending (Triangle corners)
-{
-  std::sort (corners.begin (), corners.end ());
-  return corners;
-}
-
-// The rims of all parts in one mesh, whose points are places in `points`.
-struct JoinedRims
-{
-  JoinedPoints points;
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::Vector3f> normals, smoothed;
-  std::vector<float> spacing;
-  std::vector<std::uint8_t> is_partial, has_room;
-  CsrLists neighbors;
-  TriangleMesh mesh;
-  std::vector<Origin> origins; // by their corners
-  std::vector<Candidate> open;
-  std::vector<std::array<Index, 2>> same_side; // two points of one component of a part
-
-  Triangle toPoints (Triangle places) const
-  {
-    for (Index& p : places)
-      p = points.pointAt (p);
-    return places;
-  }
-
-  // The triangle of a part with these corners, in whatever order; nullptr if there is none.
-  const Origin* find (const Triangle& corners) const
-  {
-    const Triangle wanted = ascending (corners);
-    const auto at =
-        std::lower_bound (origins.begin (), origins.end (), wanted,
-                          [] (const Origin& a, const Triangle& b) { return a.corners < b; });
-    return at != origins.end () && at->corners == wanted ? &*at : nullptr;
-  }
-};
-
-// Points of a rim come before those that are only neighbours in another part. The latter have
-// triangles that are not seen: else they would have room, and be in the rim of their part.
-void
-joinPoints (const std::vector<PartRim>& rims, JoinedRims& joined)
-{
-  for (const PartRim& rim : rims)
-    joined.points.add (rim.points);
-  for (const PartRim& rim : rims)
-    joined.points.add (rim.others);
-  joined.points.sort ();
-  const std::size_t count = joined.points.size ();
-  joined.positions.resize (count);
-  joined.normals.resize (count);
-  joined.smoothed.assign (count, Eigen::Vector3f::Zero ());
-  joined.spacing.assign (count, 0.0F);
-  joined.is_partial.assign (count, 1);
-  joined.has_room.assign (count, 0);
-  std::vector<Row> rows (count, Row{nullptr, nullptr});
-  for (const PartRim& rim : rims) {
-    for (std::size_t i = 0; i < rim.others.size (); ++i) {
-      const Index at = joined.points.placeOf (rim.others[i]);
-      joined.positions[at] = rim.other_positions[i];
-      joined.normals[at] = rim.other_normals[i];
-    }
-    for (std::size_t i = 0; i < rim.points.size (); ++i) {
-      const Index at = joined.points.placeOf (rim.points[i]);
-      joined.positions[at] = rim.positions[i];
-      joined.normals[at] = rim.normals[i];
-      joined.smoothed[at] = rim.smoothed[i];
-      joined.spacing[at] = rim.spacing[i];
-      joined.is_partial[at] = rim.is_partial[i];
-      joined.has_room[at] = rim.has_room[i];
-      rows[at] = rim.neighbors.row (i);
-    }
-  }
-  joined.neighbors.offsets.push_back (0);
-  for (const Row& row : rows) {
-    for (const Index q : row)
-      joined.neighbors.ids.push_back (joined.points.placeOf (q));
-    joined.neighbors.offsets.push_back (static_cast<Index> (joined.neighbors.ids.size ()));
-  }
-}
-
-JoinedRims
-joinRims (const std::vector<PartRim>& rims, const RunContext& run)
-{
-  JoinedRims joined;
-  joinPoints (rims, joined);
-  ProgressLoop progress (run);
-  for (std::size_t part = 0; part < rims.size (); ++part) {
-    const PartRim& rim = rims[part];
-    std::vector<Index> last_of (rim.components, NONE); // a point of each component
-    for (std::size_t t = 0; t < rim.triangles.size (); ++t) {
-      progress.next ();
-      Triangle corners = rim.triangles[t];
-      for (Index& p : corners)
-        p = joined.points.placeOf (rim.points[p]);
-      const Index component = rim.component[t];
-      joined.mesh.triangles.push_back (corners);
-      joined.origins.push_back (
-          {ascending (corners), corners, static_cast<Index> (part), rim.numbers[t], component});
-      if (last_of[component] != NONE)
-        joined.same_side.push_back ({last_of[component], corners[0]});
-      last_of[component] = corners[0];
-    }
-    for (Candidate candidate : rim.open) {
-      const auto hasRoom = [&] (Index& p) {
-        p = joined.points.placeOf (p);
-        return p != NONE && joined.has_room[p] != 0;
-      };
-      if (std::all_of (candidate.corners.begin (), candidate.corners.end (), hasRoom))
-        joined.open.push_back (candidate);
-    }
-  }
-  std::sort (joined.origins.begin (), joined.origins.end (),
-             [] (const Origin& a, const Origin& b) { return a.corners < b.corners; });
-  joined.mesh.is_partial = joined.is_partial;
-  joined.mesh.connect (joined.points.size (), run);
-  return joined;
-}
-
 // Components of the whole mesh, of those of what is seen of it.
 MeshComponents
 joinComponents (const TriangleMesh& mesh, const JoinedRims& joined, const RunContext& run)
@@ -156,7 +27,7 @@ joinComponents (const TriangleMesh& mesh, const JoinedRims& joined, const RunCon
   DisjointSets sets (components.count);
   std::map<std::pair<Index, Index>, Index> seen; // of each component of a part
   for (Index t = 0; t < mesh.triangles.size (); ++t)
-    if (const Origin* origin = joined.find (mesh.triangles[t])) {
+    if (const RimTriangle* origin = joined.find (mesh.triangles[t])) {
       const auto known =
           seen.emplace (std::make_pair (origin->part, origin->component), components.of_triangle[t])
               .first;
@@ -202,8 +73,8 @@ std::set<std::pair<Index, Index>>
 findPartlySeen (const JoinedRims& joined)
 {
   std::set<std::pair<Index, Index>> found;
-  for (const Origin& origin : joined.origins)
-    if (std::any_of (origin.corners.begin (), origin.corners.end (),
+  for (const RimTriangle& origin : joined.origins)
+    if (std::any_of (origin.ascending.begin (), origin.ascending.end (),
                      [&joined] (Index p) { return joined.is_partial[p] != 0; }))
       found.emplace (origin.part, origin.component);
   return found;
@@ -223,9 +94,9 @@ findChanges (const TriangleMesh& mesh, std::size_t filled, const JoinedRims& joi
   for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
     const Triangle& corners = mesh.triangles[t];
     const bool is_filling = t + filled >= mesh.triangles.size ();
-    if (const Origin* origin = is_filling ? nullptr : joined.find (corners)) {
+    if (const RimTriangle* origin = is_filling ? nullptr : joined.find (corners)) {
       is_left[static_cast<std::size_t> (origin - joined.origins.data ())] = 1;
-      is_turned[{origin->part, origin->component}] = corners != origin->turning;
+      is_turned[{origin->part, origin->component}] = corners != origin->corners;
       continue;
     }
     const Triangle points = joined.toPoints (corners);
@@ -256,12 +127,10 @@ findChanges (const TriangleMesh& mesh, std::size_t filled, const JoinedRims& joi
 } // namespace
 
 std::optional<Stitching>
-stitch (std::vector<PartRim> rims, const Parts& parts, double unit, const SurfaceSettings& settings,
+stitch (JoinedRims joined, const Parts& parts, double unit, const SurfaceSettings& settings,
         const RunContext& run)
 {
   const SurfaceLimits& limits = settings.limits;
-  JoinedRims joined = joinRims (rims, run);
-  rims = {};
   Consensus consensus = extendConsensus (joined.positions, std::move (joined.open), joined.mesh,
                                          joined.same_side, joined.smoothed, run);
   Stitching stitching;

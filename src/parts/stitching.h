@@ -4,7 +4,7 @@
 #pragma once
 
 #include "consensus/consensus_method.h"
-#include "parts/part_rim.h"
+#include "parts/joined_rims.h"
 
 #include <optional>
 #include <vector>
@@ -38,7 +38,7 @@ struct Stitching
 /// \param unit length of one unit of the cloud in the unit of the positions
 /// \return nothing if more of the parts has to be seen
 std::optional<Stitching>
-stitch (std::vector<PartRim> rims, const Parts& parts, double unit, const SurfaceSettings& settings,
+stitch (JoinedRims rims, const Parts& parts, double unit, const SurfaceSettings& settings,
         const RunContext& run);
 
 } // namespace floater

@@ -97,10 +97,10 @@ std::optional<Stitching>
 stitchWith (std::size_t rings, LocalParts& work, const Parts& parts,
             const SurfaceSettings& settings)
 {
-  std::vector<PartRim> rims;
+  RimJoiner joiner;
   for (std::size_t part = 0; part < parts.count (); ++part)
-    rims.push_back (work.rim (part, rings));
-  return stitch (std::move (rims), parts, 1.0, settings, 1);
+    joiner.add (work.rim (part, rings));
+  return stitch (std::move (joiner).join (1), parts, 1.0, settings, 1);
 }
 
 class StitchedSurface : public testing::TestWithParam<SurfaceKind>
