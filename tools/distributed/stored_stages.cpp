@@ -110,7 +110,6 @@ StoredStages::planes ()
       appendLists (file, "renewed", neighbors);
     appendLists (file, "beside", beside);
   });
-  remove ("neighbors");
   neighbors.findWraps (); // others have fewer entries
   appendRows (beside, neighbors);
   return planes;
@@ -139,7 +138,6 @@ StoredStages::noiseProbes ()
     appendArray (file, "probes.noise", probes.noise);
     appendArray (file, "probes.unevenness", probes.unevenness);
   });
-  remove ("planes");
   return probes;
 }
 
@@ -156,7 +154,8 @@ StoredStages::geometry (LocalPlanes planes, bool with_stars)
   forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
     readVectors (file, "normals", stars.normals);
   });
-  remove ("stars");
+  for (const char* step : {"neighbors", "planes", "stars"})
+    remove (step); // the neighbours of the planes are in memory by now
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
     appendArray (file, "spacing", geometry.spacing);
     appendLists (file, "far", far);

@@ -181,7 +181,7 @@ TEST (Noise, PointsWithoutNeighboursAreNotNoisy)
 
 TEST (Noise, DegenerateClouds)
 {
-  EXPECT_EQ (measureNoise ({}, {}, {}, 1).noisy_points, 0U);
+  EXPECT_EQ (measureNoise ({}, CsrLists (), {}, 1).noisy_points, 0U);
   EXPECT_TRUE (projectNoisyPoints ({}, {}, {}, {}, 1).empty ());
   for (const std::size_t count : {1U, 2U, 3U, 4U, 5U, 30U, 319U, 320U, 1000U}) {
     Positions line;
