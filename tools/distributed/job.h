@@ -37,7 +37,7 @@ struct Job
   int join_threads = 0;      ///< 0: all cores
   bool sends_files = false;  ///< --exchange messages
   bool writes_tiles = false; ///< OUTPUT is a folder
-  bool frees_disk = false;   ///< files of blocks go as soon as they have been read by `join`
+  bool frees_disk = false;   ///< files of blocks go as soon as `join` needs them no longer
   bool prints_steps = false;
   bool is_from_manifest = false; ///< files and options are those of the manifest
 };

@@ -112,7 +112,7 @@ addSteps (CLI::App& app, Job& job)
              "messages of the first one",
              group);
   app.add_flag ("--free-disk", job.frees_disk,
-                "remove the files of the blocks as soon as join has read\nthem; if join is ended "
+                "remove the files of the blocks as soon as join needs them\nno longer; if join is ended "
                 "early, the blocks are worked on\nagain")
       ->group (group);
 }
