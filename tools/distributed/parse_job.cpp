@@ -111,9 +111,10 @@ addSteps (CLI::App& app, Job& job)
              "how processes get what others have found: from files in\nthe work folder, or by "
              "messages of the first one",
              group);
-  app.add_flag ("--free-disk", job.frees_disk,
-                "remove the files of the blocks as soon as join needs them\nno longer; if join is ended "
-                "early, the blocks are worked on\nagain")
+  app.add_flag (
+         "--free-disk", job.frees_disk,
+         "remove the files of the blocks as soon as join needs them\nno longer; if join is ended "
+         "early, the blocks are worked on\nagain")
       ->group (group);
 }
 
