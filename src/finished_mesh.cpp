@@ -20,11 +20,19 @@ namespace
 // cross themselves, too.
 MeshExamination
 examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-                     const Request& request, const CrossingSearch& search = {})
+                     const Request& request)
 {
   MeshExamination found = examine (mesh, points, geometry, request);
-  checkCrossing (mesh.triangles, points, request.run, found, search);
+  checkCrossing (mesh.triangles, points, request.run, found);
   return found;
+}
+
+Problem
+nothingMade ()
+{
+  return {RunStatus::DEGENERATE,
+          "no three points make a triangle of a surface: they lie along lines or curves, or each "
+          "on its own; a surface needs points side by side"};
 }
 
 } // namespace
@@ -38,20 +46,22 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
                     request.limits.check);
 }
 
+bool
+removesCrossings (const Points& points, const Options& options)
+{
+  return options.remove_self_intersections && options.flip_edges && points.projected.empty ();
+}
+
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, const Uncrosser& by)
+         const Request& request, Statistics& statistics, const std::function<void ()>& complete)
 {
-  const Options& options = request.options;
-  checkCrossing (mesh.triangles, points, request.run, found, by.search);
+  checkCrossing (mesh.triangles, points, request.run, found);
   statistics.self_intersections_found = found.crossing.size ();
-  // Where points lie off the surface by noise, so that they were projected to connect them, the
-  // true triangles cross each other, too.
-  if (!options.remove_self_intersections || !options.flip_edges || found.crossing.empty () ||
-      !points.projected.empty ())
+  if (found.crossing.empty () || !removesCrossings (points, request.options))
     return;
-  if (by.complete)
-    by.complete ();
+  if (complete)
+    complete ();
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, points.positions, normals, request.run);
   const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
@@ -62,8 +72,8 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
   statistics.self_intersection_flips = done.flips;
   statistics.self_intersection_moves = done.moves;
   statistics.self_intersection_rebuilds = done.rebuilds;
-  if (done.flips + done.moves > 0)
-    found = examineWithCrossing (mesh, points, geometry, request, by.search);
+  if (done.hasChanged ())
+    found = examineWithCrossing (mesh, points, geometry, request);
 }
 
 Problem
@@ -72,9 +82,7 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
 {
   Report& report = result.report;
   if (mesh.triangles.empty ())
-    return {RunStatus::DEGENERATE,
-            "no three points make a triangle of a surface: they lie along lines or curves, or each "
-            "on its own; a surface needs points side by side"};
+    return nothingMade ();
   Trimming trimming;
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =
@@ -94,7 +102,21 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
         reportTrimming (points, trimming, request.options.trimming, triangles.size (), report);
   if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
-  result.triangles = reportMesh (points, std::move (triangles), finish, report);
+  reportTriangles (triangles.size (), finish, report);
+  result.triangles = inCloud (points, std::move (triangles));
+  return problem;
+}
+
+Problem
+reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
+                const Points& points, const Request& request, Report& report)
+{
+  if (triangles == 0)
+    return nothingMade ();
+  Problem problem = reportCheck (points, found, request.options, report);
+  if (!problem)
+    reportFacing (points, finish.facing, request.options.facing, report);
+  reportTriangles (triangles, finish, report);
   return problem;
 }
 

@@ -23,19 +23,19 @@ MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request);
 
-/// Who does parts of uncross; each may be empty.
-struct Uncrosser
-{
-  CrossingSearch search; ///< see checkCrossing
-  std::function<void ()>
-      complete; ///< called before neighbours and normals of the geometry are read
-};
+/// Whether triangles that cross each other are moved apart. Not where points lie off the surface by
+/// noise, so that they were projected to connect them: the true triangles cross each other there,
+/// too.
+bool
+removesCrossings (const Points& points, const Options& options);
 
 /// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
 /// again.
+/// \param complete called before neighbours and normals of the geometry are read; may be empty
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, const Uncrosser& by = {});
+         const Request& request, Statistics& statistics,
+         const std::function<void ()>& complete = {});
 
 /// Makes the result of a mesh.
 /// \return INTERNAL_ERROR if it is no oriented manifold, DEGENERATE if it is empty, or
@@ -43,6 +43,12 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
 Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
          const LocalGeometry& geometry, const Request& request, Result& result);
+
+/// The same of a mesh whose triangles are elsewhere; nothing is cut off.
+/// \param triangles number of them
+Problem
+reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
+                const Points& points, const Request& request, Report& report);
 
 } // namespace floater
 } // namespace pcl

@@ -5,7 +5,6 @@
 
 #include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
-#include "mesh/self_intersections.h"
 #include "parts/parts_method.h"
 #include "points/noise.h"
 #include "points/points.h"
@@ -56,14 +55,15 @@ public:
 
   /// The parts of a cloud that has several, as they are meshed where that geometry is known.
   /// \param scatter points around which the cloud is flat at no scale, ascending
-  virtual std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter) = 0;
+  virtual std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter,
+                                           const PartsSettings& settings) = 0;
 
   /// The candidates of these stars, of a cloud that is one part.
   virtual ProposedTriangles triangles () = 0;
 
-  /// See findSelfIntersections; of a mesh of these candidates.
-  virtual std::vector<CrossingPair> crossing (const std::vector<Triangle>& triangles,
-                                              const Points& points, const RunContext& run) = 0;
+  /// Takes the mesh of a cloud that has several parts. The result has no triangles then.
+  /// \param mesh with cloud indices as corners of its seam
+  virtual void keepMesh (MeshOfParts mesh) = 0;
 };
 
 /// Reconstructs a surface of which these stages are known.

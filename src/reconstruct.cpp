@@ -26,6 +26,7 @@
 #include <new>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -124,28 +125,68 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
-// A surface of several parts.
-Surface
-surfaceOfParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
-                const SurfaceSettings& settings, const Request& request, KnownStages* known)
+// The work on the parts where it is done, and what has been found of a surface there.
+struct PartsInWork
 {
-  const PartLimits& limits = request.limits.parts;
-  if (known != nullptr) {
-    const std::unique_ptr<PartWork> work = known->parts (geometry.scatter);
-    return makeSurfaceOfParts (points, parts, *work, settings, limits, request.run);
-  }
-  LocalParts work (points, parts, geometry, settings, limits, request.run);
-  return makeSurfaceOfParts (points, parts, work, settings, limits, request.run);
+  const Parts& parts;
+  std::unique_ptr<PartWork> work;
+  SurfaceOfParts made;
+};
+
+// Uses a surface in parts as a whole, as where something is to be cut off.
+Problem
+useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& geometry,
+              const Request& request, Result& result)
+{
+  TriangleMesh mesh;
+  CheckedParts& checked = surface.made.checked;
+  mesh.triangles = assembleTriangles (checked.mesh, surface.made.checks, surface.parts,
+                                      *surface.work, request.run);
+  surface.work.reset ();
+  if (asksForTrimming (request.options.trimming) && checked.found.isManifold () &&
+      !mesh.connect (points.size (), request.run))
+    throw std::logic_error ("the finished parts do not fit");
+  return useMesh (std::move (mesh), surface.made.surface.finish, std::move (checked.found), points,
+                  geometry, request, result);
 }
 
-Surface
-surfaceAsAWhole (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-                 const Request& request, KnownStages* known)
+// \param geometry if stages are known: the spacing alone
+Problem
+reconstructParts (const Points& points, const Parts& parts, LocalGeometry geometry,
+                  const SurfaceSettings& surface_settings, const Request& request,
+                  KnownStages* known, Result& result)
 {
-  std::optional<ProposedTriangles> proposed;
+  const Limits& limits = request.limits;
+  const PartsSettings settings{surface_settings,
+                               limits.parts,
+                               limits.check,
+                               limits.uncrossing,
+                               removesCrossings (points, request.options),
+                               points.diagonal};
+  PartsInWork surface{parts, nullptr, {}};
   if (known != nullptr)
-    proposed = known->triangles ();
-  return makeSurface (points, geometry, settings, request.run, std::move (proposed));
+    surface.work = known->parts (geometry.scatter, settings);
+  else
+    surface.work = std::make_unique<LocalParts> (points, parts, geometry, settings, request.run);
+  surface.made = makeSurfaceOfParts (points, geometry.meshSpacing (), parts, *surface.work,
+                                     settings, request.run);
+  Report& report = result.report;
+  const CheckedParts& checked = surface.made.checked;
+  reportOrientationSeam (points, surface.made.surface.orientation_seam, report);
+  report.topology = Topology::SURFACE;
+  reportLoops (points, surface.made.surface, report);
+  report.statistics.self_intersections_found = checked.crossing.found;
+  report.statistics.self_intersection_flips = checked.crossing.done.flips;
+  report.statistics.self_intersection_moves = checked.crossing.done.moves;
+  report.statistics.self_intersection_rebuilds = checked.crossing.done.rebuilds;
+  if (known == nullptr || asksForTrimming (request.options.trimming))
+    return useAssembled (std::move (surface), points, geometry, request, result);
+  Problem problem = reportFinished (checked.mesh.triangles, surface.made.surface.finish,
+                                    checked.found, points, request, report);
+  MeshOfParts& mesh = surface.made.checked.mesh;
+  mesh.seam = inCloud (points, std::move (mesh.seam));
+  known->keepMesh (std::move (mesh));
+  return problem;
 }
 
 // \param geometry if stages are known: without neighbours and normals where these are not needed
@@ -158,25 +199,20 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   const SurfaceSettings settings{options.holes, options.flip_edges, request.limits.surface,
                                  facingHints (points, request)};
   const Parts parts (points.size (), request.limits.parts);
-  Surface surface = parts.count () > 1
-                        ? surfaceOfParts (points, parts, geometry, settings, request, known)
-                        : surfaceAsAWhole (points, geometry, settings, request, known);
+  if (parts.count () > 1)
+    return reconstructParts (points, parts, std::move (geometry), settings, request, known, result);
+  std::optional<ProposedTriangles> proposed;
+  if (known != nullptr)
+    proposed = known->triangles ();
+  Surface surface = makeSurface (points, geometry, settings, request.run, std::move (proposed));
   reportOrientationSeam (points, surface.orientation_seam, report);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
-  Uncrosser uncrosser;
-  if (known != nullptr) {
-    uncrosser.search = [known] (const std::vector<Triangle>& triangles, const Points& of,
-                                const RunContext& run) {
-      return known->crossing (triangles, of, run);
-    };
-    uncrosser.complete = [known, &geometry] {
-      if (geometry.neighbors.rows () == 0)
-        geometry = known->geometry (known->planes (), false);
-    };
-  }
-  uncross (surface.mesh, found, points, geometry, request, report.statistics, uncrosser);
+  uncross (surface.mesh, found, points, geometry, request, report.statistics, [&] {
+    if (known != nullptr && geometry.neighbors.rows () == 0)
+      geometry = known->geometry (known->planes (), false);
+  });
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
 }

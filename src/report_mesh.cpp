@@ -39,10 +39,10 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
                         " folded by more than 120 degrees" +
                         oneAt (check.folds, place (points, found.fold_at)) +
                         ": sheets of the surface come close there, or a feature is thinly sampled");
-  if (!found.crossing.empty ())
+  if (const std::size_t pairs = found.check.self_intersections; pairs > 0)
     warnings.push_back (
-        counted (found.crossing.size (), "pair of triangles crosses", "pairs of triangles cross") +
-        " each other" + oneAt (found.crossing.size (), place (points, found.crossing_at)) +
+        counted (pairs, "pair of triangles crosses", "pairs of triangles cross") + " each other" +
+        oneAt (pairs, place (points, found.crossing_at)) +
         ": sheets of the surface come closer there than their points are, or a feature is thinly "
         "sampled");
   if (found.long_edges > 0)
@@ -272,15 +272,19 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
   report.warnings.push_back (text.str ());
 }
 
+void
+reportTriangles (std::size_t triangles, const MeshFinish& finish, Report& report)
+{
+  report.statistics.flips = finish.flips;
+  report.statistics.triangles = triangles;
+}
+
 std::vector<Triangle>
-reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFinish& finish,
-            Report& report)
+inCloud (const Points& points, std::vector<Triangle> triangles)
 {
   for (Triangle& triangle : triangles)
     for (Index& p : triangle)
       p = points.cloud_index[p];
-  report.statistics.flips = finish.flips;
-  report.statistics.triangles = triangles.size ();
   return triangles;
 }
 

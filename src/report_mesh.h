@@ -39,10 +39,13 @@ reportLoops (const Points& points, const Surface& surface, Report& report);
 void
 reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report);
 
-/// Triangles from working set to cloud indices, and counts.
+/// Counts of triangles and flips.
+void
+reportTriangles (std::size_t triangles, const MeshFinish& finish, Report& report);
+
+/// Triangles of points as triangles of cloud indices.
 std::vector<Triangle>
-reportMesh (const Points& points, std::vector<Triangle> triangles, const MeshFinish& finish,
-            Report& report);
+inCloud (const Points& points, std::vector<Triangle> triangles);
 
 /// What checkMesh () found: its figures, in a few words if they are why no disc was made, points
 /// that are in no triangle, but for those that the report lists as outliers, the longest loop if

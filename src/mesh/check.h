@@ -9,7 +9,6 @@
 
 #include <pcl/surface/floater/report.h>
 
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -80,17 +79,12 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
            const std::vector<float>& spacing, const RunContext& run,
            const CheckLimits& limits = {});
 
-/// Finds the triangles of a mesh that cross each other, as findSelfIntersections does.
-using CrossingSearch = std::function<std::vector<CrossingPair> (
-    const std::vector<Triangle>& triangles, const Points& points, const RunContext& run)>;
-
 /// Adds the pairs of triangles that cross each other, and their places, to what checkMesh () found;
 /// nothing if the mesh is no manifold. See findSelfIntersections. The decisions are exact for the
 /// positions of the points, which are those of the cloud up to rounding in double precision.
-/// \param search how they are found; empty: by findSelfIntersections
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-               MeshExamination& found, const CrossingSearch& search = {});
+               MeshExamination& found);
 
 } // namespace floater
 } // namespace pcl

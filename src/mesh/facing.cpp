@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/facing.h"
 
-#include "mesh/facing_objects.h"
-#include "mesh/visibility.h"
+#include "mesh/facing_judge.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace pcl
@@ -15,351 +12,28 @@ namespace floater
 {
 namespace
 {
-using Positions = std::vector<Eigen::Vector3d>;
-
-bool
-facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  const double longest = normal.cwiseAbs ().maxCoeff ();
-  for (const int axis : {2, 1})
-    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
-      return normal[axis] < 0.0;
-  return normal.x () < 0.0;
-}
-
-// How sure a decision is whose evidence is this many times as large as that against it, 1 or more.
-// A factor of two makes 0.9.
-double
-certaintyOf (double factor)
-{
-  const double cube = factor * factor * factor;
-  return cube / (1.0 + cube);
-}
-
-// Decides on one object after the other.
-class FacingJudge
+// A mesh that is there as a whole.
+class WholeMesh : public FacedMesh
 {
 public:
-  FacingJudge (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& found,
-               const FacingObjects& objects, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
-        limits_ (limits), run_ (run), judged_ (objects.sums.size ()),
-        is_turned_ (objects.sums.size (), 0), is_body_ (objects.sums.size (), 0)
+  WholeMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             const MeshComponents& found)
+      : mesh_ (mesh), positions_ (positions), found_ (found)
   {
   }
 
-  void judge ()
+  const std::vector<Triangle>& triangles () override { return mesh_.triangles; }
+  const std::vector<Index>& components () override { return found_.of_triangle; }
+  const std::vector<Eigen::Vector3d>& positions () override { return positions_; }
+  std::vector<BoundarySegment> boundary () override
   {
-    const bool is_scan = mayFaceSensor () && isSeenFrom (*hints_.sensor);
-    std::vector<Index> open;
-    for (Index o = 0; o < judged_.size (); ++o) {
-      const FacingSums& sums = objects_.sums[o];
-      FacingObject& object = judged_[o];
-      object.triangles = sums.triangles;
-      object.at = sums.at;
-      object.mean_normal = sums.meanNormal ();
-      const bool is_outwards = hints_.wanted == Facing::OUTWARDS;
-      is_body_[o] = sums.is_closed ? 1 : 0;
-      if (hints_.normals != nullptr && sums.told == 0.0)
-        object.miss = sums.contradictory > 0.0           ? FacingMiss::CONTRADICTION
-                      : hints_.wanted == Facing::NORMALS ? FacingMiss::NO_NORMALS
-                                                         : FacingMiss::NOTHING;
-      if (sums.told > 0.0)
-        decide (o, FacingRule::NORMALS, sums.along < 0.0,
-                0.5 + 0.5 * std::abs (sums.along) / sums.told);
-      else if (hints_.wanted == Facing::UP && !sums.is_closed)
-        decideUp (o);
-      else if (hints_.wanted == Facing::VIEWPOINT && isTowardsOneSide (sums))
-        decideByViewpoint (o);
-      else if (sums.is_closed) {
-        if (hints_.wanted == Facing::UP || hints_.wanted == Facing::VIEWPOINT)
-          object.miss = FacingMiss::CLOSED;
-        decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
-      }
-      else if (!is_outwards && hints_.faces_sensor)
-        decide (o, FacingRule::SENSOR, false, 1.0);
-      else if (!is_outwards && is_scan &&
-               std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
-        decide (o, FacingRule::SENSOR, sums.seen < 0.0,
-                0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
-      // The back sees at least as much of the outside as the mean normal is long: whatever light
-      // comes in through the lid of the boundary loops, falls on it.
-      else if (!is_outwards && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
-        decide (o, FacingRule::SHEET, facesDown (sums.area_vector, limits_), 1.0);
-      else
-        open.push_back (o);
-    }
-    judgeOpen (open);
-    judgeNested ();
+    return boundarySegments (mesh_, positions_, found_);
   }
-
-  const std::vector<FacingObject>& objects () const { return judged_; }
-  bool isTurned (Index object) const { return is_turned_[object] != 0; }
 
 private:
-  // Whether the place of a sensor is to decide, if the mesh was seen from there.
-  bool mayFaceSensor () const
-  {
-    return hints_.sensor && !hints_.faces_sensor &&
-           (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS);
-  }
-
-  // A closed component has the sensor on one side of all of it only if the sensor is within it.
-  bool isTowardsOneSide (const FacingSums& sums) const
-  {
-    return !sums.is_closed || std::abs (sums.seen) > limits_.within_share * sums.in_sight;
-  }
-
-  void decideByViewpoint (Index o)
-  {
-    const FacingSums& sums = objects_.sums[o];
-    const double share = sums.in_sight > 0.0 ? std::abs (sums.seen) / sums.in_sight : 0.0;
-    if (hints_.faces_sensor && !sums.is_closed)
-      decide (o, FacingRule::SENSOR, false, 1.0);
-    else
-      decide (o, FacingRule::SENSOR, sums.seen < 0.0, 0.5 + 0.5 * share);
-  }
-
-  void decideUp (Index o)
-  {
-    const FacingSums& sums = objects_.sums[o];
-    if (sums.from_above <= limits_.flatness * sums.area) // upright
-      decide (o, FacingRule::UP, facesDown (sums.area_vector, limits_), 0.5);
-    else
-      decide (o, FacingRule::UP, sums.area_vector.z () < 0.0,
-              0.5 + 0.5 * std::abs (sums.area_vector.z ()) / sums.from_above);
-  }
-
-  // An open object that is to face outwards, however little it is a body.
-  void decideOutwards (Index o, double body, double chance)
-  {
-    if (std::abs (body) >= 2.0 * chance) { // two standard deviations: chance in one case of twenty
-      decide (o, FacingRule::BODY, body < 0.0, certaintyOf ((std::abs (body) + chance) / chance));
-      return;
-    }
-    if (bulges_.empty ())
-      bulges_ = bulgesOf (mesh_, positions_, found_, objects_, limits_.flatness);
-    const double bulge = bulges_[o];
-    decide (o, FacingRule::BULGE,
-            bulge == 0.0 ? facesDown (objects_.sums[o].area_vector, limits_) : bulge < 0.0,
-            0.5 + 0.5 * std::abs (bulge));
-  }
-
-  void decide (Index o, FacingRule rule, bool is_turned, double certainty)
-  {
-    judged_[o].rule = rule;
-    judged_[o].certainty = certainty;
-    is_turned_[o] = is_turned ? 1 : 0;
-  }
-
-  Index objectOf (Index triangle) const
-  {
-    return objects_.of_component[found_.of_triangle[triangle]];
-  }
-
-  std::size_t countLines (Index o) const
-  {
-    return std::clamp (objects_.sums[o].triangles / limits_.triangles_per_line,
-                       limits_.fewest_lines, limits_.lines);
-  }
-
-  // Lines through these objects, towards the front of the object.
-  std::vector<SightLine> linesThrough (const std::vector<Index>& objects) const
-  {
-    std::vector<std::optional<SightLineSampler>> samplers (judged_.size ());
-    for (const Index o : objects)
-      samplers[o].emplace (objects_.sums[o].area, countLines (o));
-    std::vector<SightLine> lines;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
-      const Index component = found_.of_triangle[t];
-      std::optional<SightLineSampler>& sampler = samplers[objects_.of_component[component]];
-      if (!sampler)
-        continue;
-      const Eigen::Vector3d normal = areaVectorOf (mesh_.triangles[t], positions_);
-      const double area = normal.norm ();
-      if (area > 0.0)
-        sampler->add (t, area, middleOf (mesh_.triangles[t], positions_),
-                      objects_.sign (component) / area * normal, lines);
-    }
-    return lines;
-  }
-
-  // Whether nothing hides most of the mesh from the sensor.
-  bool isSeenFrom (const Eigen::Vector3d& sensor)
-  {
-    double area = 0.0;
-    for (const FacingSums& sums : objects_.sums)
-      area += sums.area;
-    SightLineSampler sampler (area, limits_.lines);
-    std::vector<SightLine> lines;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      sampler.add (t, areaVectorOf (mesh_.triangles[t], positions_).norm (),
-                   middleOf (mesh_.triangles[t], positions_), Eigen::Vector3d::UnitZ (), lines);
-    std::size_t free = 0;
-    for (const SightLine& line : lines) {
-      bool is_free = true;
-      rays ().forHits (line.middle, sensor - line.middle, [&] (Index t, double at) {
-        is_free = t == line.triangle || at >= 1.0;
-        return !is_free;
-      });
-      free += is_free ? 1 : 0;
-    }
-    return static_cast<double> (free) >= limits_.seen_share * static_cast<double> (lines.size ());
-  }
-
-  const TriangleRays& rays ()
-  {
-    if (!rays_)
-      rays_.emplace (mesh_.triangles, positions_, run_);
-    return *rays_;
-  }
-
-  // How many lines of each object are free towards either side.
-  struct Free
-  {
-    std::size_t lines = 0, front = 0, back = 0;
-  };
-  template <typename Blocks>
-  std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
-  {
-    const std::vector<SightLine> lines = linesThrough (objects);
-    const std::vector<Sight> sights = look (
-        rays (), lines,
-        [&] (std::size_t i, Index t) {
-          return blocks (objectOf (lines[i].triangle), objectOf (t));
-        },
-        run_);
-    std::vector<Free> free (judged_.size ());
-    for (std::size_t i = 0; i < lines.size (); ++i) {
-      Free& of_object = free[objectOf (lines[i].triangle)];
-      ++of_object.lines;
-      of_object.front += sights[i].front ? 1 : 0;
-      of_object.back += sights[i].back ? 1 : 0;
-    }
-    return free;
-  }
-
-  // Each by itself: nothing else hides it.
-  void judgeOpen (const std::vector<Index>& open)
-  {
-    if (open.empty ())
-      return;
-    const std::vector<Free> free =
-        lookFrom (open, [] (Index own, Index other) { return own == other; });
-    for (const Index o : open) {
-      FacingObject& object = judged_[o];
-      const double lines = static_cast<double> (std::max<std::size_t> (free[o].lines, 1));
-      object.front = static_cast<double> (free[o].front) / lines;
-      object.back = static_cast<double> (free[o].back) / lines;
-      const double body = object.front - object.back;
-      const double sheet = limits_.body_ratio * object.mean_normal;
-      const bool is_body = std::abs (body) >= sheet;
-      is_body_[o] = is_body ? 1 : 0;
-      const bool is_inwards = body < 0.0,
-                 is_down = facesDown (objects_.sums[o].area_vector, limits_);
-      const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
-      if (hints_.wanted == Facing::OUTWARDS) {
-        decideOutwards (o, body, chance);
-        continue;
-      }
-      const double certainty = is_inwards == is_down
-                                   ? certaintyOf ((std::abs (body) + sheet + chance) / chance)
-                                   : certaintyOf ((std::max (std::abs (body), sheet) + chance) /
-                                                  (std::min (std::abs (body), sheet) + chance));
-      decide (o, is_body ? FacingRule::BODY : FacingRule::SHEET, is_body ? is_inwards : is_down,
-              certainty);
-    }
-  }
-
-  // Whether the rules for bodies decided, which do not know yet what lies in what.
-  bool mayBeHollow (Index o) const
-  {
-    return is_body_[o] != 0 &&
-           (judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY);
-  }
-
-  // Whether one object may lie within another.
-  bool mayLieIn (Index o, Index other) const
-  {
-    const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
-    Eigen::AlignedBox3d box = outer.box;
-    const Eigen::Vector3d margin = limits_.nesting_margin * box.sizes ();
-    box.min () -= margin;
-    box.max () += margin;
-    return inner.area < outer.area && box.contains (inner.box);
-  }
-
-  // Bodies that may lie within other bodies. Where one does, it is the wall of a hollow, unless its
-  // front is seen from outside and its back is not, or hardly: then it is a body of its own, seen
-  // through the windows of the other one. Of the wall of a hollow, the windows show the back; its
-  // front is seen at their edges only.
-  void judgeNested ()
-  {
-    std::vector<Index> bodies, inner;
-    for (Index o = 0; o < judged_.size (); ++o)
-      if (is_body_[o] != 0)
-        bodies.push_back (o);
-    std::vector<std::vector<Index>> around (judged_.size ());
-    for (const Index o : bodies) {
-      if (!mayBeHollow (o))
-        continue;
-      for (const Index other : bodies)
-        if (other != o && mayLieIn (o, other))
-          around[o].push_back (other);
-      if (countAround (o, around[o]) % 2 == 1)
-        inner.push_back (o);
-    }
-    if (inner.empty ())
-      return;
-    const std::vector<Free> free = lookFrom (inner, [] (Index, Index) { return true; });
-    for (const Index o : inner) {
-      const std::size_t outside = isTurned (o) ? free[o].back : free[o].front;
-      const std::size_t inside = isTurned (o) ? free[o].front : free[o].back;
-      const bool is_own = objects_.sums[o].is_closed
-                              ? outside > 0
-                              : outside > limits_.own_body_ratio * (inside + limits_.chance_lines);
-      if (!is_own)
-        decide (o, FacingRule::HOLLOW, !isTurned (o), 1.0);
-    }
-  }
-
-  // In how many of these objects an object lies: rays from it cross their surfaces an odd number of
-  // times. By majority, since objects may have windows.
-  std::size_t countAround (Index o, const std::vector<Index>& around)
-  {
-    if (around.empty ())
-      return 0;
-    std::vector<SightLine> lines = linesThrough ({o});
-    lines.resize (std::min (lines.size (), limits_.nesting_lines));
-    std::size_t count = 0;
-    for (const Index other : around) {
-      std::size_t odd = 0;
-      for (const SightLine& line : lines) {
-        std::size_t crossed = 0;
-        rays ().forHits (line.middle, line.direction, [&] (Index t, double) {
-          crossed += objectOf (t) == other ? 1 : 0;
-          return false;
-        });
-        odd += crossed % 2;
-      }
-      count += 2 * odd > lines.size () ? 1 : 0;
-    }
-    return count;
-  }
-
   const TriangleMesh& mesh_;
-  const Positions& positions_;
+  const std::vector<Eigen::Vector3d>& positions_;
   const MeshComponents& found_;
-  const FacingObjects& objects_;
-  const FacingHints& hints_;
-  const FacingLimits& limits_;
-  const RunContext& run_;
-  std::optional<TriangleRays> rays_; // made when they are needed
-  std::vector<FacingObject> judged_;
-  std::vector<std::uint8_t> is_turned_; // of each object
-  std::vector<std::uint8_t> is_body_;   // of each object: others may lie in it
-  std::vector<double> bulges_;          // of each object, made when they are needed
 };
 
 } // namespace
@@ -369,29 +43,18 @@ faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
 {
   MeshFacing facing;
-  FacingHints used = hints;
-  if (hints.wanted == Facing::VIEWPOINT && !hints.sensor && !hints.faces_sensor) {
-    facing.lacks_viewpoint = true;
-    used.wanted = Facing::AUTO;
-  }
+  const FacingHints usable = usableHints (hints, facing);
   const MeshComponents found = findComponents (mesh, run);
-  const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, used, limits, run);
-  SignedSets sets (found.count);
-  joinContinuations (findTogether (mesh, positions, found, sums, used, limits, run), sums, sets);
-  const FacingObjects objects = makeObjects (sums, std::move (sets));
-  FacingJudge judge (mesh, positions, found, objects, used, limits, run);
-  judge.judge ();
-  facing.objects = judge.objects ();
-  std::vector<std::uint8_t> is_turned (found.count);
-  for (Index c = 0; c < found.count; ++c)
-    is_turned[c] =
-        judge.isTurned (objects.of_component[c]) != (objects.is_opposite[c] != 0) ? 1 : 0;
+  const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, usable, limits, run);
+  WholeMesh whole (mesh, positions, found);
+  const std::vector<std::uint8_t> is_turned =
+      judgeFacing (whole, sums, findTogether (mesh, positions, found, sums, usable, limits, run),
+                   usable, limits, run, facing);
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     if (is_turned[found.of_triangle[t]] != 0) {
       std::swap (mesh.triangles[t][1], mesh.triangles[t][2]);
       std::swap (mesh.neighbors[t][1], mesh.neighbors[t][2]);
     }
-  facing.turned = static_cast<std::size_t> (std::count (is_turned.begin (), is_turned.end (), 1));
   return facing;
 }
 

@@ -36,37 +36,21 @@ public:
         current = found.of_triangle[t];
         place = places.emplace (current, parts_.size ()).first->second;
         if (place == parts_.size ())
-          parts_.push_back ({current, corners[0], {}});
+          parts_.push_back ({current, {{}, positions[corners[0]]}});
       }
-      Part& part = parts_[place];
-      add (mesh.neighbors[t], corners, positions, hints, positions[part.origin], part.sum);
+      ComponentSum& part = parts_[place].second;
+      add (mesh.neighbors[t], corners, positions, hints, part.origin, part.sum);
     }
   }
 
-  // \param origin of each component, NONE if nothing was added yet
-  void addTo (std::vector<FacingSums>& sums, std::vector<Index>& origin,
-              const std::vector<Eigen::Vector3d>& positions) &&
+  void addTo (std::vector<ComponentSum>& sums) &&
   {
-    const std::vector<Part> parts = std::move (parts_); // their memory is given back here
-    for (const Part& part : parts) {
-      FacingSums& sum = sums[part.component];
-      sum.add (part.sum, 1.0);
-      Index& from = origin[part.component];
-      if (from == NONE)
-        from = part.origin;
-      // The volume as measured from the origin of all.
-      sum.volume += (positions[part.origin] - positions[from]).dot (part.sum.area_vector);
-    }
+    const auto parts = std::move (parts_); // their memory is given back here
+    for (const auto& [component, part] : parts)
+      sums[component].add (part);
   }
 
 private:
-  struct Part
-  {
-    Index component;
-    Index origin; // volumes are measured from there, for precision
-    FacingSums sum;
-  };
-
   static void add (const std::array<Index, 3>& neighbors, const Triangle& corners,
                    const std::vector<Eigen::Vector3d>& positions, const FacingHints& hints,
                    const Eigen::Vector3d& origin, FacingSums& sum)
@@ -98,15 +82,27 @@ private:
     }
   }
 
-  std::vector<Part> parts_;
+  std::vector<std::pair<Index, ComponentSum>> parts_; // of each component
 };
 
 } // namespace
 
-std::vector<FacingSums>
-sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run)
+std::vector<BoundarySegment>
+boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                  const MeshComponents& found)
+{
+  std::vector<BoundarySegment> segments;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE)
+        segments.push_back ({found.of_triangle[t], positions[mesh.from ({t, side})],
+                             positions[mesh.to ({t, side})]});
+  return segments;
+}
+
+std::vector<ComponentSum>
+sumTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const MeshComponents& found, const FacingHints& hints, const RunContext& run)
 {
   const std::size_t triangles = mesh.triangles.size ();
   std::vector<PartialSums> parts ((triangles + SUMMED - 1) / SUMMED);
@@ -114,16 +110,33 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
     parts[i] = PartialSums (mesh, positions, found, hints, i * SUMMED,
                             std::min (triangles, (i + 1) * SUMMED));
   });
-  std::vector<FacingSums> sums (found.count);
-  std::vector<Index> origin (found.count, NONE);
+  std::vector<ComponentSum> sums (found.count);
   for (PartialSums& part : parts)
-    std::move (part).addTo (sums, origin, positions);
-  for (FacingSums& sum : sums)
+    std::move (part).addTo (sums);
+  return sums;
+}
+
+std::vector<FacingSums>
+judgeNormals (const std::vector<ComponentSum>& components, const FacingLimits& limits)
+{
+  std::vector<FacingSums> sums;
+  sums.reserve (components.size ());
+  for (const ComponentSum& component : components) {
+    FacingSums& sum = sums.emplace_back (component.sum);
     if (std::abs (sum.along) < limits.normals_share * sum.told) {
       sum.contradictory = sum.told;
       sum.along = sum.told = 0.0;
     }
+  }
   return sums;
+}
+
+std::vector<FacingSums>
+sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
+               const RunContext& run)
+{
+  return judgeNormals (sumTriangles (mesh, positions, found, hints, run), limits);
 }
 
 std::vector<Continuation>
@@ -190,31 +203,28 @@ makeObjects (const std::vector<FacingSums>& components, SignedSets sets)
 }
 
 std::vector<double>
-bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const MeshComponents& found, const FacingObjects& objects, double flatness)
+bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& component,
+          const std::vector<Eigen::Vector3d>& positions,
+          const std::vector<BoundarySegment>& boundary, const FacingObjects& objects,
+          double flatness)
 {
   const std::size_t count = objects.sums.size ();
-  const auto objectOf = [&] (Index t) { return objects.of_component[found.of_triangle[t]]; };
   std::vector<Eigen::Vector3d> middle (count, Eigen::Vector3d::Zero ()); // of the boundary
   std::vector<double> length (count, 0.0);
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (mesh.neighbors[t][i] != NONE)
-        continue;
-      const Eigen::Vector3d& from = positions[mesh.triangles[t][(i + 1) % 3]];
-      const Eigen::Vector3d& to = positions[mesh.triangles[t][(i + 2) % 3]];
-      middle[objectOf (t)] += 0.5 * (to - from).norm () * (from + to);
-      length[objectOf (t)] += (to - from).norm ();
-    }
+  for (const auto& [of, from, to] : boundary) {
+    const Index o = objects.of_component[of];
+    middle[o] += 0.5 * (to - from).norm () * (from + to);
+    length[o] += (to - from).norm ();
+  }
   for (std::size_t o = 0; o < count; ++o)
     if (length[o] > 0.0)
       middle[o] /= length[o];
   std::vector<double> bulges (count, 0.0), volumes (count, 0.0);
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    const Index o = objectOf (t);
-    const double volume = (middleOf (mesh.triangles[t], positions) - middle[o])
-                              .dot (areaVectorOf (mesh.triangles[t], positions));
-    bulges[o] += objects.sign (found.of_triangle[t]) * volume;
+  for (std::size_t t = 0; t < triangles.size (); ++t) {
+    const Index o = objects.of_component[component[t]];
+    const double volume = (middleOf (triangles[t], positions) - middle[o])
+                              .dot (areaVectorOf (triangles[t], positions));
+    bulges[o] += objects.sign (component[t]) * volume;
     volumes[o] += std::abs (volume);
   }
   for (std::size_t o = 0; o < count; ++o) {

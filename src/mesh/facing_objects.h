@@ -51,6 +51,24 @@ struct FacingSums
   double meanNormal () const { return area > 0.0 ? area_vector.norm () / area : 0.0; }
 };
 
+/// The sums of a component, or of some of its triangles. Volumes are measured from an origin near
+/// to them, for precision.
+struct ComponentSum
+{
+  FacingSums sum;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero (); ///< of no meaning without triangles
+
+  void add (const ComponentSum& other)
+  {
+    if (other.sum.triangles == 0)
+      return;
+    if (sum.triangles == 0)
+      origin = other.origin;
+    sum.add (other.sum, 1.0);
+    sum.volume += (other.origin - origin).dot (other.sum.area_vector);
+  }
+};
+
 /// Components by the objects that they make up.
 struct FacingObjects
 {
@@ -73,8 +91,28 @@ areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-/// The sums of each component, by the sensor and the normals of the hints. O(n), on all threads.
-/// They do not depend on the number of threads.
+/// An edge of the boundary, with the surface on its left.
+struct BoundarySegment
+{
+  Index component;
+  Eigen::Vector3d from, to;
+};
+
+std::vector<BoundarySegment>
+boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                  const MeshComponents& found);
+
+/// The sums over the triangles of each component, by the sensor and the normals of the hints. O(n),
+/// on all threads. They do not depend on the number of threads.
+std::vector<ComponentSum>
+sumTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const MeshComponents& found, const FacingHints& hints, const RunContext& run);
+
+/// The same of whole components: where normals contradict each other, they tell nothing.
+std::vector<FacingSums>
+judgeNormals (const std::vector<ComponentSum>& components, const FacingLimits& limits);
+
+/// The sums of each component of a mesh.
 std::vector<FacingSums>
 sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
@@ -100,10 +138,12 @@ makeObjects (const std::vector<FacingSums>& components, SignedSets sets);
 /// How far each object bulges out of its boundary to its front: the volume between it and the
 /// middle of its boundary, signed over unsigned, from -1 to 1: 1 of a dome that faces outwards,
 /// about 0 of a wave. 0 of a flat one. O(n).
-/// \param flatness see FacingLimits
+/// \param component of each triangle \param flatness see FacingLimits
 std::vector<double>
-bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const MeshComponents& found, const FacingObjects& objects, double flatness);
+bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& component,
+          const std::vector<Eigen::Vector3d>& positions,
+          const std::vector<BoundarySegment>& boundary, const FacingObjects& objects,
+          double flatness);
 
 } // namespace floater
 } // namespace pcl

@@ -48,13 +48,16 @@ struct Uncrossing
   std::size_t moves = 0;      ///< vertices moved
   std::size_t rebuilds = 0;   ///< patches of vertices taken out and put back
   std::size_t pairs_left = 0; ///< pairs of triangles that still cross
+
+  bool hasChanged () const { return flips + moves + rebuilds > 0; }
 };
 
 /// Flips edges and moves vertices (see VertexMover) where triangles cross; where neither helps any
 /// more, all vertices of a patch are taken out and put back in other orders. A change is kept if no
 /// more pairs cross after it, no more edges are folded (isFold), and it lowers the sum of the cost
 /// of the mesh and that of the crossing pairs; of several, the one that lowers it most.
-/// The boundary and the topology stay as they are, and every point keeps its triangles. O(n) to
+/// The boundary and the topology stay as they are, and so do fixed triangles; every point keeps its
+/// triangles. O(n) to
 /// begin with, and O(log n) for each of a few hundred trials for each triangle that crosses
 /// another; the limits end it early. One thread.
 /// \param pairs all that the mesh has (see findSelfIntersections)

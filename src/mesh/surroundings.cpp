@@ -3,6 +3,7 @@
 #include "mesh/surroundings.h"
 
 #include "core/geometry.h"
+#include "core/parallel.h"
 
 #include <Eigen/Geometry>
 
@@ -63,10 +64,12 @@ SurroundingsCheck::lookAround (const TriangleRanges& ranges, std::size_t r, cons
 {
   found_ = {};
   last_ = ranges.lastPoint (r);
-  const VertexStars stars (triangles_, ranges, r);
+  const VertexStars stars (mesh_.triangles, ranges, r);
   ProgressLoop progress (run);
   for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < last_; ++p) {
     progress.next ();
+    if (mesh_.is_left_out != nullptr && (*mesh_.is_left_out)[p] != 0)
+      continue;
     const VertexStar star = stars.of (p);
     if (star.size () == 0)
       found_.unused.push_back (p);
@@ -142,12 +145,12 @@ SurroundingsCheck::lookAt (Index p, const VertexStar& star)
 void
 SurroundingsCheck::lookAtTriangle (Index a, Index b, Index c)
 {
-  const Eigen::Vector3d ab = points_.positions[b] - points_.positions[a];
-  const Eigen::Vector3d ac = points_.positions[c] - points_.positions[a];
+  const Eigen::Vector3d ab = mesh_.positions[b] - mesh_.positions[a];
+  const Eigen::Vector3d ac = mesh_.positions[c] - mesh_.positions[a];
   const double sqr_longest =
       std::max ({ab.squaredNorm (), ac.squaredNorm (), (ac - ab).squaredNorm ()});
   const double sqr_height = ab.cross (ac).squaredNorm () / sqr_longest;
-  const double precision = limits_.precision * points_.diagonal;
+  const double precision = limits_.precision * mesh_.diagonal;
   const double flat = limits_.flat_height;
   if (sqr_height > precision * precision || sqr_height > flat * flat * sqr_longest)
     return;
@@ -160,12 +163,14 @@ SurroundingsCheck::lookAtEdge (Index p, const Spoke& spoke)
 {
   const Index q = spoke.to;
   ++found_.edges;
-  if (q < last_)
-    sets_.join (p, q);
-  else
-    found_.leaving.emplace_back (p, q);
-  const Eigen::Vector3d pq = points_.positions[q] - points_.positions[p];
-  const double scale = 0.5 * (static_cast<double> (spacing_[p]) + spacing_[q]);
+  if (sets_ != nullptr) {
+    if (q < last_)
+      sets_->join (p, q);
+    else
+      found_.leaving.emplace_back (p, q);
+  }
+  const Eigen::Vector3d pq = mesh_.positions[q] - mesh_.positions[p];
+  const double scale = 0.5 * (static_cast<double> (mesh_.spacing[p]) + mesh_.spacing[q]);
   const double sqr_length = scale > 0.0 ? pq.squaredNorm () / (scale * scale) : 0.0;
   if (sqr_length > found_.sqr_longest) {
     found_.sqr_longest = sqr_length;
@@ -185,12 +190,32 @@ SurroundingsCheck::lookAtEdge (Index p, const Spoke& spoke)
       found_.longest_inside_at = {p, q};
     }
   }
-  const std::vector<Eigen::Vector3d>& at = points_.positions;
+  const std::vector<Eigen::Vector3d>& at = mesh_.positions;
   if (isFold (areaVector (at[p], at[q], at[spoke.left]),
               areaVector (at[p], at[spoke.right], at[q]))) {
     ++found_.folds;
     note (found_.fold_at, p);
   }
+}
+
+Surroundings
+lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckLimits& limits,
+            DisjointSets* sets, const RunContext& run)
+{
+  std::vector<Surroundings> found (ranges.count ());
+  parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+    found[r] = SurroundingsCheck (mesh, limits, sets).lookAround (ranges, r, run);
+  });
+  Surroundings all;
+  ProgressLoop progress (run);
+  for (Surroundings& part : found) {
+    for (const auto& [p, q] : part.leaving) {
+      progress.next ();
+      sets->join (p, q);
+    }
+    all.append (std::move (part));
+  }
+  return all;
 }
 
 } // namespace floater

@@ -35,15 +35,25 @@ struct Surroundings
   void append (Surroundings&& next);
 };
 
+/// What is examined.
+struct ExaminedMesh
+{
+  const std::vector<Triangle>& triangles;
+  const std::vector<Eigen::Vector3d>& positions;
+  const std::vector<float>& spacing; ///< local spacing of each point
+  double diagonal = 1.0;             ///< of the bounding box of the whole cloud
+  const std::vector<std::uint8_t>* is_left_out =
+      nullptr; ///< of each point: around those with 1, nothing is looked at; nullptr: there is none
+};
+
 /// Looks at the triangles and edges around the points of a range, one after the other.
 class SurroundingsCheck
 {
 public:
-  /// \param sets of the points; those that edges within the range connect are joined
-  SurroundingsCheck (const std::vector<Triangle>& triangles, const Points& points,
-                     const std::vector<float>& spacing, const CheckLimits& limits,
-                     DisjointSets& sets)
-      : triangles_ (triangles), points_ (points), spacing_ (spacing), limits_ (limits), sets_ (sets)
+  /// \param sets of the points; those that edges within the range connect are joined. nullptr: what
+  /// is connected is not asked for
+  SurroundingsCheck (const ExaminedMesh& mesh, const CheckLimits& limits, DisjointSets* sets)
+      : mesh_ (mesh), limits_ (limits), sets_ (sets)
   {
   }
 
@@ -65,17 +75,21 @@ private:
   void lookAtTriangle (Index a, Index b, Index c);
   void lookAtEdge (Index p, const Spoke& spoke);
 
-  const std::vector<Triangle>& triangles_;
-  const Points& points_;
-  const std::vector<float>& spacing_;
+  const ExaminedMesh& mesh_;
   const CheckLimits& limits_;
-  DisjointSets& sets_;
+  DisjointSets* sets_;
   std::size_t last_ = 0; // where the range ends
   Surroundings found_;
   std::vector<Spoke> spokes_;
   std::unordered_map<Index, Index>
       place_; // of many spokes: each one by the point to which it leads
 };
+
+/// Looks around all points, on all threads. Their number does not matter to what is found.
+/// \param ranges of the triangles \param sets see SurroundingsCheck
+Surroundings
+lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckLimits& limits,
+            DisjointSets* sets, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

@@ -37,16 +37,15 @@ candidatesOf (const CandidateLists& all, Index first, Index last)
 } // namespace
 
 LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
-                        const SurfaceSettings& settings, const PartLimits& limits,
-                        const RunContext& run)
+                        const PartsSettings& settings, const RunContext& run)
     : points_ (points), parts_ (parts), geometry_ (geometry), settings_ (settings),
-      limits_ (limits), meshes_ (parts.count ()),
+      meshes_ (parts.count ()),
       neighbors_ ([table = NeighborTable (geometry.neighbors)] (const std::vector<Index>& some) {
         return table.some (some);
       })
 {
   run.beginStage (Stage::CONSENSUS);
-  const ConsensusLimits& consensus = settings.limits.consensus;
+  const ConsensusLimits& consensus = settings.surface.limits.consensus;
   const std::vector<std::uint8_t> reaches_out = reachesOut (geometry.stars.neighbors, 0, parts);
   ProposedTriangles proposed =
       proposeTriangles (points.workingPositions (), geometry.neighbors, geometry.stars,
@@ -69,8 +68,11 @@ LocalParts::pointsOf (std::size_t part, const std::vector<Eigen::Vector3d>& posi
                       const std::vector<float>& spacing) const
 {
   const Index first = parts_.first (part), last = parts_.last (part);
-  return {first, slice (positions, first, last), slice (geometry_.stars.normals, first, last),
-          slice (spacing, first, last)};
+  return {first,
+          slice (positions, first, last),
+          slice (geometry_.stars.normals, first, last),
+          slice (spacing, first, last),
+          {}};
 }
 
 PartRim
@@ -87,13 +89,16 @@ LocalParts::rim (std::size_t part, std::size_t rings)
           other_normals.push_back (normals[p]);
         }
       },
-      rings, settings_.limits.consensus.smallest_island);
+      rings, settings_.surface.limits.consensus.smallest_island);
 }
 
 void
 LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
 {
   finished_.resize (parts_.count ());
+  triangles_.resize (parts_.count ());
+  buckets_.resize (parts_.count ());
+  const PartFinishSettings settings = settings_.ofPart (parts_);
   parallelTasks (run, parts_.count (), [&] (std::size_t part) {
     const Index first = parts_.first (part), last = parts_.last (part);
     const std::vector<Index>& all = geometry_.scatter;
@@ -101,13 +106,35 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
                                 std::lower_bound (all.begin (), all.end (), last));
     for (Index& p : scatter)
       p -= first;
-    finished_[part] = finishPart (pointsOf (part, points_.positions, geometry_.meshSpacing ()),
-                                  std::move (meshes_[part].triangles), changes[part], neighbors_,
-                                  scatter, settings_.flip_edges, settings_.limits.finish, limits_,
-                                  parts_.count (), run.withThreads (1));
+    PartPoints points = pointsOf (part, points_.positions, geometry_.meshSpacing ());
+    if (const auto* const normals = settings_.surface.facing.normals)
+      points.facing_normals = slice (*normals, first, last);
+    FinishedPart finished =
+        finishPart (std::move (points), std::move (meshes_[part].triangles), changes[part],
+                    neighbors_, scatter, settings, run.withThreads (1));
+    triangles_[part] = std::move (finished.triangles);
+    buckets_[part] = std::move (finished.buckets);
+    finished_[part] = std::move (finished);
     meshes_[part] = {};
     changes[part] = {};
   });
+}
+
+FinishedPart
+LocalParts::finished (std::size_t part)
+{
+  return std::move (finished_[part]);
+}
+
+std::vector<Triangle>
+LocalParts::triangles (std::size_t part, const Ranges& ranges)
+{
+  const auto begin = triangles_[part].begin ();
+  std::vector<Triangle> some;
+  for (const auto& [first, last] : ranges)
+    some.insert (some.end (), begin + static_cast<std::ptrdiff_t> (first),
+                 begin + static_cast<std::ptrdiff_t> (last));
+  return some;
 }
 
 } // namespace floater

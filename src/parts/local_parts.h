@@ -20,11 +20,16 @@ public:
   /// All arguments must outlive this.
   /// \param geometry the lists of the stars are freed as soon as they are not needed
   LocalParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
-              const SurfaceSettings& settings, const PartLimits& limits, const RunContext& run);
+              const PartsSettings& settings, const RunContext& run);
 
   PartRim rim (std::size_t part, std::size_t rings) override;
   void finish (std::vector<PartChange> changes, const RunContext& run) override;
-  FinishedPart finished (std::size_t part) override { return std::move (finished_[part]); }
+  FinishedPart finished (std::size_t part) override;
+  std::vector<Eigen::AlignedBox3d> buckets (std::size_t part) override
+  {
+    return std::move (buckets_[part]);
+  }
+  std::vector<Triangle> triangles (std::size_t part, const Ranges& ranges) override;
 
 private:
   PartPoints pointsOf (std::size_t part, const std::vector<Eigen::Vector3d>& positions,
@@ -33,11 +38,12 @@ private:
   const Points& points_;
   const Parts& parts_;
   const LocalGeometry& geometry_;
-  const SurfaceSettings& settings_;
-  const PartLimits& limits_;
+  const PartsSettings& settings_;
   std::vector<PartMesh> meshes_;
   NeighborRows neighbors_;
-  std::vector<FinishedPart> finished_;
+  std::vector<FinishedPart> finished_; // without the following
+  std::vector<std::vector<Triangle>> triangles_;
+  std::vector<std::vector<Eigen::AlignedBox3d>> buckets_;
 };
 
 } // namespace floater

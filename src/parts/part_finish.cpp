@@ -3,6 +3,8 @@
 #include "parts/part_finish.h"
 
 #include "mesh/insertion.h"
+#include "mesh/self_intersection_removal.h"
+#include "mesh/triangle_order.h"
 #include "parts/mesh_region.h"
 #include "points/neighbor_table.h"
 
@@ -159,13 +161,12 @@ seedsOfZone (const TriangleMesh& mesh)
 }
 
 // Folded edges of triangles that are not in the zone.
+// \param is_in_zone of each triangle
 std::size_t
-countFoldsOutside (const MeshRegion& zone, const TriangleMesh& mesh,
+countFoldsOutside (const std::vector<std::uint8_t>& is_in_zone, const TriangleMesh& mesh,
                    const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
 {
-  const auto isInZone = [&zone] (Index t) {
-    return std::binary_search (zone.triangles.begin (), zone.triangles.end (), t);
-  };
+  const auto isInZone = [&is_in_zone] (Index t) { return is_in_zone[t] != 0; };
   std::size_t count = 0;
   for (const MeshEdge& e : findFolds (mesh, positions, run))
     count += isInZone (e.triangle) && isInZone (mesh.mate (e).triangle) ? 0 : 1;
@@ -206,13 +207,70 @@ takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh
   return zone;
 }
 
+// 1 for those in a list.
+std::vector<std::uint8_t>
+markAll (const std::vector<Index>& list, std::size_t size)
+{
+  std::vector<std::uint8_t> marks (size, 0);
+  for (const Index i : list)
+    marks[i] = 1;
+  return marks;
+}
+
+// The triangles that are not in the zone, in the order of their smallest points.
+struct InnerTriangles
+{
+  InnerTriangles (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone)
+  {
+    for (const Index t : orderByPoints (mesh.triangles, mesh.triangle_of.size ()))
+      if (is_in_zone[t] == 0) {
+        numbers.push_back (t);
+        triangles.push_back (mesh.triangles[t]);
+      }
+  }
+
+  std::vector<CrossingPair> findCrossing (const std::vector<Eigen::Vector3d>& positions,
+                                          const RunContext& run) const
+  {
+    return findSelfIntersectionsOf (triangles, 0, triangles.size (), positions, run);
+  }
+
+  std::vector<Index> numbers; // in the mesh
+  std::vector<Triangle> triangles;
+};
+
+// Looks for inner triangles that cross each other, and moves them apart. Those in the zone stay.
+InnerTriangles
+uncrossInner (TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone, PartPoints& points,
+              const NeighborTable& neighbors, const PartFinishSettings& settings,
+              const RunContext& run, CrossingSum& sum)
+{
+  InnerTriangles inner (mesh, is_in_zone);
+  const auto point_of = [&points] (Index p) { return points.first + p; };
+  std::vector<CrossingPair> pairs = inner.findCrossing (points.positions, run);
+  sum.found = pairs.size ();
+  if (!pairs.empty () && settings.remove_self_intersections) {
+    orientNormals (mesh, points.positions, points.normals, run);
+    const TriangleCost cost (points.positions, points.normals, &points.spacing,
+                             settings.finish.cost);
+    mesh.is_fixed = is_in_zone;
+    sum.done = removeSelfIntersections (mesh, pairsInOrder (pairs, inner.numbers), neighbors.all (),
+                                        cost, points.positions, settings.uncrossing, run);
+    if (sum.done.hasChanged ()) {
+      inner = InnerTriangles (mesh, is_in_zone);
+      pairs = inner.findCrossing (points.positions, run);
+    }
+  }
+  sum.take (pairs, inner.triangles, point_of);
+  return inner;
+}
+
 } // namespace
 
 FinishedPart
 finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
-            const NeighborRows& neighbors, const std::vector<Index>& scatter, bool flip_edges,
-            const FinishLimits& limits, const PartLimits& part_limits, std::size_t parts,
-            const RunContext& run)
+            const NeighborRows& neighbors, const std::vector<Index>& scatter,
+            const PartFinishSettings& settings, const RunContext& run)
 {
   apply (change, points.first, points.size (), run, triangles);
   TriangleMesh mesh;
@@ -224,29 +282,34 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
   orientNormals (mesh, points.positions, points.normals, run);
   orientMissing (mesh, points, neighbors);
   FinishedPart finished;
-  {
-    NeighborsWithin within (points, neighbors);
-    FinishSettings settings;
-    settings.flip_edges = flip_edges;
-    settings.limits = limits;
-    const MeshFinish finish = repairMesh (
-        mesh, {points.positions, within.table (), points.spacing, scatter, points.normals},
-        settings, run);
-    finished.flips = finish.flips;
-    finished.folds_after_flips = finish.folds_after_flips;
-  }
+  NeighborsWithin within (points, neighbors);
+  FinishSettings finish_settings;
+  finish_settings.flip_edges = settings.flip_edges;
+  finish_settings.limits = settings.finish;
+  const MeshFinish finish = repairMesh (
+      mesh, {points.positions, within.table (), points.spacing, scatter, points.normals},
+      finish_settings, run);
+  finished.flips = finish.flips;
+  finished.folds_after_flips = finish.folds_after_flips;
+
   const MeshRegion region =
-      regionAround (mesh.triangles, points.size (), seedsOfZone (mesh), part_limits.rings);
-  finished.corners = sampleCorners (mesh, points.positions, CORNER_SAMPLE / parts + 1, run);
-  finished.folds = countFoldsOutside (region, mesh, points.positions, run);
+      regionAround (mesh.triangles, points.size (), seedsOfZone (mesh), settings.parts.rings);
+  const std::vector<std::uint8_t> is_in_zone = markAll (region.triangles, mesh.triangles.size ());
+  finished.corners =
+      sampleCorners (mesh, points.positions, CORNER_SAMPLE / settings.part_count + 1, run);
+  CrossingSum crossing;
+  InnerTriangles inner =
+      uncrossInner (mesh, is_in_zone, points, within.table (), settings, run, crossing);
+  finished.folds = countFoldsOutside (is_in_zone, mesh, points.positions, run);
   finished.zone = takeZone (region, points, mesh, neighbors, scatter);
-  finished.triangles.reserve (mesh.triangles.size () - region.triangles.size ());
-  auto in_zone = region.triangles.begin ();
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    if (in_zone != region.triangles.end () && *in_zone == t)
-      ++in_zone;
-    else
-      finished.triangles.push_back (shifted (mesh.triangles[t], points.first));
+  mesh = {};
+  finished.check = checkInner (points, inner.triangles, markAll (region.points, points.size ()),
+                               settings.check, run);
+  finished.check.crossing = std::move (crossing);
+  finished.buckets = makeTriangleBuckets (inner.triangles, points.positions);
+  finished.triangles = std::move (inner.triangles);
+  for (Triangle& corners : finished.triangles)
+    corners = shifted (corners, points.first);
   return finished;
 }
 

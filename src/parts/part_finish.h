@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mesh/finish.h"
+#include "parts/inner_check.h"
 #include "parts/part_mesh.h"
 #include "parts/stitching.h"
 
@@ -30,7 +31,10 @@ struct SeamZone
 /// A finished part.
 struct FinishedPart
 {
-  std::vector<Triangle> triangles; ///< but for those in the zone; corners are points
+  std::vector<Triangle> triangles; ///< the inner ones, which are not in the zone, in the order of
+                                   ///< their smallest points; corners are points
+  std::vector<Eigen::AlignedBox3d> buckets; ///< of the inner triangles, see makeTriangleBuckets
+  InnerCheck check;                         ///< of the inner triangles
   SeamZone zone;
   std::size_t flips = 0;
   std::size_t folds_after_flips = 0; ///< see MeshFinish
@@ -38,18 +42,30 @@ struct FinishedPart
   std::vector<double> corners;       ///< see sampleCorners
 };
 
+/// How parts are finished.
+struct PartFinishSettings
+{
+  bool flip_edges = true;
+  bool remove_self_intersections = true; ///< of inner triangles
+  FinishLimits finish;
+  UncrossingLimits uncrossing;
+  InnerCheckSettings check;
+  PartLimits parts;
+  std::size_t part_count = 1; ///< parts share a sample of corners
+};
+
 /// Applies the changes of the stitching to the mesh of a part, inserts points that have no
 /// triangle, flips edges and repairs folds, as finishMesh does. Triangles beside one that has
-/// corners in another part are left as they are. O(n log n) at worst. \param points    of the part;
-/// the positions are those on which the vertices lie \param triangles see PartMesh \param scatter
-/// points of the part around which the cloud is flat at no scale, ascending;
+/// corners in another part are left as they are. What is not in the zone then is rid of triangles
+/// that cross each other, and checked. O(n log n) at worst.
+/// \param points    of the part; the positions are those on which the vertices lie
+/// \param triangles see PartMesh
+/// \param scatter   points of the part around which the cloud is flat at no scale, ascending;
 ///                  counted from its first point on
-/// \param parts     number of parts, which share a sample of corners
 FinishedPart
 finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
-            const NeighborRows& neighbors, const std::vector<Index>& scatter, bool flip_edges,
-            const FinishLimits& limits, const PartLimits& part_limits, std::size_t parts,
-            const RunContext& run);
+            const NeighborRows& neighbors, const std::vector<Index>& scatter,
+            const PartFinishSettings& settings, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

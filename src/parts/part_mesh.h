@@ -22,6 +22,8 @@ struct PartPoints
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Vector3f> normals; ///< those of the stars, of any sign
   std::vector<float> spacing;
+  std::vector<Eigen::Vector3f> facing_normals = {}; ///< those of the cloud that tell its front, if
+                                                    ///< they are to decide; else empty
 
   std::size_t size () const { return positions.size (); }
   bool has (Index point) const { return point >= first && point - first < size (); }

@@ -46,49 +46,77 @@ stitchParts (const Parts& parts, PartWork& work, double unit, const SurfaceSetti
   throw std::logic_error ("parts of a mesh cannot be stitched");
 }
 
+// Joins what is finished, part by part.
+FinishedSeam
+joinFinished (const Parts& parts, PartWork& work, const std::vector<Triangle>& seam,
+              const PartsSettings& settings, const RunContext& run, std::vector<InnerCheck>& checks,
+              MeshFinish& finish)
+{
+  const auto count = [&finish] (const auto& of_some) {
+    finish.flips += of_some.flips;
+    finish.folds_after_flips += of_some.folds_after_flips;
+    finish.folds += of_some.folds;
+  };
+  JoinedZones zones;
+  std::vector<double> corners;
+  for (std::size_t part = 0; part < parts.count (); ++part) {
+    run.poll ();
+    FinishedPart finished = work.finished (part);
+    count (finished);
+    corners.insert (corners.end (), finished.corners.begin (), finished.corners.end ());
+    zones.add (finished.zone);
+    checks.push_back (std::move (finished.check));
+  }
+  FinishedSeam joined = finishSeam (std::move (zones), seam, std::move (corners),
+                                    settings.surface.finishSettings (), settings.parts.rings, run);
+  count (joined.finish);
+  return joined;
+}
+
 } // namespace
 
-Surface
-makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
-                    const SurfaceSettings& settings, const PartLimits& limits,
-                    const RunContext& run)
+PartFinishSettings
+PartsSettings::ofPart (const Parts& all) const
 {
-  Surface surface;
+  return {surface.flip_edges,
+          remove_self_intersections,
+          surface.limits.finish,
+          uncrossing,
+          {check, diagonal, surface.facing.sensor},
+          parts,
+          all.count ()};
+}
+
+SurfaceOfParts
+makeSurfaceOfParts (const Points& points, const std::vector<float>& spacing, const Parts& parts,
+                    PartWork& work, const PartsSettings& settings, const RunContext& run)
+{
+  SurfaceOfParts made;
+  Surface& surface = made.surface;
   run.beginStage (Stage::CONSENSUS);
-  Stitching stitching = stitchParts (parts, work, 1.0 / points.scale, settings, limits.rings, run);
+  Stitching stitching =
+      stitchParts (parts, work, 1.0 / points.scale, settings.surface, settings.parts.rings, run);
   surface.holes_filled = stitching.holes.filled;
   surface.doubtful_loops = std::move (stitching.holes.doubtful);
   surface.orientation_seam = std::move (stitching.orientation_seam);
 
   run.beginStage (Stage::FLIPS);
   work.finish (std::move (stitching.parts), run);
-  JoinedZones zones;
-  std::vector<double> corners;
-  MeshFinish& finish = surface.finish;
-  for (std::size_t part = 0; part < parts.count (); ++part) {
-    run.poll ();
-    FinishedPart finished = work.finished (part);
-    finish.flips += finished.flips;
-    finish.folds_after_flips += finished.folds_after_flips;
-    finish.folds += finished.folds;
-    std::vector<Triangle>& all = surface.mesh.triangles;
-    all.reserve (2 * points.size ());
-    all.insert (all.end (), finished.triangles.begin (), finished.triangles.end ());
-    corners.insert (corners.end (), finished.corners.begin (), finished.corners.end ());
-    zones.add (finished.zone);
-  }
-  const FinishedSeam seam = finishSeam (std::move (zones), stitching.seam, std::move (corners),
-                                        settings.finishSettings (), limits.rings, run);
-  finish.flips += seam.finish.flips;
-  finish.folds_after_flips += seam.finish.folds_after_flips;
-  finish.folds += seam.finish.folds;
-  surface.mesh.triangles.insert (surface.mesh.triangles.end (), seam.triangles.begin (),
-                                 seam.triangles.end ());
-  if (!surface.mesh.connect (points.size (), run))
-    throw std::logic_error ("the finished parts do not fit");
-  finish.facing = faceOutwards (surface.mesh, points.positions, settings.facing,
-                                settings.limits.finish.facing, run);
-  return surface;
+  FinishedSeam seam =
+      joinFinished (parts, work, stitching.seam, settings, run, made.checks, surface.finish);
+
+  run.beginStage (Stage::CHECK);
+  const FinishLimits& limits = settings.surface.limits.finish;
+  const PartsCheckSettings check{settings.remove_self_intersections,
+                                 limits.cost,
+                                 settings.uncrossing,
+                                 settings.check,
+                                 settings.surface.facing,
+                                 limits.facing};
+  made.checked =
+      checkParts (std::move (seam), made.checks, parts, work, points, spacing, check, run);
+  surface.finish.facing = made.checked.facing;
+  return made;
 }
 
 } // namespace floater

@@ -4,9 +4,8 @@
 #pragma once
 
 #include "consensus/consensus_method.h"
-#include "parts/part_finish.h"
-#include "parts/part_rim.h"
 #include "parts/parts.h"
+#include "parts/seam_check.h"
 
 #include <vector>
 
@@ -14,32 +13,35 @@ namespace pcl
 {
 namespace floater
 {
-/// Where the parts are meshed and finished: in this process, or in others. All results are those of
-/// the functions that are named.
-class PartWork
+/// How a surface in parts is made and checked.
+struct PartsSettings
 {
-public:
-  virtual ~PartWork () = default;
+  SurfaceSettings surface;
+  PartLimits parts;
+  CheckLimits check;
+  UncrossingLimits uncrossing;
+  bool remove_self_intersections = true;
+  double diagonal = 1.0; ///< see Points
 
-  /// See findRim; of the part's mesh by makePartMesh. May be asked for by several threads.
-  virtual PartRim rim (std::size_t part, std::size_t rings) = 0;
-
-  /// Finishes all parts, see finishPart. Called once, after all rims.
-  /// \param changes of each part
-  virtual void finish (std::vector<PartChange> changes, const RunContext& run) = 0;
-
-  /// The finished part. Each is asked for once, in their order.
-  virtual FinishedPart finished (std::size_t part) = 0;
+  PartFinishSettings ofPart (const Parts& all) const;
 };
 
-/// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES
-/// and FLIPS. What is decided for all parts together is where their meshes end: O(n / sqrt (m)) for
-/// parts of m points, but for the mesh itself. O(n log n).
-/// \param points their positions are read only to face the mesh
-Surface
-makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
-                    const SurfaceSettings& settings, const PartLimits& limits,
-                    const RunContext& run);
+/// A finished surface in parts. Its triangles stay where the parts are.
+struct SurfaceOfParts
+{
+  Surface surface; ///< but for its mesh
+  CheckedParts checked;
+  std::vector<InnerCheck> checks; ///< of each part
+};
+
+/// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES,
+/// FLIPS and CHECK. What is decided for all parts together is where their meshes end: O(n / sqrt
+/// (m)) for parts of m points. O(n log n).
+/// \param points  the vertices lie on their positions
+/// \param spacing local spacing on the mesh
+SurfaceOfParts
+makeSurfaceOfParts (const Points& points, const std::vector<float>& spacing, const Parts& parts,
+                    PartWork& work, const PartsSettings& settings, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

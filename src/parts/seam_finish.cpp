@@ -85,7 +85,7 @@ FinishedSeam
 finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<double> corners,
             const FinishSettings& settings, std::size_t rings, const RunContext& run)
 {
-  const JoinedPoints points (std::move (zones.points));
+  const JoinedPoints points (zones.points);
   toPlaces (points, zones.neighbors);
   TriangleMesh mesh; // the triangles of the seam last
   mesh.triangles = std::move (zones.triangles);
@@ -108,9 +108,8 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
   mesh.is_fixed.clear ();
   if (settings.open_boundary)
     openBoundary (mesh, zones.positions, std::move (corners), settings.limits.notches, run, finish);
-  finished.triangles.reserve (mesh.triangles.size ());
-  for (const auto& [a, b, c] : mesh.triangles)
-    finished.triangles.push_back ({points.pointAt (a), points.pointAt (b), points.pointAt (c)});
+  finished.triangles = std::move (mesh.triangles);
+  finished.zones = std::move (zones);
   return finished;
 }
 

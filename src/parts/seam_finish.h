@@ -19,7 +19,7 @@ struct JoinedZones
   std::vector<Eigen::Vector3f> normals;
   std::vector<float> spacing;
   std::vector<Index> scatter; ///< ascending
-  CsrLists neighbors;         ///< points of the cloud
+  CsrLists neighbors;         ///< points of the cloud; when the seam is finished: places
   std::vector<std::uint8_t> is_partial;
   std::vector<Triangle> triangles;
 
@@ -30,7 +30,8 @@ struct JoinedZones
 /// The mesh where parts meet, and around its boundary.
 struct FinishedSeam
 {
-  std::vector<Triangle> triangles; ///< of all zones, and those between them; corners are points
+  JoinedZones zones;               ///< with normals to the side of the mesh; without triangles
+  std::vector<Triangle> triangles; ///< of all zones, and those between them; corners are places
   MeshFinish finish; ///< but for what parts have told; of folds, those that are left in all zones
 };
 

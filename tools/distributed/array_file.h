@@ -18,7 +18,7 @@ namespace pcl
 namespace floater
 {
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 5;
+constexpr std::uint32_t WORK_FORMAT = 6;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
 class WorkError : public std::runtime_error

@@ -48,7 +48,7 @@ starsStep (const StepContext& context, std::size_t block);
 void
 trianglesStep (const StepContext& context, std::size_t block);
 
-/// Does one of BLOCK_STEPS, or of a part, MESH or FINISH, or CROSSING.
+/// Does one of BLOCK_STEPS, or of a part, MESH or FINISH.
 void
 blockStep (const StepContext& context, const std::string& step, std::size_t block);
 

@@ -9,6 +9,7 @@
 #include "large_arrays.h"
 #include "memory_limit.h"
 #include "run_report.h"
+#include "stored_mesh.h"
 
 #include <array>
 #include <chrono>
@@ -156,14 +157,6 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
 
-// Whether the mesh is known, and the files of the blocks have been removed.
-bool
-areBlocksFreed (FolderStore& folder, const Plan& plan)
-{
-  return folder.has (TRIANGLES) &&
-         openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("freed").front () != 0;
-}
-
 // Who works on blocks and parts, and what is told of it.
 struct Workers
 {
@@ -219,32 +212,23 @@ workOnBlocks (const Workers& workers)
     workOn (workers, MESH, context.plan.parts);
 }
 
-// What `join` deals out, if that is of use: parts if all processes together have as many threads
-// for them as this one has for the whole cloud, the search for crossing triangles if they have
-// more, since the mesh has to be written for it.
-JoinDeals
-dealsOfJoin (const Workers& workers)
+// How `join` has parts finished, if all processes together have as many threads for them as this
+// one has for the whole cloud; else empty.
+StoredParts::Deal
+dealOfFinish (const Workers& workers)
 {
-  JoinDeals deals;
-  if (workers.dealer == nullptr)
-    return deals;
-  const auto deal = [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
-    const StepContext& context = workers.context;
-    const std::size_t all = step == FINISH ? partsOf (context).count () : context.plan.blocks;
+  if (workers.dealer == nullptr || workers.dealer->processes () * workers.context.run.threads () <
+                                       RunContext (workers.job.join_threads).threads ())
+    return {};
+  return [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
+    const std::size_t all = partsOf (workers.context).count ();
     const std::size_t count = numbers.size ();
     {
       const HeapReuse reuse (workers.limit);
-      workers.dealer->run (context, step, std::move (numbers));
+      workers.dealer->run (workers.context, step, std::move (numbers));
     }
     sayDone (workers, step, count, all - count);
   };
-  const int threads = workers.dealer->processes () * workers.context.run.threads ();
-  const int join_threads = RunContext (workers.job.join_threads).threads ();
-  if (threads >= join_threads)
-    deals.finish = deal;
-  if (threads > join_threads)
-    deals.crossing = deal;
-  return deals;
 }
 
 int
@@ -266,8 +250,8 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   const Workers workers{job, context, folder, dealer, limit.get (), watch};
   if (!areBlocksFreed (folder, plan))
     workOnBlocks (workers);
-  if (!isFinished (folder, TRIANGLES, plan))
-    if (const int code = joinStep (job, folder, plan, dealsOfJoin (workers)); code != EXIT_OK)
+  if (!isMeshKnown (context, folder))
+    if (const int code = joinStep (job, folder, plan, dealOfFinish (workers)); code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
   const int code = writeStep (job, folder, plan);
@@ -316,9 +300,9 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
     return EXIT_OK;
   }
   if (step == "join" || step == STITCH)
-    return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
-           : step == STITCH                     ? stitchStep (job, folder, plan)
-                                                : joinStep (job, folder, plan);
+    return isMeshKnown (context, folder) ? static_cast<int> (EXIT_OK)
+           : step == STITCH              ? stitchStep (job, folder, plan)
+                                         : joinStep (job, folder, plan);
   if (step == "write")
     return writeStep (job, folder, plan);
   const bool is_of_part = step == MESH || step == FINISH;
@@ -328,9 +312,8 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
                       std::to_string (count) + (is_of_part ? " parts" : " blocks") +
                       ", which are numbered from 0");
   const bool is_done =
-      step == FINISH
-          ? isFinished (folder, TRIANGLES, plan) || isPartFinished (context, folder, job.block)
-          : isFinished (folder, blockFile (step.c_str (), job.block), plan);
+      step == FINISH ? isMeshKnown (context, folder) || isPartFinished (context, folder, job.block)
+                     : isFinished (folder, blockFile (step.c_str (), job.block), plan);
   const HeapReuse reuse (limit.get ());
   if (!is_done)
     blockStep (context, step, job.block);

@@ -7,9 +7,11 @@
 #include "memory_limit.h"
 #include "mesh_normals.h"
 #include "mesh_writer.h"
+#include "precision.h"
 #include "prepared_input.h"
 #include "published_method.h"
 #include "report_json.h"
+#include "stored_mesh.h"
 #include "stored_stages.h"
 #include "summary.h"
 #include "tiles.h"
@@ -17,6 +19,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -57,6 +60,21 @@ checkMemory (const CommandLine& line, std::size_t points)
   if (line.max_memory > 0 && line.max_memory < least)
     throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
                       std::to_string (points) + " points; use " + formatSize (least) + " or more");
+}
+
+// What the report and the mesh need to know of the cloud.
+void
+describeCloud (const Cloud& cloud, const Input& input, Plan& plan)
+{
+  for (const Field& field : cloud.fields)
+    plan.fields.push_back (field.name);
+  plan.warnings = cloud.warnings;
+  plan.finite_points = static_cast<std::size_t> (
+      std::count_if (input.positions.begin (), input.positions.end (),
+                     [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
+  plan.is_single = cloud.single_precision;
+  plan.fits_single =
+      cloud.single_precision || fitSinglePrecision (input.positions, cloud.are_decimals);
 }
 
 void
@@ -126,6 +144,7 @@ planStep (const Job& job, FolderStore& store)
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   shiftOrigin (line, cloud, input);
+  describeCloud (cloud, input, plan);
   const EffectiveOptions effective (line);
   Statistics times; // which nobody reads
   RunMonitor monitor ({{}, {}, {}, line.options.task_callback}, times);
@@ -182,19 +201,16 @@ readPlan (const Job& job, const FolderStore& store)
 }
 
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals& deals)
+joinStep (const Job& job, FolderStore& store, const Plan& plan, const StoredParts::Deal& finish)
 {
-  auto start = std::chrono::steady_clock::now ();
+  const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
   const EffectiveOptions effective (line);
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
   checkMemory (line, plan.cloud_size);
   StoredStages stages (context, store, job.frees_disk ? &store : nullptr);
-  stages.divideFinish (deals.finish);
-  DividedCrossing divided (context, store, stages.ranges (), deals.crossing);
-  if (deals.crossing)
-    stages.divideCrossing (&divided);
+  stages.divideFinish (finish);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
     for (std::size_t block = 0; block < plan.blocks; ++block)
       openArrays (store, blockFile (step, block), plan);
@@ -209,45 +225,35 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals&
   Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -=
       Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   Result result = reconstruct (std::move (input), options, stages);
-  divided.rethrow ();
   Report& report = result.report;
   if (report.status == RunStatus::CANCELLED) // see stitchStep; nobody else does so
     return EXIT_OK;
   RunFigures figures;
   figures.reconstruct_seconds = secondsSince (start);
 
-  start = std::chrono::steady_clock::now ();
-  Cloud cloud = readShifted (job, plan);
-  figures.shift = cloud.shift;
-  figures.input_points = cloud.size ();
-  figures.single_precision = cloud.single_precision;
-  for (const Field& field : cloud.fields)
-    figures.input_fields.push_back (field.name);
-  const bool is_single = choosePrecision (line.precision, *line.meshFormat (), cloud.positions (),
-                                          line.auto_shift || line.shift, cloud);
+  figures.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
+  figures.input_points = plan.cloud_size;
+  figures.single_precision = plan.is_single;
+  figures.input_fields = plan.fields;
+  std::vector<std::string> warnings = plan.warnings;
+  const bool is_single = choosePrecision (
+      line.precision, *line.meshFormat (), [&plan] { return plan.fits_single; },
+      line.auto_shift || line.shift, warnings);
   figures.writes_single = is_single;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
-  report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+  report.warnings.insert (report.warnings.begin (), warnings.begin (), warnings.end ());
   reportMemory (line, report);
-  if (report.status == RunStatus::SUCCESS) {
-    Triangles none;
-    removeNonFinitePoints (cloud, none); // the triangles are renumbered when they are written
-    figures.vertices = cloud.size ();
-  }
-  figures.read_seconds = secondsSince (start);
+  if (report.status == RunStatus::SUCCESS)
+    figures.vertices = plan.finite_points;
   line.input = job.inputs.front ();
   store.putText (REPORT, reportText (line, report, figures));
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
-  ArrayWriter writer;
-  const std::vector<std::uint8_t> single (1, is_single ? 1 : 0), freed (1, job.frees_disk ? 1 : 0);
-  writer.add ("single_precision", single);
-  writer.add ("freed", freed);
-  writer.add ("triangles", result.triangles);
-  store.put (TRIANGLES, writer, plan.id);
-  removeCrossing (store, plan);
-  removeFinished (store, plan);
+  const FinishedMesh mesh{std::move (result.triangles), stages.takeMesh (), is_single,
+                          job.frees_disk};
+  putMesh (store, plan, mesh);
+  removeFinished (store, plan, !mesh.parts);
   if (job.frees_disk) {
     store.finish (); // the mesh is on the disk before that of which it was made goes
     for (const char* step : BLOCK_STEPS)
@@ -262,20 +268,21 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals&
 int
 stitchStep (const Job& job, FolderStore& store, const Plan& plan)
 {
-  JoinDeals deals;
-  deals.finish = [] (const std::string&, const std::deque<std::size_t>&) { throw Cancelled (); };
-  return joinStep (job, store, plan, deals);
+  return joinStep (job, store, plan,
+                   [] (const std::string&, const std::deque<std::size_t>&) { throw Cancelled (); });
 }
 
 int
 writeStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const CommandLine& line = job.line;
-  ArrayFile file = openArrays (store, TRIANGLES, plan);
-  Triangles triangles = file.read<Triangles::value_type> ("triangles");
+  const EffectiveOptions effective (line);
+  const RunContext run (job.join_threads);
+  FinishedMesh mesh = readMesh ({store, plan, effective.options, effective.limits, run});
+  Triangles triangles = std::move (mesh.triangles);
   std::vector<std::size_t> firsts;
   Cloud cloud = readShifted (job, plan, &firsts);
-  cloud.single_precision = file.read<std::uint8_t> ("single_precision").front () != 0;
+  cloud.single_precision = mesh.is_single;
   if (line.compute_normals)
     replaceNormals (cloud, triangles, job.join_threads);
   removeNonFinitePoints (cloud, triangles);
@@ -291,10 +298,10 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
                          job.inputs.size () > 1 ? ownersByFile (cloud, firsts, job.inputs)
                                                 : ownersByBlock (cloud, store, plan));
   else {
-    AtomicFile mesh (line.output);
-    losses = writeMesh (mesh, line.output, cloud, triangles, line.output_format);
-    mesh.close ();
-    mesh.publish ();
+    AtomicFile file (line.output);
+    losses = writeMesh (file, line.output, cloud, triangles, line.output_format);
+    file.close ();
+    file.publish ();
   }
   for (const std::string& loss : losses)
     std::fprintf (stderr, "warning: %s\n", loss.c_str ());

@@ -5,7 +5,6 @@
 
 #include "block_steps.h"
 #include "command_line.h"
-#include "crossing_step.h"
 #include "merged_cloud.h"
 #include "part_steps.h"
 
@@ -73,17 +72,12 @@ defaultBlocks (std::size_t points);
 int
 planStep (const Job& job, FolderStore& store);
 
-/// What `join` has done on all processes; what is empty is done here.
-struct JoinDeals
-{
-  StoredParts::Deal finish;
-  DividedCrossing::Deal crossing;
-};
-
 /// Puts together what the blocks have found out.
+/// \param finish has parts finished on all processes; empty: that is done here
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinDeals& deals = {});
+joinStep (const Job& job, FolderStore& store, const Plan& plan,
+          const StoredParts::Deal& finish = {});
 
 /// The first half of joinStep, up to where parts are finished: what they need for that is then in
 /// the work folder. If the mesh is not made of parts, all of joinStep.

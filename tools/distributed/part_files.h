@@ -25,15 +25,23 @@ public:
   void addFinished (const FinishedPart& part);
   void addChanges (const std::vector<PartChange>& changes);
 
+  /// Lists of marks, one behind the other.
+  void addMarks (const std::string& name, const std::vector<std::vector<std::uint8_t>>& lists);
+
 private:
   template <typename T>
   std::vector<T>& keep ();
+
+  void addCheck (const InnerCheck& check);
+  void addSurroundings (const Surroundings& around);
 
   ArrayWriter arrays_;
   // Arrays that are made for the file, where they stay.
   std::deque<std::vector<Index>> indices_;
   std::deque<std::vector<Triangle>> triangles_;
-  std::vector<std::uint8_t> marks_;
+  std::deque<std::vector<std::uint64_t>> counts_;
+  std::deque<std::vector<double>> numbers_;
+  std::deque<std::vector<std::uint8_t>> marks_;
   std::vector<float> ratios_;
 };
 
@@ -43,6 +51,14 @@ readTriangles (ArrayFile& file, const std::string& name);
 PartRim
 readRim (ArrayFile& file);
 
+std::vector<Triangle>
+readTriangles (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last);
+
+/// Lists of marks.
+std::vector<std::vector<std::uint8_t>>
+readMarks (ArrayFile& file, const std::string& name);
+
+/// Without the inner triangles and their buckets.
 FinishedPart
 readFinished (ArrayFile& file);
 

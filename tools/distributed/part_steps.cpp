@@ -40,8 +40,18 @@ public:
   PartPoints points ()
   {
     const std::vector<Index> own = pointsFrom (first_, last_);
-    return {first_, cloud_.gather (own), gatherVectors (stars_, "normals", own),
-            triangles_.gather<float> ("spacing", own)};
+    return {first_,
+            cloud_.gather (own),
+            gatherVectors (stars_, "normals", own),
+            triangles_.gather<float> ("spacing", own),
+            {}};
+  }
+
+  std::vector<Eigen::Vector3f> facingNormals ()
+  {
+    std::vector<Eigen::Vector3f> normals;
+    readVectors (cloud_.file (), "facing_normals", first_, last_, normals);
+    return normals;
   }
 
   std::vector<Eigen::Vector3f> smoothed ()
@@ -134,6 +144,35 @@ rimOf (StoredPart& stored, const PartPoints& points, const PartMesh& mesh, std::
                   context.limits.surface.consensus.smallest_island);
 }
 
+// What parts need to know of the whole to be finished.
+void
+addWhole (const PartsSettings& settings, std::vector<double>& numbers)
+{
+  numbers = {settings.diagonal, settings.remove_self_intersections ? 1.0 : 0.0,
+             settings.surface.facing.normals != nullptr ? 1.0 : 0.0};
+  if (const std::optional<Eigen::Vector3d>& sensor = settings.surface.facing.sensor)
+    numbers.insert (numbers.end (), sensor->begin (), sensor->end ());
+}
+
+PartsSettings
+readWhole (ArrayFile& file, const StepContext& context, bool& has_facing_normals)
+{
+  const std::vector<double> numbers = file.read<double> ("whole");
+  PartsSettings settings;
+  settings.surface.flip_edges = context.options.flip_edges;
+  settings.surface.limits = context.limits.surface;
+  settings.parts = context.limits.parts;
+  settings.check = context.limits.check;
+  settings.uncrossing = context.limits.uncrossing;
+  settings.diagonal = numbers[0];
+  settings.remove_self_intersections = numbers[1] != 0.0;
+  has_facing_normals = numbers[2] != 0.0;
+  constexpr std::size_t SENSOR = 3; // where its place begins
+  if (numbers.size () > SENSOR)
+    settings.surface.facing.sensor = Eigen::Vector3d (numbers.data () + SENSOR);
+  return settings;
+}
+
 // Tells what was decided from what was decided in another run.
 std::uint64_t
 identify (const std::vector<PartChange>& changes, const std::vector<Index>& scatter)
@@ -196,10 +235,14 @@ finishStep (const StepContext& context, std::size_t part)
   }
   if (stored.isEmpty ()) // it is one part less than was planned
     return;
-  const FinishedPart finished = finishPart (
-      stored.points (), std::move (triangles), readChange (changes, part), stored.neighbors (),
-      scatter, context.options.flip_edges, context.limits.surface.finish, context.limits.parts,
-      partsOf (context).count (), context.run);
+  bool has_facing_normals = false;
+  const PartsSettings settings = readWhole (changes, context, has_facing_normals);
+  PartPoints points = stored.points ();
+  if (has_facing_normals)
+    points.facing_normals = stored.facingNormals ();
+  const FinishedPart finished =
+      finishPart (std::move (points), std::move (triangles), readChange (changes, part),
+                  stored.neighbors (), scatter, settings.ofPart (partsOf (context)), context.run);
   PartWriter writer;
   writer.arrays ().add ("id", id);
   writer.addFinished (finished);
@@ -236,6 +279,9 @@ StoredParts::finish (std::vector<PartChange> changes, const RunContext& run)
   PartWriter writer;
   writer.arrays ().add ("id", &id, 1);
   writer.arrays ().add ("scatter", scatter_);
+  std::vector<double> whole;
+  addWhole (settings_, whole);
+  writer.arrays ().add ("whole", whole);
   writer.addChanges (changes);
   folder_.put (CHANGES, writer.arrays (), context_.plan.id);
   std::deque<std::size_t> left;
@@ -260,10 +306,31 @@ StoredParts::finished (std::size_t part)
   return readFinished (file);
 }
 
+std::vector<Eigen::AlignedBox3d>
+StoredParts::buckets (std::size_t part)
+{
+  ArrayFile file = openArrays (context_.store, blockFile (FINISH, part), context_.plan);
+  return readBoxes (file, "buckets", 0, file.count ("buckets") / BOX);
+}
+
+std::vector<Triangle>
+StoredParts::triangles (std::size_t part, const Ranges& ranges)
+{
+  ArrayFile file = openArrays (context_.store, blockFile (FINISH, part), context_.plan);
+  std::vector<Triangle> some;
+  for (const auto& [first, last] : ranges) {
+    const std::vector<Triangle> triangles = readTriangles (file, "triangles", first, last);
+    some.insert (some.end (), triangles.begin (), triangles.end ());
+  }
+  return some;
+}
+
 void
-removeFinished (const FolderStore& folder, const Plan& plan)
+removeFinished (const FolderStore& folder, const Plan& plan, bool with_triangles)
 {
   folder.remove (CHANGES);
+  if (!with_triangles)
+    return;
   for (std::size_t part = 0; part < plan.parts; ++part)
     folder.remove (blockFile (FINISH, part));
 }

@@ -48,8 +48,8 @@ public:
   /// \param scatter  see finishPart
   /// \param deal     empty: parts are finished by the threads of the run
   StoredParts (const StepContext& context, FolderStore& folder, std::vector<Index> scatter,
-               Deal deal)
-      : context_ (context), folder_ (folder), scatter_ (std::move (scatter)),
+               const PartsSettings& settings, Deal deal)
+      : context_ (context), folder_ (folder), scatter_ (std::move (scatter)), settings_ (settings),
         deal_ (std::move (deal)), parts_ (partsOf (context))
   {
   }
@@ -57,18 +57,22 @@ public:
   PartRim rim (std::size_t part, std::size_t rings) override;
   void finish (std::vector<PartChange> changes, const RunContext& run) override;
   FinishedPart finished (std::size_t part) override;
+  std::vector<Eigen::AlignedBox3d> buckets (std::size_t part) override;
+  std::vector<Triangle> triangles (std::size_t part, const Ranges& ranges) override;
 
 private:
   const StepContext& context_;
   FolderStore& folder_;
   std::vector<Index> scatter_;
+  PartsSettings settings_;
   Deal deal_;
   Parts parts_;
 };
 
 /// Removes what parts have left in the work folder when the mesh is known.
+/// \param with_triangles whether the mesh is not made of what the parts have
 void
-removeFinished (const FolderStore& folder, const Plan& plan);
+removeFinished (const FolderStore& folder, const Plan& plan, bool with_triangles);
 
 } // namespace floater
 } // namespace pcl

@@ -66,7 +66,12 @@ contents (const Plan& plan)
           {"centre", plan.centre},
           {"scale", plan.scale},
           {"sensor_origin", plan.sensor_origin},
-          {"shift", plan.shift}};
+          {"shift", plan.shift},
+          {"fields", plan.fields},
+          {"warnings", plan.warnings},
+          {"finite_points", plan.finite_points},
+          {"is_single", plan.is_single},
+          {"fits_single", plan.fits_single}};
 }
 
 } // namespace
@@ -148,6 +153,11 @@ parseManifest (const std::string& text, const std::string& name)
     json.at ("scale").get_to (plan.scale);
     json.at ("sensor_origin").get_to (plan.sensor_origin);
     json.at ("shift").get_to (plan.shift);
+    json.at ("fields").get_to (plan.fields);
+    json.at ("warnings").get_to (plan.warnings);
+    json.at ("finite_points").get_to (plan.finite_points);
+    json.at ("is_single").get_to (plan.is_single);
+    json.at ("fits_single").get_to (plan.fits_single);
     if (checksum !=
         hexadecimal (hash (contents (plan).dump (-1, ' ', false, Json::error_handler_t::replace))))
       refuse ("is damaged; delete it and run again");

@@ -37,6 +37,10 @@ struct Plan
   std::size_t lattice_width = 0;
   std::array<double, 3> centre{}, sensor_origin{}, shift{};
   double scale = 1.0;
+  std::vector<std::string> fields, warnings; ///< of the cloud, but for its coordinates
+  std::size_t finite_points = 0;             ///< of the cloud
+  bool is_single = true;                     ///< its coordinates are 32-bit floats, ...
+  bool fits_single = true;                   ///< ... or these hold them
 };
 
 /// \throws ReadError if a file is missing

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "block_steps.h"
-#include "crossing_step.h"
 #include "part_steps.h"
 
 #include "cloud_geometry.h"
@@ -290,8 +289,6 @@ blockStep (const StepContext& context, const std::string& step, std::size_t bloc
     return meshStep (context, block);
   if (step == FINISH)
     return finishStep (context, block);
-  if (step == CROSSING)
-    return crossingStep (context, block);
   throw std::logic_error ("a block step of this name");
 }
 

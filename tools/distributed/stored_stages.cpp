@@ -181,9 +181,9 @@ StoredStages::spacing ()
 }
 
 std::unique_ptr<PartWork>
-StoredStages::parts (const std::vector<Index>& scatter)
+StoredStages::parts (const std::vector<Index>& scatter, const PartsSettings& settings)
 {
-  return std::make_unique<StoredParts> (context_, folder_, scatter, finish_);
+  return std::make_unique<StoredParts> (context_, folder_, scatter, settings, finish_);
 }
 
 ProposedTriangles
@@ -223,14 +223,6 @@ StoredStages::triangles ()
       freed_->remove (blockFile ("triangles", block));
   });
   return proposed;
-}
-
-std::vector<CrossingPair>
-StoredStages::crossing (const std::vector<Triangle>& triangles, const Points& points,
-                        const RunContext& run)
-{
-  return divided_ != nullptr ? divided_->find (triangles, points.positions, run)
-                             : findSelfIntersections (triangles, points.positions, run);
 }
 
 } // namespace floater

@@ -4,9 +4,11 @@
 #pragma once
 
 #include "block_steps.h"
-#include "crossing_step.h"
 #include "known_stages.h"
 #include "part_steps.h"
+
+#include <optional>
+#include <utility>
 
 namespace pcl
 {
@@ -31,19 +33,16 @@ public:
   NoiseProbes noiseProbes () override;
   LocalGeometry geometry (LocalPlanes planes, bool with_stars) override;
   std::vector<float> spacing () override;
-  std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter) override;
+  std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter,
+                                   const PartsSettings& settings) override;
   ProposedTriangles triangles () override;
-  std::vector<CrossingPair> crossing (const std::vector<Triangle>& triangles, const Points& points,
-                                      const RunContext& run) override;
+  void keepMesh (MeshOfParts mesh) override { mesh_ = std::move (mesh); }
 
-  /// Has the search for crossing triangles done by others, too. \param divided must outlive this
-  void divideCrossing (DividedCrossing* divided) { divided_ = divided; }
+  /// The mesh, if it is in parts.
+  std::optional<MeshOfParts> takeMesh () { return std::move (mesh_); }
 
   /// Has parts finished by others, too.
   void divideFinish (StoredParts::Deal deal) { finish_ = std::move (deal); }
-
-  /// The points of each block, without outliers.
-  const BlockRanges& ranges () const { return ranges_; }
 
 private:
   // Calls visit (file of a step, block) for all blocks.
@@ -56,7 +55,7 @@ private:
   FolderStore& folder_;
   const FolderStore* freed_;
   StoredParts::Deal finish_;
-  DividedCrossing* divided_ = nullptr;
+  std::optional<MeshOfParts> mesh_;
   std::vector<Index> outliers_;
   BlockRanges ranges_; // without outliers
 };

@@ -47,20 +47,30 @@ fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_deci
 }
 
 bool
-choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
-                 bool is_shift_asked, Cloud& cloud)
+choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
+                 bool is_shift_asked, std::vector<std::string>& warnings)
 {
   if (wanted != Precision::AUTO)
     return wanted == Precision::SINGLE;
-  if (cloud.single_precision || fitSinglePrecision (positions, cloud.are_decimals))
+  if (fits_single ())
     return true;
   if (output == MeshFormat::PLY)
-    cloud.warnings.emplace_back (
+    warnings.emplace_back (
         "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
         "as 0: use --precision single or another format for PCL, " +
         std::string (is_shift_asked ? "" : "--shift if they are far from zero, ") +
         "or --precision double if doubles are wanted");
   return false;
+}
+
+bool
+choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
+                 bool is_shift_asked, Cloud& cloud)
+{
+  const auto fits = [&] {
+    return cloud.single_precision || fitSinglePrecision (positions, cloud.are_decimals);
+  };
+  return choosePrecision (wanted, output, fits, is_shift_asked, cloud.warnings);
 }
 
 } // namespace floater

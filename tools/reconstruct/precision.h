@@ -6,6 +6,10 @@
 #include "cloud.h"
 #include "mesh_writer.h"
 
+#include <functional>
+#include <string>
+#include <vector>
+
 namespace pcl
 {
 namespace floater
@@ -26,8 +30,14 @@ bool
 fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals);
 
 /// Whether to write 32-bit floats, and a warning if readers may not expect what is written.
-/// \param positions of the cloud, after the shift
+/// \param fits_single whether they hold all coordinates; asked only if that decides
 /// \param is_shift_asked so that the warning does not advise it
+bool
+choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
+                 bool is_shift_asked, std::vector<std::string>& warnings);
+
+/// The same for a cloud.
+/// \param positions of the cloud, after the shift
 bool
 choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
                  bool is_shift_asked, Cloud& cloud);

@@ -115,8 +115,10 @@ TEST_P (StitchedSurface, DoesNotDependOnWhatIsSeen)
   for (const double noise : {0.0, 0.25}) {
     Prepared prepared = prepare (surface (GetParam (), 4000, noise));
     const Parts parts (prepared.points.size (), limits);
-    const SurfaceSettings settings;
-    LocalParts work (prepared.points, parts, prepared.geometry, settings, limits, 1);
+    PartsSettings parts_settings;
+    parts_settings.parts = limits;
+    const SurfaceSettings& settings = parts_settings.surface;
+    LocalParts work (prepared.points, parts, prepared.geometry, parts_settings, 1);
     const std::optional<Stitching> all = stitchWith (EVERYTHING, work, parts, settings);
     ASSERT_TRUE (all);
     EXPECT_FALSE (all->seam.empty ());
@@ -146,8 +148,10 @@ TEST (Stitching, TellsThatTooLittleIsSeen)
   limits.points = 700;
   Prepared prepared = prepare (surface (SurfaceKind::HEIGHT_FIELD, 3000));
   const Parts parts (prepared.points.size (), limits);
-  const SurfaceSettings settings;
-  LocalParts work (prepared.points, parts, prepared.geometry, settings, limits, 1);
+  PartsSettings parts_settings;
+  parts_settings.parts = limits;
+  const SurfaceSettings& settings = parts_settings.surface;
+  LocalParts work (prepared.points, parts, prepared.geometry, parts_settings, 1);
   EXPECT_FALSE (stitchWith (2, work, parts, settings));
   EXPECT_TRUE (stitchWith (8, work, parts, settings));
 }

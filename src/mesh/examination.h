@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an examination tells, of all that was found around the points of a mesh.
+#pragma once
+
+#include "mesh/surroundings.h"
+
+#include <functional>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// What was found of a mesh, point by point.
+struct ExaminedParts
+{
+  Surroundings around;                       ///< all of its points
+  std::size_t triangles = 0;                 ///< proper ones
+  std::size_t components = 0;                ///< connected by edges
+  std::vector<std::size_t> component_points; ///< vertices of each component, connected by vertices
+  std::vector<Index> component_first;        ///< the smallest one of each
+};
+
+/// The examination, but for triangles that cross each other: with the boundary loops and the genus.
+/// O(boundary log boundary) \param component_of of a point at the boundary \param spacing local
+/// spacing of each point
+MeshExamination
+makeExamination (ExaminedParts parts, const std::function<Index (Index)>& component_of,
+                 const Points& points, const std::vector<float>& spacing);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Decides which components of a mesh are turned round.
+#pragma once
+
+#include "mesh/facing.h"
+#include "mesh/facing_objects.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// A mesh whose facing is judged. It is asked for its triangles only where sums over its components
+/// do not decide, but lines of sight.
+class FacedMesh
+{
+public:
+  virtual ~FacedMesh () = default;
+
+  virtual const std::vector<Triangle>& triangles () = 0;
+  virtual const std::vector<Index>& components () = 0; ///< of each triangle
+  virtual const std::vector<Eigen::Vector3d>& positions () = 0;
+  virtual std::vector<BoundarySegment> boundary () = 0;
+};
+
+/// The hints without what cannot be done: no viewpoint is known that a mesh could face.
+FacingHints
+usableHints (const FacingHints& hints, MeshFacing& facing);
+
+/// See faceOutwards.
+/// \param together see findTogether
+/// \return of each component: 1 if it is to be turned round
+std::vector<std::uint8_t>
+judgeFacing (FacedMesh& mesh, const std::vector<FacingSums>& components,
+             std::vector<Continuation> together, const FacingHints& hints,
+             const FacingLimits& limits, const RunContext& run, MeshFacing& facing);
+
+} // namespace floater
+} // namespace pcl

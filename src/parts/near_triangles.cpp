@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parts/near_triangles.h"
+
+#include "core/order_statistics.h"
+#include "core/parallel.h"
+#include "mesh/box_tree.h"
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace floater
+{
+namespace
+{
+// A bucket that is in the box of another part.
+struct SharedBucket
+{
+  Index part;
+  Index number;
+  Eigen::AlignedBox3d box;
+};
+
+// Which buckets of one part are needed, and which may be.
+struct PartBuckets
+{
+  std::vector<Index> needed;
+  std::vector<SharedBucket> shared;
+};
+
+class NearFinder
+{
+public:
+  NearFinder (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& positions,
+              const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run)
+      : checks_ (checks), work_ (work), run_ (run),
+        seam_ (
+            seam.size (), [&] (std::size_t t) { return boxOf (seam[t], positions); }, run),
+        parts_ (
+            checks.size (), [&] (std::size_t p) { return checks[p].box; }, run),
+        needed_ (checks.size ())
+  {
+  }
+
+  NearTriangles find ()
+  {
+    chooseBuckets ();
+    std::vector<NearTriangles> found (checks_.size ());
+    parallelTasks (run_, found.size (),
+                   [&] (std::size_t part) { found[part] = read (static_cast<Index> (part)); });
+    NearTriangles all;
+    for (const NearTriangles& one : found) {
+      all.triangles.insert (all.triangles.end (), one.triangles.begin (), one.triangles.end ());
+      all.part.insert (all.part.end (), one.part.begin (), one.part.end ());
+      all.component.insert (all.component.end (), one.component.begin (), one.component.end ());
+    }
+    return all;
+  }
+
+private:
+  void chooseBuckets ()
+  {
+    std::vector<PartBuckets> looked_at (checks_.size ());
+    parallelTasks (run_, checks_.size (), [&] (std::size_t part) {
+      looked_at[part] = lookAt (static_cast<Index> (part));
+    });
+    std::vector<SharedBucket> shared;
+    for (std::size_t part = 0; part < looked_at.size (); ++part) {
+      needed_[part] = std::move (looked_at[part].needed);
+      shared.insert (shared.end (), looked_at[part].shared.begin (), looked_at[part].shared.end ());
+    }
+    const BoxTree tree (
+        shared.size (), [&] (std::size_t i) { return shared[i].box; }, run_);
+    for (std::size_t leaf = 0; leaf < tree.leaves (); ++leaf)
+      tree.forOverlaps (leaf, [&] (std::size_t i, std::size_t j) {
+        if (shared[i].part == shared[j].part)
+          return;
+        needed_[shared[i].part].push_back (shared[i].number);
+        needed_[shared[j].part].push_back (shared[j].number);
+      });
+    for (std::vector<Index>& numbers : needed_)
+      sortUnique (numbers);
+  }
+
+  PartBuckets lookAt (Index part)
+  {
+    PartBuckets found;
+    for (const Index t : checks_[part].rim)
+      if (const auto bucket = static_cast<Index> (t / InnerCheck::BUCKET);
+          found.needed.empty () || found.needed.back () != bucket)
+        found.needed.push_back (bucket);
+    const std::vector<Eigen::AlignedBox3d> buckets = work_.buckets (part);
+    for (Index b = 0; b < buckets.size (); ++b) {
+      bool is_needed = false, is_shared = false;
+      seam_.forOverlaps (buckets[b], [&] (std::size_t) { is_needed = true; });
+      if (is_needed)
+        found.needed.push_back (b);
+      parts_.forOverlaps (buckets[b], [&] (std::size_t p) { is_shared = is_shared || p != part; });
+      if (is_shared)
+        found.shared.push_back ({part, b, buckets[b]});
+    }
+    return found;
+  }
+
+  NearTriangles read (Index part)
+  {
+    NearTriangles found;
+    PartWork::Ranges ranges;
+    const std::vector<Index>& numbers = needed_[part];
+    const InnerCheck& check = checks_[part];
+    for (std::size_t begin = 0, end = 0; begin < numbers.size (); begin = end) {
+      for (end = begin + 1; end < numbers.size () && numbers[end] == numbers[end - 1] + 1;)
+        ++end;
+      const std::size_t first = numbers[begin] * InnerCheck::BUCKET;
+      const std::size_t last =
+          std::min (check.triangles, (numbers[end - 1] + std::size_t{1}) * InnerCheck::BUCKET);
+      ranges.emplace_back (first, last);
+      for (std::size_t t = first; t < last; ++t) {
+        const auto at = std::lower_bound (check.rim.begin (), check.rim.end (), t);
+        found.component.push_back (
+            at != check.rim.end () && *at == t
+                ? check.rim_component[static_cast<std::size_t> (at - check.rim.begin ())]
+                : NONE);
+      }
+    }
+    if (!ranges.empty ())
+      found.triangles = work_.triangles (part, ranges);
+    found.part.assign (found.triangles.size (), part);
+    return found;
+  }
+
+  const std::vector<InnerCheck>& checks_;
+  PartWork& work_;
+  const RunContext& run_;
+  BoxTree seam_, parts_;
+  std::vector<std::vector<Index>> needed_; // buckets of each part
+};
+
+} // namespace
+
+NearTriangles
+findNearTriangles (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& positions,
+                   const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run)
+{
+  return NearFinder (seam, positions, checks, work, run).find ();
+}
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inner triangles of parts that others have to know.
+#pragma once
+
+#include "parts/part_work.h"
+
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// Some inner triangles.
+struct NearTriangles
+{
+  std::vector<Triangle> triangles; ///< corners are points
+  std::vector<Index> part;         ///< of each triangle
+  std::vector<Index> component;    ///< of each triangle, among the inner ones of its part; NONE if
+                                   ///< it has no corner in the zone
+};
+
+/// The inner triangles that have a corner in a zone, and those that may cross a triangle of a zone
+/// or an inner triangle of another part; with others that are next to them. O(n / 64) for n points,
+/// as buckets are looked at, and O(m log m) for m triangles that are found.
+/// \param seam      all triangles that are not inner ones, in the order of their smallest points
+/// \param positions of their corners
+/// \param checks    of all parts
+NearTriangles
+findNearTriangles (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& positions,
+                   const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run);
+
+} // namespace floater
+} // namespace pcl

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the parts of a cloud are meshed and finished.
+#pragma once
+
+#include "parts/part_finish.h"
+#include "parts/part_rim.h"
+
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace floater
+{
+/// The work on the parts: in this process, or in others. All results are those of the functions
+/// that are named. What is not void may be asked for by several threads.
+class PartWork
+{
+public:
+  virtual ~PartWork () = default;
+
+  /// See findRim; of the part's mesh by makePartMesh.
+  virtual PartRim rim (std::size_t part, std::size_t rings) = 0;
+
+  /// Finishes all parts, see finishPart. Called once, after all rims.
+  /// \param changes of each part
+  virtual void finish (std::vector<PartChange> changes, const RunContext& run) = 0;
+
+  /// The finished part, without its inner triangles and their buckets. Asked for once.
+  virtual FinishedPart finished (std::size_t part) = 0;
+
+  /// The buckets of the inner triangles of a finished part. Asked for once.
+  virtual std::vector<Eigen::AlignedBox3d> buckets (std::size_t part) = 0;
+
+  /// From a triangle to before another one.
+  using Ranges = std::vector<std::pair<std::size_t, std::size_t>>;
+
+  /// Inner triangles of a finished part; corners are points.
+  virtual std::vector<Triangle> triangles (std::size_t part, const Ranges& ranges) = 0;
+};
+
+} // namespace floater
+} // namespace pcl
