@@ -129,6 +129,40 @@ class Case(unittest.TestCase):
     def step(self, *arguments):
         return run(self.command("--step", *arguments))
 
+    def submit(self, *arguments):
+        """Runs submit.sh with an sbatch that runs each job at once. Returns the number of tasks of each
+        step."""
+        sbatch = self.path("bin") / "sbatch"
+        sbatch.parent.mkdir()
+        sbatch.write_text("""#!/usr/bin/env bash
+set -euo pipefail
+tasks=(0)
+while (($# > 0)); do
+  case "$1" in
+    --parsable) ;;
+    --dependency=afterok:*) [[ ${1##*:} == "$(cat last)" ]] ;;
+    --array=*) range=${1#--array=}; mapfile -t tasks < <(seq "${range%%-*}" "$(cut -d- -f2 <<<"${range%%\\%*}")") ;;
+    --wrap) command=$2; shift ;;
+    *) exit 1 ;;
+  esac
+  shift
+done
+for SLURM_ARRAY_TASK_ID in "${tasks[@]}"; do
+  export SLURM_ARRAY_TASK_ID
+  sh -c "$command" >&2
+  sed 's/.*--step \\([a-z]*\\).*/\\1/' <<<"$command" >>tasks
+done
+echo "$RANDOM" | tee last
+""")
+        sbatch.chmod(0o755)
+        tools = pathlib.Path(OPTIONS.distributed).resolve().parent
+        script = pathlib.Path(__file__).resolve().parent / "submit.sh"
+        outcome = run([script, self.path("work"), *arguments], cwd=self.folder,
+                      env=dict(os.environ, PATH=f"{sbatch.parent}:{tools}:{os.environ['PATH']}"))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        steps = self.path("tasks").read_text().split()
+        return {step: steps.count(step) for step in steps}
+
 
 class Surfaces(Case):
     PAIRS = [(1, 5), (2, 5), (3, 64), (7, 5), (1, 64), (2, 64), (3, 5), (7, 64)]
@@ -488,35 +522,10 @@ class Steps(Case):
         self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
 
     def test_slurm_script(self):
-        """With an sbatch that runs each job at once."""
         cloud = self.generate("torus", "--points", 3000)
-        sbatch = self.path("bin") / "sbatch"
-        sbatch.parent.mkdir()
-        sbatch.write_text("""#!/usr/bin/env bash
-set -euo pipefail
-tasks=(0)
-while (($# > 0)); do
-  case "$1" in
-    --parsable) ;;
-    --dependency=afterok:*) [[ ${1##*:} == "$(cat last)" ]] ;;
-    --array=*) range=${1#--array=}; mapfile -t tasks < <(seq "${range%%-*}" "$(cut -d- -f2 <<<"${range%%\\%*}")") ;;
-    --wrap) command=$2; shift ;;
-    *) exit 1 ;;
-  esac
-  shift
-done
-for SLURM_ARRAY_TASK_ID in "${tasks[@]}"; do
-  export SLURM_ARRAY_TASK_ID
-  sh -c "$command" >&2
-done
-echo "$RANDOM" | tee last
-""")
-        sbatch.chmod(0o755)
-        tools = pathlib.Path(OPTIONS.distributed).resolve().parent
-        script = pathlib.Path(__file__).resolve().parent / "submit.sh"
-        outcome = run([script, self.path("work"), "--blocks", 3, cloud, self.path("mesh.ply")], cwd=self.folder,
-                      env=dict(os.environ, PATH=f"{sbatch.parent}:{tools}:{os.environ['PATH']}"))
-        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        tasks = self.submit("--blocks", 3, cloud, self.path("mesh.ply"))
+        self.assertEqual(tasks, {"neighbors": 3, "outliers": 1, "planes": 3, "stars": 3, "triangles": 3,
+                                 "join": 1, "write": 1})
         self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
 
     def test_report(self):
@@ -619,9 +628,11 @@ class Parts(Case):
         manifest = json.loads((self.path("work") / "manifest.json").read_text())
         self.assertEqual(manifest["parts"], 2)
 
-    def test_slurm_script_has_the_steps_of_parts(self):
-        script = (pathlib.Path(__file__).resolve().parent / "submit.sh").read_text()
-        self.assertIn("steps+=(mesh stitch finish)", script)
+    def test_slurm_script(self):
+        tasks = self.submit("--blocks", 3, self.cloud, self.path("mesh.ply"))
+        self.assertEqual(tasks, {"neighbors": 3, "outliers": 1, "planes": 3, "stars": 3, "triangles": 3,
+                                 "mesh": 2, "stitch": 1, "finish": 2, "join": 1, "write": 1})
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.mesh.read_bytes())
 
 
 class Disk(Case):

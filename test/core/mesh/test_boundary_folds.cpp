@@ -89,6 +89,24 @@ TEST (BoundaryFolds, TwoTrianglesAreTakenOutIfOneIsNotEnough)
   EXPECT_EQ (openAll (changed, mesh), 2U);
 }
 
+TEST (BoundaryFolds, NothingIsTakenWhereAPartOfAMeshEnds)
+{
+  // The strip with the two triangles that are turned over. The mesh goes on beyond its ends, but
+  // for the first column in the second case: that is too far from the fold to end it.
+  Mesh mesh = strip ();
+  mesh.positions[10] = {3.0, -0.5, 0.0};
+  for (const Index first : {0U, 1U}) {
+    TriangleMesh part = connected (mesh);
+    part.is_partial.assign (mesh.positions.size (), 0);
+    for (const std::vector<Index>& loop : boundaryLoops (part, 1))
+      for (const Index p : loop)
+        part.is_partial[p] = p % 7 >= first ? 1 : 0;
+    ASSERT_GT (foldsOf (part, mesh), 0U);
+    EXPECT_EQ (openBoundaryFolds (part, mesh.positions, 1), 0U);
+    EXPECT_EQ (part.triangles, mesh.triangles);
+  }
+}
+
 TEST (BoundaryFolds, EveryPointKeepsATriangle)
 {
   // A fold whose triangles are all that their points have.
