@@ -38,10 +38,11 @@ def mpirun(processes, *more):
             processes]
 
 
-def write_ply(path, points):
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
-              "property float x\nproperty float y\nproperty float z\nend_header\n")
-    path.write_bytes(header.encode() + b"".join(struct.pack("<3f", *p) for p in points))
+def write_ply(path, points, more=()):
+    fields = ["x", "y", "z", *more]
+    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n" +
+              "".join(f"property float {field}\n" for field in fields) + "end_header\n")
+    path.write_bytes(header.encode() + b"".join(struct.pack(f"<{len(fields)}f", *p) for p in points))
 
 
 def scan_points(columns=90, rows=70):
@@ -191,29 +192,9 @@ class Surfaces(Case):
     def test_near_sheets(self):
         self.check(self.generate("folded-sheet", "--points", 9000, "--gap", 2), [(2, 5)])
 
-    def test_crossing_triangles_are_searched_by_all(self):
-        """Some are moved apart, so that there is a second search."""
-        cloud = self.generate("folded-sheet", "--points", 9000, "--gap", 2)
-        expected = self.reference(cloud)
-        for processes, blocks in self.PAIRS[1:] if OPTIONS.long else [(2, 1), (2, 5), (3, 64)]:
-            for exchange in ("files", "messages"):
-                with self.subTest(processes=processes, blocks=blocks, exchange=exchange):
-                    told = self.expect_same(expected, [cloud], processes, blocks, "--exchange", exchange,
-                                            "--join-threads", 1)
-                    searches = [line for line in told.split("\n") if line.startswith("crossing: ")]
-                    self.assertEqual(len(searches), 2 if processes > 1 else 0, told)
-                    self.assertEqual([f.name for f in self.path("work").glob("crossing*")], [])
-
     def test_crossing_triangles_among_outliers(self):
         write_ply(self.path("terrain.ply"), terrain_points(9000))
-        told = self.expect_same(self.reference(self.path("terrain.ply")), [self.path("terrain.ply")], 2, 5,
-                                "--join-threads", 1)
-        self.assertIn("crossing: 5 blocks done", told)
-
-    def test_crossing_triangles_are_not_divided_for_fewer_threads(self):
-        cloud = self.generate("torus", "--points", 3000)
-        told = self.expect_same(self.reference(cloud), [cloud], 2, 5, "--join-threads", 2)
-        self.assertNotIn("crossing:", told)
+        self.check(self.path("terrain.ply"), [(2, 5)])
 
     def test_empty_blocks(self):
         self.check(self.generate("hemisphere", "--points", 600), [(3, 64)])
@@ -566,14 +547,16 @@ class Parts(Case):
             with self.subTest(processes=processes, blocks=blocks):
                 told = self.check(processes, blocks)
                 self.assertIn("mesh: 2 parts done", told)
-                self.assertEqual([f.name for f in self.path("work").glob("finish*")], [])
+                self.assertEqual(sorted(f.name for f in self.path("work").glob("finish*")),
+                                 ["finish.0.bin", "finish.1.bin"])  # they have the triangles of the mesh
                 self.assertFalse((self.path("work") / "changes.bin").exists())
 
     def test_messages_and_less_memory(self):
         told = self.check(2, 3, "--exchange", "messages", "--max-memory", "300M", "--free-disk")
         self.assertIn("finish: 2 parts done", told)
         self.assertEqual(sorted(f.name for f in self.path("work").iterdir()),
-                         ["manifest.json", "mesh.bin", "outliers.bin", "points.bin", "report.json"])
+                         ["finish.0.bin", "finish.1.bin", "manifest.json", "mesh.bin", "outliers.bin", "points.bin",
+                          "report.json"])
 
     def test_printed_steps_and_restart(self):
         mesh = self.path("mesh.ply")
@@ -619,6 +602,51 @@ class Parts(Case):
         for step in STEPS:
             self.assertIn(f"{step}: 0 blocks done, 2 finished before", outcome.stderr)
         self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+
+    def test_what_the_mesh_is_made_of_is_damaged_or_missing(self):
+        mesh, work = self.path("mesh.ply"), self.path("work")
+        command = self.command("--blocks", 2, self.cloud, mesh)
+        self.assertEqual(run(command).returncode, 0)
+        part = work / "finish.1.bin"
+        saved = part.read_bytes()
+        part.write_bytes(saved[:-1000])
+        mesh.unlink()
+        self.expect_failure(run(command), WORK, "finish.1.bin", "is truncated")
+        self.expect_failure(self.step("write"), WORK, "finish.1.bin", "is truncated")
+        self.assertFalse(mesh.exists())
+        part.unlink()
+        self.expect_failure(self.step("write"), WORK, "finish.1.bin")
+        outcome = run(command)  # makes it again
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("triangles: 0 blocks done, 2 finished before", outcome.stderr)
+        self.assertTrue(part.read_bytes() == saved)
+        self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+
+    def check_two_sheets(self, gap, *options):
+        """Two sheets, so that each part has several components."""
+        numbers = random.Random(3)
+        side, points = 520, []
+        for i in range(2 * side * side):
+            x, y = i // 2 % side + 0.6 * numbers.random(), i // 2 // side + 0.6 * numbers.random()
+            z = 8.0 * math.sin(0.02 * x) * math.cos(0.03 * y) + 0.2 * numbers.random()
+            is_upper = i % 2 == 1
+            points.append((x + (0.4 if is_upper else 0), y, z + gap * is_upper, 0, 0, -1.0 if is_upper else 1.0))
+        write_ply(self.path("sheets.ply"), points, ["nx", "ny", "nz"])
+        expected = self.reference(self.path("sheets.ply"), *options)
+        told = self.expect_same(expected, [self.path("sheets.ply")], 2, 3, *options)
+        self.assertIn("finish: 2 parts done", told)
+
+    def test_sheets_that_face_different_ways(self):
+        self.check_two_sheets(60.0, "--use-input-normals", "on")
+
+    def test_crossing_triangles(self):
+        self.check_two_sheets(1.8)
+
+    def test_trimming(self):
+        options = ("--min-component", 300000, "--max-edge-ratio", 4)
+        expected = self.reference(self.cloud, *options)
+        self.expect_same(expected, [self.cloud], 2, 2, *options)
+        self.assertEqual(list(self.path("work").glob("finish*")), [])
 
     def test_one_part_is_left_without_outliers(self):
         """The plan has two parts, as the points with outliers would have."""
@@ -704,8 +732,7 @@ class Restart(Case):
                     self.kill_one_of(process, i)
             if not self.path("work").exists():
                 continue
-            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")
-                     if not f.name.startswith("crossing")}  # these go when the mesh is known
+            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")}
             for name, inode in known.items():
                 self.assertEqual(files.get(name), inode, f"{name} was made again")
             known = files
@@ -714,36 +741,6 @@ class Restart(Case):
         self.assertTrue(mesh.read_bytes() == expected)
         for name, inode in known.items():
             self.assertEqual(self.path("work").joinpath(name).stat().st_ino, inode)
-
-    def test_a_search_for_crossing_triangles_goes_on(self):
-        cloud = self.generate("folded-sheet", "--points", 9000, "--gap", 2)
-        work, mesh = self.path("work"), self.path("mesh.ply")
-        command = mpirun(2) + self.command("--blocks", 5, "--join-threads", 1, cloud, mesh)
-
-        def searches(outcome):
-            return [line.rsplit(",", 1)[0] for line in outcome.stderr.split("\n") if line.startswith("crossing: ")]
-
-        work.joinpath("report.json").mkdir(parents=True)  # it cannot be written, when all is found
-        outcome = run(command)
-        self.assertEqual(outcome.returncode, OUTPUT, outcome.stderr)
-        self.assertEqual(searches(outcome), 2 * ["crossing: 5 blocks done, 0 finished before"])
-        self.assertEqual(sorted(f.name for f in work.glob("crossing*")), [f"crossing.{i}.bin" for i in range(10)])
-        work.joinpath("report.json").rmdir()
-        part = work / "crossing.3.bin"
-        good = part.read_bytes()
-        part.write_bytes(good[:-3] + bytes([good[-3] ^ 4]) + good[-2:])
-        outcome = run(command)
-        self.assertEqual(outcome.returncode, WORK, outcome.stderr)
-        self.assertIn(str(part), outcome.stderr)
-        self.assertIn("damaged", outcome.stderr)
-        self.assertFalse(mesh.exists())
-        part.write_bytes(work.joinpath("crossing.8.bin").read_bytes())  # of another mesh
-        work.joinpath("crossing.9.bin").unlink()
-        outcome = run(command)
-        self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        self.assertEqual(searches(outcome), 2 * ["crossing: 1 blocks done, 4 finished before"])
-        self.assertTrue(mesh.read_bytes() == self.reference(cloud))
-        self.assertEqual(list(work.glob("crossing*")), [])
 
     def kill_one_of(self, process, i):
         """Kills one of the processes of the run, or mpirun itself with all."""
@@ -972,7 +969,7 @@ class Messages(Case):
         expected = self.reference(self.path("terrain.ply"))
         outcome = self.nodes(self.path("terrain.ply"), "--exchange", "messages", "--join-threads", 1)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        self.assertIn("crossing: 5 blocks done", outcome.stderr)
+        self.assertIn("triangles: 5 blocks done", outcome.stderr)
         self.assertTrue(self.path("mesh.ply").read_bytes() == expected)
 
     def test_no_common_folder_and_no_messages(self):
