@@ -142,13 +142,19 @@ withoutTriangle (const TriangleMesh& mesh)
 }
 
 // Points from where on triangles are in the zone: those at triangles of several parts, at the
-// boundary, or without a triangle.
+// boundary, without a triangle, or neighbours of such a point, which may be in another part.
 std::vector<Index>
-seedsOfZone (const TriangleMesh& mesh)
+seedsOfZone (const TriangleMesh& mesh, const PartPoints& points, const NeighborRows& neighbors,
+             const std::vector<Index>& beside)
 {
   std::vector<std::uint8_t> is_seed = mesh.is_partial;
-  for (const Index p : withoutTriangle (mesh))
+  const std::vector<Index> missing = withoutTriangle (mesh);
+  for (const Index p : missing)
     is_seed[p] = 1;
+  for (const Index q : neighborsWithin (points, neighbors, missing).ids)
+    is_seed[q] = 1;
+  for (const Index p : beside)
+    is_seed[p - points.first] = 1;
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     for (std::uint8_t side = 0; side < 3; ++side)
       if (mesh.neighbors[t][side] == NONE)
@@ -293,7 +299,8 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
   finished.folds_after_flips = finish.folds_after_flips;
 
   const MeshRegion region =
-      regionAround (mesh.triangles, points.size (), seedsOfZone (mesh), settings.parts.rings);
+      regionAround (mesh.triangles, points.size (),
+                    seedsOfZone (mesh, points, neighbors, change.beside), settings.parts.rings);
   const std::vector<std::uint8_t> is_in_zone = markAll (region.triangles, mesh.triangles.size ());
   finished.corners =
       sampleCorners (mesh, points.positions, CORNER_SAMPLE / settings.part_count + 1, run);

@@ -31,17 +31,20 @@ toPlaces (const JoinedPoints& points, CsrLists& lists)
 }
 
 // Which triangles are not to be repaired: those that are not near to one with corners in several
-// parts, or to a point without a triangle, and those at edges between partial points that have no
-// triangle on the other side. It may be one that is in no zone.
+// parts, or to a neighbour of a point without a triangle, and those at edges between partial points
+// that have no triangle on the other side. It may be one that is in no zone.
 std::vector<std::uint8_t>
-findFixed (const TriangleMesh& mesh, std::size_t first_of_seam, std::size_t rings)
+findFixed (const TriangleMesh& mesh, const CsrLists& neighbors, std::size_t first_of_seam,
+           std::size_t rings)
 {
   std::vector<Index> seeds;
   for (std::size_t t = first_of_seam; t < mesh.triangles.size (); ++t)
     seeds.insert (seeds.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
   for (Index p = 0; p < mesh.triangle_of.size (); ++p)
-    if (mesh.triangle_of[p] == NONE)
-      seeds.push_back (p);
+    if (mesh.triangle_of[p] == NONE) {
+      const Row row = neighbors.row (p);
+      seeds.insert (seeds.end (), row.begin (), row.end ());
+    }
   std::vector<std::uint8_t> is_fixed (mesh.triangles.size (), 1);
   for (const Index t :
        regionAround (mesh.triangles, mesh.triangle_of.size (), seeds, rings).triangles)
@@ -95,7 +98,7 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
     mesh.triangles.push_back ({points.placeOf (a), points.placeOf (b), points.placeOf (c)});
   if (!mesh.connect (points.size (), run))
     throw std::logic_error ("the triangles between parts do not fit");
-  mesh.is_fixed = findFixed (mesh, first_of_seam, rings);
+  mesh.is_fixed = findFixed (mesh, zones.neighbors, first_of_seam, rings);
   std::size_t folds_of_parts = 0; // which they have told already
   for (const MeshEdge& e : findFolds (mesh, zones.positions, run))
     folds_of_parts += std::max (e.triangle, mesh.mate (e).triangle) < first_of_seam ? 1 : 0;

@@ -6,6 +6,7 @@
 #include "consensus/manifold_part.h"
 #include "consensus/orientation_seam.h"
 #include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "parts/mesh_region.h"
 
 #include <algorithm>
@@ -124,6 +125,26 @@ findChanges (const TriangleMesh& mesh, std::size_t filled, const JoinedRims& joi
                       [&] (const auto& component) { return is_turned.count (component) > 0; });
 }
 
+// Points of a part that are neighbours of points of other parts that have no triangle: these are to
+// be inserted beside them.
+void
+findBeside (const TriangleMesh& mesh, const JoinedRims& joined, const Parts& parts,
+            Stitching& stitching)
+{
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p) {
+    if (mesh.triangle_of[p] != NONE || mesh.isPartial (p))
+      continue;
+    const std::size_t own = parts.partOf (joined.points.pointAt (p));
+    for (const Index place : joined.neighbors.row (p)) {
+      const Index q = joined.points.pointAt (place);
+      if (const std::size_t part = parts.partOf (q); part != own)
+        stitching.parts[part].beside.push_back (q);
+    }
+  }
+  for (PartChange& change : stitching.parts)
+    sortUnique (change.beside);
+}
+
 } // namespace
 
 std::optional<Stitching>
@@ -160,6 +181,7 @@ stitch (JoinedRims joined, const Parts& parts, double unit, const SurfaceSetting
       p = joined.points.pointAt (p);
   if (!findChanges (*mesh, mesh->triangles.size () - unfilled, joined, parts, stitching))
     return {};
+  findBeside (*mesh, joined, parts, stitching);
   return stitching;
 }
 

@@ -20,6 +20,8 @@ struct PartChange
   std::vector<Index> turned;   ///< components that are turned round, ascending
   std::vector<Triangle> added; ///< with all corners in the part; corners are points
   std::vector<Triangle> seam;  ///< with a corner in the part and another one in another part
+  std::vector<Index> beside;   ///< points that are neighbours of points of other parts that have no
+                               ///< triangle, ascending
 };
 
 /// What the stitching has found.

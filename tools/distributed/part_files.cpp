@@ -304,7 +304,8 @@ PartWriter::addChanges (const std::vector<PartChange>& changes)
     arrays_.add (name + ".ends", ends);
   };
   for (const auto& [name, member] :
-       {std::pair ("dropped", &PartChange::dropped), std::pair ("turned", &PartChange::turned)}) {
+       {std::pair ("dropped", &PartChange::dropped), std::pair ("turned", &PartChange::turned),
+        std::pair ("beside", &PartChange::beside)}) {
     auto& all = keep<Index> ();
     add (name, member, all);
     arrays_.add (name, all);
@@ -403,7 +404,8 @@ readChange (ArrayFile& file, std::size_t part)
     const auto [first, last] = rangeOf (file, name, part);
     return readTriangles (file, name, first, last);
   };
-  return {indices ("dropped"), indices ("turned"), triangles ("added"), triangles ("seam")};
+  return {indices ("dropped"), indices ("turned"), triangles ("added"), triangles ("seam"),
+          indices ("beside")};
 }
 
 } // namespace floater

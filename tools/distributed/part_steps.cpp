@@ -188,6 +188,7 @@ identify (const std::vector<PartChange>& changes, const std::vector<Index>& scat
     add (change.turned);
     add (change.added);
     add (change.seam);
+    add (change.beside);
   }
   add (scatter);
   return value;

@@ -85,6 +85,7 @@ expectSame (const Stitching& a, const Stitching& b)
   };
   for (std::size_t part = 0; part < a.parts.size (); ++part) {
     EXPECT_EQ (a.parts[part].dropped, b.parts[part].dropped);
+    EXPECT_EQ (a.parts[part].beside, b.parts[part].beside);
     EXPECT_EQ (sorted (a.parts[part].added), sorted (b.parts[part].added));
     EXPECT_EQ (sorted (a.parts[part].seam), sorted (b.parts[part].seam));
   }
