@@ -32,14 +32,15 @@ struct PartBuckets
 class NearFinder
 {
 public:
-  NearFinder (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& positions,
-              const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run)
-      : checks_ (checks), work_ (work), run_ (run),
+  NearFinder (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& seam_positions,
+              const std::vector<Eigen::Vector3d>& positions, const std::vector<InnerCheck>& checks,
+              PartWork& work, const RunContext& run)
+      : positions_ (positions), checks_ (checks), work_ (work), run_ (run),
         seam_ (
-            seam.size (), [&] (std::size_t t) { return boxOf (seam[t], positions); }, run),
+            seam.size (), [&] (std::size_t t) { return boxOf (seam[t], seam_positions); }, run),
         parts_ (
             checks.size (), [&] (std::size_t p) { return checks[p].box; }, run),
-        needed_ (checks.size ())
+        needed_ (checks.size ()), crossed_ (checks.size ())
   {
   }
 
@@ -76,11 +77,21 @@ private:
       tree.forOverlaps (leaf, [&] (std::size_t i, std::size_t j) {
         if (shared[i].part == shared[j].part)
           return;
-        needed_[shared[i].part].push_back (shared[i].number);
-        needed_[shared[j].part].push_back (shared[j].number);
+        for (const std::size_t k : {i, j}) {
+          needed_[shared[k].part].push_back (shared[k].number);
+          crossed_[shared[k].part].push_back (shared[k].number);
+        }
       });
-    for (std::vector<Index>& numbers : needed_)
-      sortUnique (numbers);
+    for (auto* const list : {&needed_, &crossed_})
+      for (std::vector<Index>& numbers : *list)
+        sortUnique (numbers);
+  }
+
+  bool isBesideSeam (const Eigen::AlignedBox3d& box) const
+  {
+    bool is_beside = false;
+    seam_.forOverlaps (box, [&is_beside] (std::size_t) { is_beside = true; });
+    return is_beside;
   }
 
   PartBuckets lookAt (Index part)
@@ -92,10 +103,9 @@ private:
         found.needed.push_back (bucket);
     const std::vector<Eigen::AlignedBox3d> buckets = work_.buckets (part);
     for (Index b = 0; b < buckets.size (); ++b) {
-      bool is_needed = false, is_shared = false;
-      seam_.forOverlaps (buckets[b], [&] (std::size_t) { is_needed = true; });
-      if (is_needed)
+      if (isBesideSeam (buckets[b]))
         found.needed.push_back (b);
+      bool is_shared = false;
       parts_.forOverlaps (buckets[b], [&] (std::size_t p) { is_shared = is_shared || p != part; });
       if (is_shared)
         found.shared.push_back ({part, b, buckets[b]});
@@ -103,47 +113,62 @@ private:
     return found;
   }
 
+  // The triangles of the buckets that are needed, and of these only those that may be.
   NearTriangles read (Index part)
   {
-    NearTriangles found;
     PartWork::Ranges ranges;
     const std::vector<Index>& numbers = needed_[part];
     const InnerCheck& check = checks_[part];
     for (std::size_t begin = 0, end = 0; begin < numbers.size (); begin = end) {
       for (end = begin + 1; end < numbers.size () && numbers[end] == numbers[end - 1] + 1;)
         ++end;
-      const std::size_t first = numbers[begin] * InnerCheck::BUCKET;
-      const std::size_t last =
-          std::min (check.triangles, (numbers[end - 1] + std::size_t{1}) * InnerCheck::BUCKET);
-      ranges.emplace_back (first, last);
-      for (std::size_t t = first; t < last; ++t) {
-        const auto at = std::lower_bound (check.rim.begin (), check.rim.end (), t);
-        found.component.push_back (
-            at != check.rim.end () && *at == t
-                ? check.rim_component[static_cast<std::size_t> (at - check.rim.begin ())]
-                : NONE);
-      }
+      ranges.emplace_back (
+          numbers[begin] * InnerCheck::BUCKET,
+          std::min (check.triangles, (numbers[end - 1] + std::size_t{1}) * InnerCheck::BUCKET));
     }
-    if (!ranges.empty ())
-      found.triangles = work_.triangles (part, ranges);
+    NearTriangles found;
+    if (ranges.empty ())
+      return found;
+    const std::vector<Triangle> triangles = work_.triangles (part, ranges);
+    auto triangle = triangles.begin ();
+    auto rim = check.rim.begin ();
+    for (const auto& [first, last] : ranges)
+      for (std::size_t t = first; t < last; ++t, ++triangle) {
+        while (rim != check.rim.end () && *rim < t)
+          ++rim;
+        const bool is_at_zone = rim != check.rim.end () && *rim == t;
+        if (!is_at_zone &&
+            !std::binary_search (crossed_[part].begin (), crossed_[part].end (),
+                                 t / InnerCheck::BUCKET) &&
+            !isBesideSeam (boxOf (*triangle, positions_)))
+          continue;
+        found.triangles.push_back (*triangle);
+        found.component.push_back (
+            is_at_zone ? check.rim_component[static_cast<std::size_t> (rim - check.rim.begin ())]
+                       : NONE);
+      }
     found.part.assign (found.triangles.size (), part);
     return found;
   }
 
+  const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<InnerCheck>& checks_;
   PartWork& work_;
   const RunContext& run_;
   BoxTree seam_, parts_;
-  std::vector<std::vector<Index>> needed_; // buckets of each part
+  std::vector<std::vector<Index>> needed_;  // buckets of each part
+  std::vector<std::vector<Index>> crossed_; // those that overlap one of another part
 };
 
 } // namespace
 
 NearTriangles
-findNearTriangles (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& positions,
+findNearTriangles (const std::vector<Triangle>& seam,
+                   const std::vector<Eigen::Vector3d>& seam_positions,
+                   const std::vector<Eigen::Vector3d>& positions,
                    const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run)
 {
-  return NearFinder (seam, positions, checks, work, run).find ();
+  return NearFinder (seam, seam_positions, positions, checks, work, run).find ();
 }
 
 } // namespace floater

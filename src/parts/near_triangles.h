@@ -20,14 +20,18 @@ struct NearTriangles
                                    ///< it has no corner in the zone
 };
 
-/// The inner triangles that have a corner in a zone, and those that may cross a triangle of a zone
-/// or an inner triangle of another part; with others that are next to them. O(n / 64) for n points,
-/// as buckets are looked at, and O(m log m) for m triangles that are found.
-/// \param seam      all triangles that are not inner ones, in the order of their smallest points
-/// \param positions of their corners
-/// \param checks    of all parts
+/// The inner triangles that have a corner in a zone, and those whose boxes overlap that of a
+/// triangle of a zone, or that may overlap that of an inner triangle of another part. O(n / 64) for
+/// n points, as buckets are looked at, and O(m log m) for m triangles in those that are read.
+/// \param seam           all triangles that are not inner ones, in the order of their smallest
+///                       points
+/// \param seam_positions of their corners
+/// \param positions      of all points
+/// \param checks         of all parts
 NearTriangles
-findNearTriangles (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& positions,
+findNearTriangles (const std::vector<Triangle>& seam,
+                   const std::vector<Eigen::Vector3d>& seam_positions,
+                   const std::vector<Eigen::Vector3d>& positions,
                    const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run);
 
 } // namespace floater

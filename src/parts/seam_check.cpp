@@ -12,6 +12,7 @@
 #include "parts/seam_components.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -43,10 +44,12 @@ public:
         run_ (run), zones_ (std::move (seam.zones)), near_ (std::move (near)),
         seam_count_ (seam.triangles.size ())
   {
-    std::vector<Index> used = zones_.points;
+    std::vector<Index> of_near, used;
     for (const Triangle& corners : near_.triangles)
-      used.insert (used.end (), corners.begin (), corners.end ());
-    sortUnique (used);
+      of_near.insert (of_near.end (), corners.begin (), corners.end ());
+    sortUnique (of_near);
+    std::set_union (zones_.points.begin (), zones_.points.end (), of_near.begin (), of_near.end (),
+                    std::back_inserter (used));
     points_ = JoinedPoints (std::move (used));
     positions_ = valuesOf (points.positions, points_);
     spacing_ = valuesOf (spacing, points_);
@@ -342,7 +345,8 @@ checkParts (FinishedSeam seam, const std::vector<InnerCheck>& checks, const Part
   for (const Index t : orderByPoints (seam.triangles, seam.zones.points.size ()))
     sorted.push_back (seam.triangles[t]);
   seam.triangles = std::move (sorted);
-  NearTriangles near = findNearTriangles (seam.triangles, seam.zones.positions, checks, work, run);
+  NearTriangles near =
+      findNearTriangles (seam.triangles, seam.zones.positions, points.positions, checks, work, run);
   SeamChecker checker (std::move (seam), std::move (near), checks, points, spacing, settings, run);
   checker.uncross ();
   return checker.check (work, parts);

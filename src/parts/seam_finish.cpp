@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parts/seam_finish.h"
 
+#include "core/parallel.h"
 #include "parts/joined_points.h"
 #include "parts/mesh_region.h"
 
@@ -17,14 +18,20 @@ namespace
 {
 // The neighbours that are in the zones.
 void
-toPlaces (const JoinedPoints& points, CsrLists& lists)
+toPlaces (const JoinedPoints& points, CsrLists& lists, const RunContext& run)
 {
+  parallelRanges (run, lists.ids.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      lists.ids[i] = points.placeOf (lists.ids[i]);
+  });
   CsrLists within;
+  within.ids.reserve (lists.ids.size ());
+  within.offsets.reserve (lists.offsets.size ());
   within.offsets.push_back (0);
   for (std::size_t r = 0; r < lists.rows (); ++r) {
-    for (const Index q : lists.row (r))
-      if (const Index at = points.placeOf (q); at != NONE)
-        within.ids.push_back (at);
+    for (const Index place : lists.row (r))
+      if (place != NONE)
+        within.ids.push_back (place);
     within.offsets.push_back (static_cast<Index> (within.ids.size ()));
   }
   lists = std::move (within);
@@ -89,7 +96,7 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
             const FinishSettings& settings, std::size_t rings, const RunContext& run)
 {
   const JoinedPoints points (zones.points);
-  toPlaces (points, zones.neighbors);
+  toPlaces (points, zones.neighbors, run);
   TriangleMesh mesh; // the triangles of the seam last
   mesh.triangles = std::move (zones.triangles);
   mesh.is_partial = std::move (zones.is_partial);
