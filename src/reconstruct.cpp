@@ -168,8 +168,7 @@ reconstructParts (const Points& points, const Parts& parts, LocalGeometry geomet
     surface.work = known->parts (geometry.scatter, settings);
   else
     surface.work = std::make_unique<LocalParts> (points, parts, geometry, settings, request.run);
-  surface.made = makeSurfaceOfParts (points, geometry.meshSpacing (), parts, *surface.work,
-                                     settings, request.run);
+  surface.made = makeSurfaceOfParts (points, parts, *surface.work, settings, request.run);
   Report& report = result.report;
   const CheckedParts& checked = surface.made.checked;
   reportOrientationSeam (points, surface.made.surface.orientation_seam, report);

@@ -77,11 +77,11 @@ MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
            const std::vector<float>& spacing, const RunContext& run, const CheckLimits& limits)
 {
+  const ExaminedMesh mesh{triangles, points.positions, spacing, points.diagonal};
   ExaminedParts parts;
   DisjointSets sets (points.size ()); // of points that are connected by edges
   {
     const TriangleRanges ranges (triangles, points.size (), run);
-    const ExaminedMesh mesh{triangles, points.positions, spacing, points.diagonal};
     parts.around = lookAround (mesh, ranges, limits, &sets, run);
     parts.triangles = triangles.size () - ranges.leftOut ();
   }
@@ -92,7 +92,7 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
                          ? countComponentsByEdges (triangles, points.size ())
                          : parts.component_points.size ();
   return makeExamination (
-      std::move (parts), [&component] (Index p) { return component[p]; }, points, spacing);
+      std::move (parts), mesh, [] (Index p) { return p; }, component, points);
 }
 
 void

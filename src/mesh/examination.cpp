@@ -120,8 +120,9 @@ takeComponents (ExaminedParts&& parts, MeshExamination& found)
 } // namespace
 
 MeshExamination
-makeExamination (ExaminedParts parts, const std::function<Index (Index)>& component_of,
-                 const Points& points, const std::vector<float>& spacing)
+makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
+                 const std::function<Index (Index)>& pointOf, const std::vector<Index>& component,
+                 const Points& points)
 {
   MeshExamination found;
   found.check.done = true;
@@ -130,8 +131,10 @@ makeExamination (ExaminedParts parts, const std::function<Index (Index)>& compon
   found.loops = walkLoops (parts.around.boundary);
   takeComponents (std::move (parts), found);
   for (BoundaryLoop& loop : found.loops) {
-    measureLoop (loop, points.positions, spacing);
-    loop.component = component_of (loop.points.front ());
+    measureLoop (loop, mesh.positions, mesh.spacing);
+    loop.component = component[loop.points.front ()];
+    for (Index& p : loop.points)
+      p = pointOf (p);
     found.check.loops.push_back (summaryOf (loop, points));
   }
   sortLoops (found);

@@ -15,7 +15,7 @@ namespace floater
 /// What was found of a mesh, point by point.
 struct ExaminedParts
 {
-  Surroundings around;                       ///< all of its points
+  Surroundings around;                       ///< of all of its points
   std::size_t triangles = 0;                 ///< proper ones
   std::size_t components = 0;                ///< connected by edges
   std::vector<std::size_t> component_points; ///< vertices of each component, connected by vertices
@@ -23,11 +23,15 @@ struct ExaminedParts
 };
 
 /// The examination, but for triangles that cross each other: with the boundary loops and the genus.
-/// O(boundary log boundary) \param component_of of a point at the boundary \param spacing local
-/// spacing of each point
+/// O(boundary log boundary)
+/// \param parts     its boundary edges are those of `mesh`, all else is of points
+/// \param mesh      has at least the points of the boundary
+/// \param pointOf   the point that is a point of `mesh`
+/// \param component of each point of `mesh`
 MeshExamination
-makeExamination (ExaminedParts parts, const std::function<Index (Index)>& component_of,
-                 const Points& points, const std::vector<float>& spacing);
+makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
+                 const std::function<Index (Index)>& pointOf, const std::vector<Index>& component,
+                 const Points& points);
 
 } // namespace floater
 } // namespace pcl

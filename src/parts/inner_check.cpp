@@ -29,12 +29,6 @@ countFrom (Index first, Surroundings& around)
       *p += first;
   for (auto* const edge : {&around.longest_at, &around.longest_inside_at})
     *edge = {edge->first + first, edge->second + first};
-  for (Index& p : around.unused)
-    p += first;
-  for (auto& [from, to] : around.boundary) {
-    from += first;
-    to += first;
-  }
 }
 
 std::vector<InnerComponent>
@@ -88,6 +82,8 @@ checkInner (const PartPoints& points, const std::vector<Triangle>& triangles,
                                 &is_in_zone};
     const TriangleRanges ranges (triangles, points.size (), run);
     check.around = lookAround (examined, ranges, settings.limits, nullptr, run);
+    if (!check.around.unused.empty () || !check.around.boundary.empty ())
+      throw std::logic_error ("the mesh of a part ends outside of its zone");
     countFrom (points.first, check.around);
   }
   mesh.is_partial = std::move (is_in_zone);

@@ -61,7 +61,7 @@ struct InnerCheck
   static constexpr std::size_t BUCKET = 64; ///< triangles
 
   std::size_t triangles = 0;
-  Surroundings around; ///< the points that are not in the zone
+  Surroundings around; ///< of the points that are not in the zone; without boundary edges
   std::vector<InnerComponent> components;
   CrossingSum crossing;
   std::vector<Index> rim;           ///< triangles with a corner in the zone, ascending

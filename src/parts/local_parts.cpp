@@ -137,5 +137,16 @@ LocalParts::triangles (std::size_t part, const Ranges& ranges)
   return some;
 }
 
+PointValues
+LocalParts::valuesOf (const std::vector<Index>& points)
+{
+  PointValues values;
+  for (const Index p : points) {
+    values.positions.push_back (points_.positions[p]);
+    values.spacing.push_back (geometry_.meshSpacing ()[p]);
+  }
+  return values;
+}
+
 } // namespace floater
 } // namespace pcl

@@ -30,6 +30,7 @@ public:
     return std::move (buckets_[part]);
   }
   std::vector<Triangle> triangles (std::size_t part, const Ranges& ranges) override;
+  PointValues valuesOf (const std::vector<Index>& points) override;
 
 private:
   PartPoints pointsOf (std::size_t part, const std::vector<Eigen::Vector3d>& positions,

@@ -5,6 +5,7 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/box_tree.h"
+#include "parts/joined_points.h"
 
 #include <algorithm>
 
@@ -29,13 +30,23 @@ struct PartBuckets
   std::vector<SharedBucket> shared;
 };
 
+std::vector<Index>
+cornersOf (const std::vector<Triangle>& triangles)
+{
+  std::vector<Index> points;
+  points.reserve (3 * triangles.size ());
+  for (const Triangle& corners : triangles)
+    points.insert (points.end (), corners.begin (), corners.end ());
+  sortUnique (points);
+  return points;
+}
+
 class NearFinder
 {
 public:
   NearFinder (const std::vector<Triangle>& seam, const std::vector<Eigen::Vector3d>& seam_positions,
-              const std::vector<Eigen::Vector3d>& positions, const std::vector<InnerCheck>& checks,
-              PartWork& work, const RunContext& run)
-      : positions_ (positions), checks_ (checks), work_ (work), run_ (run),
+              const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run)
+      : checks_ (checks), work_ (work), run_ (run),
         seam_ (
             seam.size (), [&] (std::size_t t) { return boxOf (seam[t], seam_positions); }, run),
         parts_ (
@@ -51,11 +62,8 @@ public:
     parallelTasks (run_, found.size (),
                    [&] (std::size_t part) { found[part] = read (static_cast<Index> (part)); });
     NearTriangles all;
-    for (const NearTriangles& one : found) {
-      all.triangles.insert (all.triangles.end (), one.triangles.begin (), one.triangles.end ());
-      all.part.insert (all.part.end (), one.part.begin (), one.part.end ());
-      all.component.insert (all.component.end (), one.component.begin (), one.component.end ());
-    }
+    for (const NearTriangles& one : found)
+      all.add (one);
     return all;
   }
 
@@ -113,23 +121,37 @@ private:
     return found;
   }
 
-  // The triangles of the buckets that are needed, and of these only those that may be.
+  // Reads the triangles of the buckets that are needed, and chooses among them.
   NearTriangles read (Index part)
   {
     PartWork::Ranges ranges;
     const std::vector<Index>& numbers = needed_[part];
-    const InnerCheck& check = checks_[part];
+    const std::size_t count = checks_[part].triangles;
     for (std::size_t begin = 0, end = 0; begin < numbers.size (); begin = end) {
       for (end = begin + 1; end < numbers.size () && numbers[end] == numbers[end - 1] + 1;)
         ++end;
       ranges.emplace_back (
           numbers[begin] * InnerCheck::BUCKET,
-          std::min (check.triangles, (numbers[end - 1] + std::size_t{1}) * InnerCheck::BUCKET));
+          std::min (count, (numbers[end - 1] + std::size_t{1}) * InnerCheck::BUCKET));
     }
+    return ranges.empty () ? NearTriangles{}
+                           : choose (part, ranges, work_.triangles (part, ranges));
+  }
+
+  NearTriangles choose (Index part, const PartWork::Ranges& ranges,
+                        const std::vector<Triangle>& triangles)
+  {
+    const std::vector<Index> points = cornersOf (triangles);
+    const PointValues values = work_.valuesOf (points);
+    const JoinedPoints places (points);
+    const auto boxAround = [&] (const Triangle& corners) {
+      Eigen::AlignedBox3d box;
+      for (const Index p : corners)
+        box.extend (values.positions[places.placeOf (p)]);
+      return box;
+    };
+    const InnerCheck& check = checks_[part];
     NearTriangles found;
-    if (ranges.empty ())
-      return found;
-    const std::vector<Triangle> triangles = work_.triangles (part, ranges);
     auto triangle = triangles.begin ();
     auto rim = check.rim.begin ();
     for (const auto& [first, last] : ranges)
@@ -140,7 +162,7 @@ private:
         if (!is_at_zone &&
             !std::binary_search (crossed_[part].begin (), crossed_[part].end (),
                                  t / InnerCheck::BUCKET) &&
-            !isBesideSeam (boxOf (*triangle, positions_)))
+            !isBesideSeam (boxAround (*triangle)))
           continue;
         found.triangles.push_back (*triangle);
         found.component.push_back (
@@ -148,10 +170,14 @@ private:
                        : NONE);
       }
     found.part.assign (found.triangles.size (), part);
+    found.points = cornersOf (found.triangles);
+    for (const Index p : found.points) {
+      found.values.positions.push_back (values.positions[places.placeOf (p)]);
+      found.values.spacing.push_back (values.spacing[places.placeOf (p)]);
+    }
     return found;
   }
 
-  const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<InnerCheck>& checks_;
   PartWork& work_;
   const RunContext& run_;
@@ -162,13 +188,26 @@ private:
 
 } // namespace
 
+void
+NearTriangles::add (const NearTriangles& next)
+{
+  const auto append = [] (const auto& some, auto& all) {
+    all.insert (all.end (), some.begin (), some.end ());
+  };
+  append (next.triangles, triangles);
+  append (next.part, part);
+  append (next.component, component);
+  append (next.points, points);
+  append (next.values.positions, values.positions);
+  append (next.values.spacing, values.spacing);
+}
+
 NearTriangles
 findNearTriangles (const std::vector<Triangle>& seam,
                    const std::vector<Eigen::Vector3d>& seam_positions,
-                   const std::vector<Eigen::Vector3d>& positions,
                    const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run)
 {
-  return NearFinder (seam, seam_positions, positions, checks, work, run).find ();
+  return NearFinder (seam, seam_positions, checks, work, run).find ();
 }
 
 } // namespace floater

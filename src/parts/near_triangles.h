@@ -18,6 +18,11 @@ struct NearTriangles
   std::vector<Index> part;         ///< of each triangle
   std::vector<Index> component;    ///< of each triangle, among the inner ones of its part; NONE if
                                    ///< it has no corner in the zone
+  std::vector<Index> points;       ///< all corners, ascending
+  PointValues values;              ///< of these
+
+  /// In the order of the parts.
+  void add (const NearTriangles& next);
 };
 
 /// The inner triangles that have a corner in a zone, and those whose boxes overlap that of a
@@ -26,12 +31,10 @@ struct NearTriangles
 /// \param seam           all triangles that are not inner ones, in the order of their smallest
 ///                       points
 /// \param seam_positions of their corners
-/// \param positions      of all points
 /// \param checks         of all parts
 NearTriangles
 findNearTriangles (const std::vector<Triangle>& seam,
                    const std::vector<Eigen::Vector3d>& seam_positions,
-                   const std::vector<Eigen::Vector3d>& positions,
                    const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run);
 
 } // namespace floater

@@ -13,6 +13,13 @@ namespace pcl
 {
 namespace floater
 {
+/// What is known of some points.
+struct PointValues
+{
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<float> spacing; ///< local spacing on the mesh
+};
+
 /// The work on the parts: in this process, or in others. All results are those of the functions
 /// that are named. What is not void may be asked for by several threads.
 class PartWork
@@ -38,6 +45,9 @@ public:
 
   /// Inner triangles of a finished part; corners are points.
   virtual std::vector<Triangle> triangles (std::size_t part, const Ranges& ranges) = 0;
+
+  /// \param points ascending
+  virtual PointValues valuesOf (const std::vector<Index>& points) = 0;
 };
 
 } // namespace floater

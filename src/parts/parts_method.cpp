@@ -88,8 +88,8 @@ PartsSettings::ofPart (const Parts& all) const
 }
 
 SurfaceOfParts
-makeSurfaceOfParts (const Points& points, const std::vector<float>& spacing, const Parts& parts,
-                    PartWork& work, const PartsSettings& settings, const RunContext& run)
+makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
+                    const PartsSettings& settings, const RunContext& run)
 {
   SurfaceOfParts made;
   Surface& surface = made.surface;
@@ -113,8 +113,7 @@ makeSurfaceOfParts (const Points& points, const std::vector<float>& spacing, con
                                  settings.check,
                                  settings.surface.facing,
                                  limits.facing};
-  made.checked =
-      checkParts (std::move (seam), made.checks, parts, work, points, spacing, check, run);
+  made.checked = checkParts (std::move (seam), made.checks, parts, work, points, check, run);
   surface.finish.facing = made.checked.facing;
   return made;
 }

@@ -37,11 +37,10 @@ struct SurfaceOfParts
 /// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES,
 /// FLIPS and CHECK. What is decided for all parts together is where their meshes end: O(n / sqrt
 /// (m)) for parts of m points. O(n log n).
-/// \param points  the vertices lie on their positions
-/// \param spacing local spacing on the mesh
+/// \param points their positions are read only for lines of sight that tell the front of a body
 SurfaceOfParts
-makeSurfaceOfParts (const Points& points, const std::vector<float>& spacing, const Parts& parts,
-                    PartWork& work, const PartsSettings& settings, const RunContext& run);
+makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
+                    const PartsSettings& settings, const RunContext& run);
 
 } // namespace floater
 } // namespace pcl

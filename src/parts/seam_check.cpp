@@ -38,21 +38,16 @@ class SeamChecker
 {
 public:
   SeamChecker (FinishedSeam seam, NearTriangles near, const std::vector<InnerCheck>& checks,
-               const Points& points, const std::vector<float>& spacing,
-               const PartsCheckSettings& settings, const RunContext& run)
-      : checks_ (checks), cloud_ (points), cloud_spacing_ (spacing), settings_ (settings),
-        run_ (run), zones_ (std::move (seam.zones)), near_ (std::move (near)),
+               const Points& points, const PartsCheckSettings& settings, const RunContext& run)
+      : checks_ (checks), cloud_ (points), settings_ (settings), run_ (run),
+        zones_ (std::move (seam.zones)), near_ (std::move (near)),
         seam_count_ (seam.triangles.size ())
   {
-    std::vector<Index> of_near, used;
-    for (const Triangle& corners : near_.triangles)
-      of_near.insert (of_near.end (), corners.begin (), corners.end ());
-    sortUnique (of_near);
-    std::set_union (zones_.points.begin (), zones_.points.end (), of_near.begin (), of_near.end (),
-                    std::back_inserter (used));
+    std::vector<Index> used;
+    std::set_union (zones_.points.begin (), zones_.points.end (), near_.points.begin (),
+                    near_.points.end (), std::back_inserter (used));
     points_ = JoinedPoints (std::move (used));
-    positions_ = valuesOf (points.positions, points_);
-    spacing_ = valuesOf (spacing, points_);
+    takeValues ();
     mesh_.is_partial.assign (points_.size (), 1);
     for (const Index p : zones_.points) {
       zone_places_.push_back (points_.placeOf (p));
@@ -91,18 +86,35 @@ public:
     examined.component_points = components.points;
     examined.component_first = components.first;
     checked.mesh.triangles = examined.triangles;
-    const auto componentOf = [&] (Index p) { return components.of_point[points_.placeOf (p)]; };
     const std::vector<std::uint8_t> is_turned = turn (components, parts, work, checked);
     for (BoundaryEdge& edge : examined.around.boundary)
-      if (is_turned[componentOf (edge.first)] != 0)
+      if (is_turned[components.of_point[edge.first]] != 0)
         std::swap (edge.first, edge.second);
     std::sort (examined.around.boundary.begin (), examined.around.boundary.end ());
-    checked.found = makeExamination (std::move (examined), componentOf, cloud_, cloud_spacing_);
+    checked.found = makeExamination (
+        std::move (examined), {checked.mesh.seam, positions_, spacing_},
+        [this] (Index place) { return points_.pointAt (place); }, components.of_point, cloud_);
     takeCrossing (checked);
     return checked;
   }
 
 private:
+  // The positions and the spacing of all points.
+  void takeValues ()
+  {
+    std::size_t of_zones = 0, of_near = 0;
+    for (Index place = 0; place < points_.size (); ++place) {
+      const Index p = points_.pointAt (place);
+      const bool is_near = of_near < near_.points.size () && near_.points[of_near] == p;
+      const bool is_in_zone = of_zones < zones_.points.size () && zones_.points[of_zones] == p;
+      positions_.push_back (is_in_zone ? zones_.positions[of_zones]
+                                       : near_.values.positions[of_near]);
+      spacing_.push_back (is_in_zone ? zones_.spacing[of_zones] : near_.values.spacing[of_near]);
+      of_zones += is_in_zone ? 1 : 0;
+      of_near += is_near ? 1 : 0;
+    }
+  }
+
   // Pairs that nobody knows: those of inner triangles of one part are known.
   std::vector<CrossingPair> findCrossing () const
   {
@@ -145,7 +157,7 @@ private:
                                               settings_.uncrossing, run_);
   }
 
-  // All of what was found around points.
+  // All of what was found around points. The ends of boundary edges are places.
   ExaminedParts examineAll () const
   {
     const ExaminedMesh examined{mesh_.triangles, positions_, spacing_, cloud_.diagonal,
@@ -163,8 +175,6 @@ private:
         toPoints (*edge);
     for (Index& p : own.unused)
       p = points_.pointAt (p);
-    for (BoundaryEdge& edge : own.boundary)
-      toPoints (edge);
     ExaminedParts all;
     all.triangles = seam_count_;
     for (const InnerCheck& check : checks_) {
@@ -173,7 +183,6 @@ private:
       all.triangles += check.triangles;
     }
     all.around.append (std::move (own));
-    std::sort (all.around.unused.begin (), all.around.unused.end ());
     return all;
   }
 
@@ -320,7 +329,6 @@ private:
 
   const std::vector<InnerCheck>& checks_;
   const Points& cloud_;
-  const std::vector<float>& cloud_spacing_;
   const PartsCheckSettings& settings_;
   const RunContext& run_;
   JoinedZones zones_;
@@ -338,16 +346,15 @@ private:
 
 CheckedParts
 checkParts (FinishedSeam seam, const std::vector<InnerCheck>& checks, const Parts& parts,
-            PartWork& work, const Points& points, const std::vector<float>& spacing,
-            const PartsCheckSettings& settings, const RunContext& run)
+            PartWork& work, const Points& points, const PartsCheckSettings& settings,
+            const RunContext& run)
 {
   std::vector<Triangle> sorted;
   for (const Index t : orderByPoints (seam.triangles, seam.zones.points.size ()))
     sorted.push_back (seam.triangles[t]);
   seam.triangles = std::move (sorted);
-  NearTriangles near =
-      findNearTriangles (seam.triangles, seam.zones.positions, points.positions, checks, work, run);
-  SeamChecker checker (std::move (seam), std::move (near), checks, points, spacing, settings, run);
+  NearTriangles near = findNearTriangles (seam.triangles, seam.zones.positions, checks, work, run);
+  SeamChecker checker (std::move (seam), std::move (near), checks, points, settings, run);
   checker.uncross ();
   return checker.check (work, parts);
 }

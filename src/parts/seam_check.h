@@ -47,12 +47,12 @@ struct PartsCheckSettings
 /// turns its components to face outwards (see faceOutwards). O(m log m) for m points in all zones,
 /// but where lines of sight through the whole mesh have to decide on its facing: then the mesh is
 /// put together for that. Inner triangles of two parts that cross each other stay as they are.
-/// \param checks  of all parts
-/// \param spacing local spacing of each point
+/// \param checks of all parts
+/// \param points their positions are read only for lines of sight
 CheckedParts
 checkParts (FinishedSeam seam, const std::vector<InnerCheck>& checks, const Parts& parts,
-            PartWork& work, const Points& points, const std::vector<float>& spacing,
-            const PartsCheckSettings& settings, const RunContext& run);
+            PartWork& work, const Points& points, const PartsCheckSettings& settings,
+            const RunContext& run);
 
 /// All triangles of a mesh in parts: the inner ones of each part, then the others.
 std::vector<Triangle>

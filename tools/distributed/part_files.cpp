@@ -109,8 +109,6 @@ readSurroundings (ArrayFile& file)
   const std::vector<double> longest = file.read<double> ("around.longest");
   around.sqr_longest = longest[0];
   around.sqr_longest_inside = longest[1];
-  around.unused = file.read<Index> ("around.unused");
-  around.boundary = readPairs (file, "around.boundary");
   return around;
 }
 
@@ -274,8 +272,6 @@ PartWriter::addSurroundings (const Surroundings& around)
   arrays_.add ("around.counts", counts);
   arrays_.add ("around.places", places);
   arrays_.add ("around.longest", longest);
-  arrays_.add ("around.unused", around.unused);
-  addPairs ("around.boundary", around.boundary, arrays_);
 }
 
 void

@@ -326,6 +326,15 @@ StoredParts::triangles (std::size_t part, const Ranges& ranges)
   return some;
 }
 
+PointValues
+StoredParts::valuesOf (const std::vector<Index>& points)
+{
+  const std::vector<Index> outliers = readOutliers (context_);
+  StoredCloud cloud (context_, outliers, false);
+  Slices triangles (context_.store, context_.plan, cloud.ranges (), "triangles");
+  return {cloud.gather (points), triangles.gather<float> ("spacing", points)};
+}
+
 void
 removeFinished (const FolderStore& folder, const Plan& plan, bool with_triangles)
 {

@@ -59,6 +59,7 @@ public:
   FinishedPart finished (std::size_t part) override;
   std::vector<Eigen::AlignedBox3d> buckets (std::size_t part) override;
   std::vector<Triangle> triangles (std::size_t part, const Ranges& ranges) override;
+  PointValues valuesOf (const std::vector<Index>& points) override;
 
 private:
   const StepContext& context_;

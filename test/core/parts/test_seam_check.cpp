@@ -78,8 +78,7 @@ protected:
     settings.diagonal = prepared.points.diagonal;
     parts.emplace (prepared.points.size (), settings.parts);
     work = std::make_unique<LocalParts> (prepared.points, *parts, prepared.geometry, settings, run);
-    made = makeSurfaceOfParts (prepared.points, prepared.geometry.meshSpacing (), *parts, *work,
-                               settings, run);
+    made = makeSurfaceOfParts (prepared.points, *parts, *work, settings, run);
     triangles = assembleTriangles (made.checked.mesh, made.checks, *parts, *work, run);
   }
 
@@ -218,8 +217,7 @@ TEST (UncrossingOfParts, LeavesFewPairs)
     settings.parts.points = 500;
     const Parts parts (prepared.points.size (), settings.parts);
     LocalParts work (prepared.points, parts, prepared.geometry, settings, 2);
-    const SurfaceOfParts made =
-        makeSurfaceOfParts (prepared.points, prepared.geometry.spacing, parts, work, settings, 2);
+    const SurfaceOfParts made = makeSurfaceOfParts (prepared.points, parts, work, settings, 2);
     found += made.checked.crossing.found;
     left += made.checked.crossing.left;
     EXPECT_TRUE (made.checked.found.isManifold ());
