@@ -133,6 +133,41 @@ struct PartsInWork
   SurfaceOfParts made;
 };
 
+// As long as this lives, positions and spacing of all points are not in memory: the parts know
+// them.
+class LeftToParts
+{
+public:
+  LeftToParts (Points& points, LocalGeometry& geometry, PartWork& work)
+      : points_ (points), geometry_ (geometry), work_ (work)
+  {
+    points.position_elsewhere = [&work] (Index p) {
+      return work.valuesOf ({p}).positions.front ();
+    };
+    points.positions = std::vector<Eigen::Vector3d> ();
+    geometry.spacing = std::vector<float> ();
+  }
+  ~LeftToParts () { points_.position_elsewhere = {}; }
+  LeftToParts (const LeftToParts&) = delete;
+  LeftToParts& operator= (const LeftToParts&) = delete;
+  LeftToParts (LeftToParts&&) = delete;
+  LeftToParts& operator= (LeftToParts&&) = delete;
+
+  // Brings all of them back.
+  void takeBack ()
+  {
+    PointValues values = valuesOfAll (work_, points_.size ());
+    points_.position_elsewhere = {};
+    points_.positions = std::move (values.positions);
+    geometry_.spacing = std::move (values.spacing);
+  }
+
+private:
+  Points& points_;
+  LocalGeometry& geometry_;
+  PartWork& work_;
+};
+
 // Uses a surface in parts as a whole, as where something is to be cut off.
 Problem
 useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& geometry,
@@ -152,7 +187,7 @@ useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& ge
 
 // \param geometry if stages are known: the spacing alone
 Problem
-reconstructParts (const Points& points, const Parts& parts, LocalGeometry geometry,
+reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
                   const SurfaceSettings& surface_settings, const Request& request,
                   KnownStages* known, Result& result)
 {
@@ -164,8 +199,11 @@ reconstructParts (const Points& points, const Parts& parts, LocalGeometry geomet
                                removesCrossings (points, request.options),
                                points.diagonal};
   PartsInWork surface{parts, nullptr, {}};
-  if (known != nullptr)
+  std::optional<LeftToParts> left;
+  if (known != nullptr) {
     surface.work = known->parts (geometry.scatter, settings);
+    left.emplace (points, geometry, *surface.work);
+  }
   else
     surface.work = std::make_unique<LocalParts> (points, parts, geometry, settings, request.run);
   surface.made = makeSurfaceOfParts (points, parts, *surface.work, settings, request.run);
@@ -178,7 +216,12 @@ reconstructParts (const Points& points, const Parts& parts, LocalGeometry geomet
   report.statistics.self_intersection_flips = checked.crossing.done.flips;
   report.statistics.self_intersection_moves = checked.crossing.done.moves;
   report.statistics.self_intersection_rebuilds = checked.crossing.done.rebuilds;
-  if (known == nullptr || asksForTrimming (request.options.trimming))
+  if (left && asksForTrimming (request.options.trimming)) {
+    left->takeBack ();
+    left.reset ();
+    known = nullptr;
+  }
+  if (known == nullptr)
     return useAssembled (std::move (surface), points, geometry, request, result);
   Problem problem = reportFinished (checked.mesh.triangles, surface.made.surface.finish,
                                     checked.found, points, request, report);
@@ -190,7 +233,7 @@ reconstructParts (const Points& points, const Parts& parts, LocalGeometry geomet
 
 // \param geometry if stages are known: without neighbours and normals where these are not needed
 Problem
-reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
+reconstructSurface (Points& points, LocalGeometry geometry, const Request& request,
                     KnownStages* known, Result& result)
 {
   const Options& options = request.options;

@@ -125,7 +125,7 @@ reportUnused (const Points& points, const MeshExamination& found, Report& report
                              points.cloud_index[p]))
       report.unused.push_back (points.cloud_index[p]);
   std::sort (report.unused.begin (), report.unused.end ());
-  report.statistics.used_points = points.positions.size () - found.unused.size ();
+  report.statistics.used_points = points.size () - found.unused.size ();
   if (report.unused.empty ())
     return;
   const auto first = std::find_if (found.unused.begin (), found.unused.end (), [&] (Index p) {

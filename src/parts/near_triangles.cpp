@@ -5,9 +5,9 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/box_tree.h"
-#include "parts/joined_points.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl
 {
@@ -30,16 +30,39 @@ struct PartBuckets
   std::vector<SharedBucket> shared;
 };
 
-std::vector<Index>
-cornersOf (const std::vector<Triangle>& triangles)
+// The corners of triangles of one part, and their numbers in ascending order. O(points of the
+// part): they are near each other, so that nothing is sorted.
+class PartCorners
 {
-  std::vector<Index> points;
-  points.reserve (3 * triangles.size ());
-  for (const Triangle& corners : triangles)
-    points.insert (points.end (), corners.begin (), corners.end ());
-  sortUnique (points);
-  return points;
-}
+public:
+  explicit PartCorners (const std::vector<Triangle>& triangles)
+  {
+    Index last = 0;
+    for (const Triangle& corners : triangles)
+      for (const Index p : corners) {
+        first_ = std::min (first_, p);
+        last = std::max (last, p);
+      }
+    if (triangles.empty ())
+      return;
+    places_.assign (std::size_t{last} - first_ + 1, NONE);
+    for (const Triangle& corners : triangles)
+      for (const Index p : corners)
+        places_[p - first_] = 0;
+    for (std::size_t i = 0; i < places_.size (); ++i)
+      if (places_[i] != NONE) {
+        places_[i] = static_cast<Index> (points_.size ());
+        points_.push_back (first_ + static_cast<Index> (i));
+      }
+  }
+
+  const std::vector<Index>& points () const { return points_; }
+  Index placeOf (Index corner) const { return places_[corner - first_]; }
+
+private:
+  Index first_ = NONE;
+  std::vector<Index> places_, points_;
+};
 
 class NearFinder
 {
@@ -61,9 +84,15 @@ public:
     std::vector<NearTriangles> found (checks_.size ());
     parallelTasks (run_, found.size (),
                    [&] (std::size_t part) { found[part] = read (static_cast<Index> (part)); });
+    std::size_t triangles = 0, points = 0;
+    for (const NearTriangles& one : found) {
+      triangles += one.triangles.size ();
+      points += one.points.size ();
+    }
     NearTriangles all;
-    for (const NearTriangles& one : found)
-      all.add (one);
+    all.reserve (triangles, points);
+    for (NearTriangles& one : found)
+      all.add (std::exchange (one, {}));
     return all;
   }
 
@@ -141,13 +170,12 @@ private:
   NearTriangles choose (Index part, const PartWork::Ranges& ranges,
                         const std::vector<Triangle>& triangles)
   {
-    const std::vector<Index> points = cornersOf (triangles);
-    const PointValues values = work_.valuesOf (points);
-    const JoinedPoints places (points);
+    const PartCorners corners_of_all (triangles);
+    const PointValues values = work_.valuesOf (corners_of_all.points ());
     const auto boxAround = [&] (const Triangle& corners) {
       Eigen::AlignedBox3d box;
       for (const Index p : corners)
-        box.extend (values.positions[places.placeOf (p)]);
+        box.extend (values.positions[corners_of_all.placeOf (p)]);
       return box;
     };
     const InnerCheck& check = checks_[part];
@@ -170,10 +198,10 @@ private:
                        : NONE);
       }
     found.part.assign (found.triangles.size (), part);
-    found.points = cornersOf (found.triangles);
+    found.points = PartCorners (found.triangles).points ();
     for (const Index p : found.points) {
-      found.values.positions.push_back (values.positions[places.placeOf (p)]);
-      found.values.spacing.push_back (values.spacing[places.placeOf (p)]);
+      found.values.positions.push_back (values.positions[corners_of_all.placeOf (p)]);
+      found.values.spacing.push_back (values.spacing[corners_of_all.placeOf (p)]);
     }
     return found;
   }
@@ -187,6 +215,17 @@ private:
 };
 
 } // namespace
+
+void
+NearTriangles::reserve (std::size_t triangle_count, std::size_t point_count)
+{
+  triangles.reserve (triangle_count);
+  part.reserve (triangle_count);
+  component.reserve (triangle_count);
+  points.reserve (point_count);
+  values.positions.reserve (point_count);
+  values.spacing.reserve (point_count);
+}
 
 void
 NearTriangles::add (const NearTriangles& next)

@@ -21,6 +21,8 @@ struct NearTriangles
   std::vector<Index> points;       ///< all corners, ascending
   PointValues values;              ///< of these
 
+  void reserve (std::size_t triangle_count, std::size_t point_count);
+
   /// In the order of the parts.
   void add (const NearTriangles& next);
 };

@@ -6,6 +6,7 @@
 #include "parts/part_finish.h"
 #include "parts/part_rim.h"
 
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,15 @@ public:
   /// \param points ascending
   virtual PointValues valuesOf (const std::vector<Index>& points) = 0;
 };
+
+/// What is known of all points of a cloud.
+inline PointValues
+valuesOfAll (PartWork& work, std::size_t points)
+{
+  std::vector<Index> all (points);
+  std::iota (all.begin (), all.end (), Index{0});
+  return work.valuesOf (all);
+}
 
 } // namespace floater
 } // namespace pcl

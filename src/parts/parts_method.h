@@ -37,7 +37,7 @@ struct SurfaceOfParts
 /// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES,
 /// FLIPS and CHECK. What is decided for all parts together is where their meshes end: O(n / sqrt
 /// (m)) for parts of m points. O(n log n).
-/// \param points their positions are read only for lines of sight that tell the front of a body
+/// \param points their positions need not be in memory
 SurfaceOfParts
 makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
                     const PartsSettings& settings, const RunContext& run);

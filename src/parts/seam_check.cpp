@@ -44,6 +44,7 @@ public:
         seam_count_ (seam.triangles.size ())
   {
     std::vector<Index> used;
+    used.reserve (zones_.points.size () + near_.points.size ());
     std::set_union (zones_.points.begin (), zones_.points.end (), near_.points.begin (),
                     near_.points.end (), std::back_inserter (used));
     points_ = JoinedPoints (std::move (used));
@@ -53,10 +54,14 @@ public:
       zone_places_.push_back (points_.placeOf (p));
       mesh_.is_partial[zone_places_.back ()] = 0;
     }
-    for (const auto& [a, b, c] : seam.triangles)
-      mesh_.triangles.push_back ({zone_places_[a], zone_places_[b], zone_places_[c]});
-    for (const auto& [a, b, c] : near_.triangles)
-      mesh_.triangles.push_back ({points_.placeOf (a), points_.placeOf (b), points_.placeOf (c)});
+    mesh_.triangles.resize (seam_count_ + near_.triangles.size ());
+    parallelRanges (run, mesh_.triangles.size (), [&] (std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+          mesh_.triangles[t][i] = t < seam_count_
+                                      ? zone_places_[seam.triangles[t][i]]
+                                      : points_.placeOf (near_.triangles[t - seam_count_][i]);
+    });
     if (!mesh_.connect (points_.size (), run))
       throw std::logic_error ("the finished parts do not fit");
   }
@@ -102,6 +107,8 @@ private:
   // The positions and the spacing of all points.
   void takeValues ()
   {
+    positions_.reserve (points_.size ());
+    spacing_.reserve (points_.size ());
     std::size_t of_zones = 0, of_near = 0;
     for (Index place = 0; place < points_.size (); ++place) {
       const Index p = points_.pointAt (place);
@@ -269,7 +276,14 @@ private:
 
     const std::vector<Triangle>& triangles () override { return assembled ().triangles; }
     const std::vector<Index>& components () override { return assembled ().components; }
-    const std::vector<Eigen::Vector3d>& positions () override { return checker_.cloud_.positions; }
+    const std::vector<Eigen::Vector3d>& positions () override
+    {
+      if (checker_.cloud_.hasPositions ())
+        return checker_.cloud_.positions;
+      if (positions_.empty ())
+        positions_ = valuesOfAll (work_, checker_.cloud_.size ()).positions;
+      return positions_;
+    }
     std::vector<BoundarySegment> boundary () override
     {
       return boundarySegments (seam_, checker_.positions_, of_seam_);
@@ -325,6 +339,7 @@ private:
     const Parts& parts_;
     PartWork& work_;
     std::optional<Assembled> assembled_;
+    std::vector<Eigen::Vector3d> positions_; // if the cloud does not have them
   };
 
   const std::vector<InnerCheck>& checks_;
@@ -350,6 +365,7 @@ checkParts (FinishedSeam seam, const std::vector<InnerCheck>& checks, const Part
             const RunContext& run)
 {
   std::vector<Triangle> sorted;
+  sorted.reserve (seam.triangles.size ());
   for (const Index t : orderByPoints (seam.triangles, seam.zones.points.size ()))
     sorted.push_back (seam.triangles[t]);
   seam.triangles = std::move (sorted);

@@ -48,7 +48,7 @@ struct PartsCheckSettings
 /// but where lines of sight through the whole mesh have to decide on its facing: then the mesh is
 /// put together for that. Inner triangles of two parts that cross each other stay as they are.
 /// \param checks of all parts
-/// \param points their positions are read only for lines of sight
+/// \param points their positions need not be in memory
 CheckedParts
 checkParts (FinishedSeam seam, const std::vector<InnerCheck>& checks, const Parts& parts,
             PartWork& work, const Points& points, const PartsCheckSettings& settings,

@@ -7,6 +7,7 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
+#include <functional>
 #include <vector>
 
 namespace pcl
@@ -32,7 +33,12 @@ struct Points
   std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, the equal point that
                                                 ///< stands for it), ascending
 
-  std::size_t size () const { return positions.size (); }
+  /// The position of a point, where `positions` are not in memory but elsewhere; else empty.
+  std::function<Eigen::Vector3d (Index point)> position_elsewhere = {};
+
+  bool hasPositions () const { return !position_elsewhere; }
+
+  std::size_t size () const { return hasPositions () ? positions.size () : cloud_index.size (); }
 
   /// Positions by which points are connected. The mesh is on the positions themselves.
   const std::vector<Eigen::Vector3d>& workingPositions () const
@@ -41,7 +47,10 @@ struct Points
   }
 
   /// A position in the frame of the cloud.
-  Eigen::Vector3d inCloud (Index point) const { return centre + scale * positions[point]; }
+  Eigen::Vector3d inCloud (Index point) const
+  {
+    return centre + scale * (hasPositions () ? positions[point] : position_elsewhere (point));
+  }
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points

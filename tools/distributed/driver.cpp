@@ -212,23 +212,23 @@ workOnBlocks (const Workers& workers)
     workOn (workers, MESH, context.plan.parts);
 }
 
-// How `join` has parts finished, if all processes together have as many threads for them as this
-// one has for the whole cloud; else empty.
-StoredParts::Deal
-dealOfFinish (const Workers& workers)
+// `join` has parts finished by all processes if together these have as many threads for them as
+// this one has for the whole cloud.
+JoinHelp
+helpOfJoin (const Workers& workers)
 {
+  JoinHelp help;
+  help.limit = workers.limit;
   if (workers.dealer == nullptr || workers.dealer->processes () * workers.context.run.threads () <
                                        RunContext (workers.job.join_threads).threads ())
-    return {};
-  return [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
+    return help;
+  help.finish = [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
     const std::size_t all = partsOf (workers.context).count ();
     const std::size_t count = numbers.size ();
-    {
-      const HeapReuse reuse (workers.limit);
-      workers.dealer->run (workers.context, step, std::move (numbers));
-    }
+    workers.dealer->run (workers.context, step, std::move (numbers));
     sayDone (workers, step, count, all - count);
   };
+  return help;
 }
 
 int
@@ -251,7 +251,7 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   if (!areBlocksFreed (folder, plan))
     workOnBlocks (workers);
   if (!isMeshKnown (context, folder))
-    if (const int code = joinStep (job, folder, plan, dealOfFinish (workers)); code != EXIT_OK)
+    if (const int code = joinStep (job, folder, plan, helpOfJoin (workers)); code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
   const int code = writeStep (job, folder, plan);
@@ -301,8 +301,8 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
   }
   if (step == "join" || step == STITCH)
     return isMeshKnown (context, folder) ? static_cast<int> (EXIT_OK)
-           : step == STITCH              ? stitchStep (job, folder, plan)
-                                         : joinStep (job, folder, plan);
+           : step == STITCH              ? stitchStep (job, folder, plan, {{}, limit.get ()})
+                                         : joinStep (job, folder, plan, {{}, limit.get ()});
   if (step == "write")
     return writeStep (job, folder, plan);
   const bool is_of_part = step == MESH || step == FINISH;

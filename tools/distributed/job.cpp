@@ -201,7 +201,7 @@ readPlan (const Job& job, const FolderStore& store)
 }
 
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const StoredParts::Deal& finish)
+joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& help)
 {
   const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
@@ -210,7 +210,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const StoredPart
   const StepContext context{store, plan, effective.options, effective.limits, run};
   checkMemory (line, plan.cloud_size);
   StoredStages stages (context, store, job.frees_disk ? &store : nullptr);
-  stages.divideFinish (finish);
+  stages.setHelp (help);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
     for (std::size_t block = 0; block < plan.blocks; ++block)
       openArrays (store, blockFile (step, block), plan);
@@ -266,10 +266,10 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const StoredPart
 }
 
 int
-stitchStep (const Job& job, FolderStore& store, const Plan& plan)
+stitchStep (const Job& job, FolderStore& store, const Plan& plan, JoinHelp help)
 {
-  return joinStep (job, store, plan,
-                   [] (const std::string&, const std::deque<std::size_t>&) { throw Cancelled (); });
+  help.finish = [] (const std::string&, const std::deque<std::size_t>&) { throw Cancelled (); };
+  return joinStep (job, store, plan, help);
 }
 
 int

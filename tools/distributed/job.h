@@ -73,16 +73,14 @@ int
 planStep (const Job& job, FolderStore& store);
 
 /// Puts together what the blocks have found out.
-/// \param finish has parts finished on all processes; empty: that is done here
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan,
-          const StoredParts::Deal& finish = {});
+joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& help = {});
 
 /// The first half of joinStep, up to where parts are finished: what they need for that is then in
 /// the work folder. If the mesh is not made of parts, all of joinStep.
 int
-stitchStep (const Job& job, FolderStore& store, const Plan& plan);
+stitchStep (const Job& job, FolderStore& store, const Plan& plan, JoinHelp help);
 
 /// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
 /// block.

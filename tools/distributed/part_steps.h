@@ -5,6 +5,7 @@
 #pragma once
 
 #include "block_steps.h"
+#include "heap_reuse.h"
 #include "parts/parts_method.h"
 
 #include <deque>
@@ -37,20 +38,28 @@ finishStep (const StepContext& context, std::size_t part);
 bool
 isPartFinished (const StepContext& context, const FolderStore& folder, std::size_t part);
 
-/// The parts, for makeSurfaceOfParts.
-class StoredParts : public PartWork
+/// Of what `join` makes use.
+struct JoinHelp
 {
-public:
   /// Has a step done for these numbers.
   using Deal = std::function<void (const std::string& step, std::deque<std::size_t> numbers)>;
 
+  Deal finish; ///< has parts finished by all processes; empty: by the threads of the run
+  const MemoryLimit* limit = nullptr; ///< of the memory of this process; nullptr: there is none
+};
+
+/// The parts, for makeSurfaceOfParts. As long as this lives, memory is used again: what is known of
+/// all parts together is small.
+class StoredParts : public PartWork
+{
+public:
   /// \param context, folder must outlive this
   /// \param scatter  see finishPart
-  /// \param deal     empty: parts are finished by the threads of the run
+  /// \param help     see JoinHelp
   StoredParts (const StepContext& context, FolderStore& folder, std::vector<Index> scatter,
-               const PartsSettings& settings, Deal deal)
+               const PartsSettings& settings, const JoinHelp& help)
       : context_ (context), folder_ (folder), scatter_ (std::move (scatter)), settings_ (settings),
-        deal_ (std::move (deal)), parts_ (partsOf (context))
+        deal_ (help.finish), reuse_ (help.limit), parts_ (partsOf (context))
   {
   }
 
@@ -66,7 +75,8 @@ private:
   FolderStore& folder_;
   std::vector<Index> scatter_;
   PartsSettings settings_;
-  Deal deal_;
+  JoinHelp::Deal deal_;
+  HeapReuse reuse_;
   Parts parts_;
 };
 

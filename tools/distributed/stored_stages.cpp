@@ -183,7 +183,7 @@ StoredStages::spacing ()
 std::unique_ptr<PartWork>
 StoredStages::parts (const std::vector<Index>& scatter, const PartsSettings& settings)
 {
-  return std::make_unique<StoredParts> (context_, folder_, scatter, settings, finish_);
+  return std::make_unique<StoredParts> (context_, folder_, scatter, settings, help_);
 }
 
 ProposedTriangles

@@ -41,8 +41,8 @@ public:
   /// The mesh, if it is in parts.
   std::optional<MeshOfParts> takeMesh () { return std::move (mesh_); }
 
-  /// Has parts finished by others, too.
-  void divideFinish (StoredParts::Deal deal) { finish_ = std::move (deal); }
+  /// For the parts.
+  void setHelp (JoinHelp help) { help_ = std::move (help); }
 
 private:
   // Calls visit (file of a step, block) for all blocks.
@@ -54,7 +54,7 @@ private:
   const StepContext& context_;
   FolderStore& folder_;
   const FolderStore* freed_;
-  StoredParts::Deal finish_;
+  JoinHelp help_;
   std::optional<MeshOfParts> mesh_;
   std::vector<Index> outliers_;
   BlockRanges ranges_; // without outliers
