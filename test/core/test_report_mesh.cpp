@@ -26,7 +26,7 @@ warningsOn (std::size_t count)
   found.fold_at = found.degenerate_at = found.crossing_at = 0;
   found.longest_inside = 7.0;
   found.longest_inside_at = {0, 1};
-  found.crossing.resize (count);
+  found.check.self_intersections = count;
   found.smallest_component = found.largest_component = 2000;
   found.component_points = {2000};
   for (std::size_t i = 0; i < count; ++i) {
