@@ -9,9 +9,9 @@
 #include "finished_mesh.h"
 #include "known_stages.h"
 #include "local/star_agreement.h"
-#include "parts/local_parts.h"
 #include "problem_of_exception.h"
 #include "published_method.h"
+#include "reconstruct_parts.h"
 #include "reconstruct_view.h"
 #include "report_cloud.h"
 #include "report_mesh.h"
@@ -26,7 +26,6 @@
 #include <new>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace pcl
@@ -123,112 +122,6 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
-}
-
-// The work on the parts where it is done, and what has been found of a surface there.
-struct PartsInWork
-{
-  const Parts& parts;
-  std::unique_ptr<PartWork> work;
-  SurfaceOfParts made;
-};
-
-// As long as this lives, positions and spacing of all points are not in memory: the parts know
-// them.
-class LeftToParts
-{
-public:
-  LeftToParts (Points& points, LocalGeometry& geometry, PartWork& work)
-      : points_ (points), geometry_ (geometry), work_ (work)
-  {
-    points.position_elsewhere = [&work] (Index p) {
-      return work.valuesOf ({p}).positions.front ();
-    };
-    points.positions = std::vector<Eigen::Vector3d> ();
-    geometry.spacing = std::vector<float> ();
-  }
-  ~LeftToParts () { points_.position_elsewhere = {}; }
-  LeftToParts (const LeftToParts&) = delete;
-  LeftToParts& operator= (const LeftToParts&) = delete;
-  LeftToParts (LeftToParts&&) = delete;
-  LeftToParts& operator= (LeftToParts&&) = delete;
-
-  // Brings all of them back.
-  void takeBack ()
-  {
-    PointValues values = valuesOfAll (work_, points_.size ());
-    points_.position_elsewhere = {};
-    points_.positions = std::move (values.positions);
-    geometry_.spacing = std::move (values.spacing);
-  }
-
-private:
-  Points& points_;
-  LocalGeometry& geometry_;
-  PartWork& work_;
-};
-
-// Uses a surface in parts as a whole, as where something is to be cut off.
-Problem
-useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& geometry,
-              const Request& request, Result& result)
-{
-  TriangleMesh mesh;
-  CheckedParts& checked = surface.made.checked;
-  mesh.triangles = assembleTriangles (checked.mesh, surface.made.checks, surface.parts,
-                                      *surface.work, request.run);
-  surface.work.reset ();
-  if (asksForTrimming (request.options.trimming) && checked.found.isManifold () &&
-      !mesh.connect (points.size (), request.run))
-    throw std::logic_error ("the finished parts do not fit");
-  return useMesh (std::move (mesh), surface.made.surface.finish, std::move (checked.found), points,
-                  geometry, request, result);
-}
-
-// \param geometry if stages are known: the spacing alone
-Problem
-reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
-                  const SurfaceSettings& surface_settings, const Request& request,
-                  KnownStages* known, Result& result)
-{
-  const Limits& limits = request.limits;
-  const PartsSettings settings{surface_settings,
-                               limits.parts,
-                               limits.check,
-                               limits.uncrossing,
-                               removesCrossings (points, request.options),
-                               points.diagonal};
-  PartsInWork surface{parts, nullptr, {}};
-  std::optional<LeftToParts> left;
-  if (known != nullptr) {
-    surface.work = known->parts (geometry.scatter, settings);
-    left.emplace (points, geometry, *surface.work);
-  }
-  else
-    surface.work = std::make_unique<LocalParts> (points, parts, geometry, settings, request.run);
-  surface.made = makeSurfaceOfParts (points, parts, *surface.work, settings, request.run);
-  Report& report = result.report;
-  const CheckedParts& checked = surface.made.checked;
-  reportOrientationSeam (points, surface.made.surface.orientation_seam, report);
-  report.topology = Topology::SURFACE;
-  reportLoops (points, surface.made.surface, report);
-  report.statistics.self_intersections_found = checked.crossing.found;
-  report.statistics.self_intersection_flips = checked.crossing.done.flips;
-  report.statistics.self_intersection_moves = checked.crossing.done.moves;
-  report.statistics.self_intersection_rebuilds = checked.crossing.done.rebuilds;
-  if (left && asksForTrimming (request.options.trimming)) {
-    left->takeBack ();
-    left.reset ();
-    known = nullptr;
-  }
-  if (known == nullptr)
-    return useAssembled (std::move (surface), points, geometry, request, result);
-  Problem problem = reportFinished (checked.mesh.triangles, surface.made.surface.finish,
-                                    checked.found, points, request, report);
-  MeshOfParts& mesh = surface.made.checked.mesh;
-  mesh.seam = inCloud (points, std::move (mesh.seam));
-  known->keepMesh (std::move (mesh));
-  return problem;
 }
 
 // \param geometry if stages are known: without neighbours and normals where these are not needed
