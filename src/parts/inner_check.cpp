@@ -122,7 +122,7 @@ innerComponents (std::vector<Triangle> triangles, Index first, std::size_t point
   for (Triangle& corners : mesh.triangles)
     for (Index& p : corners)
       p -= first;
-  mesh.is_partial.assign (points, 1); // as they may be: nobody asks which
+  mesh.is_partial.assign (points, 1); // any of them may have several fans here
   connectInner (mesh, points, run);
   return findComponents (mesh, run).of_triangle;
 }

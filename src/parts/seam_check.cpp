@@ -122,7 +122,7 @@ private:
     }
   }
 
-  // Pairs that nobody knows: those of inner triangles of one part are known.
+  // All pairs but those of two inner triangles of one part, of which the part has told.
   std::vector<CrossingPair> findCrossing () const
   {
     const std::vector<Index> order = orderByPoints (mesh_.triangles, points_.size ());
@@ -140,7 +140,7 @@ private:
     return pairs;
   }
 
-  // Inner triangles stay.
+  // Moves triangles of these pairs apart. Inner triangles stay.
   void remove (const std::vector<CrossingPair>& pairs)
   {
     std::vector<Eigen::Vector3f> normals (points_.size (), Eigen::Vector3f::Zero ());
