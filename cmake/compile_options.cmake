@@ -26,3 +26,17 @@ target_compile_options (pcl_floater_warnings INTERFACE -Wall -Wextra -Wpedantic 
 if (PCL_FLOATER_WARNINGS_AS_ERRORS)
   target_compile_options (pcl_floater_warnings INTERFACE -Werror)
 endif ()
+
+# pcl_floater_in_batches (<target>)
+# Compiles the sources of each folder as one, which takes a fourth of the time. So what a source keeps in its
+# unnamed namespace has a name of its own within its folder.
+option (PCL_FLOATER_UNITY "Compile the sources of a folder together: faster, but for small changes" ON)
+function (pcl_floater_in_batches target)
+  get_target_property (sources ${target} SOURCES)
+  foreach (source IN LISTS sources)
+    get_filename_component (folder "${source}" DIRECTORY)
+    string (MAKE_C_IDENTIFIER "in_${folder}" group)
+    set_source_files_properties ("${source}" PROPERTIES UNITY_GROUP "${group}")
+  endforeach ()
+  set_target_properties (${target} PROPERTIES UNITY_BUILD ${PCL_FLOATER_UNITY} UNITY_BUILD_MODE GROUP)
+endfunction ()

@@ -13,12 +13,12 @@ namespace floater
 namespace
 {
 // When to tell of a part; nothing else hangs on these.
-constexpr std::size_t TINY_SHARE = 20; // the mesh has so many times as many triangles
-constexpr double SURE_FACING = 0.9;    // certainty; told to the user below
-constexpr double GUESSED_FACING = 0.6; // certainty; a warning below
+constexpr std::size_t TINY_OBJECT = 20; // the mesh has so many times as many triangles
+constexpr double SURE_FACING = 0.9;     // certainty; told to the user below
+constexpr double GUESSED_FACING = 0.6;  // certainty; a warning below
 
 // Some parts of the mesh.
-struct Parts
+struct Pieces
 {
   std::size_t count = 0, triangles = 0;
   const FacingObject* largest = nullptr;
@@ -58,7 +58,7 @@ whyGuessed (Facing wanted)
 }
 
 void
-warnOfMiss (const Points& points, FacingMiss miss, const Parts& parts, Facing wanted,
+warnOfMiss (const Points& points, FacingMiss miss, const Pieces& parts, Facing wanted,
             Report& report)
 {
   const std::string where = parts.text (points);
@@ -86,8 +86,8 @@ reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Rep
   std::size_t triangles = 0;
   for (const FacingObject& object : facing.objects)
     triangles += object.triangles;
-  Parts guessed;
-  std::array<Parts, static_cast<std::size_t> (FacingMiss::COUNT)> missed;
+  Pieces guessed;
+  std::array<Pieces, static_cast<std::size_t> (FacingMiss::COUNT)> missed;
   for (const FacingObject& object : facing.objects) {
     ++report.facing_parts[static_cast<std::size_t> (object.rule)];
     report.facing_certainty = std::min (report.facing_certainty, object.certainty);
@@ -97,7 +97,7 @@ reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Rep
       continue;
     report.facing_decisions.push_back (
         {object.triangles, points.cloud_index[object.at], object.rule, object.certainty});
-    if (object.certainty < GUESSED_FACING && TINY_SHARE * object.triangles >= triangles)
+    if (object.certainty < GUESSED_FACING && TINY_OBJECT * object.triangles >= triangles)
       guessed.add (object);
   }
   std::stable_sort (
@@ -109,7 +109,7 @@ reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Rep
         "sensor, and the points do not tell it. Other evidence decides which side is the front; "
         "give the place of the sensor, or choose another facing");
   for (std::size_t miss = 0; miss < missed.size (); ++miss)
-    if (missed[miss].count > 0 && TINY_SHARE * missed[miss].triangles >= triangles)
+    if (missed[miss].count > 0 && TINY_OBJECT * missed[miss].triangles >= triangles)
       warnOfMiss (points, static_cast<FacingMiss> (miss), missed[miss], wanted, report);
   if (guessed.count > 0)
     report.warnings.push_back (

@@ -25,4 +25,4 @@ expect () {
 }
 expect 'cmake --preset dev -DBUILD_TESTING=ON'
 expect 'cmake --build --preset dev --parallel 2'
-expect 'ctest --test-dir build/dev --parallel 2 --output-on-failure --no-tests=error'
+expect 'ctest --test-dir build/dev --parallel 2 --output-on-failure --no-tests=error --output-junit run.xml'

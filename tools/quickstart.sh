@@ -22,24 +22,23 @@ fail () {
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=
-cloud=
+clouds=()
 while (($# > 0)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     --build) build=${2:?quickstart.sh: --build needs a folder}; shift ;;
     -*) usage >&2; exit 1 ;;
-    *)
-      if [[ -n $cloud ]]; then
-        usage >&2
-        exit 1
-      fi
-      cloud=$1
-      ;;
+    *) clouds+=("$1") ;;
   esac
   shift
 done
-cloud=${cloud:-$root/tools/sample/tum_rabbit.pcd}
-[[ -r $cloud ]] || fail "cannot read '$cloud'"
+if ((${#clouds[@]} > 1)); then
+  usage >&2
+  fail "one cloud at a time, not ${#clouds[@]}"
+fi
+cloud=${clouds[0]-$root/tools/sample/tum_rabbit.pcd}
+[[ -n $cloud ]] || fail "the name of the cloud is empty; without a name, it is tools/sample/tum_rabbit.pcd"
+[[ -f $cloud && -r $cloud ]] || fail "cannot read '$cloud': a file with a point cloud is needed"
 result=$PWD/floater_result
 
 if [[ -z $build ]]; then
@@ -48,10 +47,16 @@ if [[ -z $build ]]; then
   if command -v apt-get >/dev/null; then
     bash "$root/tools/install_packages.sh"
   fi
-  echo "Building (the first time takes minutes) ..."
+  echo "Building the library, the tool and the pictures (some two minutes on two cores; the tools that are left" \
+       "out: cmake --build --preset release) ..."
   mkdir -p "$build"
   log=$build/quickstart.log
-  if ! (cd "$root" && cmake --preset release && cmake --build --preset release) >"$log" 2>&1; then
+  # On a terminal, each line takes the place of the last one.
+  if [[ -t 1 ]]; then line='\r  %s'; else line='  %s\n'; fi
+  if ! (cd "$root" && cmake --preset release &&
+        NINJA_STATUS="step %f of %t " cmake --build --preset release --target quickstart) 2>&1 | tee "$log" |
+       awk -v line="$line" '/^step / { printf line, $1 " " $2 " " $3 " " $4; fflush (); any = 1 }
+                            END { if (any && line ~ /r/) print "" }'; then
     tail -n 40 "$log" >&2
     fail "the build failed; its output is in $log"
   fi

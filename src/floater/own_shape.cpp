@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/own_shape.h"
 
+#include "core/exact.h"
 #include "core/geometry.h"
 #include "core/plane_fit.h"
-
-#include <CGAL/Convex_hull_traits_adapter_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/convex_hull_2.h>
-#include <CGAL/property_map.h>
 
 #include <Eigen/Geometry>
 
@@ -56,31 +52,6 @@ project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   for (Eigen::Vector2d& p : outline)
     p /= radius > 0.0 ? radius : 1.0;
   return outline;
-}
-
-// The places of the hull's vertices in the outline, anti-clockwise. Of coinciding points the first
-// in the outline is the vertex.
-std::vector<std::size_t>
-hullOf (const Outline& outline)
-{
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_2> points;
-  points.reserve (outline.size ());
-  for (const Eigen::Vector2d& p : outline)
-    points.emplace_back (p.x (), p.y ());
-  std::vector<std::size_t> places (points.size ());
-  std::iota (places.begin (), places.end (), std::size_t{0});
-  std::stable_sort (places.begin (), places.end (),
-                    [&points] (std::size_t a, std::size_t b) { return points[a] < points[b]; });
-  places.erase (
-      std::unique (places.begin (), places.end (),
-                   [&points] (std::size_t a, std::size_t b) { return points[a] == points[b]; }),
-      places.end ());
-  std::vector<std::size_t> hull;
-  auto map = CGAL::make_property_map (points);
-  CGAL::convex_hull_2 (places.begin (), places.end (), std::back_inserter (hull),
-                       CGAL::Convex_hull_traits_adapter_2<Kernel, decltype (map)> (map));
-  return hull;
 }
 
 // As many vertices of the hull as possible that have the same order along the loop and along the
@@ -150,7 +121,7 @@ findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<I
 {
   constexpr std::size_t FEWEST = 3;
   const Outline outline = project (positions, loop);
-  std::vector<std::size_t> corners = inLoopOrder (hullOf (outline));
+  std::vector<std::size_t> corners = inLoopOrder (convexHull (outline));
   const auto steps = [&loop] (std::size_t from, std::size_t to) {
     return to > from ? to - from : to + loop.size () - from;
   };

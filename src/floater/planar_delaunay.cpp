@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/planar_delaunay.h"
 
+#include "core/exact.h"
+
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -49,7 +51,6 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   }
   std::sort (corners.begin (), corners.end ());
   std::vector<std::uint8_t> outside (uv.size (), 0);
-  const auto point = [&] (Index p) { return toPoint (uv[p]); };
   for (Index p = 0; p < uv.size (); ++p) {
     if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
       continue;
@@ -61,8 +62,7 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
         corners.begin ());
     for (std::size_t step = 0; step < 4; ++step) {
       const std::size_t i = corners[(after + h + step - 2) % h].second;
-      if (CGAL::orientation (point (loop[i]), point (loop[(i + 1) % h]), point (p)) !=
-          CGAL::LEFT_TURN)
+      if (!isAntiClockwise (uv[loop[i]], uv[loop[(i + 1) % h]], uv[p]))
         outside[p] = 1;
     }
   }
@@ -178,12 +178,6 @@ triangulateHull (const std::vector<Eigen::Vector2d>& uv)
   for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
     face->info () = delaunay.is_infinite (face) ? NONE : count++;
   return makeMesh (delaunay, count, uv.size ());
-}
-
-bool
-isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
-{
-  return CGAL::orientation (toPoint (a), toPoint (b), toPoint (c)) == CGAL::LEFT_TURN;
 }
 
 bool

@@ -29,10 +29,6 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
 TriangleMesh
 triangulateHull (const std::vector<Eigen::Vector2d>& uv);
 
-/// Whether three points are the corners of a triangle, anti-clockwise; exact.
-bool
-isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
-
 /// Whether d lies within the circle through a, b and c, which are anti-clockwise; exact. Of four
 /// points on one circle, it decides as the triangulations above do.
 bool

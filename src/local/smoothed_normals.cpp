@@ -13,7 +13,7 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t NEAREST = 8;    // neighbours over which the mean is taken: the first ring
+constexpr std::size_t FIRST_RING = 8; // neighbours over which the mean is taken: the first ring
 constexpr double PERPENDICULAR = 0.1; // cosine below which its sign does not tell the side
 constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
 } // namespace
@@ -25,7 +25,7 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
   const Eigen::Vector3d normal = normals[p].cast<double> ();
   Eigen::Vector3d sum = normal;
   const Row row = neighbors.row (p);
-  for (std::size_t i = 0; i < std::min (NEAREST, row.size ()); ++i) {
+  for (std::size_t i = 0; i < std::min (FIRST_RING, row.size ()); ++i) {
     const Eigen::Vector3d other = normals[row[i]].cast<double> ();
     double same = normal.dot (other);
     if (std::abs (same) < PERPENDICULAR) {

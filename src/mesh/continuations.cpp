@@ -20,7 +20,7 @@ namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-struct BoundaryEdge
+struct OpenEdge
 {
   Index component;
   double length;
@@ -30,7 +30,7 @@ struct BoundaryEdge
 
 struct BoundaryEdges
 {
-  std::vector<BoundaryEdge> edges;
+  std::vector<OpenEdge> edges;
   Positions middles;
   std::vector<double> length, mean_length; // of all edges of each component, and of one
   std::size_t components = 0;              // that have any
@@ -39,7 +39,7 @@ struct BoundaryEdges
 // Directions are averaged with those of the edges before and after, since borders are ragged.
 // \param ends of each edge
 void
-smoothDirections (std::vector<BoundaryEdge>& edges, const std::vector<std::array<Index, 2>>& ends,
+smoothDirections (std::vector<OpenEdge>& edges, const std::vector<std::array<Index, 2>>& ends,
                   std::size_t points)
 {
   std::vector<Index> from (points, NONE), to (points, NONE); // edges by their end points
@@ -47,13 +47,13 @@ smoothDirections (std::vector<BoundaryEdge>& edges, const std::vector<std::array
     from[ends[i][0]] = i;
     to[ends[i][1]] = i;
   }
-  const std::vector<BoundaryEdge> rough = edges;
+  const std::vector<OpenEdge> rough = edges;
   for (Index i = 0; i < edges.size (); ++i)
     for (const Index j : {to[ends[i][0]], from[ends[i][1]]}) {
       edges[i].along += rough[j].along;
       edges[i].ahead += rough[j].ahead;
     }
-  for (BoundaryEdge& edge : edges) {
+  for (OpenEdge& edge : edges) {
     edge.along.normalize ();
     edge.ahead.normalize ();
   }
@@ -97,8 +97,7 @@ findBoundaryEdges (const TriangleMesh& mesh, const MeshComponents& components,
 
 // How well one edge is continued by another: positive if their fronts are on the same side.
 double
-agreement (const BoundaryEdge& one, const BoundaryEdge& other, const Eigen::Vector3d& across,
-           double cosine)
+agreement (const OpenEdge& one, const OpenEdge& other, const Eigen::Vector3d& across, double cosine)
 {
   const double ahead = across.dot (one.ahead), back = -across.dot (other.ahead);
   return ahead >= cosine && back >= cosine ? -one.along.dot (other.along) * ahead * back : 0.0;
@@ -118,7 +117,7 @@ vote (const BoundaryEdges& boundary, const ContinuationLimits& limits, const Run
   parallelRanges (run, votes.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t i = first; i < last; ++i) {
-      const BoundaryEdge& edge = boundary.edges[i];
+      const OpenEdge& edge = boundary.edges[i];
       const auto to = [&] (Index j, const Eigen::Vector3d& middle) {
         return agreement (edge, boundary.edges[j], (middle - boundary.middles[i]).normalized (),
                           limits.cosine);

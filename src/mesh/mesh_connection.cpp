@@ -16,7 +16,7 @@ namespace floater
 namespace
 {
 // Wedges up to which comparing all with all is faster than a hash table. Measured.
-constexpr std::size_t MANY = 32;
+constexpr std::size_t MANY_IN_STAR = 32;
 
 // Looks at the triangles around one point after the other. Both triangles of an edge are around
 // each of its ends, so that nothing else needs to be looked at.
@@ -53,7 +53,7 @@ private:
   // Returns false if two edges lead to the same point.
   bool indexLeaving (const VertexStar& star)
   {
-    if (star.size () > MANY) {
+    if (star.size () > MANY_IN_STAR) {
       leaving_ = {}; // not clear (): that goes through the buckets of an earlier, larger one
       for (Index i = 0; i < star.size (); ++i)
         if (!leaving_.emplace (star[i].next, i).second)
@@ -70,7 +70,7 @@ private:
   // The wedge whose first edge leads to q, NONE if there is none.
   Index wedgeTo (Index q, const VertexStar& star) const
   {
-    if (star.size () > MANY) {
+    if (star.size () > MANY_IN_STAR) {
       const auto found = leaving_.find (q);
       return found == leaving_.end () ? NONE : found->second;
     }

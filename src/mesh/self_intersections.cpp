@@ -3,13 +3,11 @@
 #include "mesh/self_intersections.h"
 
 #include "core/csr_lists.h"
+#include "core/exact.h"
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "mesh/box_tree.h"
 #include "mesh/triangle_order.h"
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <array>
@@ -20,18 +18,11 @@ namespace floater
 {
 namespace
 {
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Positions = std::vector<Eigen::Vector3d>;
 
 // What rounding can do to a product of three differences of coordinates is some 20 units in the
 // last place of the product of their lengths. A value above this share of it has the right sign.
 constexpr double ROUNDING = 1e-13;
-
-Kernel::Point_3
-exactly (const Eigen::Vector3d& p)
-{
-  return {p.x (), p.y (), p.z ()};
-}
 
 // Corners of two triangles, those that both have first.
 struct Corners
@@ -170,8 +161,7 @@ isOnLine (const Triangle& triangle, const Positions& positions)
   const Eigen::Vector3d a = positions[triangle[1]] - p, b = positions[triangle[2]] - p;
   if (a.cross (b).squaredNorm () > ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm ())
     return false;
-  return CGAL::collinear (exactly (p), exactly (positions[triangle[1]]),
-                          exactly (positions[triangle[2]]));
+  return areCollinear (p, positions[triangle[1]], positions[triangle[2]]);
 }
 
 // Whether rounding might decide on which side of the plane of a triangle a point is.
@@ -362,22 +352,18 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
     *exact_tests += costOfExactTest (corners, positions);
   if (isOnLine (corners.one, positions) || isOnLine (corners.other, positions))
     return false;
-  std::array<Kernel::Point_3, 3> a, b;
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[i] = exactly (positions[corners.one[i]]);
-    b[i] = exactly (positions[corners.other[i]]);
-  }
+  const auto at = [&positions] (const Triangle& t) {
+    return std::array<Eigen::Vector3d, 3>{positions[t[0]], positions[t[1]], positions[t[2]]};
+  };
+  const std::array<Eigen::Vector3d, 3> a = at (corners.one), b = at (corners.other);
   if (corners.common == 3)
     return true;
   if (corners.common == 2)
-    return CGAL::coplanar (a[0], a[1], a[2], b[2]) &&
-           CGAL::coplanar_orientation (a[0], a[1], a[2], b[2]) == CGAL::POSITIVE;
-  const Kernel::Triangle_3 triangle_a (a[0], a[1], a[2]), triangle_b (b[0], b[1], b[2]);
+    return areOnOneSide (a[0], a[1], a[2], b[2]);
   if (corners.common == 0)
-    return CGAL::do_intersect (triangle_a, triangle_b);
+    return doMeet (a, b);
   // Whatever they have in common but the corner reaches the edge opposite to it, of one of them.
-  return CGAL::do_intersect (triangle_a, Kernel::Segment_3 (b[1], b[2])) ||
-         CGAL::do_intersect (triangle_b, Kernel::Segment_3 (a[1], a[2]));
+  return doMeet (a, b[1], b[2]) || doMeet (b, a[1], a[2]);
 }
 
 std::vector<CrossingPair>

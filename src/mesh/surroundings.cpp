@@ -16,7 +16,7 @@ namespace floater
 namespace
 {
 // Spokes up to which a look at all of them is faster than a hash table. Measured.
-constexpr std::size_t MANY = 32;
+constexpr std::size_t MANY_AROUND = 32;
 
 void
 note (Index& place, Index p)
@@ -83,13 +83,13 @@ Index
 SurroundingsCheck::spokeTo (Index q)
 {
   const auto added = static_cast<Index> (spokes_.size ());
-  if (added < MANY) {
+  if (added < MANY_AROUND) {
     for (Index i = 0; i < added; ++i)
       if (spokes_[i].to == q)
         return i;
   }
   else {
-    if (added == MANY) {
+    if (added == MANY_AROUND) {
       place_ = {}; // not clear (): that goes through the buckets of an earlier, larger one
       for (Index i = 0; i < added; ++i)
         place_.emplace (spokes_[i].to, i);

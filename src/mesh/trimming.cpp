@@ -17,13 +17,13 @@ namespace floater
 namespace
 {
 // An edge is as long as the limit up to rounding; positions are in a box of diagonal 1.
-constexpr double ROUNDING = 1e-15;
+constexpr double LENGTH_ROUNDING = 1e-15;
 
 bool
 isTooLong (Index p, Index q, const Points& points, const std::vector<float>& spacing,
            const TrimmingOptions& options)
 {
-  const double length = (points.positions[q] - points.positions[p]).norm () - ROUNDING;
+  const double length = (points.positions[q] - points.positions[p]).norm () - LENGTH_ROUNDING;
   const double unit = 0.5 * (static_cast<double> (spacing[p]) + spacing[q]);
   return (options.maximum_edge_length > 0.0 &&
           length > options.maximum_edge_length / points.scale) ||

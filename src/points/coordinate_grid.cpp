@@ -16,13 +16,13 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t LOOKED_AT = 1U << 17; // points
-constexpr std::size_t FEWEST = 21;          // points that tell anything
-constexpr double COARSE = 0.1;              // spacings
-constexpr double FINER_THAN_RASTER = 0.4;   // spacings; the step of a raster is 0.5 and more
-constexpr double MANY_COINCIDE = 0.1;       // of the points
-constexpr double ALIKE = 0.01;              // relative difference of steps that count as equal
-constexpr double REGULAR = 0.99;            // of the differences are multiples of the step
+constexpr std::size_t SAMPLED = 1U << 17;  // points
+constexpr std::size_t FEWEST_SAMPLED = 21; // points that tell anything
+constexpr double COARSE = 0.1;             // spacings
+constexpr double FINER_THAN_RASTER = 0.4;  // spacings; the step of a raster is 0.5 and more
+constexpr double COINCIDENT_SHARE = 0.1;   // of the points
+constexpr double ALIKE = 0.01;             // relative difference of steps that count as equal
+constexpr double REGULAR = 0.99;           // of the differences are multiples of the step
 
 // Coordinates of all points along one axis, in the frame of the points.
 struct AxisGrid
@@ -49,7 +49,7 @@ floatStep (double value)
 std::vector<double>
 sortedCoordinates (const Points& points, int axis, const RunContext& run)
 {
-  const std::size_t stride = (points.size () + LOOKED_AT - 1) / LOOKED_AT;
+  const std::size_t stride = (points.size () + SAMPLED - 1) / SAMPLED;
   std::vector<double> values;
   values.reserve (points.size () / stride + 1);
   ProgressLoop progress (run); // each of them may bring pages into memory
@@ -120,7 +120,7 @@ CoordinateGrid
 findCoordinateGrid (const Points& points, const std::vector<float>& spacing, const RunContext& run)
 {
   CoordinateGrid found;
-  if (points.size () < FEWEST)
+  if (points.size () < FEWEST_SAMPLED)
     return found;
   std::vector<float> spacings = spacing;
   const auto usual = static_cast<double> (median (spacings));
@@ -134,7 +134,7 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
       });
   const auto coincident = static_cast<double> (points.duplicates.size ());
   const bool many_coincide =
-      coincident > MANY_COINCIDE * (coincident + static_cast<double> (points.size ()));
+      coincident > COINCIDENT_SHARE * (coincident + static_cast<double> (points.size ()));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const AxisGrid& grid = grids[axis];
     const double ratio = usual > 0.0 ? grid.step / usual : 0.0;

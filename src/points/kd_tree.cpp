@@ -13,8 +13,8 @@ namespace floater
 {
 namespace
 {
-constexpr Index BUCKET = 12; // points in a leaf, at most
-constexpr Index BUCKET_OF_CURVE =
+constexpr Index LARGEST_LEAF = 12; // points in a leaf, at most
+constexpr Index LARGEST_LEAF_OF_CURVE =
     20;                          // the same if the points keep their order; faster than 8 and 12
 constexpr Index PARALLEL = 8192; // points from which on halves are built at the same time
 } // namespace
@@ -26,7 +26,7 @@ KdTree::KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext&
   for (std::size_t p = 0; p < positions.size (); ++p)
     items_.push_back ({positions[p], static_cast<Index> (p)});
   if (!items_.empty ()) {
-    nodes_.reserve (4 * items_.size () / BUCKET + 1);
+    nodes_.reserve (4 * items_.size () / LARGEST_LEAF + 1);
     build (0, static_cast<Index> (items_.size ()), run, order, nodes_);
   }
 }
@@ -37,7 +37,8 @@ KdTree::build (Index first, Index last, const RunContext& run, PointOrder order,
 {
   const std::size_t self = nodes.size ();
   nodes.push_back ({{}, first, last, NONE});
-  const bool is_leaf = last - first <= (order == PointOrder::ANY ? BUCKET : BUCKET_OF_CURVE);
+  const bool is_leaf =
+      last - first <= (order == PointOrder::ANY ? LARGEST_LEAF : LARGEST_LEAF_OF_CURVE);
   if (is_leaf || order == PointOrder::ANY) {
     Eigen::AlignedBox3d box;
     for (Index i = first; i < last; ++i)

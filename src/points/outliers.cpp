@@ -17,8 +17,8 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t LOOKED_AT = 20; // nearest neighbours, however many there are
-constexpr std::size_t REACH_OF = 6;   // nearest neighbour whose distance is a point's reach
+constexpr std::size_t NEAREST_POINTS = 20; // nearest neighbours, however many there are
+constexpr std::size_t REACH_OF = 6; // nearest neighbour whose distance is a point's reach
 
 using Arc = std::pair<Index, Index>; // a point and one of its own
 
@@ -40,7 +40,7 @@ public:
 
   bool isApart (Index p)
   {
-    const Row row = neighbors_.first (p, LOOKED_AT);
+    const Row row = neighbors_.first (p, NEAREST_POINTS);
     if (row.size () < 4)
       return false;
     // The nearest ones may be of the same small cluster: the reach of the others tells what is far.

@@ -24,7 +24,7 @@ bucketsOf (std::size_t points)
 }
 
 // Above one by more than the rounding of a sum of distances.
-constexpr double SAFELY = 1.0 + 1e-9;
+constexpr double ENLARGED = 1.0 + 1e-9;
 
 Eigen::AlignedBox3d
 unite (const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first, std::size_t last)
@@ -251,15 +251,15 @@ BlockSearch::widen ()
 void
 BlockSearch::looked (const Eigen::Vector3d& centre, double radius)
 {
-  if (radius * SAFELY <= block_.halo)
+  if (radius * ENLARGED <= block_.halo)
     return;
   const auto isHere = [&] (const Ball& ball) {
-    return ((ball.centre - centre).norm () + radius) * SAFELY <= ball.radius;
+    return ((ball.centre - centre).norm () + radius) * ENLARGED <= ball.radius;
   };
   if (std::any_of (block_.balls.begin (), block_.balls.end (), isHere))
     return;
   const std::lock_guard<std::mutex> lock (mutex_);
-  missing_.push_back ({centre, radius * SAFELY * SAFELY});
+  missing_.push_back ({centre, radius * ENLARGED * ENLARGED});
 }
 
 std::size_t

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/atlas.h"
 
+#include "core/exact.h"
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "texture/cell_packing.h"
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/convex_hull_2.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,16 +33,12 @@ planeArea (const ChartLayout& chart)
 Eigen::Vector2d
 longSideOfBox (const ChartLayout& chart)
 {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_2> places, corners;
+  std::vector<Eigen::Vector2d> places, hull;
   places.reserve (chart.loop.size ());
   for (const Index p : chart.loop)
-    places.emplace_back (chart.uv[p].x (), chart.uv[p].y ());
-  CGAL::convex_hull_2 (places.begin (), places.end (), std::back_inserter (corners));
-  std::vector<Eigen::Vector2d> hull;
-  hull.reserve (corners.size ());
-  for (const Kernel::Point_2& p : corners)
-    hull.emplace_back (p.x (), p.y ());
+    places.push_back (chart.uv[p]);
+  for (const std::size_t corner : convexHull (places))
+    hull.push_back (places[corner]);
   Eigen::Vector2d best = Eigen::Vector2d::UnitX ();
   double least = std::numeric_limits<double>::infinity ();
   for (std::size_t i = 0; i < hull.size (); ++i) {

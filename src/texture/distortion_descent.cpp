@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/distortion_descent.h"
 
+#include "core/exact.h"
 #include "core/geometry.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_2_algorithms.h>
 #include <Eigen/CholmodSupport>
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -21,7 +20,6 @@ namespace floater
 {
 namespace
 {
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // CHOLMOD, which prints nothing. A matrix that rounding has made indefinite is told by info ().
 class Cholesky : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>
 {
@@ -401,11 +399,11 @@ isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv
   // Exact arithmetic has no NaN.
   if (!std::all_of (loop.begin (), loop.end (), [&uv] (Index p) { return uv[p].allFinite (); }))
     return false;
-  std::vector<Kernel::Point_2> polygon;
+  std::vector<Eigen::Vector2d> polygon;
   polygon.reserve (loop.size ());
   for (const Index p : loop)
-    polygon.emplace_back (uv[p].x (), uv[p].y ());
-  return CGAL::is_simple_2 (polygon.begin (), polygon.end (), Kernel ());
+    polygon.push_back (uv[p]);
+  return isSimplePolygon (polygon);
 }
 
 bool
@@ -413,9 +411,8 @@ isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vect
 {
   if (!std::all_of (uv.begin (), uv.end (), [] (const auto& p) { return p.allFinite (); }))
     return false; // exact arithmetic has no NaN
-  const auto place = [&uv] (Index p) { return Kernel::Point_2 (uv[p].x (), uv[p].y ()); };
   return std::all_of (triangles.begin (), triangles.end (), [&] (const Triangle& t) {
-    return CGAL::orientation (place (t[0]), place (t[1]), place (t[2])) == CGAL::LEFT_TURN;
+    return isAntiClockwise (uv[t[0]], uv[t[1]], uv[t[2]]);
   });
 }
 

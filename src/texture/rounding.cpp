@@ -3,8 +3,7 @@
 #include "texture/rounding.h"
 
 #include "core/csr_lists.h"
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "core/exact.h"
 
 #include <algorithm>
 #include <array>
@@ -19,15 +18,11 @@ namespace
 constexpr int ROUNDS = 20;                              // over all that are flipped
 constexpr std::array<float, 5> REACHES{1, 2, 4, 8, 16}; // in steps of single precision below 1
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
 bool
 isFlipped (const Triangle& t, const std::vector<Eigen::Vector2f>& uv)
 {
-  const auto place = [&uv] (Index p) {
-    return Kernel::Point_2 (static_cast<double> (uv[p].x ()), static_cast<double> (uv[p].y ()));
-  };
-  return CGAL::orientation (place (t[0]), place (t[1]), place (t[2])) != CGAL::LEFT_TURN;
+  return !isAntiClockwise (uv[t[0]].cast<double> (), uv[t[1]].cast<double> (),
+                           uv[t[2]].cast<double> ());
 }
 
 // Moves one corner if there are fewer flipped triangles around it then.

@@ -18,7 +18,7 @@ namespace floater
 namespace
 {
 // How the surface goes on from the first point of an edge to the second.
-struct Continuation
+struct Extension
 {
   float change = 0.0F; // of the level
   float weight = 0.0F; // sum of the weights of the levels it is made of; 0: not known
@@ -167,9 +167,9 @@ private:
   }
 
   // The continuation from the first end, and that from the other one, along the edge as well.
-  std::array<Continuation, 2> continuationsOf (MeshEdge e) const
+  std::array<Extension, 2> continuationsOf (MeshEdge e) const
   {
-    std::array<Continuation, 2> both{continuations_[numberOf (e)], {}};
+    std::array<Extension, 2> both{continuations_[numberOf (e)], {}};
     if (const MeshEdge mate = view_.mate (e); mate.triangle != NONE) {
       both[1] = continuations_[numberOf (mate)];
       both[1].change = -both[1].change;
@@ -194,7 +194,7 @@ private:
         StepEdge& edge = edges_[i];
         const double change = changeOf (edge.edge);
         double least = std::numeric_limits<double>::infinity ();
-        for (const Continuation& c : continuationsOf (edge.edge))
+        for (const Extension& c : continuationsOf (edge.edge))
           if (c.weight > 0.0F)
             least = std::min (least, std::abs (change - static_cast<double> (c.change)) /
                                          static_cast<double> (c.weight));
@@ -279,12 +279,12 @@ private:
   {
     const Index p = view_.from (e), q = view_.to (e);
     const double change = changeOf (e);
-    const std::array<Continuation, 2> both = continuationsOf (e);
+    const std::array<Extension, 2> both = continuationsOf (e);
     const double width = rays_.distance (p, q) *
                          (rays_.are_parallel ? 1.0 : std::min (rays_.depths[p], rays_.depths[q]));
     const bool is_steep = std::abs (rays_.depths[p] - rays_.depths[q]) > limits_.slope * width;
     const double least = is_steep ? steep_noise : sharp_noise;
-    const auto isNoise = [&] (const Continuation& c) {
+    const auto isNoise = [&] (const Extension& c) {
       return c.weight > 0.0F && std::abs (change - static_cast<double> (c.change)) <=
                                     least * static_cast<double> (c.weight);
     };
@@ -314,8 +314,7 @@ private:
   RunContext run_;
   double span_ = 1.0; // of the depths
   double largest_cosine_;
-  std::vector<Continuation>
-      continuations_; // of each edge, by 3 triangle + side: from its first end
+  std::vector<Extension> continuations_; // of each edge, by 3 triangle + side: from its first end
   std::vector<StepEdge> edges_;
 };
 

@@ -5,6 +5,7 @@
 #include "view/lattice_view.h"
 
 #include "core/parallel.h"
+#include "core/exact.h"
 #include "floater/planar_delaunay.h"
 
 #include <algorithm>

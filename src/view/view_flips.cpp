@@ -16,7 +16,7 @@ namespace floater
 namespace
 {
 // A smaller change of cost may be rounding.
-constexpr double IMPROVES = 1e-9;
+constexpr double SHORTER = 1e-9;
 
 class ViewFlipper
 {
@@ -158,7 +158,7 @@ private:
                           costAcross (at_d, ad) + costAcross (at_d, db);
     const double after = costOf (at_a, at_b) + costAcross (at_a, ca) + costAcross (at_a, ad) +
                          costAcross (at_b, bc) + costAcross (at_b, db);
-    return after < before - IMPROVES && isFlippable (a, b, c, d);
+    return after < before - SHORTER && isFlippable (a, b, c, d);
   }
 
   TriangleMesh& mesh_;

@@ -14,7 +14,7 @@ namespace floater
 {
 namespace
 {
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
+constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN ();
 constexpr double INF = std::numeric_limits<double>::infinity ();
 
 // Checks which values of an option in a group are in range.
@@ -73,28 +73,28 @@ TEST (CheckOptions, NumbersHaveRanges)
   EXPECT_FALSE (checkOptions ({}));
   expectRange (&Options::neighbors, &NeighborOptions::k, {6, 20, 200}, {5, 0, -1, 201});
   expectDiscRange (&DiscOptions::boundary, &BoundaryOptions::opening_angle, {1e-3, 160.0, 359.9},
-                   {0.0, -10.0, 360.0, NOT_A_NUMBER, INF});
+                   {0.0, -10.0, 360.0, NO_NUMBER, INF});
   expectDiscRange (&DiscOptions::boundary, &BoundaryOptions::cluster_tolerance, {1e-6, 0.05, 1.0},
-                   {0.0, -0.1, 1.01, NOT_A_NUMBER});
+                   {0.0, -0.1, 1.01, NO_NUMBER});
   expectDiscRange (&DiscOptions::boundary, &BoundaryOptions::cluster_k, {1, 10}, {0, -3});
   expectDiscRange (&DiscOptions::domain, &DomainOptions::polygon_sides, {3, 100}, {2, 0, -1});
   expectRange (&Options::neighbors, &NeighborOptions::ball_radius, {1.0, 2.25, 10.0},
-               {0.99, 10.1, NOT_A_NUMBER, INF});
+               {0.99, 10.1, NO_NUMBER, INF});
   expectDiscRange (&DiscOptions::solver, &SolverOptions::tolerance, {1e-16, 1e-3},
-                   {0.0, -1e-9, 1.0, NOT_A_NUMBER});
+                   {0.0, -1e-9, 1.0, NO_NUMBER});
   expectDiscRange (&DiscOptions::solver, &SolverOptions::max_iterations, {1, 1000000}, {0, -1});
   expectDiscRange (&DiscOptions::solver, &SolverOptions::ilut_fill, {1, 15, 10000}, {0, -1, 10001});
   expectDiscRange (&DiscOptions::solver, &SolverOptions::ilut_drop, {0.0, 1e-2, 1.0},
-                   {-1e-9, 1.1, NOT_A_NUMBER});
+                   {-1e-9, 1.1, NO_NUMBER});
   expectRange (&Options::threads, {0, 1, 64}, {-1});
   expectRange (&Options::blocks, {0, 1, 64}, {-1});
   expectRange (&Options::holes, &HoleOptions::kept_loops, {0, 1, 1000}, {-1});
   expectRange (&Options::holes, &HoleOptions::largest_hole, {0.0, 1e-20, 5.5, 1e20},
-               {-1e-9, NOT_A_NUMBER, INF});
+               {-1e-9, NO_NUMBER, INF});
   expectRange (&Options::trimming, &TrimmingOptions::maximum_edge_length, {0.0, 1e-20, 1e20},
-               {-1e-9, NOT_A_NUMBER, INF});
+               {-1e-9, NO_NUMBER, INF});
   expectRange (&Options::trimming, &TrimmingOptions::maximum_edge_ratio, {0.0, 0.5, 1e6},
-               {-1e-9, NOT_A_NUMBER, INF});
+               {-1e-9, NO_NUMBER, INF});
   expectRange (&Options::trimming, &TrimmingOptions::minimum_component_size, {0, 1, 1000000}, {-1});
 }
 
@@ -126,7 +126,7 @@ TEST (CheckOptions, PoliciesFitTheTopology)
 TEST (CheckOptions, AViewpointIsFiniteAndNotOfADisc)
 {
   Options options;
-  options.view.viewpoint = {0.0, NOT_A_NUMBER, 0.0};
+  options.view.viewpoint = {0.0, NO_NUMBER, 0.0};
   EXPECT_FALSE (checkOptions (options)); // not used
   options.view.use = ViewUse::GIVEN;
   EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION);

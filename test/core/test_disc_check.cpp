@@ -28,7 +28,7 @@ wheel (bool with_middle)
   return triangles;
 }
 
-const std::vector<Index> BORDER = {7, 8, 9, 10, 11, 12};
+const std::vector<Index> HEXAGON = {7, 8, 9, 10, 11, 12};
 
 // Whether checkMesh () finds one manifold disc whose boundary is the loop.
 bool
@@ -43,7 +43,7 @@ isDiscIn (const std::vector<Index>& loop, const std::vector<Triangle>& triangles
 
 TEST (DiscCheck, ADiscInItsLoop)
 {
-  EXPECT_TRUE (isDiscIn (BORDER, wheel (true), 13));
+  EXPECT_TRUE (isDiscIn (HEXAGON, wheel (true), 13));
   // The loop may begin anywhere and run the other way round; points without triangle are no matter.
   EXPECT_TRUE (isDiscIn ({9, 8, 7, 12, 11, 10}, wheel (true), 20));
 }
@@ -54,8 +54,8 @@ TEST (DiscCheck, WhatIsNoDiscInItsLoop)
                                 const std::vector<Index>& loop) {
     EXPECT_FALSE (isDiscIn (loop, triangles, 30)) << why;
   };
-  expectBroken ("nothing", {}, BORDER);
-  expectBroken ("a hole", wheel (false), BORDER);
+  expectBroken ("nothing", {}, HEXAGON);
+  expectBroken ("a hole", wheel (false), HEXAGON);
   expectBroken ("another loop", wheel (true), {7, 8, 9, 10, 11});
   expectBroken ("a loop inside", wheel (true), {1, 2, 3, 4, 5, 6});
   expectBroken ("another order", wheel (true), {7, 9, 8, 10, 11, 12});
@@ -67,27 +67,27 @@ TEST (DiscCheck, WhatIsNoDiscInItsLoop)
       beside_a_torus.push_back ({onTorus (i, j), onTorus (i + 1, j), onTorus (i + 1, j + 1)});
       beside_a_torus.push_back ({onTorus (i, j), onTorus (i + 1, j + 1), onTorus (i, j + 1)});
     }
-  expectBroken ("a torus beside it", beside_a_torus, BORDER);
+  expectBroken ("a torus beside it", beside_a_torus, HEXAGON);
   std::vector<Triangle> changed = wheel (true);
   changed.push_back ({20, 21, 22});
-  expectBroken ("two components", changed, BORDER);
+  expectBroken ("two components", changed, HEXAGON);
   changed = wheel (true);
   for (const Triangle& t :
        {Triangle{20, 22, 21}, Triangle{20, 21, 23}, Triangle{21, 22, 23}, Triangle{22, 20, 23}})
     changed.push_back (t);
-  expectBroken ("a closed component", changed, BORDER);
+  expectBroken ("a closed component", changed, HEXAGON);
   changed = wheel (true);
   std::swap (changed[3][0], changed[3][1]);
-  expectBroken ("a triangle wound against the others", changed, BORDER);
+  expectBroken ("a triangle wound against the others", changed, HEXAGON);
   changed = wheel (true);
   changed.push_back (changed[4]);
-  expectBroken ("a triangle twice", changed, BORDER);
+  expectBroken ("a triangle twice", changed, HEXAGON);
   changed = wheel (true);
   changed.push_back ({0, 20, 21});
-  expectBroken ("a vertex with two fans", changed, BORDER);
+  expectBroken ("a vertex with two fans", changed, HEXAGON);
   changed = wheel (true);
   changed.pop_back ();
-  expectBroken ("a triangle less", changed, BORDER);
+  expectBroken ("a triangle less", changed, HEXAGON);
 }
 
 } // namespace

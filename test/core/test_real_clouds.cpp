@@ -28,6 +28,14 @@ dataFolder ()
   return folder != nullptr && *folder != '\0' ? folder : PCL_FLOATER_DEFAULT_DATA;
 }
 
+// Why a test is skipped.
+std::string
+missing (const std::string& name)
+{
+  return std::ifstream (dataFolder ()) ? "there is no " + name + ".pcd in " + dataFolder ()
+                                       : "PCL_FLOATER_DATA names no folder with real clouds";
+}
+
 // Reads the header up to its last line; true if it has the lines wanted.
 bool
 readHeader (std::istream& file, const std::string& last, const std::vector<std::string>& wanted,
@@ -131,8 +139,7 @@ TEST_P (RealCloud, IsOneDiscOfAllPoints)
   const Case& expected = GetParam ();
   const std::string base = dataFolder () + "/" + expected.name;
   if (!std::ifstream (base + ".pcd"))
-    GTEST_SKIP () << "no " << expected.name << ".pcd in " << dataFolder ()
-                  << "; set PCL_FLOATER_DATA to the folder of the real clouds";
+    GTEST_SKIP () << missing (expected.name);
   const Positions cloud = readPcd (base + ".pcd");
   const std::vector<Triangle> truth = readPly (base + ".gt.ply");
   ASSERT_FALSE (cloud.empty ()) << base << ".pcd is not what this test can read";
@@ -187,8 +194,7 @@ TEST_P (AnyRealCloud, IsWhatItIs)
   const Known& known = GetParam ();
   const std::string base = dataFolder () + "/" + known.name;
   if (!std::ifstream (base + ".pcd"))
-    GTEST_SKIP () << "no " << known.name << ".pcd in " << dataFolder ()
-                  << "; set PCL_FLOATER_DATA to the folder of the real clouds";
+    GTEST_SKIP () << missing (known.name);
   const Positions cloud = readPcd (base + ".pcd");
   ASSERT_FALSE (cloud.empty ()) << base << ".pcd is not what this test can read";
   Options options;
@@ -234,7 +240,7 @@ TEST (RealClouds, HaveTheirBoundaryOnALoopOfTheConsensus)
     SCOPED_TRACE (cloud.name);
     const std::string base = dataFolder () + "/" + cloud.name;
     if (!std::ifstream (base + ".pcd"))
-      GTEST_SKIP () << "no " << cloud.name << ".pcd in " << dataFolder ();
+      GTEST_SKIP () << missing (cloud.name);
     Options options = samples::discOptions ();
     options.disc.boundary.method = BoundaryMethod::CONSENSUS;
     const Result result = reconstruct (samples::asInput (readPcd (base + ".pcd")), options);
@@ -253,7 +259,7 @@ TEST (RealClouds, AreTheSameInAnyNumberOfBlocksAndThreads)
     SCOPED_TRACE (name);
     const std::string base = dataFolder () + "/" + name;
     if (!std::ifstream (base + ".pcd"))
-      GTEST_SKIP () << "no " << name << ".pcd in " << dataFolder ();
+      GTEST_SKIP () << missing (name);
     const Positions cloud = readPcd (base + ".pcd");
     Options options;
     options.blocks = 1;

@@ -29,7 +29,7 @@ STEPS = ["neighbors", "planes", "stars", "triangles"]
 
 def run(command, **more):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False,
-                          timeout=600, **more)
+                          timeout=1800, **more)
 
 
 def mpirun(processes, *more):

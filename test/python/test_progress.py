@@ -101,7 +101,7 @@ def test_ctrl_c_ends_a_program():
         assert child.stdout.readline() == "begin\n"
         time.sleep(0.2)  # within the run, or before it
         child.send_signal(signal.SIGINT)
-        output, errors = child.communicate(timeout=100)
+        output, errors = child.communicate(timeout=1800)
     finally:
         child.kill()
         child.wait()

@@ -29,7 +29,7 @@ class Quickstart(unittest.TestCase):
         """Runs the script; checks its exit code and what it says."""
         environment = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
         done = subprocess.run([SCRIPT, *arguments], cwd=self.folder, env=environment, capture_output=True,
-                              text=True, timeout=100)
+                              text=True, timeout=1800)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         self.assertIn(says, done.stdout + done.stderr)
         return done.stdout
@@ -84,6 +84,8 @@ class Quickstart(unittest.TestCase):
         self.check(1, "--unknown", says="Usage")
         self.check(1, "a.pcd", "b.pcd", says="Usage")
         self.check(1, "--build", says="needs a folder")
+        self.check(1, "", says="name of the cloud is empty")
+        self.check(1, self.folder, says="cannot read")
         self.check(1, os.path.join(self.folder, "none.pcd"), says="none.pcd")
         self.assertEqual(self.files(), set())
 

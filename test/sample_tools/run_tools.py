@@ -46,7 +46,7 @@ class Tools(unittest.TestCase):
     def check(self, code, *command, says=""):
         """Runs a command; checks its exit code, its message, and that no temporary file is left."""
         environment = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=100)
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1800)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(says, done.stdout + done.stderr)
         self.assertFalse([name for name in os.listdir(self.temporary.name) if "tmp" in name])

@@ -3,6 +3,8 @@
 // A small cloud with colours, normals and intensities, and files of it.
 #pragma once
 
+#include "cloud.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -52,6 +54,16 @@ readPcdKinds ()
   if (READS_COMPRESSED)
     kinds.push_back (PcdKind::COMPRESSED);
   return kinds;
+}
+
+/// The names of its fields.
+inline std::vector<std::string>
+namesOf (const Cloud& cloud)
+{
+  std::vector<std::string> names;
+  for (const Field& field : cloud.fields)
+    names.push_back (field.name);
+  return names;
 }
 
 /// Writes a PCD file with PCL's own writer: x y z, rgb, normals, intensity.

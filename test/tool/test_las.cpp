@@ -34,16 +34,16 @@ smallFile ()
 }
 
 Cloud
-parse (const std::string& bytes)
+parsed (const std::string& bytes)
 {
   return parseLas (FileBytes (std::string_view (bytes)));
 }
 
 std::string
-errorOf (const std::string& bytes)
+lasError (const std::string& bytes)
 {
   try {
-    parse (bytes);
+    parsed (bytes);
   }
   catch (const ReadError& error) {
     return error.what ();
@@ -62,7 +62,7 @@ TEST (Las, EveryVersionAndPointFormat)
       file.extra_bytes = static_cast<std::size_t> (format % 3);
       file.variable_records = static_cast<std::size_t> (minor % 3);
       const std::string bytes = lasBytes (file);
-      const Cloud cloud = parse (bytes);
+      const Cloud cloud = parsed (bytes);
       ASSERT_EQ (cloud.size (), 3U);
       EXPECT_FALSE (cloud.single_precision);
       const std::vector<Eigen::Vector3d> positions = cloud.positions ();
@@ -96,12 +96,12 @@ TEST (Las, ColorsThatWereWrittenAs8Bits)
   file.format = 2;
   file.colors = {{255, 0, 3}, {1, 2, 3}, {0, 0, 0}};
   const std::string bytes = lasBytes (file);
-  const Cloud cloud = parse (bytes);
+  const Cloud cloud = parsed (bytes);
   EXPECT_EQ (colorFields (cloud)[0]->value<std::uint8_t> (0), 255);
   EXPECT_EQ (colorFields (cloud)[2]->value<std::uint8_t> (1), 3);
   file.colors.assign (3, {0, 0, 0});
   const std::string black_bytes = lasBytes (file);
-  const Cloud black = parse (black_bytes);
+  const Cloud black = parsed (black_bytes);
   EXPECT_EQ (colorFields (black)[0], nullptr);
   EXPECT_THAT (black.warnings, ElementsAre (HasSubstr ("all colours of the input file are black")));
 }
@@ -113,12 +113,12 @@ TEST (Las, CountsOf64Bits)
   file.minor = 4;
   std::string bytes = lasBytes (file);
   putNumber (bytes, 107, std::uint32_t{0});
-  EXPECT_EQ (parse (bytes).size (), 3U);
+  EXPECT_EQ (parsed (bytes).size (), 3U);
   putNumber (bytes, 107, std::uint32_t{3});
   putNumber (bytes, 247, std::uint64_t{0});
-  EXPECT_EQ (parse (bytes).size (), 3U);
+  EXPECT_EQ (parsed (bytes).size (), 3U);
   putNumber (bytes, 247, std::uint64_t{2});
-  EXPECT_EQ (parse (bytes).size (), 2U);
+  EXPECT_EQ (parsed (bytes).size (), 2U);
 }
 
 template <typename T>
@@ -163,7 +163,7 @@ TEST (Las, WhatCannotBeRead)
       {withNumber (171, -std::numeric_limits<double>::infinity ()), "the scale or the offset"},
       {good.substr (0, good.size () - 1), "truncated"}};
   for (const auto& [bytes, cause] : cases)
-    EXPECT_THAT (errorOf (bytes), HasSubstr (cause));
+    EXPECT_THAT (lasError (bytes), HasSubstr (cause));
 }
 
 // A scale that takes a coordinate beyond all numbers makes a point that is left out.
@@ -172,7 +172,7 @@ TEST (Las, CoordinatesBeyondAllNumbers)
   LasFile file = smallFile ();
   file.scale = {1e300, 1.0, 1.0};
   const std::string bytes = lasBytes (file);
-  Cloud cloud = parse (bytes);
+  Cloud cloud = parsed (bytes);
   Triangles none;
   EXPECT_EQ (removeNonFinitePoints (cloud, none), 1U);
 }

@@ -207,10 +207,10 @@ TEST_F (ReportTest, StrictTakesWarningsForAFailure)
 TEST_F (ReportTest, TellsWhichSideMayNotBeTheFront)
 {
   constexpr double GOLDEN_ANGLE = 2.399963229728653, SHARE = 0.3; // of the sphere
-  constexpr int POINTS = 2000;
+  constexpr int COUNT = 2000;
   std::vector<Eigen::Vector3d> bowl;
-  for (int i = 0; i < POINTS; ++i) {
-    const double depth = 1.0 - 2.0 * SHARE * (i + 0.5) / POINTS;
+  for (int i = 0; i < COUNT; ++i) {
+    const double depth = 1.0 - 2.0 * SHARE * (i + 0.5) / COUNT;
     const double radius = std::sqrt (1.0 - depth * depth), angle = GOLDEN_ANGLE * i;
     bowl.emplace_back (radius * std::cos (angle), radius * std::sin (angle), -depth);
   }

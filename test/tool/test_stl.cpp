@@ -55,7 +55,7 @@ pointsOf (const std::string& bytes)
 }
 
 std::string
-errorOf (const std::string& bytes)
+stlError (const std::string& bytes)
 {
   try {
     pointsOf (bytes);
@@ -116,21 +116,21 @@ TEST (Stl, WhatCannotBeRead)
   const std::string good = stlBytes (SQUARE), text = stlText (SQUARE);
   std::string lying = good, more = good + std::string (120, 'x');
   putNumber (lying, 80, std::uint32_t{4294967295U});
-  EXPECT_THAT (errorOf ("hello"), HasSubstr ("too short for a binary STL file"));
-  EXPECT_THAT (errorOf (std::string (200, 'x')), HasSubstr ("promises"));
-  EXPECT_THAT (errorOf (lying), HasSubstr ("promises 4294967295 facets, but the file has only 2"));
-  EXPECT_THAT (errorOf (stlBytes ({})), HasSubstr ("no points"));
-  EXPECT_THAT (errorOf ("solid a\nendsolid a\n"), HasSubstr ("no points"));
-  EXPECT_THAT (errorOf ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 high 2\n"),
+  EXPECT_THAT (stlError ("hello"), HasSubstr ("too short for a binary STL file"));
+  EXPECT_THAT (stlError (std::string (200, 'x')), HasSubstr ("promises"));
+  EXPECT_THAT (stlError (lying), HasSubstr ("promises 4294967295 facets, but the file has only 2"));
+  EXPECT_THAT (stlError (stlBytes ({})), HasSubstr ("no points"));
+  EXPECT_THAT (stlError ("solid a\nendsolid a\n"), HasSubstr ("no points"));
+  EXPECT_THAT (stlError ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 high 2\n"),
                HasSubstr ("line 4: 'high' is not a number"));
-  EXPECT_THAT (errorOf ("solid a\nvertex 1 2 3\nendsolid\n"), HasSubstr ("after a whole facet"));
+  EXPECT_THAT (stlError ("solid a\nvertex 1 2 3\nendsolid\n"), HasSubstr ("after a whole facet"));
   EXPECT_THAT (parseStl (FileBytes (std::string_view (more))).warnings,
                ElementsAre (HasSubstr ("2 faces"), HasSubstr ("more data than the 2 facets")));
   for (std::size_t length = 0; length < good.size (); ++length)
-    EXPECT_NE (errorOf (good.substr (0, length)), "none") << length;
+    EXPECT_NE (stlError (good.substr (0, length)), "none") << length;
   const std::size_t end = text.rfind ("endsolid") + std::string ("endsolid").size ();
   for (std::size_t length = 0; length < end; ++length)
-    EXPECT_NE (errorOf (text.substr (0, length)), "none") << length;
+    EXPECT_NE (stlError (text.substr (0, length)), "none") << length;
 }
 
 TEST_F (CommandLineTest, PointsOfAMeshInStl)

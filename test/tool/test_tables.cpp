@@ -4,6 +4,7 @@
 #include "cloud_reader.h"
 #include "command_line_test.h"
 #include "mesh_files.h"
+#include "sample.h"
 
 #include <gmock/gmock.h>
 
@@ -36,15 +37,6 @@ errorOf (std::string_view text)
     return error.what ();
   }
   return "none";
-}
-
-std::vector<std::string>
-namesOf (const Cloud& cloud)
-{
-  std::vector<std::string> names;
-  for (const Field& field : cloud.fields)
-    names.push_back (field.name);
-  return names;
 }
 
 std::vector<double>

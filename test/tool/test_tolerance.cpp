@@ -5,6 +5,7 @@
 #include "cloud_reader.h"
 #include "command_line_test.h"
 #include "mesh_files.h"
+#include "sample.h"
 
 #include <gmock/gmock.h>
 
@@ -18,17 +19,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::vector<Eigen::Vector3d> TWO{{1, 2, 3}, {4, 5, 6}};
+const std::vector<Eigen::Vector3d> TWO_POINTS{{1, 2, 3}, {4, 5, 6}};
 constexpr std::string_view BYTE_ORDER_MARK = "\xef\xbb\xbf";
-
-std::vector<std::string>
-namesOf (const Cloud& cloud)
-{
-  std::vector<std::string> names;
-  for (const Field& field : cloud.fields)
-    names.push_back (field.name);
-  return names;
-}
 
 std::string
 pcd (const std::string& fields, const std::string& header, const std::string& rows)
@@ -42,7 +34,7 @@ TEST (Tolerance, PcdHeadersWithoutTypes)
     SCOPED_TRACE (header);
     const std::string text = pcd ("x y z", header, "1 2 3\n4 5 6\n");
     const Cloud cloud = parsePcd (FileBytes (std::string_view (text)));
-    EXPECT_EQ (cloud.positions (), TWO);
+    EXPECT_EQ (cloud.positions (), TWO_POINTS);
     EXPECT_TRUE (cloud.single_precision);
     EXPECT_THAT (cloud.warnings, ElementsAre (HasSubstr ("taken for floats of 4 bytes")));
   }
@@ -51,7 +43,7 @@ TEST (Tolerance, PcdHeadersWithoutTypes)
   std::string binary = "FIELDS x y z\nWIDTH 1\nHEIGHT 1\nDATA binary\n";
   const std::array<float, 3> point{1.0F, 2.0F, 3.0F};
   binary.append (reinterpret_cast<const char*> (point.data ()), sizeof point);
-  EXPECT_EQ (parsePcd (FileBytes (std::string_view (binary))).position (0), TWO[0]);
+  EXPECT_EQ (parsePcd (FileBytes (std::string_view (binary))).position (0), TWO_POINTS[0]);
 }
 
 TEST (Tolerance, RepeatedNames)
@@ -59,7 +51,7 @@ TEST (Tolerance, RepeatedNames)
   const std::string text = pcd ("x y z i i i_2 x", "SIZE 4 4 4 4 4 4 4\nTYPE F F F F F F F\n",
                                 "1 2 3 10 20 30 40\n4 5 6 11 21 31 41\n");
   const Cloud cloud = parsePcd (FileBytes (std::string_view (text)));
-  EXPECT_EQ (cloud.positions (), TWO);
+  EXPECT_EQ (cloud.positions (), TWO_POINTS);
   EXPECT_THAT (namesOf (cloud), ElementsAre ("i", "i_3", "i_2", "x_2"));
   EXPECT_EQ (cloud.find ("i")->asDouble (1), 11.0);
   EXPECT_EQ (cloud.find ("i_3")->asDouble (1), 21.0);
@@ -95,12 +87,12 @@ TEST (Tolerance, CoordinatesInCapitals)
 {
   const std::string text = pcd ("X Y Z", "SIZE 4 4 4\nTYPE F F F\n", "1 2 3\n4 5 6\n");
   const Cloud cloud = parsePcd (FileBytes (std::string_view (text)));
-  EXPECT_EQ (cloud.positions (), TWO);
+  EXPECT_EQ (cloud.positions (), TWO_POINTS);
   EXPECT_THAT (cloud.fields, IsEmpty ());
   EXPECT_THAT (cloud.warnings, IsEmpty ());
   const std::string both = pcd ("X x y z", "SIZE 4 4 4 4\nTYPE F F F F\n", "9 1 2 3\n9 4 5 6\n");
   const Cloud small = parsePcd (FileBytes (std::string_view (both)));
-  EXPECT_EQ (small.positions (), TWO);
+  EXPECT_EQ (small.positions (), TWO_POINTS);
   EXPECT_THAT (namesOf (small), ElementsAre ("X"));
 }
 
@@ -108,9 +100,9 @@ TEST (Tolerance, ByteOrderMarks)
 {
   const std::string pcd_text =
       std::string (BYTE_ORDER_MARK) + pcd ("x y z", "SIZE 4 4 4\nTYPE F F F\n", "1 2 3\n4 5 6\n");
-  EXPECT_EQ (parsePcd (FileBytes (std::string_view (pcd_text))).positions (), TWO);
+  EXPECT_EQ (parsePcd (FileBytes (std::string_view (pcd_text))).positions (), TWO_POINTS);
   const std::string obj_text = std::string (BYTE_ORDER_MARK) + "v 1 2 3\nv 4 5 6\n";
-  EXPECT_EQ (parseObj (FileBytes (std::string_view (obj_text))).positions (), TWO);
+  EXPECT_EQ (parseObj (FileBytes (std::string_view (obj_text))).positions (), TWO_POINTS);
   const Sample sample = makeSample (false, 4);
   for (const PlyKind kind : {PlyKind::ASCII, PlyKind::LITTLE, PlyKind::BIG}) {
     const std::string ply = std::string (BYTE_ORDER_MARK) + plyText (sample, kind);
@@ -122,7 +114,7 @@ TEST (Tolerance, ObjColorsTo255)
 {
   const std::string text = "v 1 2 3 255 0 7 # a comment\nv 4 5 6 0 1 128\n";
   const Cloud cloud = parseObj (FileBytes (std::string_view (text)));
-  EXPECT_EQ (cloud.positions (), TWO);
+  EXPECT_EQ (cloud.positions (), TWO_POINTS);
   EXPECT_EQ (colorFields (cloud)[0]->value<std::uint8_t> (0), 255);
   EXPECT_EQ (colorFields (cloud)[2]->value<std::uint8_t> (1), 128);
   EXPECT_EQ (colorFields (cloud)[1]->value<std::uint8_t> (1), 1);
@@ -134,7 +126,7 @@ TEST (Tolerance, ObjLinesThatGoOn)
   const std::string text =
       "# c:\\\nv 1 \\\n2 \\\r\n  3\nv 4 5 6\nvn 0 0 1\nvn 0 1 0\nf 1//1 \\\n 2//2 1//1\n";
   const Cloud cloud = parseObj (FileBytes (std::string_view (text)));
-  EXPECT_EQ (cloud.positions (), TWO);
+  EXPECT_EQ (cloud.positions (), TWO_POINTS);
   EXPECT_EQ (cloud.find ("ny")->asDouble (1), 1.0);
   const std::string wrong = "v 1 \\\n2 3\n\nv 4 high 6\n"; // lines keep their numbers
   try {
@@ -145,7 +137,7 @@ TEST (Tolerance, ObjLinesThatGoOn)
     EXPECT_THAT (error.what (), HasSubstr ("line 4: 'high' is not a number"));
   }
   const std::string last = "v 1 2 3\nv 4 5 6\\";
-  EXPECT_EQ (parseObj (FileBytes (std::string_view (last + "\n"))).positions (), TWO);
+  EXPECT_EQ (parseObj (FileBytes (std::string_view (last + "\n"))).positions (), TWO_POINTS);
 }
 
 TEST_F (CommandLineTest, WarningsOfOddFilesAreFailuresWithStrict)

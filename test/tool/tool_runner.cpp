@@ -100,7 +100,7 @@ become (const std::vector<std::string>& arguments, const std::filesystem::path& 
     ::_exit (NOT_STARTED);
   for (const auto& [variable, value] : surroundings.environment)
     ::setenv (variable.c_str (), value.c_str (), 1);
-  constexpr unsigned LONG_ENOUGH = 60; // seconds
+  constexpr unsigned LONG_ENOUGH = 1500; // seconds, for what hangs
   if (surroundings.address_limit || !surroundings.environment.empty ())
     ::alarm (LONG_ENOUGH);
   ::execv (tool.c_str (), argv.data ());

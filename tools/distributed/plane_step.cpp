@@ -16,7 +16,7 @@ namespace floater
 namespace
 {
 // Width, see BlockCutter. Every sixteenth point has its 20 nearest of these within 10 spacings.
-constexpr double HALO = 2.0;
+constexpr double PLANE_HALO = 2.0;
 
 // A point before outliers were removed, by its number after that.
 Index
@@ -85,7 +85,7 @@ planesStep (const StepContext& context, std::size_t block)
   NoiseProbes probes;
   if (!own.isEmpty ()) {
     StoredCloud& cloud = own.cloud;
-    BlockSearch search (cloud.cutter (), block, context.run, HALO);
+    BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
     const std::vector<Index> points = own.points ();
     CsrLists nearest;
     if (own.outliers.empty ())

@@ -20,7 +20,7 @@ namespace
 {
 // Width, see BlockCutter. Most stars look no farther than that; those at boundaries look up to 40
 // spacings ahead, and are made again where that leaves the block.
-constexpr double HALO = 2.0;
+constexpr double STAR_HALO = 2.0;
 
 // The lists of some of the own points, by their numbers in the working set.
 struct OwnStars
@@ -166,7 +166,7 @@ starsStep (const StepContext& context, std::size_t block)
                                  [&] (Index p) { return p < first || p >= last; }),
                  centres.end ());
 
-  BlockSearch search (cloud.cutter (), block, context.run, HALO);
+  BlockSearch search (cloud.cutter (), block, context.run, STAR_HALO);
   OwnStars all;
   std::vector<Index> left; // points whose stars have to be made again
   std::vector<AreaSample> samples;

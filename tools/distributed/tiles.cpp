@@ -24,7 +24,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr const char* FORMAT = "pcl_floater tiles";
+constexpr const char* TILES_FORMAT = "pcl_floater tiles";
 constexpr int VERSION = 1;
 
 std::string
@@ -250,7 +250,7 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
   if (cloud.find (VERTEX_NUMBER) != nullptr)
     losses.push_back (std::string ("the field '") + VERTEX_NUMBER +
                       "' of the points was left out: in tiles it has the numbers of the vertices");
-  const Json manifest{{"format", FORMAT},
+  const Json manifest{{"format", TILES_FORMAT},
                       {"version", VERSION},
                       {"points", cloud.size ()},
                       {"triangles", triangles.size ()},

@@ -30,12 +30,12 @@ addFields (std::vector<T>&& values, ScalarType type, const std::array<const char
   }
 }
 
-constexpr double WHITE = 255.0;
+constexpr double OBJ_WHITE = 255.0;
 
 double
 colorChannel (const TextScanner& scanner, double channel)
 {
-  if (!(channel >= 0.0 && channel <= WHITE))
+  if (!(channel >= 0.0 && channel <= OBJ_WHITE))
     scanner.fail ("a colour must be from 0 to 1, or to 255");
   return channel;
 }
@@ -52,7 +52,7 @@ colorBytes (const std::vector<float>& channels, std::vector<std::string>& warnin
   std::vector<std::uint8_t> bytes (channels.size ());
   for (std::size_t i = 0; i < bytes.size (); ++i)
     bytes[i] = static_cast<std::uint8_t> (
-        std::lround ((are_bytes ? 1.0 : WHITE) * static_cast<double> (channels[i])));
+        std::lround ((are_bytes ? 1.0 : OBJ_WHITE) * static_cast<double> (channels[i])));
   return bytes;
 }
 

@@ -134,7 +134,7 @@ countPoints (const TextScanner& scanner, const HeaderLines& lines)
 }
 
 PcdHeader
-readHeader (TextScanner& scanner)
+readPcdHeader (TextScanner& scanner)
 {
   HeaderLines lines;
   while (scanner.nextFilledLine ()) {
@@ -295,7 +295,7 @@ Cloud
 parsePcd (const FileBytes& file, bool all_digits)
 {
   TextScanner scanner (file.view ());
-  PcdHeader header = readHeader (scanner);
+  PcdHeader header = readPcdHeader (scanner);
   bool has_more = false;
   if (header.points == 0)
     throw ReadError ("it has no points");

@@ -80,7 +80,7 @@ readProperty (TextScanner& scanner)
 }
 
 PlyHeader
-readHeader (TextScanner& scanner)
+readPlyHeader (TextScanner& scanner)
 {
   if (!scanner.nextLine () || scanner.word () != "ply")
     throw ReadError ("it does not begin with 'ply', so it is not a PLY file");
@@ -252,7 +252,7 @@ Cloud
 parsePly (const FileBytes& file, bool all_digits)
 {
   TextScanner scanner (file.view ());
-  PlyHeader header = readHeader (scanner);
+  PlyHeader header = readPlyHeader (scanner);
   std::string_view rest = scanner.rest ();
   const bool is_widened =
       all_digits && !header.byte_order && widenCoordinates (fieldsOf (header.elements.back ()));

@@ -14,7 +14,7 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t HEADER_BYTES = 80;
+constexpr std::size_t STL_HEADER_BYTES = 80;
 constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
 
 /// Distinct points in the order in which they come first. Corners that have the same coordinates
@@ -109,8 +109,8 @@ Cloud
 parseBinary (std::string_view bytes)
 {
   const std::size_t facets =
-      readNumber<std::uint32_t> (bytes.data () + HEADER_BYTES, ByteOrder::LITTLE);
-  bytes.remove_prefix (HEADER_BYTES + sizeof (std::uint32_t));
+      readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
+  bytes.remove_prefix (STL_HEADER_BYTES + sizeof (std::uint32_t));
   if (facets > bytes.size () / FACET_BYTES)
     throw ReadError ("the header promises " + counted (facets, "facet") +
                      ", but the file has only " + std::to_string (bytes.size () / FACET_BYTES) +
@@ -161,11 +161,11 @@ Cloud
 parseStl (const FileBytes& file)
 {
   const std::string_view bytes = file.view ();
-  const bool is_long = bytes.size () >= HEADER_BYTES + sizeof (std::uint32_t);
+  const bool is_long = bytes.size () >= STL_HEADER_BYTES + sizeof (std::uint32_t);
   // Some programs begin binary files with "solid", too: then only the length tells.
   const bool fits_binary =
-      is_long && (bytes.size () - HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
-                     readNumber<std::uint32_t> (bytes.data () + HEADER_BYTES, ByteOrder::LITTLE);
+      is_long && (bytes.size () - STL_HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
+                     readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
   TextScanner scanner (bytes);
   const bool is_solid = scanner.nextFilledLine () && scanner.word () == "solid";
   if (is_solid && !fits_binary)

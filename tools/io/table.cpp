@@ -16,7 +16,7 @@ namespace floater
 namespace
 {
 bool
-isBlank (char c)
+isBlankOrQuote (char c)
 {
   return c == ' ' || c == '\t' || c == '\r' || c == '"';
 }
@@ -24,7 +24,7 @@ isBlank (char c)
 const char*
 skipBlanks (const char* at, const char* end)
 {
-  while (at < end && isBlank (*at))
+  while (at < end && isBlankOrQuote (*at))
     ++at;
   return at;
 }
@@ -172,10 +172,10 @@ Table::takeOdd (const TextScanner& scanner, std::size_t c, const char*& at, cons
 {
   const char* const first = at;
   const bool by_blanks = separator_.separator == ' ';
-  while (at < end && (by_blanks ? !isBlank (*at) : *at != separator_.separator))
+  while (at < end && (by_blanks ? !isBlankOrQuote (*at) : *at != separator_.separator))
     ++at;
   const char* last = at;
-  while (last > first && isBlank (last[-1]))
+  while (last > first && isBlankOrQuote (last[-1]))
     --last;
   const std::string_view word (first, static_cast<std::size_t> (last - first));
   if (!columns_[c].is_number) {

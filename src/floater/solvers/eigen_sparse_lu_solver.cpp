@@ -17,11 +17,11 @@ namespace floater
 {
 namespace
 {
-using Matrix = Eigen::SparseMatrix<double>;
+using ColumnMatrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
 template <typename Order>
-class Factors : public Eigen::SparseLU<Matrix, Order>
+class Factors : public Eigen::SparseLU<ColumnMatrix, Order>
 {
 public:
   // min |U_kk| / max |U_kk|. Eigen stores the diagonal blocks of U with L.
@@ -29,8 +29,8 @@ public:
   {
     double least = std::numeric_limits<double>::infinity (), largest = 0.0;
     for (Eigen::Index column = 0; column < this->cols (); ++column)
-      for (typename Eigen::SparseLU<Matrix, Order>::SCMatrix::InnerIterator entry (this->m_Lstore,
-                                                                                   column);
+      for (typename Eigen::SparseLU<ColumnMatrix, Order>::SCMatrix::InnerIterator entry (
+               this->m_Lstore, column);
            entry; ++entry)
         if (entry.index () == column) {
           least = std::min (least, std::abs (entry.value ()));
@@ -47,9 +47,9 @@ solveOrdered (const LinearSystem& system, bool symmetric, const RunContext& run)
 {
   Solution solution;
   const auto n = static_cast<Eigen::Index> (system.unknowns ());
-  const Eigen::Map<const Matrix> transpose (n, n, static_cast<Eigen::Index> (system.nonzeros ()),
-                                            system.row_offsets.data (), system.columns.data (),
-                                            system.values.data ());
+  const Eigen::Map<const ColumnMatrix> transpose (
+      n, n, static_cast<Eigen::Index> (system.nonzeros ()), system.row_offsets.data (),
+      system.columns.data (), system.values.data ());
   Factors<Order> factors;
   factors.isSymmetric (symmetric);
   factors.compute (transpose);

@@ -19,8 +19,6 @@ namespace
 using Positions = std::vector<Eigen::Vector3d>;
 using Clusters = std::vector<std::vector<Index>>;
 
-constexpr double PI = 3.14159265358979323846;
-
 void
 appendCircle (Positions& positions, const Eigen::Vector3d& centre, double radius, int count)
 {
@@ -29,14 +27,6 @@ appendCircle (Positions& positions, const Eigen::Vector3d& centre, double radius
     positions.push_back (centre +
                          radius * Eigen::Vector3d (std::cos (angle), std::sin (angle), 0.0));
   }
-}
-
-std::vector<Index>
-allOf (const Positions& positions)
-{
-  std::vector<Index> points (positions.size ());
-  std::iota (points.begin (), points.end (), Index{0});
-  return points;
 }
 
 std::vector<Index>
@@ -103,7 +93,7 @@ TEST (Clusters, SeparateLoopsLargestFirst)
   appendCircle (positions, {0, 0, 0}, 0.1, 20);
   appendCircle (positions, {3, 0, 0}, 1.0, 100);
   appendCircle (positions, {6, 0, 0}, 0.2, 40);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.3, 10, 1),
+  EXPECT_EQ (clusterBoundaryPoints (positions, samples::indices (positions.size ()), 0.3, 10, 1),
              (Clusters{range (20, 120), range (120, 160), range (0, 20)}));
 }
 
@@ -114,7 +104,7 @@ TEST (Clusters, EqualSizesComeBySmallestPoint)
     positions.emplace_back (10.0 + i, 0.0, 0.0);
     positions.emplace_back (0.0 + i, 5.0, 0.0);
   }
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 1.5, 10, 1),
+  EXPECT_EQ (clusterBoundaryPoints (positions, samples::indices (positions.size ()), 1.5, 10, 1),
              (Clusters{{0, 2, 4, 6, 8}, {1, 3, 5, 7, 9}}));
 }
 
@@ -138,8 +128,12 @@ TEST (Clusters, DistanceOfTheToleranceIsStillInside)
   Positions positions;
   for (int i = 0; i < 8; ++i)
     positions.emplace_back (0.25 * i, 0.0, 0.0); // exact in binary
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.25, 2, 1).size (), 1U);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.2499, 2, 1).size (), 8U);
+  EXPECT_EQ (
+      clusterBoundaryPoints (positions, samples::indices (positions.size ()), 0.25, 2, 1).size (),
+      1U);
+  EXPECT_EQ (
+      clusterBoundaryPoints (positions, samples::indices (positions.size ()), 0.2499, 2, 1).size (),
+      8U);
 }
 
 TEST (Clusters, FewNeighborsSplitWhatManyJoin)
@@ -148,8 +142,12 @@ TEST (Clusters, FewNeighborsSplitWhatManyJoin)
   Positions positions;
   appendCircle (positions, {0, 0, 0}, 0.1, 12);
   appendCircle (positions, {0.5, 0, 0}, 0.1, 12);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.5, 4, 1).size (), 2U);
-  EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), 0.5, 12, 1).size (), 1U);
+  EXPECT_EQ (
+      clusterBoundaryPoints (positions, samples::indices (positions.size ()), 0.5, 4, 1).size (),
+      2U);
+  EXPECT_EQ (
+      clusterBoundaryPoints (positions, samples::indices (positions.size ()), 0.5, 12, 1).size (),
+      1U);
 }
 
 TEST (Clusters, OfNothingAndOfOnePoint)
@@ -193,8 +191,9 @@ TEST (Clusters, EqualTheStepsOfTw385WhereDistancesTie)
   std::shuffle (positions.begin (), positions.end (), random);
   for (const double tolerance : {1.0, 1.5, 2.0})
     for (const int k : {1, 3, 5})
-      EXPECT_EQ (clusterBoundaryPoints (positions, allOf (positions), tolerance, k, 1),
-                 literalClusters (positions, allOf (positions), tolerance, k));
+      EXPECT_EQ (
+          clusterBoundaryPoints (positions, samples::indices (positions.size ()), tolerance, k, 1),
+          literalClusters (positions, samples::indices (positions.size ()), tolerance, k));
 }
 
 } // namespace

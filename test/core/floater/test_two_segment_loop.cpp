@@ -19,16 +19,6 @@ namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
 
-constexpr double PI = 3.14159265358979323846;
-
-std::vector<Index>
-allOf (const Positions& positions)
-{
-  std::vector<Index> points (positions.size ());
-  std::iota (points.begin (), points.end (), Index{0});
-  return points;
-}
-
 // The same cycle from its smallest point on, towards that one's smaller neighbour.
 std::vector<Index>
 canonical (std::vector<Index> loop)
@@ -47,15 +37,16 @@ expectBorder (const Positions& border)
 {
   std::mt19937 random (5);
   for (int round = 0; round < 8; ++round) {
-    std::vector<Index> shuffled = allOf (border); // place on the border of each new number
+    std::vector<Index> shuffled =
+        samples::indices (border.size ()); // place on the border of each new number
     std::shuffle (shuffled.begin (), shuffled.end (), random);
     Positions positions;
     for (const Index p : shuffled)
       positions.push_back (border[p]);
-    std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions), 1);
+    std::vector<Index> loop = twoSegmentLoop (positions, samples::indices (positions.size ()), 1);
     for (Index& p : loop)
       p = shuffled[p];
-    ASSERT_EQ (canonical (loop), allOf (border)) << "shuffle " << round;
+    ASSERT_EQ (canonical (loop), samples::indices (border.size ())) << "shuffle " << round;
   }
 }
 
@@ -176,7 +167,7 @@ TEST (TwoSegmentLoop, IsEmptyForCoincidentPoints)
   for (const Eigen::Vector3d& twin : circle_points) {
     Positions positions = circle_points;
     positions.push_back (twin);
-    EXPECT_TRUE (twoSegmentLoop (positions, allOf (positions), 1).empty ());
+    EXPECT_TRUE (twoSegmentLoop (positions, samples::indices (positions.size ()), 1).empty ());
   }
 }
 
@@ -200,8 +191,9 @@ TEST (TwoSegmentLoop, ThickBandIsFollowedAlongItsLength)
   for (int i = 0; i < columns; ++i)
     for (const double radius : {1.0, 1.05})
       positions.push_back (radius * circle (2.0 * PI * i / columns));
-  const std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions), 1);
-  expectEachOnce (loop, allOf (positions));
+  const std::vector<Index> loop =
+      twoSegmentLoop (positions, samples::indices (positions.size ()), 1);
+  expectEachOnce (loop, samples::indices (positions.size ()));
   ASSERT_EQ (loop.size (), positions.size ());
   int around = 0;
   for (std::size_t i = 0; i < loop.size (); ++i) {
@@ -225,8 +217,9 @@ TEST (TwoSegmentLoop, DisorderlyPointsComeOnceEach)
     Positions positions;
     for (unsigned i = 0; i < 4 + seed * seed / 3; ++i)
       positions.emplace_back (uniform (random), uniform (random), uniform (random));
-    const std::vector<Index> loop = twoSegmentLoop (positions, allOf (positions), 1);
-    expectEachOnce (loop, allOf (positions));
+    const std::vector<Index> loop =
+        twoSegmentLoop (positions, samples::indices (positions.size ()), 1);
+    expectEachOnce (loop, samples::indices (positions.size ()));
   }
 }
 
@@ -235,19 +228,21 @@ TEST (TwoSegmentLoop, PointsOfALineComeOnceEach)
   Positions positions;
   for (int i = 0; i < 50; ++i)
     positions.emplace_back (i, 2.0 * i, 0.0);
-  expectEachOnce (twoSegmentLoop (positions, allOf (positions), 1), allOf (positions));
+  expectEachOnce (twoSegmentLoop (positions, samples::indices (positions.size ()), 1),
+                  samples::indices (positions.size ()));
 }
 
 TEST (TwoSegmentLoop, DoesNotChangeUnderMotionAndScaling)
 {
   const Positions border = sample (star, 150, 0.3);
-  const std::vector<Index> loop = twoSegmentLoop (border, allOf (border), 1);
+  const std::vector<Index> loop = twoSegmentLoop (border, samples::indices (border.size ()), 1);
   const Eigen::AngleAxisd rotation (0.7, Eigen::Vector3d (1.0, 2.0, -1.0).normalized ());
   for (const double scale : {1e-6, 1.0, 1e6}) {
     Positions moved;
     for (const Eigen::Vector3d& p : border)
       moved.push_back (scale * (rotation * p + Eigen::Vector3d (3.0, -1.0, 2.0)));
-    EXPECT_EQ (twoSegmentLoop (moved, allOf (moved), 1), loop) << "scale " << scale;
+    EXPECT_EQ (twoSegmentLoop (moved, samples::indices (moved.size ()), 1), loop)
+        << "scale " << scale;
   }
 }
 
@@ -255,7 +250,8 @@ TEST (TwoSegmentLoop, DoesNotChangeUnderMotionAndScaling)
 TEST (TwoSegmentLoop, LongBorder)
 {
   const Positions border = sample (star, 20000, 0.3);
-  EXPECT_EQ (canonical (twoSegmentLoop (border, allOf (border), 1)), allOf (border));
+  EXPECT_EQ (canonical (twoSegmentLoop (border, samples::indices (border.size ()), 1)),
+             samples::indices (border.size ()));
 }
 
 } // namespace

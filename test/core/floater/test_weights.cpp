@@ -22,7 +22,6 @@ namespace floater
 namespace
 {
 using Star = std::vector<Eigen::Vector2d>;
-constexpr double PI = 3.14159265358979323846;
 constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
                                         Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE};
 

@@ -14,9 +14,10 @@ namespace
 {
 using samples::Positions;
 
-constexpr int SIDE = 10;
+constexpr int SHEET_SIDE = 10;
 
-// Squares of unit spacing, in a frame each: a grid of x and y from 0 to SIDE, its front along z.
+// Squares of unit spacing, in a frame each: a grid of x and y from 0 to SHEET_SIDE, its front along
+// z.
 struct Squares
 {
   Positions positions;
@@ -25,14 +26,14 @@ struct Squares
   void add (const Eigen::Isometry3d& place, bool is_reversed)
   {
     const auto first = static_cast<Index> (positions.size ());
-    for (int y = 0; y <= SIDE; ++y)
-      for (int x = 0; x <= SIDE; ++x)
+    for (int y = 0; y <= SHEET_SIDE; ++y)
+      for (int x = 0; x <= SHEET_SIDE; ++x)
         positions.emplace_back (place * Eigen::Vector3d (x, y, 0.0));
     const auto at = [first] (int x, int y) {
-      return first + static_cast<Index> (y * (SIDE + 1) + x);
+      return first + static_cast<Index> (y * (SHEET_SIDE + 1) + x);
     };
-    for (int y = 0; y < SIDE; ++y)
-      for (int x = 0; x < SIDE; ++x)
+    for (int y = 0; y < SHEET_SIDE; ++y)
+      for (int x = 0; x < SHEET_SIDE; ++x)
         for (Triangle t : {Triangle{at (x, y), at (x + 1, y), at (x + 1, y + 1)},
                            Triangle{at (x, y), at (x + 1, y + 1), at (x, y + 1)}}) {
           if (is_reversed)
@@ -55,7 +56,7 @@ beside (double gap, double height, double degrees, bool is_reversed)
   Squares squares;
   squares.add (Eigen::Isometry3d::Identity (), false);
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity ();
-  place.translate (Eigen::Vector3d (SIDE + 0.5 * gap, 0.0, height));
+  place.translate (Eigen::Vector3d (SHEET_SIDE + 0.5 * gap, 0.0, height));
   place.rotate (Eigen::AngleAxisd (-degrees * DEGREE, Eigen::Vector3d::UnitY ()));
   place.translate (Eigen::Vector3d (0.5 * gap, 0.0, 0.0));
   squares.add (place, is_reversed);
@@ -72,7 +73,7 @@ TEST (Continuations, AreFoundBesideWhateverTheAngle)
       EXPECT_EQ (found.front ().a, 0U);
       EXPECT_EQ (found.front ().b, 1U);
       EXPECT_EQ (found.front ().is_opposite, is_reversed);
-      EXPECT_GT (found.front ().support, 0.5 * SIDE);
+      EXPECT_GT (found.front ().support, 0.5 * SHEET_SIDE);
     }
 }
 
@@ -80,8 +81,8 @@ TEST (Continuations, AreNeitherFarNorAbove)
 {
   EXPECT_EQ (beside (7.0, 0.0, 0.0, false).size (), 1U);
   EXPECT_TRUE (beside (9.0, 0.0, 0.0, false).empty ());
-  EXPECT_TRUE (beside (-SIDE, 1.0, 0.0, false).empty ());
-  EXPECT_TRUE (beside (-SIDE, 0.1, 0.0, true).empty ());
+  EXPECT_TRUE (beside (-SHEET_SIDE, 1.0, 0.0, false).empty ());
+  EXPECT_TRUE (beside (-SHEET_SIDE, 0.1, 0.0, true).empty ());
 }
 
 TEST (Continuations, NeedTwoComponents)

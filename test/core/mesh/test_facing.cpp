@@ -22,7 +22,7 @@ using samples::PI;
 using samples::Positions;
 using Shape = std::function<Eigen::Vector3d (double, double)>;
 
-constexpr int SIDE = 40;
+constexpr int BODY_SIDE = 40;
 
 double
 hills (double x, double y)
@@ -38,16 +38,17 @@ struct Patch
 
   Patch (const Shape& shape, bool wraps_u, bool wraps_v, bool reversed = false)
   {
-    const int columns = wraps_u ? SIDE : SIDE + 1, rows = wraps_v ? SIDE : SIDE + 1;
+    const int columns = wraps_u ? BODY_SIDE : BODY_SIDE + 1,
+              rows = wraps_v ? BODY_SIDE : BODY_SIDE + 1;
     for (int v = 0; v < rows; ++v)
       for (int u = 0; u < columns; ++u)
         positions.push_back (
-            shape (static_cast<double> (u) / SIDE, static_cast<double> (v) / SIDE));
+            shape (static_cast<double> (u) / BODY_SIDE, static_cast<double> (v) / BODY_SIDE));
     const auto at = [&] (int u, int v) {
       return static_cast<Index> ((v % rows) * columns + u % columns);
     };
-    for (int v = 0; v < SIDE; ++v)
-      for (int u = 0; u < SIDE; ++u) {
+    for (int v = 0; v < BODY_SIDE; ++v)
+      for (int u = 0; u < BODY_SIDE; ++u) {
         mesh.triangles.push_back ({at (u, v), at (u + 1, v), at (u + 1, v + 1)});
         mesh.triangles.push_back ({at (u, v), at (u + 1, v + 1), at (u, v + 1)});
       }

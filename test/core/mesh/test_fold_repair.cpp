@@ -16,7 +16,7 @@ namespace
 {
 using samples::Positions;
 
-constexpr Index SIDE = 9; // points along a grid
+constexpr Index GRID_SIDE = 9; // points along a grid
 constexpr std::size_t LARGEST_FAN = RepairLimits{}.largest_fan;
 
 // Points of a jittered square grid with spacing 1.
@@ -25,19 +25,19 @@ gridPoints (double z, std::uint64_t seed)
 {
   RandomStream random (seed);
   Positions positions;
-  for (Index y = 0; y < SIDE; ++y)
-    for (Index x = 0; x < SIDE; ++x)
+  for (Index y = 0; y < GRID_SIDE; ++y)
+    for (Index x = 0; x < GRID_SIDE; ++x)
       positions.emplace_back (x + 0.2 * random.uniform (), y + 0.2 * random.uniform (), z);
   return positions;
 }
 
 std::vector<Triangle>
-gridTriangles (Index first)
+sheetTriangles (Index first)
 {
   std::vector<Triangle> triangles;
-  for (Index y = 0; y + 1 < SIDE; ++y)
-    for (Index x = 0; x + 1 < SIDE; ++x) {
-      const Index a = first + y * SIDE + x, b = a + 1, c = a + SIDE, d = c + 1;
+  for (Index y = 0; y + 1 < GRID_SIDE; ++y)
+    for (Index x = 0; x + 1 < GRID_SIDE; ++x) {
+      const Index a = first + y * GRID_SIDE + x, b = a + 1, c = a + GRID_SIDE, d = c + 1;
       triangles.push_back ({a, b, d});
       triangles.push_back ({a, d, c});
     }
@@ -56,8 +56,8 @@ struct Sheets
   {
     positions = gridPoints (0.0, seed);
     const Positions upper = gridPoints (gap, seed + 1);
-    mesh.triangles = gridTriangles (0);
-    const std::vector<Triangle> more = gridTriangles (static_cast<Index> (positions.size ()));
+    mesh.triangles = sheetTriangles (0);
+    const std::vector<Triangle> more = sheetTriangles (static_cast<Index> (positions.size ()));
     mesh.triangles.insert (mesh.triangles.end (), more.begin (), more.end ());
     positions.insert (positions.end (), upper.begin (), upper.end ());
     normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
@@ -86,11 +86,12 @@ struct Sheets
   void mixUp (std::size_t times, std::uint64_t seed)
   {
     RandomStream random (seed);
-    const auto inner = [&random] { return static_cast<Index> (2 + random.below (SIDE - 4)); };
+    const auto inner = [&random] { return static_cast<Index> (2 + random.below (GRID_SIDE - 4)); };
     for (std::size_t i = 0; i < times; ++i) {
-      const Index row_a = inner (), a = row_a * SIDE + inner ();
+      const Index row_a = inner (), a = row_a * GRID_SIDE + inner ();
       const Index row_b = inner (), column_b = inner ();
-      const Index b = row_b * SIDE + column_b + static_cast<Index> (SIDE * SIDE * random.below (2));
+      const Index b = row_b * GRID_SIDE + column_b +
+                      static_cast<Index> (GRID_SIDE * GRID_SIDE * random.below (2));
       if (a != b && (positions[a] - positions[b]).norm () < 2.5)
         swap (a, b);
     }
@@ -121,7 +122,7 @@ moveWhileItHelps (Sheets& sheets, const TriangleCost& cost)
 
 // Of all triangles and edges.
 double
-totalCost (const TriangleMesh& mesh, const TriangleCost& cost)
+costOfMesh (const TriangleMesh& mesh, const TriangleCost& cost)
 {
   double sum = 0.0;
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
@@ -152,7 +153,7 @@ expectConsistent (const TriangleMesh& mesh, std::size_t vertices)
 TEST (FoldRepair, ReplacedFansKeepAManifold)
 {
   Sheets sheets (5.0, 1);
-  const Index p = 4 * SIDE + 4;
+  const Index p = 4 * GRID_SIDE + 4;
   std::vector<Index> fan, ring;
   sheets.mesh.fan (p, fan);
   for (Index t : fan)
@@ -166,7 +167,7 @@ TEST (FoldRepair, ReplacedFansKeepAManifold)
   for (std::size_t i = 2; i + 1 < ring.size (); ++i)
     EXPECT_TRUE (sheets.mesh.hasEdge (ring[0], ring[i]));
   // Back in, on the other sheet.
-  sheets.mesh.split (sheets.mesh.triangle_of[SIDE * SIDE + p], p, fan[4], fan[5]);
+  sheets.mesh.split (sheets.mesh.triangle_of[GRID_SIDE * GRID_SIDE + p], p, fan[4], fan[5]);
   expectConsistent (sheets.mesh, sheets.positions.size ());
 }
 
@@ -188,7 +189,7 @@ TEST (FoldRepair, UndoneChangesLeaveNoTrace)
       double change = mover.moveTo (v, place);
       for (Index q : sheets.neighbors.row (v))
         change += mover.move (q, 2);
-      EXPECT_NEAR (totalCost (mesh, cost) - totalCost (before, cost), change, 1e-6);
+      EXPECT_NEAR (costOfMesh (mesh, cost) - costOfMesh (before, cost), change, 1e-6);
       expectConsistent (mesh, sheets.positions.size ());
       changed += mesh.triangles != before.triangles ? 1 : 0;
       mover.undo ();
@@ -207,19 +208,19 @@ TEST (FoldRepair, PatchesAreTakenOutAndPutBack)
   const TriangleMesh before = mesh;
   VertexMover mover (mesh, sheets.neighbors, cost, LARGEST_FAN, 1);
   std::size_t rebuilt = 0;
-  for (Index first = 0; first + 3 * SIDE < SIDE * SIDE; first += 5) {
+  for (Index first = 0; first + 3 * GRID_SIDE < GRID_SIDE * GRID_SIDE; first += 5) {
     mover.start ();
     const std::vector<Index> patch{first,
                                    first + 1,
-                                   first + SIDE,
-                                   first + SIDE + 1,
-                                   first + SIDE + 2,
-                                   first + 2 * SIDE,
-                                   first + SIDE * SIDE};
+                                   first + GRID_SIDE,
+                                   first + GRID_SIDE + 1,
+                                   first + GRID_SIDE + 2,
+                                   first + 2 * GRID_SIDE,
+                                   first + GRID_SIDE * GRID_SIDE};
     double change = 0.0;
     if (mover.rebuild (patch, change)) {
       ++rebuilt;
-      EXPECT_NEAR (totalCost (mesh, cost) - totalCost (before, cost), change, 1e-6);
+      EXPECT_NEAR (costOfMesh (mesh, cost) - costOfMesh (before, cost), change, 1e-6);
       expectConsistent (mesh, sheets.positions.size ());
     }
     mover.undo ();
@@ -235,9 +236,9 @@ TEST (FoldRepair, TheBoundaryStays)
   Sheets sheets (5.0, 5);
   const TriangleCost cost (sheets.positions, sheets.normals);
   VertexMover mover (sheets.mesh, sheets.neighbors, cost, LARGEST_FAN, 1);
-  for (Index x = 0; x < SIDE; ++x) {
+  for (Index x = 0; x < GRID_SIDE; ++x) {
     EXPECT_TRUE (mover.placesFor (x, 16).empty ());
-    EXPECT_EQ (mover.move (x * SIDE, 16), 0.0);
+    EXPECT_EQ (mover.move (x * GRID_SIDE, 16), 0.0);
   }
   EXPECT_EQ (sheets.mesh.mark (), 0U);
 }
@@ -245,7 +246,7 @@ TEST (FoldRepair, TheBoundaryStays)
 TEST (FoldRepair, AVertexOfTheWrongSheetGoesBack)
 {
   Sheets sheets (2.0, 6);
-  const Index p = SIDE * SIDE + 4 * SIDE + 4;
+  const Index p = GRID_SIDE * GRID_SIDE + 4 * GRID_SIDE + 4;
   std::vector<Index> fan, ring;
   sheets.mesh.fan (p, fan);
   for (Index t : fan)
@@ -254,7 +255,7 @@ TEST (FoldRepair, AVertexOfTheWrongSheetGoesBack)
   for (std::size_t i = 1; i + 1 < ring.size (); ++i)
     filling.push_back ({ring[0], ring[i], ring[i + 1]});
   sheets.mesh.replaceFan (p, fan, filling);
-  sheets.mesh.split (sheets.mesh.triangle_of[4 * SIDE + 4], p, fan[4], fan[5]);
+  sheets.mesh.split (sheets.mesh.triangle_of[4 * GRID_SIDE + 4], p, fan[4], fan[5]);
   ASSERT_FALSE (sheets.areApart ());
   const TriangleCost cost (sheets.positions, sheets.normals);
   EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, {}, cost, sheets.positions, {}, 1), 0U);
@@ -278,10 +279,10 @@ TEST (FoldRepair, KicksRemoveFoldsThatNoSingleMoveRemoves)
     flipEdges (sheets.mesh, cost, 1);
     moveWhileItHelps (sheets, cost);
     EXPECT_EQ (findFolds (sheets.mesh, sheets.positions, 1).size (), 1U);
-    const double before = totalCost (sheets.mesh, cost);
+    const double before = costOfMesh (sheets.mesh, cost);
     EXPECT_GT (moveVertices (sheets.mesh, sheets.neighbors, {}, cost, sheets.positions, {}, 1), 0U);
     EXPECT_TRUE (findFolds (sheets.mesh, sheets.positions, 1).empty ());
-    EXPECT_LT (totalCost (sheets.mesh, cost), before);
+    EXPECT_LT (costOfMesh (sheets.mesh, cost), before);
     expectConsistent (sheets.mesh, sheets.positions.size ());
   }
 }

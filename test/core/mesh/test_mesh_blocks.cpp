@@ -14,7 +14,7 @@ using namespace pcl::floater;
 
 namespace
 {
-constexpr Index SIDE = 150; // 22,500 points: six blocks
+constexpr Index BLOCKS_SIDE = 150; // 22,500 points: six blocks
 
 // A bumpy sheet, row by row; its cells are cut along a diagonal at random.
 struct RandomSheet
@@ -24,18 +24,18 @@ struct RandomSheet
   TriangleMesh mesh;
   CsrLists neighbors; // of each point: up to 24 around it
 
-  static Index at (Index x, Index y) { return y * SIDE + x; }
+  static Index at (Index x, Index y) { return y * BLOCKS_SIDE + x; }
 
   RandomSheet ()
   {
     RandomStream random (7);
-    for (Index y = 0; y < SIDE; ++y)
-      for (Index x = 0; x < SIDE; ++x)
+    for (Index y = 0; y < BLOCKS_SIDE; ++y)
+      for (Index x = 0; x < BLOCKS_SIDE; ++x)
         positions.emplace_back (x + 0.5 * random.uniform (), y + 0.5 * random.uniform (),
                                 0.2 * random.uniform ());
     normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    for (Index y = 0; y + 1 < SIDE; ++y)
-      for (Index x = 0; x + 1 < SIDE; ++x) {
+    for (Index y = 0; y + 1 < BLOCKS_SIDE; ++y)
+      for (Index x = 0; x + 1 < BLOCKS_SIDE; ++x) {
         const Index a = at (x, y), b = at (x + 1, y), c = at (x + 1, y + 1), d = at (x, y + 1);
         if (random.uniform () < 0.5) {
           mesh.triangles.push_back ({a, b, c});
@@ -48,10 +48,10 @@ struct RandomSheet
       }
     EXPECT_TRUE (mesh.connect (positions.size (), 1));
     neighbors = makeCsrLists (positions.size (), [] (const auto& emit) {
-      for (Index y = 0; y < SIDE; ++y)
-        for (Index x = 0; x < SIDE; ++x)
-          for (Index v = std::max (y, 2U) - 2; v <= std::min (y + 2, SIDE - 1); ++v)
-            for (Index u = std::max (x, 2U) - 2; u <= std::min (x + 2, SIDE - 1); ++u)
+      for (Index y = 0; y < BLOCKS_SIDE; ++y)
+        for (Index x = 0; x < BLOCKS_SIDE; ++x)
+          for (Index v = std::max (y, 2U) - 2; v <= std::min (y + 2, BLOCKS_SIDE - 1); ++v)
+            for (Index u = std::max (x, 2U) - 2; u <= std::min (x + 2, BLOCKS_SIDE - 1); ++u)
               if (u != x || v != y)
                 emit (at (x, y), at (u, v));
     });
@@ -107,15 +107,18 @@ TEST (MeshBlocks, AreTheSameMeshWhereTheyAreFree)
         const Index from = block.first + block.mesh.from ({t, side});
         const Index to = block.first + block.mesh.to ({t, side});
         const MeshEdge across = block.mesh.mate ({t, side});
-        const bool is_border = from / SIDE == 0 || from % SIDE == 0 || to / SIDE == SIDE - 1 ||
-                               to % SIDE == SIDE - 1 || to / SIDE == 0 || to % SIDE == 0 ||
-                               from / SIDE == SIDE - 1 || from % SIDE == SIDE - 1;
+        const bool is_border = from / BLOCKS_SIDE == 0 || from % BLOCKS_SIDE == 0 ||
+                               to / BLOCKS_SIDE == BLOCKS_SIDE - 1 ||
+                               to % BLOCKS_SIDE == BLOCKS_SIDE - 1 || to / BLOCKS_SIDE == 0 ||
+                               to % BLOCKS_SIDE == 0 || from / BLOCKS_SIDE == BLOCKS_SIDE - 1 ||
+                               from % BLOCKS_SIDE == BLOCKS_SIDE - 1;
         EXPECT_TRUE (across.triangle != NONE || is_border);
       }
     }
     // Edges are known but between two points of which triangles are missing.
     for (Index p = 0; p + 1 < block.mesh.triangle_of.size (); ++p)
-      for (const Index step : {Index{1}, SIDE - 1, SIDE, SIDE + 1, 2 * SIDE}) {
+      for (const Index step :
+           {Index{1}, BLOCKS_SIDE - 1, BLOCKS_SIDE, BLOCKS_SIDE + 1, 2 * BLOCKS_SIDE}) {
         const Index q = p + step;
         if (q >= block.mesh.triangle_of.size () || block.mesh.triangle_of[p] == NONE ||
             block.mesh.triangle_of[q] == NONE)

@@ -13,7 +13,7 @@ namespace floater
 {
 namespace
 {
-constexpr Index SIDE = 20; // points of a row of the sheet
+constexpr Index ROW = 20; // points of a row of the sheet
 
 // A flat sheet of points, and one above its middle that has no triangle, whose neighbours are the
 // points below. No triangle of the sheet has corners in several parts.
@@ -28,17 +28,17 @@ SheetAndPoint
 sheetAndPoint ()
 {
   SheetAndPoint made;
-  for (Index y = 0; y < SIDE; ++y)
-    for (Index x = 0; x < SIDE; ++x)
+  for (Index y = 0; y < ROW; ++y)
+    for (Index x = 0; x < ROW; ++x)
       made.positions.emplace_back (x, y, 0.0);
-  for (Index y = 0; y + 1 < SIDE; ++y)
-    for (Index x = 0; x + 1 < SIDE; ++x) {
-      const Index a = y * SIDE + x, b = a + 1, c = a + SIDE, d = c + 1;
+  for (Index y = 0; y + 1 < ROW; ++y)
+    for (Index x = 0; x + 1 < ROW; ++x) {
+      const Index a = y * ROW + x, b = a + 1, c = a + ROW, d = c + 1;
       made.triangles.push_back ({a, b, d});
       made.triangles.push_back ({a, d, c});
     }
-  const Index middle = SIDE / 2 * SIDE + SIDE / 2;
-  made.below = {middle, middle + 1, middle + SIDE, middle + SIDE + 1};
+  const Index middle = ROW / 2 * ROW + ROW / 2;
+  made.below = {middle, middle + 1, middle + ROW, middle + ROW + 1};
   return made;
 }
 
@@ -57,7 +57,7 @@ TEST (SeamFinish, PointFarFromTheSeamIsInserted)
   const SheetAndPoint made = sheetAndPoint ();
   SeamZone zone;
   zone.positions = made.positions;
-  zone.positions.emplace_back (SIDE / 2 + 0.4, SIDE / 2 + 0.5, 0.1);
+  zone.positions.emplace_back (ROW / 2 + 0.4, ROW / 2 + 0.5, 0.1);
   for (Index p = 0; p < zone.positions.size (); ++p)
     zone.points.push_back (p);
   zone.normals.assign (zone.points.size (), Eigen::Vector3f::UnitZ ());

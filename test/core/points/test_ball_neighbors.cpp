@@ -5,7 +5,7 @@
 
 #include "local/planar_star.h"
 #include "points/kd_tree.h"
-#include "points/points.h"
+#include "points/point_samples.h"
 #include "random_stream.h"
 
 #include <gtest/gtest.h>
@@ -20,6 +20,8 @@ namespace floater
 {
 namespace
 {
+using samples::workingPoints;
+
 std::vector<Eigen::Vector3d>
 plane (std::size_t count, std::uint64_t seed)
 {
@@ -30,14 +32,6 @@ plane (std::size_t count, std::uint64_t seed)
     p = {40.0 * x * x, 40.0 * y, 0.0}; // denser at one side
   }
   return points;
-}
-
-Points
-workingPoints (const std::vector<Eigen::Vector3d>& positions)
-{
-  std::vector<Index> indices (positions.size ());
-  std::iota (indices.begin (), indices.end (), Index{0});
-  return makePoints (positions, indices, 1);
 }
 
 // By trying all points.

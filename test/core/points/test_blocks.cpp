@@ -4,9 +4,7 @@
 #include "points/point_block.h"
 
 #include "points/nearest_neighbors.h"
-#include "points/points.h"
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -19,19 +17,10 @@ namespace floater
 namespace
 {
 using samples::Positions;
+using samples::surface;
+using samples::workingPoints;
 
-constexpr int K = 20;
-
-Positions
-surface (SurfaceKind kind, std::size_t points, double density_ratio = 1.0, double noise = 0.0)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  spec.density_ratio = density_ratio;
-  spec.noise = noise;
-  return generateSurface (spec);
-}
+constexpr int NEIGHBORS = 20;
 
 /// Two tori, three small clusters far away, each of fewer points than a point has neighbours, and
 /// single points at all distances: halos of an even width are too narrow.
@@ -67,16 +56,11 @@ abruptlySparse ()
   return points;
 }
 
-Points
-workingPoints (const Positions& positions)
-{
-  return makePoints (positions, samples::indices (positions.size ()), 1);
-}
-
 CsrLists
 neighborsIn (std::size_t blocks, const Points& points, int threads = 1)
 {
-  return findNearestNeighbors (points.positions, Rows::all (points.size ()), K, blocks, threads);
+  return findNearestNeighbors (points.positions, Rows::all (points.size ()), NEIGHBORS, blocks,
+                               threads);
 }
 
 /// Counts points with a neighbour beyond the halo of their block. For these the block has to be cut
@@ -168,9 +152,9 @@ TEST (BlockCutter, HalosOfUnevenCloudsAreTooNarrow)
 TEST (Blocks, FindTheNeighborsOfTheWhole)
 {
   const std::vector<Positions> clouds{surface (SurfaceKind::TORUS, 4000),
-                                      surface (SurfaceKind::HEIGHT_FIELD, 4000, 50.0),
+                                      surface (SurfaceKind::HEIGHT_FIELD, 4000, 0.0, 50.0),
                                       surface (SurfaceKind::FOLDED_SHEET, 3000),
-                                      surface (SurfaceKind::SPHERE, 2000, 1.0, 0.3),
+                                      surface (SurfaceKind::SPHERE, 2000, 0.3),
                                       abruptlySparse (),
                                       scattered (),
                                       samples::randomPoints (700, 3),
@@ -197,7 +181,7 @@ TEST (Blocks, GiveTheSameMeshHoweverManyThereAre)
   const std::vector<Positions> clouds{surface (SurfaceKind::TORUS, 4000),
                                       surface (SurfaceKind::FOLDED_SHEET, 4000),
                                       surface (SurfaceKind::CUT_OUT, 4000),
-                                      surface (SurfaceKind::SPHERE, 3000, 1.0, 0.3),
+                                      surface (SurfaceKind::SPHERE, 3000, 0.3),
                                       with_outliers,
                                       abruptlySparse ()};
   for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud) {

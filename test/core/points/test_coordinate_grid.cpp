@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/coordinate_grid.h"
 
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -14,23 +13,12 @@ namespace floater
 namespace
 {
 using samples::asInput;
+using samples::ON_A_MAP;
+using samples::placed;
 using samples::Positions;
-
-const Eigen::Vector3d ON_A_MAP (5e5, 5.5e6, 300.0);
+using samples::surface;
 
 // With a spacing of about 1, times the scale.
-Positions
-surface (SurfaceKind kind, const Eigen::Vector3d& place = {0, 0, 0}, double scale = 1.0)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = 3000;
-  Positions cloud = generateSurface (spec);
-  for (Eigen::Vector3d& p : cloud)
-    p = place + scale * p;
-  return cloud;
-}
-
 Positions
 asFloats (Positions cloud)
 {
@@ -72,7 +60,7 @@ TEST (CoordinateGrid, MapCoordinatesInSinglePrecision)
 {
   for (const double scale : {0.3, 1.0, 3.0}) {
     const CoordinateGrid grid =
-        gridOf (asFloats (surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, scale)));
+        gridOf (asFloats (placed (surface (SurfaceKind::HEIGHT_FIELD, 3000), ON_A_MAP, scale)));
     EXPECT_EQ (grid.axis, 1);
     EXPECT_NEAR (grid.step, 0.5, 1e-6);
     EXPECT_GT (grid.spacings, 0.1);
@@ -80,11 +68,14 @@ TEST (CoordinateGrid, MapCoordinatesInSinglePrecision)
     EXPECT_TRUE (grid.is_single_precision);
   }
   // Fine enough for points further apart, and as doubles.
-  EXPECT_EQ (gridOf (asFloats (surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, 10.0))).step, 0.0);
-  EXPECT_EQ (gridOf (surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, 0.3)).step, 0.0);
+  EXPECT_EQ (
+      gridOf (asFloats (placed (surface (SurfaceKind::HEIGHT_FIELD, 3000), ON_A_MAP, 10.0))).step,
+      0.0);
+  EXPECT_EQ (gridOf (placed (surface (SurfaceKind::HEIGHT_FIELD, 3000), ON_A_MAP, 0.3)).step, 0.0);
   // Three axes with the same step, which is that of floats along all of them.
   const Eigen::Vector3d geocentric (4.2e6, 4.3e6, 5e6);
-  const CoordinateGrid grid = gridOf (asFloats (surface (SurfaceKind::TORUS, geocentric, 1.0)));
+  const CoordinateGrid grid =
+      gridOf (asFloats (placed (surface (SurfaceKind::TORUS, 3000), geocentric, 1.0)));
   EXPECT_NEAR (grid.step, 0.5, 1e-6);
   EXPECT_TRUE (grid.is_single_precision);
 }
@@ -92,7 +83,7 @@ TEST (CoordinateGrid, MapCoordinatesInSinglePrecision)
 TEST (CoordinateGrid, CoordinatesWithFewDigits)
 {
   for (const double scale : {1e-6, 1.0, 1e6}) {
-    const Positions torus = surface (SurfaceKind::TORUS, {0, 0, 0}, scale);
+    const Positions torus = placed (surface (SurfaceKind::TORUS, 3000), {0, 0, 0}, scale);
     const CoordinateGrid grid = gridOf (rounded (torus, 0.2 * scale));
     EXPECT_NEAR (grid.step / scale, 0.2, 1e-6);
     EXPECT_GT (grid.spacings, 0.1);
@@ -129,7 +120,7 @@ TEST (CoordinateGrid, ARasterIsNoFlaw)
 
 TEST (CoordinateGrid, TheReportWarns)
 {
-  const Positions fine = surface (SurfaceKind::HEIGHT_FIELD, ON_A_MAP, 0.3);
+  const Positions fine = placed (surface (SurfaceKind::HEIGHT_FIELD, 3000), ON_A_MAP, 0.3);
   const Result clean = reconstruct (asInput (fine), {});
   EXPECT_EQ (clean.report.statistics.coordinate_step, 0.0);
   EXPECT_TRUE (clean.report.warnings.empty ()) << clean.report.warnings.front ();

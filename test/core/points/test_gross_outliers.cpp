@@ -3,8 +3,7 @@
 #include "points/gross_outliers.h"
 
 #include "mesh_oracle.h"
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -18,24 +17,14 @@ namespace
 {
 using samples::asInput;
 using samples::indices;
+using samples::ON_A_MAP;
+using samples::placed;
 using samples::Positions;
-using Rows = std::vector<Index>;
+using samples::surface;
+using IndexList = std::vector<Index>;
 
 constexpr double LARGEST_FLOAT = std::numeric_limits<float>::max ();
 constexpr double LARGEST = std::numeric_limits<double>::max ();
-
-Positions
-surface (SurfaceKind kind, std::size_t points, const Eigen::Vector3d& place = {0, 0, 0},
-         double scale = 1.0)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  Positions cloud = generateSurface (spec);
-  for (Eigen::Vector3d& p : cloud)
-    p = place + scale * p;
-  return cloud;
-}
 
 Positions
 operator+ (Positions a, const Positions& b)
@@ -45,18 +34,16 @@ operator+ (Positions a, const Positions& b)
 }
 
 // Rows from the first on that is no more of the surface.
-Rows
+IndexList
 rowsFrom (std::size_t first, const Positions& cloud)
 {
-  const Rows all = indices (cloud.size ());
+  const IndexList all = indices (cloud.size ());
   return {all.begin () + static_cast<std::ptrdiff_t> (first), all.end ()};
 }
 
-const Eigen::Vector3d ON_A_MAP (5e5, 5.5e6, 300.0);
-
 TEST (GrossOutliers, PointsOrdersOfMagnitudeAway)
 {
-  const Positions torus = surface (SurfaceKind::TORUS, 1000, ON_A_MAP);
+  const Positions torus = placed (surface (SurfaceKind::TORUS, 1000), ON_A_MAP);
   const Positions cloud = torus + Positions{{1e10, 0, 0}, {0, 0, 0}, {5e5, 5.5e6, -1e8}, {0, 0, 0}};
   const GrossOutliers found = findGrossOutliers (cloud, 1);
   EXPECT_EQ (found.isolated, rowsFrom (1000, cloud));
@@ -84,8 +71,9 @@ TEST (GrossOutliers, ObjectsAndWidePartsAreNone)
   // A terrain around it that is a thousand times as wide and has a tenth of the points, and one
   // that is ten thousand times as wide.
   for (const Positions& cloud :
-       {torus + surface (SurfaceKind::HEIGHT_FIELD, 200, {0, 0, 0}, 3e3),
-        torus + surface (SurfaceKind::HEIGHT_FIELD, 2000, {0, 0, 0}, 1e4), terrain + torus}) {
+       {torus + placed (surface (SurfaceKind::HEIGHT_FIELD, 200), {0, 0, 0}, 3e3),
+        torus + placed (surface (SurfaceKind::HEIGHT_FIELD, 2000), {0, 0, 0}, 1e4),
+        terrain + torus}) {
     const GrossOutliers found = findGrossOutliers (cloud, 1);
     EXPECT_TRUE (found.isolated.empty ());
     EXPECT_TRUE (found.unbearable.empty ());
@@ -93,7 +81,8 @@ TEST (GrossOutliers, ObjectsAndWidePartsAreNone)
   // Objects a million times their size apart, alike and not.
   for (const std::size_t points : {60U, 500U, 2000U})
     for (const double scale : {0.1, 1.0, 10.0}) {
-      const Positions cloud = torus + surface (SurfaceKind::TORUS, points, {-3e7, 1e7, 2e7}, scale);
+      const Positions cloud =
+          torus + placed (surface (SurfaceKind::TORUS, points), {-3e7, 1e7, 2e7}, scale);
       const GrossOutliers found = findGrossOutliers (cloud, 1);
       EXPECT_TRUE (found.isolated.empty ()) << points << " " << scale;
       EXPECT_TRUE (found.unbearable.empty ());
@@ -104,10 +93,10 @@ TEST (GrossOutliers, MoreThanHalfMayBeCopiesOfOne)
 {
   // Pixels without depth are (0, 0, 0): equal points, which are one point.
   const Positions cloud = Positions (3000, Eigen::Vector3d (0, 0, 0)) +
-                          surface (SurfaceKind::HEIGHT_FIELD, 1000, ON_A_MAP) +
+                          placed (surface (SurfaceKind::HEIGHT_FIELD, 1000), ON_A_MAP) +
                           Positions{{1e11, 0, 0}};
   const GrossOutliers found = findGrossOutliers (cloud, 1);
-  EXPECT_EQ (found.isolated, (Rows{4000}));
+  EXPECT_EQ (found.isolated, (IndexList{4000}));
   EXPECT_TRUE (found.unbearable.empty ());
 }
 
@@ -116,20 +105,20 @@ TEST (GrossOutliers, DependOnPositionsOnly)
   const Positions cloud =
       surface (SurfaceKind::SPHERE, 1000) +
       Positions{{1e6, 0, 0}, {0, 0, 1e30}, {NAN, 0, 0}, {0, INFINITY, 0}, {1e6, 0, 0}};
-  const Rows order = samples::permutation (cloud.size (), 1);
+  const IndexList order = samples::permutation (cloud.size (), 1);
   for (const double scale : {1e-200, 1e-3, 1.0, 1e200}) {
     Positions moved;
     for (const Index i : order)
       moved.push_back (scale * cloud[i]);
     for (const int threads : {1, 2}) {
       GrossOutliers found = findGrossOutliers (moved, threads);
-      for (Rows* rows : {&found.isolated, &found.unbearable}) {
+      for (IndexList* rows : {&found.isolated, &found.unbearable}) {
         for (Index& row : *rows)
           row = order[row];
         std::sort (rows->begin (), rows->end ());
       }
-      EXPECT_EQ (found.isolated, (Rows{1000, 1004})) << scale;
-      EXPECT_EQ (found.unbearable, (Rows{1001})) << scale;
+      EXPECT_EQ (found.isolated, (IndexList{1000, 1004})) << scale;
+      EXPECT_EQ (found.unbearable, (IndexList{1001})) << scale;
     }
   }
 }
@@ -151,7 +140,7 @@ TEST (GrossOutliers, LeaveTheMeshAsItIs)
 {
   const Positions strays{{1e10, 2, 3}, {LARGEST_FLOAT, 0, 0}, {0, 0, 0}, {-LARGEST, LARGEST, 0}};
   for (const SurfaceKind kind : {SurfaceKind::TORUS, SurfaceKind::HEIGHT_FIELD}) {
-    const Positions clean = surface (kind, 3000, ON_A_MAP);
+    const Positions clean = placed (surface (kind, 3000), ON_A_MAP);
     const Positions cloud = clean + strays;
     const Result expected = reconstruct (asInput (clean), {});
     const Result result = reconstruct (asInput (cloud), {});
@@ -174,7 +163,7 @@ TEST (GrossOutliers, AreAddedToTheOthers)
   cloud.insert (cloud.begin (), {1e10, 0, 0});
   const Result result = reconstruct (asInput (cloud), {});
   ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  EXPECT_EQ (result.report.outliers, (Rows{0, 3001}));
+  EXPECT_EQ (result.report.outliers, (IndexList{0, 3001}));
   EXPECT_EQ (result.report.statistics.outlier_points, 2U);
   EXPECT_EQ (result.report.statistics.working_points, 3000U);
   EXPECT_EQ (result.report.warnings.size (), 2U);
@@ -201,8 +190,8 @@ TEST (GrossOutliers, StayIfOutliersAreToStay)
 
 TEST (GrossOutliers, AreNoQuarterOfTheCloud)
 {
-  const Positions cloud =
-      surface (SurfaceKind::TORUS, 1000) + surface (SurfaceKind::TORUS, 600, {0, 0, 0}, 1e30);
+  const Positions cloud = surface (SurfaceKind::TORUS, 1000) +
+                          placed (surface (SurfaceKind::TORUS, 600), {0, 0, 0}, 1e30);
   const Result result = reconstruct (asInput (cloud), {});
   EXPECT_EQ (result.report.status, RunStatus::DEGENERATE);
   EXPECT_NE (result.report.message.find ("double precision"), std::string::npos);
@@ -211,7 +200,7 @@ TEST (GrossOutliers, AreNoQuarterOfTheCloud)
 TEST (GrossOutliers, ObjectsFarApartAreBothReconstructed)
 {
   const Positions cloud =
-      surface (SurfaceKind::TORUS, 2000) + surface (SurfaceKind::TORUS, 2500, {4e8, 0, 0});
+      surface (SurfaceKind::TORUS, 2000) + placed (surface (SurfaceKind::TORUS, 2500), {4e8, 0, 0});
   const Result result = reconstruct (asInput (cloud), {});
   ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   const samples::Topology topology = samples::topologyOf (result.triangles);

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/nearest_neighbors.h"
 
-#include "points/points.h"
-#include "samples.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -15,44 +14,11 @@ namespace floater
 {
 namespace
 {
+using samples::BruteForceSearch;
 using samples::indices;
 using samples::Positions;
 
 // Brute force, answering in the order of the cloud, with the query among the answers.
-class BruteForceSearch : public NeighborSearch
-{
-public:
-  explicit BruteForceSearch (Positions cloud) : cloud_ (std::move (cloud)) {}
-
-  void build (const std::vector<std::uint32_t>& cloud_indices) override
-  {
-    EXPECT_TRUE (std::is_sorted (cloud_indices.begin (), cloud_indices.end ()));
-    chosen = cloud_indices;
-  }
-
-  void nearest (std::uint32_t cloud_index, int k,
-                std::vector<std::uint32_t>& cloud_indices) override
-  {
-    EXPECT_TRUE (std::binary_search (chosen.begin (), chosen.end (), cloud_index));
-    std::vector<std::pair<double, Index>> all;
-    for (const Index q : chosen)
-      all.emplace_back ((cloud_[q] - cloud_[cloud_index]).squaredNorm (), q);
-    std::sort (all.begin (), all.end ());
-    all.resize (std::min (all.size (), static_cast<std::size_t> (k)));
-    cloud_indices.clear ();
-    for (const auto& neighbor : all)
-      for (int copy = 0; copy < answers_each; ++copy)
-        cloud_indices.push_back (neighbor.second);
-    std::sort (cloud_indices.begin (), cloud_indices.end ());
-  }
-
-  std::vector<std::uint32_t> chosen;
-  int answers_each = 1;
-
-private:
-  Positions cloud_;
-};
-
 // The k nearest of all points, by the core's own tree.
 CsrLists
 byTree (const Points& points, int k, const RunContext& run = 1)

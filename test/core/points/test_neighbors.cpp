@@ -3,7 +3,7 @@
 // Neighbour lists after points were removed.
 #include "points/neighbors.h"
 
-#include "samples.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -13,40 +13,11 @@ namespace floater
 {
 namespace
 {
+using samples::BruteForceSearch;
 using samples::Positions;
+using samples::workingPoints;
 
 // Answers by brute force, among the points that it was built with.
-class BruteForceSearch : public NeighborSearch
-{
-public:
-  explicit BruteForceSearch (Positions cloud) : cloud_ (std::move (cloud)) {}
-
-  void build (const std::vector<std::uint32_t>& cloud_indices) override { chosen_ = cloud_indices; }
-
-  void nearest (std::uint32_t cloud_index, int k,
-                std::vector<std::uint32_t>& cloud_indices) override
-  {
-    std::vector<std::pair<double, Index>> all;
-    for (const Index q : chosen_)
-      all.emplace_back ((cloud_[q] - cloud_[cloud_index]).squaredNorm (), q);
-    std::sort (all.begin (), all.end ());
-    all.resize (std::min (all.size (), static_cast<std::size_t> (k)));
-    cloud_indices.clear ();
-    for (const auto& neighbor : all)
-      cloud_indices.push_back (neighbor.second);
-  }
-
-private:
-  Positions cloud_;
-  std::vector<std::uint32_t> chosen_;
-};
-
-Points
-workingPoints (const Positions& positions)
-{
-  return makePoints (positions, samples::indices (positions.size ()), 1);
-}
-
 // Chooses each point with the same probability, and all points of the cloud from `first_sure` on.
 std::vector<Index>
 chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)

@@ -4,8 +4,7 @@
 
 #include "points/nearest_neighbors.h"
 #include "points/noise_projection.h"
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +15,7 @@ namespace floater
 namespace
 {
 using samples::Positions;
-
-Positions
-surface (SurfaceKind kind, std::size_t points, double noise)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  spec.noise = noise;
-  return generateSurface (spec);
-}
+using samples::surface;
 
 struct Cloud
 {

@@ -3,8 +3,7 @@
 #include "points/outliers.h"
 
 #include "points/nearest_neighbors.h"
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -15,17 +14,7 @@ namespace floater
 namespace
 {
 using samples::Positions;
-
-Positions
-surface (SurfaceKind kind, double noise, double density_ratio = 1.0)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = 4000;
-  spec.noise = noise;
-  spec.density_ratio = density_ratio;
-  return generateSurface (spec);
-}
+using samples::surface;
 
 // The outliers in cloud indices.
 std::vector<Index>
@@ -71,8 +60,8 @@ TEST (Outliers, NoneOnSurfaces)
   for (const SurfaceKind kind : surfaceKinds ())
     for (const double noise : {0.0, 0.1, 0.5}) {
       SCOPED_TRACE (surfaceName (kind) + std::string (", noise ") + std::to_string (noise));
-      EXPECT_TRUE (outliersOf (surface (kind, noise)).empty ());
-      EXPECT_TRUE (outliersOf (surface (kind, std::min (noise, 0.2), 30.0)).empty ());
+      EXPECT_TRUE (outliersOf (surface (kind, 4000, noise)).empty ());
+      EXPECT_TRUE (outliersOf (surface (kind, 4000, std::min (noise, 0.2), 30.0)).empty ());
     }
 }
 
@@ -165,7 +154,7 @@ TEST (Outliers, SmallComponentsStay)
 
 TEST (Outliers, DoNotDependOnOrderAndPosition)
 {
-  Positions points = surface (SurfaceKind::TORUS, 0.1);
+  Positions points = surface (SurfaceKind::TORUS, 4000, 0.1);
   RandomStream random (4);
   for (int i = 0; i < 20; ++i)
     points.emplace_back (40.0 * (random.uniform () - 0.5), 40.0 * (random.uniform () - 0.5),
