@@ -191,15 +191,21 @@ appendRows (const CsrLists& added, CsrLists& lists)
 {
   if (added.ids.empty ())
     return;
-  lists.ids.resize (lists.ids.size () + added.ids.size ());
-  // From the last row to the first: every entry moves backwards.
+  std::size_t last = lists.ids.size (); // one past the entries that are where they were
+  lists.ids.reserve (last + added.ids.size ()); // not twice as many
+  lists.ids.resize (last + added.ids.size ());
+  // From the last row to the first: every entry moves backwards, together with those of the rows
+  // after it to which nothing is added.
   for (std::size_t r = lists.rows (); r-- > 0;) {
-    const Row row = lists.row (r), more = added.row (r);
-    const std::size_t end = lists.begin (r + 1) + added.begin (r + 1);
-    Index* const begin_of_more = lists.ids.data () + (end - more.size ());
-    std::copy (more.begin (), more.end (), begin_of_more);
-    std::copy_backward (row.begin (), row.end (), begin_of_more);
-    lists.offsets[r + 1] = static_cast<Index> (end);
+    const std::size_t end = lists.begin (r + 1), end_of_more = added.begin (r + 1);
+    lists.offsets[r + 1] = static_cast<Index> (end + end_of_more);
+    const Row more = added.row (r);
+    if (more.size () == 0)
+      continue;
+    Index* const ids = lists.ids.data ();
+    std::copy_backward (ids + end, ids + last, ids + last + end_of_more);
+    std::copy (more.begin (), more.end (), ids + end + added.begin (r));
+    last = end;
   }
   lists.findWraps ();
 }

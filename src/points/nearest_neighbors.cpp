@@ -85,6 +85,7 @@ emptyLists (std::size_t points, std::size_t rows, int k)
   lists.offsets.resize (rows + 1);
   for (std::size_t i = 0; i <= rows; ++i)
     lists.offsets[i] = static_cast<Index> (i * count);
+  lists.ids.reserve (rows * count + rows); // far neighbours may be appended, see appendRows
   lists.ids.resize (rows * count);
   return lists;
 }
