@@ -246,6 +246,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   }
   geometry.scatter = std::move (noise.scatter);
   reportNoise (noise, noise.is_strong, report);
+  noise = {};
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), run), report);
 
   if (as_disc)

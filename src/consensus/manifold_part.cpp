@@ -21,8 +21,7 @@ namespace
 class FanPruner
 {
 public:
-  FanPruner (const Consensus& consensus, std::size_t points,
-             const std::vector<std::uint8_t>& is_partial)
+  FanPruner (Consensus& consensus, std::size_t points, const std::vector<std::uint8_t>& is_partial)
       : triangles_ (consensus.triangles), votes_ (consensus.votes), is_partial_ (is_partial),
         kept_ (triangles_.size (), 1)
   {
@@ -33,8 +32,9 @@ public:
     });
   }
 
-  // The triangles that are left; nothing if one at a partial point would have to be dropped.
-  std::optional<std::vector<Triangle>> prune (const RunContext& run)
+  // Leaves triangles out of the consensus. False if one at a partial point would have to be
+  // dropped.
+  bool prune (const RunContext& run)
   {
     // A triangle that is dropped at one point may split the fan of another one. That one is looked
     // at again, in the same round if it comes later.
@@ -47,21 +47,21 @@ public:
         const std::size_t known = dirty_.size ();
         keepLargestFan (*p);
         if (has_left_)
-          return {};
+          return false;
         for (std::size_t i = known; i < dirty_.size (); ++i)
           if (dirty_[i] > *p)
             points.insert (dirty_[i]);
       }
       points = std::set<Index> (dirty_.begin (), dirty_.end ());
     }
-    std::vector<Triangle> left;
-    left.reserve (triangles_.size ());
+    std::size_t left = 0;
     for (Index t = 0; t < triangles_.size (); ++t) {
       progress.next ();
       if (kept_[t] != 0)
-        left.push_back (triangles_[t]);
+        triangles_[left++] = triangles_[t];
     }
-    return left;
+    triangles_.resize (left);
+    return true;
   }
 
 private:
@@ -203,7 +203,7 @@ private:
     Index triangle, fan;
   };
 
-  const std::vector<Triangle>& triangles_;
+  std::vector<Triangle>& triangles_;
   const std::vector<std::uint8_t>& votes_;
   const std::vector<std::uint8_t>& is_partial_;
   std::vector<std::uint8_t> kept_;
@@ -214,9 +214,10 @@ private:
 };
 
 // The triangles of a mesh but for small islands.
-std::vector<Triangle>
-withoutIslands (const TriangleMesh& mesh, const NeighborsOf& neighbors_of,
-                std::size_t smallest_island, const RunContext& run)
+// Takes islands out of the triangles. \return whether there are any
+bool
+removeIslands (TriangleMesh& mesh, const NeighborsOf& neighbors_of, std::size_t smallest_island,
+               const RunContext& run)
 {
   constexpr std::size_t LARGE = std::numeric_limits<std::size_t>::max () / 2;
   const MeshComponents components = findComponents (mesh, run);
@@ -252,12 +253,12 @@ withoutIslands (const TriangleMesh& mesh, const NeighborsOf& neighbors_of,
         if (isOfLarger (q, triangles))
           is_island[component[t]] = 1;
   }
-  std::vector<Triangle> left;
-  left.reserve (mesh.triangles.size ());
+  std::size_t left = 0;
   for (Index t = 0; t < component.size (); ++t)
     if (is_island[component[t]] == 0)
-      left.push_back (mesh.triangles[t]);
-  return left;
+      mesh.triangles[left++] = mesh.triangles[t];
+  mesh.triangles.resize (left);
+  return left < component.size ();
 }
 
 } // namespace
@@ -267,22 +268,15 @@ manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighb
               std::size_t smallest_island, std::vector<std::uint8_t> is_partial,
               const RunContext& run)
 {
-  std::optional<std::vector<Triangle>> triangles =
-      FanPruner (consensus, points, is_partial).prune (run);
-  consensus = {};
-  if (!triangles)
+  if (!FanPruner (consensus, points, is_partial).prune (run))
     return {};
   TriangleMesh mesh;
-  mesh.triangles = std::move (*triangles);
+  mesh.triangles = std::move (consensus.triangles);
+  consensus = {};
   mesh.is_partial = std::move (is_partial);
   bool is_manifold = mesh.connect (points, run);
-  if (is_manifold) {
-    std::vector<Triangle> left = withoutIslands (mesh, neighbors_of, smallest_island, run);
-    if (left.size () < mesh.triangles.size ()) {
-      mesh.triangles.swap (left);
-      is_manifold = mesh.connect (points, run);
-    }
-  }
+  if (is_manifold && removeIslands (mesh, neighbors_of, smallest_island, run))
+    is_manifold = mesh.connect (points, run);
   if (!is_manifold)
     throw std::logic_error ("the consensus is no manifold");
   return mesh;

@@ -191,7 +191,7 @@ appendRows (const CsrLists& added, CsrLists& lists)
 {
   if (added.ids.empty ())
     return;
-  std::size_t last = lists.ids.size (); // one past the entries that are where they were
+  std::size_t last = lists.ids.size ();         // one past the entries that are where they were
   lists.ids.reserve (last + added.ids.size ()); // not twice as many
   lists.ids.resize (last + added.ids.size ());
   // From the last row to the first: every entry moves backwards, together with those of the rows

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parts/local_parts.h"
 
+#include "consensus/candidates.h"
 #include "core/parallel.h"
+#include "local/smoothed_normals.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace pcl
@@ -20,20 +23,6 @@ slice (const std::vector<Value>& values, Index first, Index last)
   return {values.begin () + first, values.begin () + last};
 }
 
-// The candidates whose first corner is in a range; they are ordered by these.
-CandidateLists
-candidatesOf (const CandidateLists& all, Index first, Index last)
-{
-  const auto range = [&] (const auto& list) {
-    const auto from = [&list] (Index p) {
-      return std::partition_point (list.begin (), list.end (),
-                                   [p] (const auto& one) { return one.corners[0] < p; });
-    };
-    return std::decay_t<decltype (list)> (from (first), from (last));
-  };
-  return {range (all.sure), range (all.doubtful), all.sure_ranks};
-}
-
 } // namespace
 
 LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
@@ -47,18 +36,27 @@ LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry&
   run.beginStage (Stage::CONSENSUS);
   const ConsensusLimits& consensus = settings.surface.limits.consensus;
   const std::vector<std::uint8_t> reaches_out = reachesOut (geometry.stars.neighbors, 0, parts);
-  ProposedTriangles proposed =
-      proposeTriangles (points.workingPositions (), geometry.neighbors, geometry.stars,
-                        geometry.spacing, consensus.candidates, run);
+  std::vector<Eigen::Vector3f> smoothed =
+      smoothedNormals (points.workingPositions (), geometry.neighbors, geometry.stars.normals,
+                       Rows::all (points.size ()), run);
+  std::vector<CandidateLists> candidates; // of each part
+  for (std::size_t part = 0; part < parts.count (); ++part)
+    candidates.push_back (findCandidates (
+        points.workingPositions (), geometry.stars, smoothed, geometry.spacing,
+        Rows::range (parts.first (part), parts.last (part)), consensus.candidates, run));
   std::vector<Eigen::Vector3f> normals = std::move (geometry.stars.normals);
   geometry.stars = {};
   geometry.stars.normals = std::move (normals);
+  std::atomic<std::size_t> begun{0};
   parallelTasks (run, parts.count (), [&] (std::size_t part) {
     const Index first = parts.first (part), last = parts.last (part);
+    std::vector<Eigen::Vector3f> own = slice (smoothed, first, last);
+    if (++begun == parts.count ()) // no other part needs them any more
+      std::vector<Eigen::Vector3f> ().swap (smoothed);
     meshes_[part] = makePartMesh (pointsOf (part, points.workingPositions (), geometry.spacing),
-                                  slice (proposed.smoothed_normals, first, last),
-                                  divideCandidates (candidatesOf (proposed.candidates, first, last),
-                                                    first, last, slice (reaches_out, first, last)),
+                                  std::move (own),
+                                  divideCandidates (std::move (candidates[part]), first, last,
+                                                    slice (reaches_out, first, last)),
                                   neighbors_, consensus, run.withThreads (1));
   });
 }
@@ -99,6 +97,7 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
   triangles_.resize (parts_.count ());
   buckets_.resize (parts_.count ());
   const PartFinishSettings settings = settings_.ofPart (parts_);
+  std::atomic<std::size_t> begun{0};
   parallelTasks (run, parts_.count (), [&] (std::size_t part) {
     const Index first = parts_.first (part), last = parts_.last (part);
     const std::vector<Index>& all = geometry_.scatter;
@@ -109,13 +108,15 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
     PartPoints points = pointsOf (part, points_.positions, geometry_.meshSpacing ());
     if (const auto* const normals = settings_.surface.facing.normals)
       points.facing_normals = slice (*normals, first, last);
-    FinishedPart finished =
-        finishPart (std::move (points), std::move (meshes_[part].triangles), changes[part],
-                    neighbors_, scatter, settings, run.withThreads (1));
+    std::vector<Triangle> triangles = std::move (meshes_[part].triangles);
+    meshes_[part] = {};
+    if (++begun == parts_.count ()) // no other part needs them any more
+      std::vector<Eigen::Vector3f> ().swap (geometry_.stars.normals);
+    FinishedPart finished = finishPart (std::move (points), std::move (triangles), changes[part],
+                                        neighbors_, scatter, settings, run.withThreads (1));
     triangles_[part] = std::move (finished.triangles);
     buckets_[part] = std::move (finished.buckets);
     finished_[part] = std::move (finished);
-    meshes_[part] = {};
     changes[part] = {};
   });
 }

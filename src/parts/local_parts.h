@@ -38,7 +38,7 @@ private:
 
   const Points& points_;
   const Parts& parts_;
-  const LocalGeometry& geometry_;
+  LocalGeometry& geometry_;
   const PartsSettings& settings_;
   std::vector<PartMesh> meshes_;
   NeighborRows neighbors_;

@@ -228,6 +228,10 @@ struct InnerTriangles
 {
   InnerTriangles (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone)
   {
+    const auto count = static_cast<std::size_t> (
+        std::count (is_in_zone.begin (), is_in_zone.end (), std::uint8_t{0}));
+    numbers.reserve (count);
+    triangles.reserve (count);
     for (const Index t : orderByPoints (mesh.triangles, mesh.triangle_of.size ()))
       if (is_in_zone[t] == 0) {
         numbers.push_back (t);
@@ -246,16 +250,22 @@ struct InnerTriangles
 };
 
 // Looks for inner triangles that cross each other, and moves them apart. Those in the zone stay.
+// The mesh loses its neighbours if it does not change: the search takes as much memory.
 InnerTriangles
 uncrossInner (TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone, PartPoints& points,
               const NeighborTable& neighbors, const PartFinishSettings& settings,
               const RunContext& run, CrossingSum& sum)
 {
+  std::vector<std::array<Index, 3>> ().swap (mesh.neighbors);
   InnerTriangles inner (mesh, is_in_zone);
   const auto point_of = [&points] (Index p) { return points.first + p; };
   std::vector<CrossingPair> pairs = inner.findCrossing (points.positions, run);
   sum.found = pairs.size ();
   if (!pairs.empty () && settings.remove_self_intersections) {
+    const std::vector<Index> triangle_of = mesh.triangle_of;
+    if (!mesh.connect (points.size (), run))
+      throw std::logic_error ("the finished mesh of a part is no manifold");
+    mesh.triangle_of = triangle_of; // that of the changes before
     orientNormals (mesh, points.positions, points.normals, run);
     const TriangleCost cost (points.positions, points.normals, &points.spacing,
                              settings.finish.cost);
@@ -304,10 +314,12 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
   const std::vector<std::uint8_t> is_in_zone = markAll (region.triangles, mesh.triangles.size ());
   finished.corners =
       sampleCorners (mesh, points.positions, CORNER_SAMPLE / settings.part_count + 1, run);
+  finished.folds = countFoldsOutside (is_in_zone, mesh, points.positions, run);
   CrossingSum crossing;
   InnerTriangles inner =
       uncrossInner (mesh, is_in_zone, points, within.table (), settings, run, crossing);
-  finished.folds = countFoldsOutside (is_in_zone, mesh, points.positions, run);
+  if (crossing.done.hasChanged ())
+    finished.folds = countFoldsOutside (is_in_zone, mesh, points.positions, run);
   finished.zone = takeZone (region, points, mesh, neighbors, scatter);
   mesh = {};
   finished.check = checkInner (points, inner.triangles, markAll (region.points, points.size ()),

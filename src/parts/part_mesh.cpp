@@ -13,7 +13,7 @@ namespace pcl
 namespace floater
 {
 PartCandidates
-divideCandidates (const CandidateLists& of_part, Index first, Index last,
+divideCandidates (CandidateLists of_part, Index first, Index last,
                   const std::vector<std::uint8_t>& reaches_out)
 {
   const auto isInside = [&] (const Triangle& corners) {
@@ -21,26 +21,31 @@ divideCandidates (const CandidateLists& of_part, Index first, Index last,
                         [&] (Index p) { return p >= first && p < last; });
   };
   const auto reachesOutAt = [&] (Index p) { return reaches_out[p - first] != 0; };
-  const auto counted = [first] (const Triangle& corners) {
-    return Triangle{corners[0] - first, corners[1] - first, corners[2] - first};
-  };
   PartCandidates divided;
-  divided.inside.sure_ranks = of_part.sure_ranks;
-  divided.inside.sure.reserve (of_part.sure.size ());
-  for (const SureTriangle& sure : of_part.sure)
-    if (isInside (sure.corners))
-      divided.inside.sure.push_back ({counted (sure.corners), sure.clockwise, sure.rank, false});
-    else
-      divided.left.push_back ({sure.corners, 3, 0, 0.0F, 0.0F});
-  for (const Candidate& doubtful : of_part.doubtful) {
-    const Triangle& corners = doubtful.corners;
-    if (isInside (corners) && std::none_of (corners.begin (), corners.end (), reachesOutAt)) {
-      divided.inside.doubtful.push_back (doubtful);
-      divided.inside.doubtful.back ().corners = counted (corners);
+  // Those inside move forwards in their list, which is not made a second time.
+  const auto divide = [&] (auto& list, const auto& isKept, const auto& asLeft) {
+    std::size_t kept = 0;
+    for (const auto& candidate : list) {
+      if (!isKept (candidate.corners)) {
+        divided.left.push_back (asLeft (candidate));
+        continue;
+      }
+      list[kept] = candidate;
+      for (Index& p : list[kept++].corners)
+        p -= first;
     }
-    else
-      divided.left.push_back (doubtful);
-  }
+    list.resize (kept);
+  };
+  divide (of_part.sure, isInside, [] (const SureTriangle& sure) {
+    return Candidate{sure.corners, 3, 0, 0.0F, 0.0F};
+  });
+  divide (
+      of_part.doubtful,
+      [&] (const Triangle& corners) {
+        return isInside (corners) && std::none_of (corners.begin (), corners.end (), reachesOutAt);
+      },
+      [] (const Candidate& doubtful) { return doubtful; });
+  divided.inside = std::move (of_part);
   return divided;
 }
 

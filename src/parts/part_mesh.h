@@ -41,7 +41,7 @@ struct PartCandidates
 /// another part in its star: else they could take the place of sure ones.
 /// \param reaches_out of each point of the part: see reachesOut
 PartCandidates
-divideCandidates (const CandidateLists& of_part, Index first, Index last,
+divideCandidates (CandidateLists of_part, Index first, Index last,
                   const std::vector<std::uint8_t>& reaches_out);
 
 /// Of each of these points: 1 if its star has a neighbour of another part. O(entries).

@@ -67,7 +67,7 @@ public:
     for (std::size_t block = ranges.blockOf (first_); block <= ranges.blockOf (last_ - 1); ++block)
       appendCandidates (triangles_.file (block), all);
     return divideCandidates (
-        all, first_, last_,
+        std::move (all), first_, last_,
         triangles_.gather<std::uint8_t> ("reaches_out", pointsFrom (first_, last_)));
   }
 
