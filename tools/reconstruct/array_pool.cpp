@@ -22,8 +22,6 @@ namespace floater
 {
 namespace
 {
-constexpr std::size_t HUGE_PAGE = std::size_t{1} << 21U; // of the processors that have such pages
-
 std::size_t
 roundedUp (std::size_t bytes)
 {

@@ -13,6 +13,9 @@ namespace floater
 /// are such multiples, so that operator delete hardly ever looks for one of these in a pool.
 constexpr std::size_t POOL_ALIGNMENT = 4096;
 
+/// Bytes of a huge page, of the processors that have such pages.
+constexpr std::size_t HUGE_PAGE = std::size_t{1} << 21U;
+
 /// As long as this lives, large arrays (see LARGE_ARRAY) are made in ranges of addresses if they
 /// fit there, and not in files of their own. So their sum is bounded, with all gaps between them.
 /// Memory of arrays that are freed stays in the pool for the next ones, until the pool ends. Arrays
