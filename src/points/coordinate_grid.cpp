@@ -17,6 +17,7 @@ namespace floater
 namespace
 {
 constexpr std::size_t SAMPLED = 1U << 17;  // points
+constexpr std::size_t FIRST_OF = 128;      // of these, one in so many is looked at first
 constexpr std::size_t FEWEST_SAMPLED = 21; // points that tell anything
 constexpr double COARSE = 0.1;             // spacings
 constexpr double FINER_THAN_RASTER = 0.4;  // spacings; the step of a raster is 0.5 and more
@@ -46,10 +47,11 @@ floatStep (double value)
 }
 
 // Points at equal distances along the curve: the same, whatever the order of the cloud.
+// \param one_of of those that are looked at, one in so many
 std::vector<double>
-sortedCoordinates (const Points& points, int axis, const RunContext& run)
+sortedCoordinates (const Points& points, int axis, std::size_t one_of, const RunContext& run)
 {
-  const std::size_t stride = (points.size () + SAMPLED - 1) / SAMPLED;
+  const std::size_t stride = one_of * ((points.size () + SAMPLED - 1) / SAMPLED);
   std::vector<double> values;
   values.reserve (points.size () / stride + 1);
   ProgressLoop progress (run); // each of them may bring pages into memory
@@ -59,6 +61,15 @@ sortedCoordinates (const Points& points, int axis, const RunContext& run)
   }
   sortUnique (values);
   return values;
+}
+
+double
+smallestStep (const std::vector<double>& values)
+{
+  double step = std::numeric_limits<double>::infinity ();
+  for (std::size_t i = 1; i < values.size (); ++i)
+    step = std::min (step, values[i] - values[i - 1]);
+  return step;
 }
 
 bool
@@ -71,7 +82,7 @@ isMultiple (double difference, double step)
 AxisGrid
 lookAlong (const Points& points, int axis, const RunContext& run)
 {
-  const std::vector<double> values = sortedCoordinates (points, axis, run);
+  const std::vector<double> values = sortedCoordinates (points, axis, 1, run);
   AxisGrid grid;
   grid.varies = values.size () > 1;
   if (!grid.varies)
@@ -82,9 +93,7 @@ lookAlong (const Points& points, int axis, const RunContext& run)
   const bool has_zero = (inCloud (values.front ()) < 0.0) != (inCloud (values.back ()) < 0.0);
   grid.finest = floatStep (has_zero ? 0.0 : std::min (low, high)) / points.scale;
   grid.coarsest = floatStep (std::max (low, high)) / points.scale;
-  double step = std::numeric_limits<double>::infinity ();
-  for (std::size_t i = 1; i < values.size (); ++i)
-    step = std::min (step, values[i] - values[i - 1]);
+  const double step = smallestStep (values);
   std::size_t multiples = 0;
   for (std::size_t i = 1; i < values.size (); ++i)
     multiples += isMultiple (values[i] - values[i - 1], step) ? 1 : 0;
@@ -124,6 +133,13 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
     return found;
   std::vector<float> spacings = spacing;
   const auto usual = static_cast<double> (median (spacings));
+  // Where some of the points have a smaller step along every axis, all of them have.
+  bool may_be_coarse = false;
+  for (int axis = 0; axis < 3 && !may_be_coarse; ++axis)
+    may_be_coarse =
+        smallestStep (sortedCoordinates (points, axis, FIRST_OF, run)) >= COARSE * usual;
+  if (!may_be_coarse)
+    return found;
   std::array<AxisGrid, 3> grids;
   parallelTasks (run, grids.size (), [&] (std::size_t axis) {
     grids[axis] = lookAlong (points, static_cast<int> (axis), run);

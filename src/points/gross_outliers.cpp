@@ -6,6 +6,8 @@
 #include "core/parallel.h"
 #include "points/kd_tree.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,8 @@ namespace floater
 namespace
 {
 using Positions = std::vector<Eigen::Vector3d>;
+
+constexpr double MOST_BINS = 1e5;
 
 // The median in each coordinate, of the finite points.
 Eigen::Vector3d
@@ -128,6 +132,37 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   return isolated;
 }
 
+// True if no point can be beyond the bulk, which is much faster to tell than where that is: along
+// the longest axis, less than half of the points lie in any interval as wide as the distances of a
+// half would be at most if one were.
+bool
+isAllBulk (const Positions& positions, double gap)
+{
+  Eigen::AlignedBox3d box;
+  std::size_t finite = 0;
+  for (const Eigen::Vector3d& p : positions)
+    if (p.allFinite ()) {
+      box.extend (p);
+      ++finite;
+    }
+  int axis = 0;
+  const double width = finite > 0 ? box.sizes ().maxCoeff (&axis) : 0.0;
+  const double bins = 0.4 * gap; // any such interval is in two of them, even if rounded
+  if (!(width > 0.0) || !std::isfinite (width) || !(bins >= 2.0) || bins > MOST_BINS)
+    return false;
+  std::vector<std::size_t> count (static_cast<std::size_t> (bins) + 2, 0);
+  const double low = box.min ()[axis], scale = std::floor (bins) / width;
+  if (!std::isfinite (scale))
+    return false;
+  for (const Eigen::Vector3d& p : positions)
+    if (p.allFinite ())
+      ++count[static_cast<std::size_t> ((p[axis] - low) * scale)];
+  for (std::size_t bin = 1; bin < count.size (); ++bin)
+    if (2 * (count[bin - 1] + count[bin]) >= finite)
+      return false;
+  return true;
+}
+
 } // namespace
 
 GrossOutliers
@@ -136,6 +171,8 @@ findGrossOutliers (const Positions& positions, const RunContext& run,
 {
   GrossOutliers found;
   if (positions.size () < limits.fewest)
+    return found;
+  if (isAllBulk (positions, limits.gap))
     return found;
   const Bulk bulk = findBulk (positions, limits.gap);
   if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
