@@ -54,7 +54,10 @@ public:
   {
     forLeaves (levels_.front ()[leaf], leaf, [&] (std::size_t other) {
       for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
-        const Leaf::Hits is_hit = leaves_[other].overlaps (leaves_[leaf].at (k));
+        const Box box = leaves_[leaf].at (k);
+        if (!box.overlaps (levels_.front ()[other]))
+          continue;
+        const Leaf::Hits is_hit = leaves_[other].overlaps (box);
         for (std::size_t m = other == leaf ? k + 1 : 0; m < LEAF_SIZE; ++m)
           if (is_hit[m] != 0)
             visit (leaf * LEAF_SIZE + k, other * LEAF_SIZE + m);

@@ -6,6 +6,7 @@
 #include "mesh/polygon_filling.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -146,6 +147,35 @@ private:
   std::set<Edge> new_edges_;
 };
 
+// Connects the last triangles of a mesh with each other and with the boundary of the others: as
+// TriangleMesh::connect () does all, which would take much longer.
+void
+connectLast (std::size_t count, TriangleMesh& mesh)
+{
+  std::map<Edge, MeshEdge> open; // by both ends, in the direction of the edge
+  const auto first = static_cast<Index> (mesh.triangles.size () - count);
+  mesh.neighbors.resize (mesh.triangles.size (), {NONE, NONE, NONE});
+  for (Index t = first; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const MeshEdge e{t, side};
+      mesh.triangle_of[mesh.triangles[t][side]] = t;
+      if (!open.emplace (Edge{mesh.from (e), mesh.to (e)}, e).second)
+        throw std::logic_error ("a hole was filled by triangles that do not fit");
+    }
+  const auto link = [&] (MeshEdge e) {
+    if (const auto found = open.find ({mesh.to (e), mesh.from (e)}); found != open.end ()) {
+      const MeshEdge other = found->second;
+      mesh.neighbors[e.triangle][e.side] = other.triangle;
+      mesh.neighbors[other.triangle][other.side] = e.triangle;
+    }
+  };
+  if (count > 0)
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh.neighbors[t][side] == NONE)
+          link ({t, side});
+}
+
 } // namespace
 
 std::size_t
@@ -167,10 +197,7 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
   }
   mesh.triangles.insert (mesh.triangles.end (), filler.triangles ().begin (),
                          filler.triangles ().end ());
-  if (filler.triangles ().empty ())
-    return filled;
-  if (!mesh.connect (mesh.triangle_of.size (), run))
-    throw std::logic_error ("a hole was filled by triangles that do not fit");
+  connectLast (filler.triangles ().size (), mesh);
   return filled;
 }
 
