@@ -50,9 +50,8 @@ openBoundary (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               std::vector<double> corners, const NotchLimits& limits, const RunContext& run,
               MeshFinish& finish)
 {
-  if (openNotches (mesh, positions, std::move (corners), limits, run) +
-          openBoundaryFolds (mesh, positions, run) >
-      0)
+  const std::size_t taken = openNotches (mesh, positions, std::move (corners), limits, run);
+  if (finish.folds > 0 && taken + openBoundaryFolds (mesh, positions, run) > 0)
     finish.folds = findFolds (mesh, positions, run).size ();
 }
 

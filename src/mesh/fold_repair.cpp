@@ -130,12 +130,14 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
   // Sides of each triangle at which it is folded against one of a higher index, as bits.
   std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
   parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
-    for (auto t = static_cast<Index> (first); t < last; ++t)
+    for (auto t = static_cast<Index> (first); t < last; ++t) {
+      const Eigen::Vector3d own = areaVectorOf (t);
       for (std::uint8_t side = 0; side < 3; ++side) {
         const Index u = mesh.neighbors[t][side];
-        if (u != NONE && t < u && isFold (areaVectorOf (t), areaVectorOf (u)))
+        if (u != NONE && t < u && isFold (own, areaVectorOf (u)))
           sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
       }
+    }
   });
   std::vector<MeshEdge> folds;
   for (Index t = 0; t < sides.size (); ++t)
