@@ -73,19 +73,20 @@ isBefore (const PlanarNeighbor& a, const PlanarNeighbor& b)
 }
 
 // Sorts by the number of smaller angles. For few neighbours, to compare all pairs, without a
-// branch, takes less time than a sort that mispredicts many of its branches. \return false if two
-// angles are equal: then neither list is sorted
+// branch, takes less time than a sort that mispredicts many of its branches. In single precision,
+// which keeps the order, four at once. \return false if two angles are equal then: neither list is
+// sorted
 bool
 sortByCounting (std::vector<PlanarNeighbor>& neighbors, std::vector<PlanarNeighbor>& unsorted)
 {
   const std::size_t count = neighbors.size ();
-  std::array<double, MOST_COUNTED> angles; // NOLINT(*-member-init): the first `count` are set
+  std::array<float, MOST_COUNTED> angles; // NOLINT(*-member-init): the first `count` are set
   for (std::size_t i = 0; i < count; ++i)
-    angles[i] = neighbors[i].angle;
+    angles[i] = static_cast<float> (neighbors[i].angle);
   std::array<std::uint8_t, MOST_COUNTED> ranks; // NOLINT(*-member-init)
   std::uint64_t used = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    std::int64_t smaller = 0; // as wide as an angle
+    std::int32_t smaller = 0; // as wide as an angle
     for (std::size_t j = 0; j < count; ++j)
       smaller += angles[j] < angles[i] ? 1 : 0;
     ranks[i] = static_cast<std::uint8_t> (smaller);

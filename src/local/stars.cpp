@@ -221,13 +221,15 @@ makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, doub
 // The largest value among a point and its nearest neighbours. Within a noisy row of points, some
 // stars are narrow.
 std::vector<float>
-largestAround (const std::vector<float>& values, const CsrLists& neighbors)
+largestAround (const std::vector<float>& values, const CsrLists& neighbors, const RunContext& run)
 {
   constexpr std::size_t NEAREST = 6;
   std::vector<float> largest = values;
-  for (std::size_t p = 0; p < values.size (); ++p)
-    for (const Index q : neighbors.first (p, NEAREST))
-      largest[p] = std::max (largest[p], values[q]);
+  parallelRanges (run, values.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p)
+      for (const Index q : neighbors.first (p, NEAREST))
+        largest[p] = std::max (largest[p], values[q]);
+  });
   return largest;
 }
 
@@ -326,7 +328,7 @@ leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLis
                      const StarSettings& settings, double gap_ratio, StarsInMaking& made,
                      const RunContext& run)
 {
-  made.stars.reach = largestAround (made.stars.reach, neighbors);
+  made.stars.reach = largestAround (made.stars.reach, neighbors, run);
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t) {
     StarMaker maker (positions, neighbors, normals, settings, nullptr);
     StarRange& range = made.ranges[first / RANGE_LENGTH];
