@@ -355,6 +355,9 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Cand
   Consensus consensus;
   consensus.triangles.reserve (mesh.triangles.size () + taken.size ());
   consensus.votes.reserve (mesh.triangles.size () + taken.size ());
+  std::vector<Index>& added_at = consensus.added_at.emplace ();
+  for (const Candidate* candidate : taken)
+    added_at.insert (added_at.end (), candidate->corners.begin (), candidate->corners.end ());
   auto next = taken.begin ();
   const auto appendTakenBefore = [&] (Index p) {
     for (; next != taken.end () && (*next)->corners[0] < p; ++next)

@@ -7,6 +7,7 @@
 #include "mesh/triangle_mesh.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace pcl
@@ -23,6 +24,8 @@ struct Consensus
   std::vector<std::uint8_t> votes; ///< of each triangle, 1 to 3
   std::vector<Triangle> seam;      ///< of three votes, left out because they contradict the
                                    ///< orientation: a row of them on a one-sided surface
+  std::optional<std::vector<Index>> added_at; ///< of an extended mesh: corners of what was added;
+                                              ///< all other points have one fan at most
 };
 
 /// Takes candidates greedily: those of three votes first, then of two, then of one; those of better

@@ -23,13 +23,13 @@ class FanPruner
 public:
   FanPruner (Consensus& consensus, std::size_t points, const std::vector<std::uint8_t>& is_partial)
       : triangles_ (consensus.triangles), votes_ (consensus.votes), is_partial_ (is_partial),
-        kept_ (triangles_.size (), 1)
+        kept_ (triangles_.size (), 1), is_extended_ (consensus.added_at.has_value ())
   {
-    around_ = makeCsrLists (points, [this] (const auto& emit) {
-      for (Index t = 0; t < triangles_.size (); ++t)
-        for (const Index p : triangles_[t])
-          emit (p, t);
-    });
+    std::vector<std::uint8_t> is_listed (points, is_extended_ ? 0 : 1);
+    if (is_extended_)
+      for (const Index p : *consensus.added_at)
+        is_listed[p] = 1;
+    listAround (is_listed);
   }
 
   // Leaves triangles out of the consensus. False if one at a partial point would have to be
@@ -39,6 +39,10 @@ public:
     // A triangle that is dropped at one point may split the fan of another one. That one is looked
     // at again, in the same round if it comes later.
     std::set<Index> points = pointsToPrune (run);
+    if (points.empty ())
+      return true;
+    if (is_extended_)
+      listAround (std::vector<std::uint8_t> (around_.rows (), 1));
     ProgressLoop progress (run);
     while (!points.empty ()) {
       dirty_.clear ();
@@ -65,6 +69,17 @@ public:
   }
 
 private:
+  // Lists the triangles around some points; only these may have several fans before any is dropped.
+  void listAround (const std::vector<std::uint8_t>& is_listed)
+  {
+    around_ = makeCsrLists (is_listed.size (), [&] (const auto& emit) {
+      for (Index t = 0; t < triangles_.size (); ++t)
+        for (const Index p : triangles_[t])
+          if (is_listed[p] != 0)
+            emit (p, t);
+    });
+  }
+
   // Points whose triangles are not just one fan.
   std::set<Index> pointsToPrune (const RunContext& run) const
   {
@@ -207,6 +222,7 @@ private:
   const std::vector<std::uint8_t>& votes_;
   const std::vector<std::uint8_t>& is_partial_;
   std::vector<std::uint8_t> kept_;
+  bool is_extended_;
   bool has_left_ = false; // the triangles that are there
   CsrLists around_;
   std::vector<Spoke> ring_;
