@@ -7,7 +7,7 @@
 # first; CACHE: cache entries of the consumer, such as its compiler and flags.
 # STATIC: a static library of the objects of that build. A configuration of the project for static
 # libraries is then installed with it, which compiles nothing again.
-# PKG_CONFIG: that program; the consumer is then compiled by COMPILER with FLAGS and what it tells.
+# PKG_CONFIG: that program; a consumer is then compiled by COMPILER with FLAGS and what it tells, without CMake.
 cmake_minimum_required (VERSION 3.18)
 foreach (variable BUILD_DIR WORK_DIR GENERATOR)
   if (NOT ${variable})
@@ -52,10 +52,6 @@ if (from_prefix EQUAL -1)
   message (FATAL_ERROR "the consumer found another package: ${found}")
 endif ()
 
-# Without optimization, which builds fast and is how users debug.
-run ("${CMAKE_COMMAND}" --build "${build}" --config Debug)
-run ("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" -C Debug --output-on-failure --no-tests=error)
-
 if (PKG_CONFIG)
   string (REGEX REPLACE "^.*=" "" package_dir "${found}")
   set (ENV{PKG_CONFIG_PATH} "${package_dir}/../../pkgconfig")
@@ -69,4 +65,8 @@ if (PKG_CONFIG)
   run (${COMPILER} ${FLAGS} -std=c++17 "${CMAKE_CURRENT_LIST_DIR}/own_types.cpp" -o "${WORK_DIR}/by_pkg_config"
        ${told} "-Wl,-rpath,${package_dir}/../..")
   run ("${WORK_DIR}/by_pkg_config")
+else ()
+  # Without optimization, which builds fast and is how users debug.
+  run ("${CMAKE_COMMAND}" --build "${build}" --config Debug)
+  run ("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" -C Debug --output-on-failure --no-tests=error)
 endif ()

@@ -21,11 +21,18 @@ fail () {
 
 # shellcheck source=tools/completion.bash
 source "$1"
+help=$("$tool" --help)
+# In place of the tool, which starts too slowly to be asked for each option.
+stand_in=$(mktemp -d)
+trap 'rm -rf "$stand_in"' EXIT
+printf '%s\n' "$help" >"$stand_in/help"
+printf '#!/bin/sh\nexec cat "%s/help"\n' "$stand_in" >"$stand_in/$name"
+chmod +x "$stand_in/$name"
 # Leaves in COMPREPLY what bash would offer for the last of the words of a command line.
 offer () {
-  COMP_WORDS=("$tool" "$@")
+  COMP_WORDS=("$stand_in/$name" "$@")
   COMP_CWORD=$#
-  _pcl_floater "$tool"
+  _pcl_floater "$stand_in/$name"
 }
 offers () {
   local expected=$1
@@ -36,7 +43,6 @@ offers () {
 
 complete -p "$name" >/dev/null 2>&1 || fail "bash does not complete it"
 
-help=$("$tool" --help)
 mapfile -t options < <(sed -n 's/^  \(-[^ ]*\).*/\1/p' <<<"$help" | tr ',' '\n')
 ((${#options[@]} >= 3)) || fail "--help has no options"
 for option in "${options[@]}"; do

@@ -26,7 +26,7 @@ using samples::surface;
 struct PartsCase
 {
   std::string name;
-  Positions positions;
+  Positions (*positions) (); // made by the test: every test of the program would make all of them
   std::size_t points_of_part = 500;
   bool remove_self_intersections = true;
 };
@@ -53,15 +53,15 @@ sphereAndTorus ()
 std::vector<PartsCase>
 partsCases ()
 {
-  return {{"HeightField", surface (SurfaceKind::HEIGHT_FIELD, 6000)},
-          {"CutOut", surface (SurfaceKind::CUT_OUT, 6000)},
-          {"Hemisphere", surface (SurfaceKind::HEMISPHERE, 5000)},
-          {"Finger", surface (SurfaceKind::FINGER, 5000)},
-          {"SphereAndTorus", sphereAndTorus ()},
-          {"NoisyTorus", surface (SurfaceKind::TORUS, 5000, 0.4)},
-          {"CloseSheets", closeSheets (2500, 0.2)},
-          {"CloseSheetsThatStay", closeSheets (2500, 0.2), 500, false},
-          {"SmallParts", surface (SurfaceKind::CUT_OUT, 5000, 0.3), 60}};
+  return {{"HeightField", [] { return surface (SurfaceKind::HEIGHT_FIELD, 6000); }},
+          {"CutOut", [] { return surface (SurfaceKind::CUT_OUT, 6000); }},
+          {"Hemisphere", [] { return surface (SurfaceKind::HEMISPHERE, 5000); }},
+          {"Finger", [] { return surface (SurfaceKind::FINGER, 5000); }},
+          {"SphereAndTorus", [] { return sphereAndTorus (); }},
+          {"NoisyTorus", [] { return surface (SurfaceKind::TORUS, 5000, 0.4); }},
+          {"CloseSheets", [] { return closeSheets (2500, 0.2); }},
+          {"CloseSheetsThatStay", [] { return closeSheets (2500, 0.2); }, 500, false},
+          {"SmallParts", [] { return surface (SurfaceKind::CUT_OUT, 5000, 0.3); }, 60}};
 }
 
 class CheckOfParts : public testing::TestWithParam<PartsCase>
@@ -71,7 +71,7 @@ protected:
   void make (int threads, const FacingHints& hints = {})
   {
     const RunContext run (threads);
-    prepared = samples::prepare (GetParam ().positions);
+    prepared = samples::prepare (GetParam ().positions ());
     settings.surface.facing = hints;
     settings.parts.points = GetParam ().points_of_part;
     settings.remove_self_intersections = GetParam ().remove_self_intersections;
