@@ -25,7 +25,7 @@ def main():
     tests = collections.defaultdict(list)
     for case in xml.etree.ElementTree.parse(sys.argv[1]).iter("testcase"):
         if case.find("skipped") is not None:
-            tests[reason(case)].append(case.get("name"))
+            tests[reason(case).rstrip(":")].append(case.get("name").split("  # GetParam")[0])
     for why, names in tests.items():
         print(f"Skipped: {len(names)} {'test' if len(names) == 1 else 'tests'}, because {why}: {', '.join(names)}")
 
