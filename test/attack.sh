@@ -125,7 +125,9 @@ for target in pcd ply obj stl las table command_line reconstruct; do
   # machine, an input that ends took 751 seconds; one that does not end must still be found.
   mkdir -p "$work/corpus/$target" "$work/found/$target"
   time=$((seconds * share[$target] / 24))
-  nice -n 19 "build/fuzz/test/fuzz/fuzz_$target" -max_total_time="$time" -timeout=1800 -rss_limit_mb=3000 \
+  program=build/fuzz/test/fuzz/fuzz_$target
+  [[ $target == command_line || $target == reconstruct ]] || program=build/fuzz/test/fuzz/fuzz_readers
+  FUZZED_FORMAT=$target nice -n 19 "$program" -max_total_time="$time" -timeout=1800 -rss_limit_mb=3000 \
     -print_final_stats=1 -artifact_prefix="$work/found/$target/" \
     "$work/corpus/$target" "test/fuzz/corpus/$target" >"$work/$target.log" 2>&1 || result=1
   grep -E "stat::number_of_executed_units|ERROR|SUMMARY|fault:" "$work/$target.log" | sed "s/^/$target: /" || true
