@@ -64,6 +64,12 @@ partsCases ()
           {"SmallParts", [] { return surface (SurfaceKind::CUT_OUT, 5000, 0.3); }, 60}};
 }
 
+void
+PrintTo (const PartsCase& one, std::ostream* out)
+{
+  *out << one.name;
+}
+
 class CheckOfParts : public testing::TestWithParam<PartsCase>
 {
 protected:
@@ -179,7 +185,9 @@ TEST_P (CheckOfParts, NormalsOfAllPartsDecide)
   TriangleMesh mesh;
   mesh.triangles = triangles;
   ASSERT_TRUE (mesh.connect (prepared.points.size (), 1));
-  std::vector<Eigen::Vector3f> normals = prepared.geometry.stars.normals;
+  // Those of the run were freed.
+  std::vector<Eigen::Vector3f> normals =
+      samples::prepare (GetParam ().positions ()).geometry.stars.normals;
   orientNormals (mesh, prepared.points.positions, normals, 1);
   for (Eigen::Vector3f& normal : normals)
     normal = -normal; // to the side to which the mesh does not face without them
