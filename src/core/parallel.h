@@ -11,8 +11,8 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 namespace pcl
@@ -53,18 +53,20 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
         body (i);
       }
     });
+  };
+  const auto end = [&] {
     const std::lock_guard<std::mutex> lock (mutex);
     --running;
     ended.notify_one ();
   };
-  std::vector<std::thread> helpers;
+  HelperThreads own; // where there is no run to which they could belong
+  HelperThreads& helpers = run.helpers () != nullptr ? *run.helpers () : own;
   const std::size_t wanted =
       std::min<std::size_t> (static_cast<std::size_t> (run.threads ()), count);
   try {
     for (std::size_t t = 1; t < wanted; ++t) {
-      helpers.reserve (wanted - 1);
       const std::lock_guard<std::mutex> lock (mutex);
-      helpers.emplace_back (help);
+      helpers.start ({std::cref (help), std::cref (end)});
       ++running;
     }
   }
@@ -85,8 +87,6 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
   };
   while (!have_all_ended ())
     guarded ([&] { progress.reach (0); });
-  for (std::thread& helper : helpers)
-    helper.join ();
   if (error)
     std::rethrow_exception (error);
 }

@@ -3,6 +3,8 @@
 // What a stage is given of the run that it belongs to: threads, clock, progress, cancellation.
 #pragma once
 
+#include "core/helper_threads.h"
+
 #include <pcl/surface/floater/options.h>
 #include <pcl/surface/floater/report.h>
 
@@ -78,6 +80,9 @@ public:
       callbacks_.task ();
   }
 
+  /// Threads for the loops of the run.
+  HelperThreads& helpers () { return helpers_; }
+
   /// Whether there are callbacks for what happens within stages.
   bool isWatched () const { return is_watched_; }
 
@@ -103,6 +108,7 @@ private:
   double done_ = 0.0;     // fraction of the whole run, as all below
   double stage_begin_ = 0.0, stage_end_ = 0.0;
   double step_begin_ = 0.0, step_end_ = 0.0;
+  HelperThreads helpers_;
 };
 
 /// Handle of a run, passed to each stage by value or reference: the number of threads, and the
@@ -114,6 +120,9 @@ public:
   RunContext (int threads, RunMonitor* monitor = nullptr); // implicit, see above
 
   int threads () const { return threads_; } ///< 1 or more
+
+  /// Threads that stay for the next loop; nullptr without a monitor.
+  HelperThreads* helpers () const { return monitor_ != nullptr ? &monitor_->helpers () : nullptr; }
 
   /// The same run with another number of threads, 1 or more.
   RunContext withThreads (int threads) const

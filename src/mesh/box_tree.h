@@ -47,22 +47,25 @@ public:
 
   std::size_t leaves () const { return leaves_.size (); }
 
-  /// Calls visit (i, j) for all boxes i of a leaf and j that overlap or touch, i < j. All leaves
-  /// together give each pair once.
+  /// Calls visit (i, j) for all boxes i of some leaves and j that overlap or touch, i < j. All
+  /// leaves together give each pair once.
   template <typename Visit>
-  void forOverlaps (std::size_t leaf, Visit&& visit) const
+  void forOverlaps (std::size_t first, std::size_t last, Visit&& visit) const
   {
-    forLeaves (levels_.front ()[leaf], leaf, [&] (std::size_t other) {
-      for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
-        const Box box = leaves_[leaf].at (k);
-        if (!box.overlaps (levels_.front ()[other]))
-          continue;
-        const Leaf::Hits is_hit = leaves_[other].overlaps (box);
-        for (std::size_t m = other == leaf ? k + 1 : 0; m < LEAF_SIZE; ++m)
-          if (is_hit[m] != 0)
-            visit (leaf * LEAF_SIZE + k, other * LEAF_SIZE + m);
-      }
-    });
+    constexpr std::size_t GROUP = 8; // leaves next to each other, which have much the same near
+    std::vector<std::size_t> near;
+    for (std::size_t begin = first; begin < last; begin += GROUP) {
+      const std::size_t end = std::min (last, begin + GROUP);
+      Box around;
+      for (std::size_t leaf = begin; leaf < end; ++leaf)
+        around.extend (levels_.front ()[leaf]);
+      near.clear ();
+      forLeaves (around, begin, [&near] (std::size_t other) { near.push_back (other); });
+      for (std::size_t leaf = begin; leaf < end; ++leaf)
+        for (const std::size_t other : near)
+          if (other >= leaf && levels_.front ()[leaf].overlaps (levels_.front ()[other]))
+            compare (leaf, other, visit);
+    }
   }
 
   /// Calls visit (j) for all boxes j that overlap or touch a box of any place, ascending.
@@ -215,6 +218,21 @@ private:
       return is_hit;
     }
   };
+
+  // Calls visit (i, j) for all boxes i of a leaf and j of another one, or of the same, i < j.
+  template <typename Visit>
+  void compare (std::size_t leaf, std::size_t other, Visit&& visit) const
+  {
+    for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
+      const Box box = leaves_[leaf].at (k);
+      if (!box.overlaps (levels_.front ()[other]))
+        continue;
+      const Leaf::Hits is_hit = leaves_[other].overlaps (box);
+      for (std::size_t m = other == leaf ? k + 1 : 0; m < LEAF_SIZE; ++m)
+        if (is_hit[m] != 0)
+          visit (leaf * LEAF_SIZE + k, other * LEAF_SIZE + m);
+    }
+  }
 
   // Calls visit for the leaves that overlap a box, from some leaf on.
   template <typename Visit>

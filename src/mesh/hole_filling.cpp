@@ -195,6 +195,10 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
     else
       loop.keep_open = true;
   }
+  // Not twice the memory, as a vector takes by itself for a few more.
+  const std::size_t triangles = mesh.triangles.size () + filler.triangles ().size ();
+  mesh.triangles.reserve (triangles);
+  mesh.neighbors.reserve (triangles);
   mesh.triangles.insert (mesh.triangles.end (), filler.triangles ().begin (),
                          filler.triangles ().end ());
   connectLast (filler.triangles ().size (), mesh);

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/self_intersections.h"
 
-#include "core/csr_lists.h"
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "mesh/box_tree.h"
 #include "mesh/triangle_order.h"
+#include "mesh/vertex_stars.h"
 
 #include <algorithm>
 #include <array>
@@ -194,21 +194,15 @@ costOfExactTest (const Corners& corners, const Positions& positions)
 class PlainFans
 {
 public:
-  PlainFans (const std::vector<Triangle>& triangles, const Positions& positions)
-      : triangles_ (triangles), positions_ (positions)
-  {
-  }
+  explicit PlainFans (const Positions& positions) : positions_ (positions) {}
 
-  bool isPlain (Index p, const Row& around)
+  bool isPlain (Index p, const VertexStar& around)
   {
     sectors_.clear ();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero (), even = direction;
-    for (const Index t : around) {
-      const Triangle& c = triangles_[t];
-      const std::size_t side = c[0] == p ? 0 : c[1] == p ? 1 : 2;
-      const Index from = c[side == 2 ? 0 : side + 1], to = c[side == 0 ? 2 : side - 1];
-      sectors_.push_back ({from, to, positions_[from] - positions_[p],
-                           positions_[to] - positions_[p], Eigen::Vector3d::Zero ()});
+    for (const Wedge& wedge : around) {
+      sectors_.push_back ({wedge.next, wedge.previous, positions_[wedge.next] - positions_[p],
+                           positions_[wedge.previous] - positions_[p], Eigen::Vector3d::Zero ()});
       Sector& sector = sectors_.back ();
       sector.area = sector.begin.cross (sector.end);
       direction += sector.area;
@@ -265,7 +259,6 @@ private:
            product * product > ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm () * sqr_c;
   }
 
-  const std::vector<Triangle>& triangles_;
   const Positions& positions_;
   std::vector<Sector> sectors_;
 };
@@ -282,16 +275,13 @@ public:
     for (std::size_t t = own_first; t < own_last; ++t)
       for (const Index p : triangles[t])
         is_plain_[p] = 1; // if it turns out to be
-    const CsrLists around = makeCsrLists (positions.size (), [&] (const auto& emit) {
-      for (Index t = 0; t < triangles.size (); ++t)
-        for (const Index p : triangles[t])
-          emit (p, t);
-    });
-    parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-      PlainFans fans (triangles_, positions_);
-      for (auto p = static_cast<Index> (first); p < last; ++p)
+    const TriangleRanges ranges (triangles, positions.size (), run);
+    parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+      const VertexStars stars (triangles_, ranges, r);
+      PlainFans fans (positions_);
+      for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r); ++p)
         if (is_plain_[p] != 0)
-          is_plain_[p] = fans.isPlain (p, around.row (p)) ? 1 : 0;
+          is_plain_[p] = fans.isPlain (static_cast<Index> (p), stars.of (p)) ? 1 : 0;
     });
   }
 
@@ -306,11 +296,10 @@ public:
     std::vector<std::vector<CrossingPair>> found ((leaves + RANGE_LENGTH - 1) / RANGE_LENGTH);
     parallelRanges (run_, leaves, [&] (std::size_t first, std::size_t last) {
       std::vector<CrossingPair>& pairs = found[first / RANGE_LENGTH];
-      for (std::size_t leaf = first_leaf + first; leaf < first_leaf + last; ++leaf)
-        tree.forOverlaps (leaf, [&] (std::size_t i, std::size_t j) {
-          if (i >= own_first_ && i < own_last_ && isCrossing (triangles_[i], triangles_[j]))
-            pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
-        });
+      tree.forOverlaps (first_leaf + first, first_leaf + last, [&] (std::size_t i, std::size_t j) {
+        if (i >= own_first_ && i < own_last_ && isCrossing (triangles_[i], triangles_[j]))
+          pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
+      });
     });
     std::vector<CrossingPair> all;
     for (const std::vector<CrossingPair>& pairs : found)

@@ -110,15 +110,14 @@ private:
     }
     const BoxTree tree (
         shared.size (), [&] (std::size_t i) { return shared[i].box; }, run_);
-    for (std::size_t leaf = 0; leaf < tree.leaves (); ++leaf)
-      tree.forOverlaps (leaf, [&] (std::size_t i, std::size_t j) {
-        if (shared[i].part == shared[j].part)
-          return;
-        for (const std::size_t k : {i, j}) {
-          needed_[shared[k].part].push_back (shared[k].number);
-          crossed_[shared[k].part].push_back (shared[k].number);
-        }
-      });
+    tree.forOverlaps (0, tree.leaves (), [&] (std::size_t i, std::size_t j) {
+      if (shared[i].part == shared[j].part)
+        return;
+      for (const std::size_t k : {i, j}) {
+        needed_[shared[k].part].push_back (shared[k].number);
+        crossed_[shared[k].part].push_back (shared[k].number);
+      }
+    });
     for (auto* const list : {&needed_, &crossed_})
       for (std::vector<Index>& numbers : *list)
         sortUnique (numbers);

@@ -87,19 +87,37 @@ makeTable ()
   return table;
 }
 
+// Two steps in one, for each state and two bits of each coordinate.
+std::vector<std::array<Entry, 64>>
+pairTable (const std::vector<std::array<Entry, 8>>& table)
+{
+  std::vector<std::array<Entry, 64>> pairs (table.size ());
+  for (std::size_t s = 0; s < table.size (); ++s)
+    for (std::size_t bits = 0; bits < pairs[s].size (); ++bits) {
+      const Entry high = table[s][(bits >> 3U & 4U) | (bits >> 2U & 2U) | (bits >> 1U & 1U)];
+      const Entry low = table[high.next][(bits >> 2U & 4U) | (bits >> 1U & 2U) | (bits & 1U)];
+      pairs[s][bits] = {static_cast<std::uint8_t> (high.digit << 3 | low.digit), low.next};
+    }
+  return pairs;
+}
+
 } // namespace
 
 std::uint64_t
 hilbertCode (const std::array<std::uint32_t, 3>& cell)
 {
   static const std::vector<std::array<Entry, 8>> table = makeTable ();
-  std::uint64_t code = 0;
-  std::size_t state = 0;
-  for (int bit = HILBERT_BITS - 1; bit >= 0; --bit) {
-    const std::uint32_t octant =
-        (cell[0] >> bit & 1U) << 2U | (cell[1] >> bit & 1U) << 1U | (cell[2] >> bit & 1U);
-    const Entry entry = table[state][octant];
-    code = code << 3U | entry.digit;
+  static const std::vector<std::array<Entry, 64>> pairs = pairTable (table);
+  static_assert (HILBERT_BITS % 2 == 1, "the first bit alone, and then two at once");
+  constexpr int FIRST = HILBERT_BITS - 1;
+  const Entry first = table[0][(cell[0] >> FIRST & 1U) << 2U | (cell[1] >> FIRST & 1U) << 1U |
+                               (cell[2] >> FIRST & 1U)];
+  std::uint64_t code = first.digit;
+  std::size_t state = first.next;
+  for (int bit = FIRST - 2; bit >= 0; bit -= 2) {
+    const Entry entry = pairs[state][(cell[0] >> bit & 3U) << 4U | (cell[1] >> bit & 3U) << 2U |
+                                     (cell[2] >> bit & 3U)];
+    code = code << 6U | entry.digit;
     state = entry.next;
   }
   return code;

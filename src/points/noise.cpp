@@ -80,13 +80,18 @@ public:
     float unevenness = 0.0F; // residual in spacings at the flattest scale; below 0: unknown
   };
 
-  Place measure (Index p)
+  Place measure (Index p, bool is_unevenness_needed)
   {
+    const auto isRough = [this] (double one) { return one >= limits_.strong; };
     std::size_t lines = 0;
     std::array<double, SCALES> residual{}, relative{};
     const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
+    relative.fill (-1.0); // unknown
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
-      relative[scale] = -1.0; // unknown
+      // What is noise at a smaller scale falls at this one. If there is none, nothing can.
+      if (scale + 1 == SCALES && !is_unevenness_needed &&
+          std::none_of (relative.begin (), relative.end (), isRough))
+        break;
       gather (p, scale);
       if (offsets_.size () < FEWEST)
         continue;
@@ -110,7 +115,7 @@ public:
     double noise = 0.0;
     for (std::size_t scale = 0; scale + 1 < SCALES; ++scale)
       for (std::size_t larger = scale + 1; larger < SCALES; ++larger)
-        if (relative[scale] >= limits_.strong && relative[larger] >= 0.0 &&
+        if (isRough (relative[scale]) && relative[larger] >= 0.0 &&
             relative[larger] < limits_.falls_to * relative[scale])
           noise = std::max (noise, residual[scale]);
     return {static_cast<float> (noise),
@@ -214,7 +219,7 @@ mayBeNoisy (std::size_t points)
 NoiseProbes
 probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Index>& points, const std::array<const PointSample*, SCALES>& samples,
-            const NoiseLimits& limits, const RunContext& run)
+            const NoiseLimits& limits, const RunContext& run, bool is_unevenness_needed)
 {
   NoiseProbes probes;
   probes.noise.resize (points.size ());
@@ -222,7 +227,7 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
   parallelRanges (run, points.size (), [&] (std::size_t first, std::size_t last) {
     NoiseMeter meter (positions, neighbors, samples, limits);
     for (std::size_t i = first; i < last; ++i) {
-      const NoiseMeter::Place place = meter.measure (points[i]);
+      const NoiseMeter::Place place = meter.measure (points[i], is_unevenness_needed);
       probes.noise[i] = place.noise;
       probes.unevenness[i] = place.unevenness;
     }
@@ -301,7 +306,8 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTabl
       points.reserve (count);
       for (std::size_t i = 0; i < count; ++i)
         points.push_back (static_cast<Index> (i * stride * CENTRES));
-      measured = probeNoise (positions, neighbors.all (), points, samples.all (), limits, run);
+      measured = probeNoise (positions, neighbors.all (), points, samples.all (), limits, run,
+                             places.are_scatter);
     }
     else {
       measured = *known;

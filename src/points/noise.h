@@ -77,10 +77,11 @@ mayBeNoisy (std::size_t points);
 /// Measures noise around some points. O(1) for each.
 /// \param neighbors of these points, nearest first
 /// \param samples   at each scale but the first, whose place is not read
+/// \param is_unevenness_needed if not, it is unknown at places without noise, which take less time
 NoiseProbes
 probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Index>& points, const std::array<const PointSample*, SCALES>& samples,
-            const NoiseLimits& limits, const RunContext& run);
+            const NoiseLimits& limits, const RunContext& run, bool is_unevenness_needed = true);
 
 /// Measures noise at every eighth point, at three scales: its 20 nearest of all points, of every
 /// fourth, and of every sixteenth. Each point has the 90 % quantile of the 10 places around it.
