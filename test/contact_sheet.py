@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reconstructs clouds with the default options, and puts pictures of all meshes on one sheet.
 
-Writes floater_result/contact_sheet.png in the working directory: each mesh with its figures; for a cloud that fails, the
-cause. The meshes, reports and pictures are in floater_result/contact_sheet. A scan is seen from its sensor. Where a true
-mesh NAME.gt.ply lies beside a cloud NAME.pcd, it is shown, too. Figures of meshes are counted here, not taken from the
-report.
+Writes floater_result/contact_sheet.png in the working directory: each mesh with its figures; for a cloud that fails,
+the cause. The meshes, reports and pictures are in floater_result/contact_sheet. A scan is seen from its sensor. Where a
+true mesh NAME.gt.ply lies beside a cloud NAME.pcd, it is shown, too. Figures of meshes are counted here, not taken from
+the report.
 CLOUD: point clouds (.pcd, .ply or .obj); default: all of the folder PCL_FLOATER_DATA
 """
 import math
@@ -61,8 +61,8 @@ def cells_of(tools, cloud, folder):
     if report["viewpoint"] and "place" in report["viewpoint"]:
         view = ["--viewpoint=" + ",".join(map(str, report["viewpoint"]["place"]))]
     if report["status"] != "SUCCESS":
-        yield cloud.stem, None, [(counted(points, "point"), INK)] + wrapped(f"{report['status']}: {report['message']}", 12,
-                                                                          REFUSAL)
+        reason = wrapped(f"{report['status']}: {report['message']}", 12, REFUSAL)
+        yield cloud.stem, None, [(counted(points, "point"), INK), *reason]
     else:
         unused = f" ({len(report['unused']):,} unused)" if report["unused"] else ""
         lines = [(f"{counted(points, 'point')}{unused}, {counted(report['statistics']['triangles'], 'triangle')}, "

@@ -3,14 +3,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many meshes come out without a flaw: of generated surfaces, or of clouds with a truth.
 
-Without FOLDER: surfaces of pcl_floater_generate, of random size, density and number of windows, as they are, with a
-thirtyfold density, noisy, or thinned out at random, which leaves gaps. Prints for each kind how many are right, how many
-boundary loops were taken for gaps and filled, how many gaps were kept open, how many meshes face the wrong way, how
-many have other flaws, and of how many the report says that a loop or the front is not sure.
+Without FOLDER: surfaces of pcl_floater_generate, of random size and number of holes, as they are, with densities of
+1 to 30, noisy, or thinned out at random, which leaves gaps. Prints for each kind how many are right, how many boundary
+loops were taken for gaps and filled, how many gaps were kept open, how many meshes face the wrong way, how many have
+other flaws, and of how many the report says that a loop or the front is not sure.
 
-With FOLDER: all clouds that have a true mesh NAME.gt.ply on the same points beside them. Prints the flaws of each. Scans
-(sensor_*) have to be of use. To see what hangs on a limit of a stage: run with --save, change the limit by a fifth, build,
-and run with --against, which tells what changed.
+With FOLDER: all clouds that have a true mesh NAME.gt.ply on the same points beside them. Prints the flaws of each.
+Scans (sensor_*) have to be of use. To see what hangs on a limit of a stage: run with --save, change the limit by a
+fifth, build, and run with --against, which tells what changed.
 """
 import collections
 import hashlib
@@ -41,7 +41,8 @@ def generated(tools, kind, variant, seed, folder):
     options = {"cut-out": {"holes": holes}, "finger": {"length": random.uniform(1, 10)},
                "folded-sheet": {"gap": random.uniform(3, 8)}}.get(kind, {})
     options |= {"uneven": {"density_ratio": 30}, "noisy": {"noise": random.uniform(0.05, 0.2)}}.get(variant, {})
-    tools.generate(kind, folder / "points.ply", seed=seed, points=points * (2 if variant == "thinned" else 1), **options)
+    made = points * (2 if variant == "thinned" else 1)
+    tools.generate(kind, folder / "points.ply", seed=seed, points=made, **options)
     if variant == "thinned":
         bench.write_ply(folder / "points.ply", random.permutation(bench.read_ply(folder / "points.ply")[0])[:points])
     report = tools.reconstruct(folder / "points.ply", folder / "mesh.ply")
@@ -69,7 +70,8 @@ def measure_generated(tools, arguments, folder):
             rows.append((f"{kind}, {variant}", sums))
     columns = ("cases", "right", "loops", "filled", "kept", "turned", "other", "unsure", "unsure_wrong")
     print(bench.markdown(["surfaces", *(name.replace("_", ", ") for name in columns)],
-                         [[name, *(int(sums[column]) for column in columns)] for name, sums in rows + [("all", total)]]))
+                         [[name, *(int(sums[column]) for column in columns)]
+                          for name, sums in rows + [("all", total)]]))
 
 
 def measure_folder(tools, arguments, folder):
@@ -104,7 +106,7 @@ def measure_folder(tools, arguments, folder):
 def main():
     parser = bench.parser(__doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, metavar="FOLDER")
-    parser.add_argument("--each", type=int, default=10, metavar="N", help="surfaces of a kind and variant (%(default)s)")
+    parser.add_argument("--each", type=int, default=10, metavar="N", help="surfaces of each kind (%(default)s)")
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="of the surfaces (%(default)s)")
     parser.add_argument("--only", default="", metavar="TEXT", help="clouds of FOLDER with this in their name")
     parser.add_argument("--most-points", type=int, default=150000, metavar="N", help="of a cloud (%(default)s)")

@@ -88,15 +88,15 @@ def write_report(all_of_them, arguments):
     (report.folder / "runs.json").write_text(json.dumps(all_of_them, indent=1))
     report.add("# How time and memory grow with the number of points")
     report.add(
-        "Each run is a process of its own, the methods take turns; figures are medians of the repeated runs. Time: from "
-        "the points in memory to the triangles in memory. CPU seconds: of the processors; of floater with reading and "
-        "writing. Memory: the largest resident set of the process, with libraries and points.")
+        "Each run is a process of its own, the methods take turns; figures are medians of the repeated runs. Time: "
+        "from the points in memory to the triangles in memory. CPU seconds: of the processors; of floater with reading "
+        "and writing. Memory: the largest resident set of the process, with libraries and points.")
     report.add(
         "floater: `pcl_floater_reconstruct`, all defaults; floater-disc: the same with `--topology disc`. gp3: "
-        "`pcl::GreedyProjectionTriangulation`, mu 2.5, 100 neighbours, surface angle 45, angles 10 to 120 degrees, radius "
-        "5 times the mean distance to the 6 nearest neighbours, normals by `NormalEstimationOMP` from 20. afs: CGAL's "
-        f"`advancing_front_surface_reconstruction`, radius ratio 5, beta 0.52. Threads: {arguments.threads or 'all'} for "
-        "floater and the normals of gp3, 1 for afs. " + bench.machine())
+        "`pcl::GreedyProjectionTriangulation`, mu 2.5, 100 neighbours, surface angle 45, angles 10 to 120 degrees, "
+        "radius 5 times the mean distance to the 6 nearest neighbours, normals by `NormalEstimationOMP` from 20. afs: "
+        f"CGAL's `advancing_front_surface_reconstruction`, radius ratio 5, beta 0.52. Threads: "
+        f"{arguments.threads or 'all'} for floater and the normals of gp3, 1 for afs. " + bench.machine())
     cells = {(one["cloud"], one["points"]): {} for one in all_of_them}
     for one in all_of_them:
         cells[one["cloud"], one["points"]][one["method"]] = one.get("outcome") or (
@@ -125,7 +125,8 @@ def write_report(all_of_them, arguments):
             report.chart(f"{chart}_{surface}", {method: ([one["points"] for one in some], [figure(one) for one in some])
                                                 for method, some in of.items() if some}, quantity)
         for method, some in of.items():
-            names = [name for name in (some[0]["stages"] if some else ()) if any(one["stages"].get(name) for one in some)]
+            names = [name for name in (some[0]["stages"] if some else ())
+                     if any(one["stages"].get(name) for one in some)]
             if not names:
                 continue
             exponents.append([surface, method] + [exponent(some, lambda one, key=key: one[key])
@@ -178,7 +179,8 @@ def main():
             for size in SIZES:
                 if size <= arguments.largest:
                     tools.generate(surface, folder / "points.ply", points=size)
-                    measured += measure(tools, surface, surface, size, folder / "points.ply", folder, arguments, given_up)
+                    measured += measure(tools, surface, surface, size, folder / "points.ply", folder, arguments,
+                                        given_up)
         for cloud in arguments.clouds:
             points = tools.reconstruct(cloud, folder / "mesh.ply")["statistics"]["cloud_points"]
             if points > arguments.largest:

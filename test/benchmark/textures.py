@@ -29,9 +29,9 @@ def main():
                 bench.fail(f"{cloud.stem}: {report['message']}")
             texture, check = report["texture"], report["check"]
             print("| " + " | ".join(map(str, (
-                cloud.stem, report["statistics"]["triangles"], check["components"], len(check["loops"]), texture["charts"],
-                f"{texture['stretch']:.3f}", f"{100 * texture['area_used']:.0f} %", texture["flipped"],
-                f"{report['seconds']['texture']:.2f}"))) + " |", flush=True)
+                cloud.stem, report["statistics"]["triangles"], check["components"], len(check["loops"]),
+                texture["charts"], f"{texture['stretch']:.3f}", f"{100 * texture['area_used']:.0f} %",
+                texture["flipped"], f"{report['seconds']['texture']:.2f}"))) + " |", flush=True)
             if texture["flipped"]:
                 flipped_in.append(cloud.stem)
     if flipped_in:

@@ -21,6 +21,7 @@ from scipy.spatial import Delaunay, QhullError, cKDTree
 CLOUDS = ("beetle_front", "man_bust", "bunny", "nefertiti", "face_strip", "igea", "field_lidar")
 ORDERINGS = ("amd", "metis", "reverse-cuthill-mckee")
 SOLVERS = ("umfpack", "superlu", "bicgstab-ilut")
+STAGES = ("neighbours", "boundary", "weights", "UMFPACK")  # up to the parameters
 NEIGHBORHOODS = ("nearest-delaunay", "nearest", "ball-delaunay", "ball")
 WEIGHTS = ("uniform", "inverse-distance", "shape-preserving", "mean-value")
 NEIGHBORS = 20
@@ -40,15 +41,16 @@ def star(points, ring):
     """Delaunay neighbours of the first point of a ring, in the plane nearest to them all."""
     places = points[ring] - points[ring].mean(axis=0)
     try:
-        starts, neighbors = Delaunay(places @ np.linalg.svd(places, full_matrices=False)[2][:2].T).vertex_neighbor_vertices
+        plane = np.linalg.svd(places, full_matrices=False)[2][:2]
+        starts, neighbors = Delaunay(places @ plane.T).vertex_neighbor_vertices
     except QhullError:
         return ring[1:]
     return ring[neighbors[starts[0]:starts[1]]]
 
 
 def matrix_of(points, loop):
-    """A with uniform weights, of which the pattern is looked at, and the points of its rows. It is computed here anew,
-    since the tool does not write it; the report tells how many nonzeros the tool has."""
+    """A with uniform weights, of which the pattern is looked at. It is computed here anew, since the tool does not
+    write it. The tool finds the planes of the points in two steps, and so has some other entries."""
     inner = np.setdiff1d(np.arange(len(points)), loop)
     row_of = np.full(len(points), -1)
     row_of[inner] = np.arange(len(inner))
@@ -66,12 +68,14 @@ def draw_sparsity(axes, matrix, title):
     side, size = 480, matrix.shape[0]
     rows, columns = matrix.nonzero()
     counts = np.histogram2d(rows, columns, side, [[0, size], [0, size]])[0]
-    axes.imshow(np.where(counts > 0, 0.4 + np.log1p(counts) / np.log1p(counts.max()), 0), cmap="Greys", vmin=0, vmax=1.4)
+    darkness = np.where(counts > 0, 0.4 + np.log1p(counts) / np.log1p(counts.max()), 0)
+    axes.imshow(darkness, cmap="Greys", vmin=0, vmax=1.4)
     axes.set(xticks=[], yticks=[], title=title)
 
 
 def sparsity_figure(report, name, points, loop, nonzeros):
     from matplotlib import pyplot
+    from PIL import Image
     matrix = matrix_of(points, loop).tocsc()
     curve = csgraph.reverse_cuthill_mckee(matrix.tocsr())
     factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0, options={"SymmetricMode": True})
@@ -87,11 +91,12 @@ def sparsity_figure(report, name, points, loop, nonzeros):
         else:
             draw_sparsity(axes.flat[place], shown, f"{title}: {shown.nnz:,}")
     figure.tight_layout()
-    figure.savefig(report.folder / f"figure4_sparsity_{name}.png", dpi=80)
+    file = report.folder / f"figure4_sparsity_{name}.png"
+    figure.savefig(file, dpi=80)
     pyplot.close(figure)
-    report.picture(f"figure4_sparsity_{name}.png",
-                   f"{name}: nonzeros of A and of its factors, {matrix.shape[0]:,} unknowns; the tool's A has "
-                   f"{nonzeros:,} nonzeros")
+    Image.open(file).convert("L").quantize(16).save(file, optimize=True)  # dots compress badly
+    report.picture(file.name, f"{name}: nonzeros of A and of its factors, {matrix.shape[0]:,} unknowns; the tool's A "
+                   f"has {nonzeros:,} nonzeros")
 
 
 def quality(tools, cloud, truth, folder):
@@ -123,116 +128,130 @@ def quality(tools, cloud, truth, folder):
             yield [cloud.stem, neighborhood, weights, *cells, least]
 
 
+def measure(tools, cloud, folder, repeats):
+    """Rows of the tables of one cloud, its reports by solver, and its seconds by stage."""
+
+    def solve(times, **options):
+        """By the method of TW 385, in one thread: the report of the fastest of some runs."""
+        given = [part for key, value in options.items() for part in (f"--{key}", value)]
+        runs = [tools.reconstruct(cloud, folder / "mesh.ply", "--method", "tw385", "--threads", 1, *given)
+                for _ in range(times)]
+        return min(runs, key=lambda run: run["seconds"]["solve"])
+
+    runs = {solver: solve(repeats, solver=solver) for solver in SOLVERS}
+    direct, iterative = runs["umfpack"], runs["bicgstab-ilut"]["statistics"]
+    if direct["status"] != "SUCCESS":
+        bench.fail(f"{cloud.stem}: {direct['status']}: {direct['message']}")
+    found, seconds, gamma = direct["statistics"], direct["seconds"], direct["statistics"]["fill_in"]
+    used = {"neighbours": seconds["working set"] + seconds["neighbors"], "boundary": seconds["boundary"],
+            "weights": seconds["stars"] + seconds["weights"], "UMFPACK": seconds["solve"],
+            "BiCGSTAB": runs["bicgstab-ilut"]["seconds"]["solve"], "SuperLU": runs["superlu"]["seconds"]["solve"],
+            "Delaunay": seconds["delaunay"]}
+    points, total = found["working_points"], sum(used[stage] for stage in STAGES)
+    gammas = [solve(1, ordering=ordering)["statistics"]["fill_in"] for ordering in ORDERINGS]
+    gammas += [runs["superlu"]["statistics"]["fill_in"], iterative["fill_in"]]
+    rows = {
+        "memory": [f"{points:,}", f"{found['factorization_bytes'] / points:.0f}", f"{gamma:.1f}",
+                   f"{218 + 84 * gamma:.0f}"],
+        "fill_in": [f"{found['unknowns']:,}", f"{found['nnz_matrix']:,}",
+                    *(f"{one:.1f}" if one else "-" for one in gammas)],
+        "times": [f"{points:,}", f"{found['triangles']:,}",
+                  *(f"{used[stage]:.2f}" for stage in (*STAGES, "BiCGSTAB")),
+                  f"{iterative['iterations_u']}, {iterative['iterations_v']}",
+                  f"{used['BiCGSTAB'] / used['UMFPACK']:.1f}",
+                  *(f"{value:.2f}" for value in (used["SuperLU"], total, used["Delaunay"]))],
+        "residuals": [f"{run['statistics']['relative_residual']:.1e}" if run["status"] == "SUCCESS" else run["status"]
+                      for run in runs.values()] + [f"{found['residual']:.1e}", f"{found['reciprocal_condition']:.1e}"]}
+    return rows, direct, used
+
+
+def write_tables(report, rows, repeats):
+    report.add("## Table 1: bytes per point\n\nPeak of the factorization by UMFPACK, and the formula of TW 385, "
+               "(218 + 84 gamma) N, for all of the run without that peak.")
+    report.table("table1_memory", ["cloud", "points", "factorization, measured", "gamma", "formula"], rows["memory"])
+    report.add("## Table 2: fill-in\n\ngamma = nnz (L + U) / nnz (A): of UMFPACK by ordering, of SuperLU, and of the "
+               "incomplete factors of ILUT (15, 1e-2).")
+    report.table("table2_fill_in", ["cloud", "unknowns", "nnz (A)", *ORDERINGS, "SuperLU", "ILUT"], rows["fill_in"])
+    report.add(f"## Table 3: seconds\n\nWall time, runs: {repeats}, of which the shortest is taken. Neighbours serve "
+               "boundary and weights alike. Solvers: ordering, factorization or preconditioner, both right-hand sides. "
+               "BiCGSTAB: with ILUT (15, 1e-2), until its residual is 1e-15 of |b|; iterations for u and v. Total: "
+               "up to the parameters with UMFPACK, as in TW 385.")
+    columns = ["cloud", "points", "triangles", *STAGES, "BiCGSTAB", "iterations", "BiCGSTAB / UMFPACK", "SuperLU",
+               "total", "Delaunay"]
+    report.table("table3_times", columns, rows["times"])
+    report.add("As printed in TW 385, on a Pentium 4 with 2.4 GHz. BUNNY is the same scan as bunny with 101 points "
+               "more; the other models are not ours. BiCGSTAB above is that of Eigen.")
+    report.table("table3_printed", ["model", *columns[1:3], *columns[4:10], "total"],
+                 [line.split() for line in PRINTED.splitlines()])
+    report.add("Residuals |b - A u| / |b| computed from the solutions, the larger of both sides; of UMFPACK, also the "
+               "largest entry, and the reciprocal condition min |U| / max |U| of the diagonal.")
+    report.table("table3_residuals", ["cloud", *SOLVERS, "max |b - A u|", "condition"], rows["residuals"])
+
+
 def main():
     parser = bench.parser(__doc__)
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="runs of which the shortest time is taken")
-    parser.add_argument("--only", default="", metavar="LIST", help="some of tables,sparsity,mesh,quality; all without")
+    parser.add_argument("--only", default="tables,sparsity,mesh,quality", metavar="LIST", help="some of %(default)s")
     parser.add_argument("clouds", nargs="*", type=pathlib.Path, metavar="CLOUD")
     arguments = parser.parse_args()
-    only = arguments.only.split(",") if arguments.only else ["tables", "sparsity", "mesh", "quality"]
+    only = arguments.only.split(",")
     clouds = bench.chosen_clouds(arguments.clouds, CLOUDS)
     tools = bench.Tools(arguments.build, "pcl_floater_reconstruct", "pcl_floater_generate", "pcl_floater_picture")
     report = bench.ReportFolder("benchmark")
     if not arguments.clouds:
         clouds.insert(0, report.folder / "finger.pcd")
         tools.generate("finger", clouds[0], points=6000, length=28)
-    memory, fill, times, residuals, sparse_ones, pictures, seconds = [], [], [], [], [], [], {}
+    report.add("# The tables and figures of TW 385, measured again")
+    report.add(
+        "TW 385: *Efficient Triangulation of Point Clouds Using Floater Parameterization*, January 2004. Made by "
+        "`pcl_floater_reconstruct --method tw385` in one thread: neighbourhoods are Delaunay stars among the 20 "
+        "nearest, weights are mean values, the loop is on a circle. " + bench.machine())
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-
-        def solve(cloud, **options):
-            """By the method of TW 385, in one thread: the report of the fastest of some runs."""
-            given = [part for key, value in options.items() for part in (f"--{key}", value)]
-            runs = [tools.reconstruct(cloud, folder / "mesh.vtk", "--method", "tw385", "--threads", 1, *given)
-                    for _ in range(arguments.repeats if "solver" in options else 1)]
-            return min(runs, key=lambda run: run["seconds"]["solve"])
-
-        for cloud in clouds:
-            print(cloud.stem, flush=True)
-            runs = {solver: solve(cloud, solver=solver) for solver in SOLVERS}
-            direct, iterative = runs["umfpack"], runs["bicgstab-ilut"]
-            if direct["status"] != "SUCCESS":
-                report.add(f"{cloud.stem}: {direct['status']}: {direct['message']}")
-                continue
-            found, gamma = direct["statistics"], direct["statistics"]["fill_in"]
-            points = found["working_points"]
-            used = {"neighbours": direct["seconds"]["working set"] + direct["seconds"]["neighbors"],
-                    "boundary": direct["seconds"]["boundary"],
-                    "weights": direct["seconds"]["stars"] + direct["seconds"]["weights"],
-                    "UMFPACK": direct["seconds"]["solve"], "Delaunay": direct["seconds"]["delaunay"]}
-            used |= {"SuperLU": runs["superlu"]["seconds"]["solve"], "BiCGSTAB": iterative["seconds"]["solve"]}
-            for stage, value in used.items():
-                seconds.setdefault(stage, []).append((points, value))
-            total = sum(used[stage] for stage in ("neighbours", "boundary", "weights", "UMFPACK"))
-            iterations = f"{iterative['statistics']['iterations_u']}, {iterative['statistics']['iterations_v']}"
-            times.append([cloud.stem, f"{points:,}", f"{found['triangles']:,}",
-                          *(f"{used[stage]:.2f}" for stage in ("neighbours", "boundary", "weights", "UMFPACK", "BiCGSTAB")),
-                          iterations, f"{used['BiCGSTAB'] / used['UMFPACK']:.1f}", f"{used['SuperLU']:.2f}",
-                          f"{total:.2f}", f"{used['Delaunay']:.2f}"])
-            residuals.append([cloud.stem] + [
-                f"{run['statistics']['relative_residual']:.1e}" if run["status"] == "SUCCESS" else run["status"]
-                for run in runs.values()] + [f"{found['residual']:.1e}", f"{found['reciprocal_condition']:.1e}"])
-            memory.append([cloud.stem, f"{points:,}", f"{found['factorization_bytes'] / points:.0f}", f"{gamma:.1f}",
-                           f"{218 + 84 * gamma:.0f}"])
-            if "tables" in only:
-                gammas = [solve(cloud, ordering=ordering)["statistics"]["fill_in"] for ordering in ORDERINGS]
-                fill.append([cloud.stem, f"{found['unknowns']:,}", f"{found['nnz_matrix']:,}",
-                             *(f"{one:.1f}" if one else "-" for one in gammas),
-                             f"{runs['superlu']['statistics']['fill_in']:.1f}",
-                             f"{iterative['statistics']['fill_in']:.1f}"])
-            if "mesh" in only:
-                drawn = report.folder / f"figure6_mesh_{cloud.stem}.png"
+        if "tables" in only:
+            tables, seconds = {}, {}
+            for cloud in clouds:
+                print(cloud.stem, "tables", flush=True)
+                rows, direct, used = measure(tools, cloud, folder, arguments.repeats)
+                for table, row in rows.items():
+                    tables.setdefault(table, []).append([cloud.stem, *row])
+                for stage, value in used.items():
+                    seconds.setdefault(stage, []).append((direct["statistics"]["working_points"], value))
+            write_tables(report, tables, arguments.repeats)
+            report.add("## Figure 5: time against points\n\nLines are power laws. The clouds differ in more than size: "
+                       "the time of the boundary goes with its length.")
+            report.chart("figure5_times", {stage: tuple(zip(*some)) for stage, some in seconds.items()}, "seconds")
+        if "sparsity" in only:
+            report.add("## Figure 4: sparsity\n\nA pixel is as dark as the logarithm of its number of nonzeros. Clouds "
+                       f"of up to {LARGEST_FIGURE:,} unknowns.")
+            for cloud in clouds:
+                run = tools.reconstruct(cloud, folder / "mesh.ply", "--method", "tw385")
+                if run["status"] == "SUCCESS" and run["statistics"]["unknowns"] <= LARGEST_FIGURE:
+                    print(cloud.stem, "sparsity", flush=True)
+                    sparsity_figure(report, cloud.stem, bench.read_ply(folder / "mesh.ply")[0], run["loop"],
+                                    run["statistics"]["nnz_matrix"])
+        if "mesh" in only:
+            report.add("## Figure 6: meshes")
+            for cloud in clouds:
+                print(cloud.stem, "mesh", flush=True)
+                drawn = f"figure6_mesh_{cloud.stem}.png"
                 tools.reconstruct(cloud, folder / "mesh.vtk", "--topology", "disc", "--parameterization",
                                   folder / "flat.vtk")
-                tools.picture(folder / "mesh.vtk", folder / "flat.vtk", drawn, "--height", 600)
-                pictures.append((drawn.name, f"{cloud.stem}: its mesh and parameterization"))
-            if "sparsity" in only and found["unknowns"] <= LARGEST_FIGURE:
-                loop = tools.reconstruct(cloud, folder / "mesh.ply", "--method", "tw385")["loop"]
-                sparse_ones.append((cloud.stem, bench.read_ply(folder / "mesh.ply")[0], loop, found["nnz_matrix"]))
-        report.add("# The tables and figures of TW 385, measured again")
-        report.add(
-            "TW 385: *Efficient Triangulation of Point Clouds Using Floater Parameterization*, January 2004. Made by "
-            "`pcl_floater_reconstruct --method tw385` in one thread: neighbourhoods are Delaunay stars among the 20 "
-            "nearest, weights are mean values, the loop is on a circle. " + bench.machine())
-        report.add("## Table 1: bytes per point\n\nPeak of the factorization by UMFPACK, and the formula of TW 385, (218 + "
-                   "84 gamma) N, for all of the run without that peak.")
-        report.table("table1_memory", ["cloud", "points", "factorization, measured", "gamma", "formula"], memory)
-        report.add("## Table 2: fill-in\n\ngamma = nnz (L + U) / nnz (A): of UMFPACK by ordering, of SuperLU, and of the "
-                   "incomplete factors of ILUT (15, 1e-2).")
-        report.table("table2_fill_in", ["cloud", "unknowns", "nnz (A)", *ORDERINGS, "SuperLU", "ILUT"], fill)
-        report.add(f"## Table 3: seconds\n\nWall time, of the shortest of {arguments.repeats} runs. Neighbours serve boundary "
-                   "and weights alike. Solvers: ordering, factorization or preconditioner, both right-hand sides. BiCGSTAB: "
-                   "with ILUT (15, 1e-2), until its residual is 1e-15 of |b|; iterations for u and v. Total: up to the "
-                   "parameters with UMFPACK, as in TW 385.")
-        columns = ["cloud", "points", "triangles", "neighbours", "boundary", "weights", "UMFPACK", "BiCGSTAB", "iterations",
-                   "BiCGSTAB / UMFPACK", "SuperLU", "total", "Delaunay"]
-        report.table("table3_times", columns, times)
-        report.add("As printed in TW 385, on a Pentium 4 with 2.4 GHz. BUNNY is the same scan as bunny with 101 points more; "
-                   "the other models are not ours. There, BiCGSTAB was that of GMM++.")
-        report.table("table3_printed", ["model", *columns[1:3], *columns[4:10], "total"],
-                     [line.split() for line in PRINTED.splitlines()])
-        report.add("Residuals |b - A u| / |b| computed from the solutions, the larger of both sides; of UMFPACK, also the "
-                   "largest entry, and the reciprocal condition min |U| / max |U| of the diagonal.")
-        report.table("table3_residuals", ["cloud", *SOLVERS, "max |b - A u|", "condition"], residuals)
-        report.add("## Figure 4: sparsity\n\nA pixel is as dark as the logarithm of its number of nonzeros. Clouds of up to "
-                   f"{LARGEST_FIGURE:,} unknowns.")
-        for one in sparse_ones:
-            sparsity_figure(report, *one)
-        report.add("## Figure 5: time against points\n\nLines are power laws. The clouds differ in more than size: the time "
-                   "of the boundary goes with its length.")
-        report.chart("figure5_times", {stage: tuple(zip(*some)) for stage, some in seconds.items()}, "seconds")
-        report.add("## Figure 6: meshes")
-        for picture in pictures:
-            report.picture(*picture)
+                tools.picture(folder / "mesh.vtk", folder / "flat.vtk", report.folder / drawn, "--height", 600)
+                report.picture(drawn, f"{cloud.stem}: its mesh and parameterization")
         if "quality" in only:
-            report.add("## Neighbourhoods and weights\n\nRecall: edges of the ground truth that the mesh has, in percent. "
-                       "Turned: triangles that face away from the ground truth. Each as the triangulation of the plane gives "
-                       "it, and after the flips on the surface. Least distance: of two parameters, in a circle of radius 1.")
+            report.add("## Neighbourhoods and weights\n\nRecall: edges of the ground truth that the mesh has, in "
+                       "percent. Turned: triangles that face away from the ground truth. Each as the triangulation of "
+                       "the plane gives it, and after the flips on the surface. Least distance: of two parameters, in "
+                       "a circle of radius 1.")
+            rows = []
+            for cloud in clouds:
+                if cloud.with_suffix(".gt.ply").exists():
+                    print(cloud.stem, "quality", flush=True)
+                    rows += quality(tools, cloud, cloud.with_suffix(".gt.ply"), folder)
             report.table("neighbourhoods_and_weights",
                          ["cloud", "neighbours", "weights", "recall, %", "turned, %", "recall after flips, %",
-                          "turned after flips, %", "least distance"],
-                         [row for cloud in clouds if cloud.with_suffix(".gt.ply").exists()
-                          for row in quality(tools, cloud, cloud.with_suffix(".gt.ply"), folder)])
+                          "turned after flips, %", "least distance"], rows)
     report.finish()
 
 

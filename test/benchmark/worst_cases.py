@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long clouds take that are hard on a reconstruction.
 
-Prints the user seconds of the tool, the least of some runs, the factor to an ordinary cloud of as many points, the stage
-that took most, and how the run ended.
+Prints the user seconds of the tool, the least of some runs, the factor to an ordinary cloud of as many points, the
+stage that took most, and how the run ended.
 """
 import pathlib
 import tempfile
@@ -97,7 +97,8 @@ def condensation(n):
 
 def band(n, rows=4):
     i, random, around = np.arange(n), rng(), n // rows
-    return circle(TURN * (i // rows) / around, around / TURN + 0.2 * random.random(n), i % rows + 0.2 * random.random(n))
+    radius = around / TURN + 0.2 * random.random(n)
+    return circle(TURN * (i // rows) / around, radius, i % rows + 0.2 * random.random(n))
 
 
 def random_view(n):
