@@ -96,7 +96,8 @@ def measure_folder(tools, arguments, folder):
         if old and old["mesh"] != digest:
             changes.append(f"{name}: {', '.join(old['flaws']) or 'no flaw'} -> {', '.join(found) or 'no flaw'}")
     for kind in ("clean", "scans of use"):
-        print(f"{kind}: {int(clean[kind])} of {clean[f'of {kind}']}")
+        if clean[f"of {kind}"]:
+            print(f"{kind}: {int(clean[kind])} of {clean[f'of {kind}']}")
     if before:
         print(f"other meshes than before: {len(changes)}", *changes, sep="\n")
     if arguments.save:

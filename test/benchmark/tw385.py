@@ -131,14 +131,12 @@ def quality(tools, cloud, truth, folder):
 def measure(tools, cloud, folder, repeats):
     """Rows of the tables of one cloud, its reports by solver, and its seconds by stage."""
 
-    def solve(times, **options):
-        """By the method of TW 385, in one thread: the report of the fastest of some runs."""
-        given = [part for key, value in options.items() for part in (f"--{key}", value)]
-        runs = [tools.reconstruct(cloud, folder / "mesh.ply", "--method", "tw385", "--threads", 1, *given)
-                for _ in range(times)]
-        return min(runs, key=lambda run: run["seconds"]["solve"])
+    def solve(*options):
+        return tools.reconstruct(cloud, folder / "mesh.ply", "--method", "tw385", "--threads", 1, *options)
 
-    runs = {solver: solve(repeats, solver=solver) for solver in SOLVERS}
+    # In turns, since a machine may be busy for some while.
+    turns = [[solve("--solver", solver) for solver in SOLVERS] for _ in range(repeats)]
+    runs = {solver: min(some, key=lambda run: run["seconds"]["solve"]) for solver, some in zip(SOLVERS, zip(*turns))}
     direct, iterative = runs["umfpack"], runs["bicgstab-ilut"]["statistics"]
     if direct["status"] != "SUCCESS":
         bench.fail(f"{cloud.stem}: {direct['status']}: {direct['message']}")
@@ -148,7 +146,7 @@ def measure(tools, cloud, folder, repeats):
             "BiCGSTAB": runs["bicgstab-ilut"]["seconds"]["solve"], "SuperLU": runs["superlu"]["seconds"]["solve"],
             "Delaunay": seconds["delaunay"]}
     points, total = found["working_points"], sum(used[stage] for stage in STAGES)
-    gammas = [solve(1, ordering=ordering)["statistics"]["fill_in"] for ordering in ORDERINGS]
+    gammas = [solve("--ordering", ordering)["statistics"]["fill_in"] for ordering in ORDERINGS]
     gammas += [runs["superlu"]["statistics"]["fill_in"], iterative["fill_in"]]
     rows = {
         "memory": [f"{points:,}", f"{found['factorization_bytes'] / points:.0f}", f"{gamma:.1f}",
