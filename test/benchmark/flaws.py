@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many meshes come out without a flaw: of generated surfaces, or of clouds with a truth.
 
-Without FOLDER: surfaces of pcl_floater_generate, of random size and number of holes, as they are, with densities of
-1 to 30, noisy, or thinned out at random, which leaves gaps. Prints for each kind how many are right, how many boundary
-loops were taken for gaps and filled, how many gaps were kept open, how many meshes face the wrong way, how many have
-other flaws, and of how many the report says that a loop or the front is not sure.
+Without FOLDER: surfaces of pcl_floater_generate and boxes, of random size and number of holes, as they are, with
+densities of 1 to 30, noisy, or thinned out at random, which leaves gaps. Prints for each kind how many are right, how
+many boundary loops were taken for gaps and filled, how many gaps were kept open, how many meshes face the wrong way,
+how many have other flaws, and of how many the report says that a loop or the front is not sure.
 
 With FOLDER: all clouds that have a true mesh NAME.gt.ply on the same points beside them. Prints the flaws of each.
 Scans (sensor_*) have to be of use. To see what hangs on a limit of a stage: run with --save, change the limit by a
@@ -22,8 +22,42 @@ import bench
 import numpy as np
 
 KINDS = {"height-field": "sheet", "cut-out": "sheet", "folded-sheet": "", "hemisphere": "body", "finger": "body",
-         "sphere": "body", "torus": "body"}
+         "sphere": "body", "torus": "body", "box": "body", "open-box": "body"}
 VARIANTS = ("even", "uneven", "noisy", "thinned")
+
+
+def box(random, n, is_open, ratio):
+    """Jittered lattices on the faces of a box, with no point on its edges; the last face is its lid. Lengths are in
+    spacings, and the spacing of a face is up to the root of the ratio wider than that of another one."""
+    sides = random.uniform(1, 3, 3)
+    sides *= np.sqrt(n / (2 * (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0])))
+    faces = []
+    for axis in range(3):
+        others = [other for other in range(3) if other != axis]
+        for at in (0, sides[axis])[:1 if is_open and axis == 2 else 2]:
+            counts = np.maximum(3, (sides[others] / random.uniform(1, np.sqrt(ratio))).astype(int))
+            cells = np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), axis=-1).reshape(-1, 2)
+            points = np.full((len(cells), 3), float(at))
+            points[:, others] = (cells + 0.5 + random.uniform(-0.2, 0.2, cells.shape)) * sides[others] / counts
+            faces.append(points)
+    return random.permutation(np.concatenate(faces))
+
+
+def make_points(tools, kind, variant, random, seed, file):
+    """Writes a surface; the number of its holes."""
+    points, holes = int(random.integers(2000, 12000)), int(random.integers(1, 10)) if kind == "cut-out" else 0
+    made, ratio = points * (2 if variant == "thinned" else 1), 30 if variant == "uneven" else 1
+    noise = random.uniform(0.05, 0.2) if variant == "noisy" else 0
+    if kind.endswith("box"):
+        found = box(random, made, kind == "open-box", min(ratio, 4))
+        bench.write_ply(file, found + noise * random.normal(size=found.shape))
+    else:
+        options = {"cut-out": {"holes": holes}, "finger": {"length": random.uniform(1, 10)},
+                   "folded-sheet": {"gap": random.uniform(3, 8)}}.get(kind, {})
+        tools.generate(kind, file, seed=seed, points=made, density_ratio=ratio, noise=noise, **options)
+    if variant == "thinned":
+        bench.write_ply(file, random.permutation(bench.read_ply(file)[0])[:points])
+    return holes
 
 
 def is_turned(mesh, shape):
@@ -37,19 +71,12 @@ def is_turned(mesh, shape):
 def generated(tools, kind, variant, seed, folder):
     """Counts of what is wrong with one surface."""
     random = np.random.default_rng([seed, len(kind), VARIANTS.index(variant)])
-    points, holes = int(random.integers(2000, 12000)), int(random.integers(1, 10)) if kind == "cut-out" else 0
-    options = {"cut-out": {"holes": holes}, "finger": {"length": random.uniform(1, 10)},
-               "folded-sheet": {"gap": random.uniform(3, 8)}}.get(kind, {})
-    options |= {"uneven": {"density_ratio": 30}, "noisy": {"noise": random.uniform(0.05, 0.2)}}.get(variant, {})
-    made = points * (2 if variant == "thinned" else 1)
-    tools.generate(kind, folder / "points.ply", seed=seed, points=made, **options)
-    if variant == "thinned":
-        bench.write_ply(folder / "points.ply", random.permutation(bench.read_ply(folder / "points.ply")[0])[:points])
+    holes = make_points(tools, kind, variant, random, seed, folder / "points.ply")
     report = tools.reconstruct(folder / "points.ply", folder / "mesh.ply")
     if report["status"] != "SUCCESS":
         return collections.Counter(other=1)
     mesh, check = bench.Mesh.read(folder / "mesh.ply"), report["check"]
-    loops = holes + 1 if kind not in ("sphere", "torus") else 0
+    loops = holes + 1 if kind not in ("sphere", "torus", "box") else 0
     other = (mesh.components != 1 or mesh.genus != (kind == "torus") or not mesh.manifold or mesh.folds > 0 or
              check["self_intersections"] or len(mesh.used) < 0.999 * len(mesh.points))
     return collections.Counter(loops=loops, filled=max(0, loops - len(mesh.loops)), other=int(bool(other)),
