@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The entry of the core with other limits than the usual ones, for benchmarks.
+// The entry of the core with other limits than the usual ones, for tests.
 #pragma once
 
 #include "stage_limits.h"

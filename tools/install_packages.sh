@@ -27,8 +27,9 @@ packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitespa
 for argument in "$@"; do
   case "$argument" in
     --tests) packages+=(libgtest-dev libgmock-dev pcl-tools pkg-config python3
-                         python3-pytest python3-pip python3-setuptools python3-venv python3-wheel) ;;
-    --benchmarks) packages+=(libgmm++-dev) ;;
+                         python3-pytest python3-pip python3-setuptools python3-venv python3-wheel
+                         python3-scipy python3-matplotlib) ;;
+    --benchmarks) packages+=(python3 python3-numpy python3-scipy python3-matplotlib) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     --packages) packages+=(dpkg-dev lintian debootstrap) ;;
     --docs) packages+=(doxygen) ;;

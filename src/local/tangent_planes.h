@@ -15,7 +15,7 @@ namespace floater
 {
 /// What is taken for the sheet of a point. The first two values were chosen on the clouds of the
 /// first benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds
-/// there (see test/benchmark/limits).
+/// there (test/benchmark/flaws.py tells what changes with them).
 struct PlaneLimits
 {
   std::size_t core_points = 8; ///< nearest neighbours through which the first plane is laid: about

@@ -17,7 +17,7 @@ namespace floater
 /// what lies beside it, as another sheet or the other side of a slit. Every point keeps a triangle;
 /// neither the number of components nor of boundary loops changes, nor the genus. O(n).
 ///
-/// Measured on the meshes of 96 bodies of pcl_floater_solids: of the folds that were left there, 19
+/// Measured on the meshes of 96 generated bodies: of the folds that were left there, 19
 /// end by this, and 24 of the 27 triangles are not in the mesh from which the vertices come. With
 /// three triangles, 23 would end, and 33 of 38 would be wrong.
 ///

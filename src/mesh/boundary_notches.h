@@ -16,7 +16,7 @@ namespace floater
 /// angle opposite to the boundary is obtuse: the boundary edge is then no Gabriel edge, as the
 /// corner lies in the ball around it.
 ///
-/// Measured on 48 bodies of pcl_floater_solids, cut by a plane or with windows, all but those made
+/// Measured on 48 generated bodies, cut by a plane or with windows, all but those made
 /// of CAD parts: without such triangles the area is off by .35 % in the median, and not by 1.2 %,
 /// and nine of ten that are taken out are not in the mesh from which the vertices come.
 struct NotchLimits

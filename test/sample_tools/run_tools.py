@@ -109,6 +109,15 @@ class Tools(unittest.TestCase):
         self.assertEqual(self.pixels("two.png")[:2], (200, 100))
 
     @draws
+    def test_picture_is_seen_from_a_viewpoint(self):
+        mesh = self.write("square.vtk", SQUARE)
+        for name, viewpoint in (("front.png", "0.5,0.5,3"), ("back.png", "0.5,0.5,-3")):
+            self.picture(0, mesh, self.path(name), "--height", "100", "--flat", "--viewpoint", viewpoint)
+            self.assertGreater(self.pixels(name)[2], 2)
+        self.assertNotEqual(self.read("front.png"), self.read("back.png"))
+        self.picture(1, mesh, self.path("none.png"), "--viewpoint", "0.5,0.5", says="--viewpoint")
+
+    @draws
     def test_picture_draws_textures(self):
         vtk = self.write("square.vtk", SQUARE + "POINT_DATA 4\nTEXTURE_COORDINATES TCoords 2 float\n"
                                                 "0 0\n1 0\n1 1\n0 1\n")

@@ -44,7 +44,8 @@ main (int argc, char** argv)
       "pcl_floater_picture"};
   std::vector<std::string> files;
   std::string texture;
-  bool has_checkerboard = false;
+  std::vector<double> viewpoint;
+  bool has_checkerboard = false, is_flat = false;
   int height = 700;
   app.add_option ("files", files, "meshes as .vtk or .ply, and the picture to write")
       ->option_text ("MESH [PARAMETERIZATION] OUT.png")
@@ -59,6 +60,12 @@ main (int argc, char** argv)
   app.add_option ("--texture", texture, "put this image on the mesh, as .png")
       ->option_text ("FILE")
       ->excludes (checkerboard);
+  app.add_option ("--viewpoint", viewpoint,
+                  "show the mesh from this place, such as that of the sensor of a scan")
+      ->option_text ("X,Y,Z")
+      ->delimiter (',')
+      ->expected (3);
+  app.add_flag ("--flat", is_flat, "one shade for each triangle, which shows bumps");
   try {
     app.parse (argc, argv);
   }
@@ -107,6 +114,8 @@ main (int argc, char** argv)
     pcl::floater::PictureOptions options;
     options.parameterization = parameterization;
     options.texture = image;
+    options.flat_shading = is_flat;
+    options.viewpoint = viewpoint.empty () ? nullptr : viewpoint.data ();
     png = pcl::floater::toPng (pcl::floater::drawMesh (mesh, height, options));
   }
   catch (const std::exception& error) {

@@ -39,7 +39,7 @@ constexpr int COLOUR_STEP = 5;                // of 256 levels of each colour
 
 using Colour = std::array<double, 3>;
 constexpr Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
-    EDGE{0.18, 0.27, 0.40}, MARK{0.90, 0.0, 0.85}, PAPER{1.0, 1.0, 1.0};
+    EDGE{0.18, 0.27, 0.40}, PAPER{1.0, 1.0, 1.0};
 
 vtkSmartPointer<vtkActor>
 makeActor (vtkPolyDataMapper* mapper, const Colour& colour)
@@ -237,8 +237,6 @@ drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
         addTextured (renderer, mesh, options.texture, true);
       else
         addSurface (renderer, mesh, options.flat_shading);
-      if (options.marked_edges != nullptr)
-        addLines (renderer, options.marked_edges, MARK);
       addLights (renderer);
       const std::vector<Eigen::Vector3d> points = pointsOf (mesh);
       if (options.viewpoint == nullptr ||

@@ -15,13 +15,12 @@ namespace floater
 struct PictureOptions
 {
   vtkPolyData* parameterization =
-      nullptr;                     ///< mesh in the plane whose edges are drawn beside the mesh
-  vtkImageData* texture = nullptr; ///< image on the mesh, by its texture coordinates; beside it,
-                                   ///< the same in the square of the texture
-  vtkPolyData* marked_edges = nullptr; ///< lines on the mesh, drawn in magenta
-  bool flat_shading = false;           ///< one shade for each triangle, which shows bumps
-  const double* viewpoint = nullptr;   ///< x, y, z: from where the mesh is seen, if it lies within
-                                       ///< 60 degrees of one direction from there
+      nullptr;                       ///< mesh in the plane whose edges are drawn beside the mesh
+  vtkImageData* texture = nullptr;   ///< image on the mesh, by its texture coordinates; beside it,
+                                     ///< the same in the square of the texture
+  bool flat_shading = false;         ///< one shade for each triangle, which shows bumps
+  const double* viewpoint = nullptr; ///< x, y, z: from where the mesh is seen, if it lies within
+                                     ///< 60 degrees of one direction from there
 };
 
 /// A checkerboard of 32 x 32 squares, of another colour in each of 8 x 8 fields: shows stretch, and

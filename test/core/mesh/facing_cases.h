@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Generated meshes of which it is known how they should face, for tests and the benchmark.
+// Generated meshes of which it is known how they should face, for tests.
 #pragma once
 
 #include "mesh/facing.h"

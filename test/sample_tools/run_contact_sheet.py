@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs contact_sheet.sh on a cloud that is reconstructed and one that is refused.
+"""Runs contact_sheet.py on a cloud that is reconstructed and one that is refused.
 
-Usage: run_contact_sheet.py pcl_floater_generate contact_sheet.sh BUILD_FOLDER
+Usage: run_contact_sheet.py pcl_floater_generate contact_sheet.py BUILD_FOLDER
 """
 
 import os
@@ -53,9 +53,14 @@ class ContactSheet(unittest.TestCase):
 
     def test_tells_what_it_cannot_read(self):
         done = self.run_script("none.pcd")
-        self.assertEqual(done.returncode, 1)
+        self.assertNotEqual(done.returncode, 0)
         self.assertIn("none.pcd", done.stderr)
 
 
 if __name__ == "__main__":
+    # contact_sheet.py is run by this interpreter of Debian.
+    needed = subprocess.run(["/usr/bin/python3", "-c", "import matplotlib, numpy, scipy"], stderr=subprocess.DEVNULL)
+    if needed.returncode != 0:
+        print("NumPy, SciPy or Matplotlib is missing")
+        sys.exit(77)
     unittest.main(argv=sys.argv[:1])
