@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 Problem
 checkInput (const Input& input)
 {
@@ -69,5 +66,4 @@ checkFacing (const Input& input, const Options& options)
   return {};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// INVALID_INDICES if there is not one cloud index for each position, or if one of them is not
 /// below the size of the cloud, or is given twice. O(n), and a bit per point where they do not
 /// ascend.
@@ -25,5 +22,4 @@ isSensorKnown (const std::array<double, 3>& sensor_origin);
 Problem
 checkFacing (const Input& input, const Options& options);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

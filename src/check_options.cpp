@@ -6,12 +6,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // \param range in which the option must be
 Problem
 outOfRange (const char* name, const char* range)
@@ -119,5 +115,4 @@ checkOptions (const Options& options)
   return {};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,15 +7,11 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// INVALID_OPTION if an option is out of its range, the solver does not take the ordering, or the
 /// hole policy or a given loop does not fit the topology. INVALID_LOOP if the given loop has fewer
 /// than three points. SOLVER_UNAVAILABLE if the build is without the solver.
 Problem
 checkOptions (const Options& options);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

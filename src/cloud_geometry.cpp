@@ -11,12 +11,8 @@
 #include <array>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Cloud indices of the points that stand for those of a given loop: of equal points, one stands for
 // all. Ascending.
 std::vector<Index>
@@ -157,5 +153,4 @@ facingHints (const Points& points, const Request& request)
   return hints;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

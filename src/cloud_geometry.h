@@ -11,10 +11,7 @@
 
 #include <pcl/surface/floater/report.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// \param search of the caller; nullptr: a kd-tree of the core's
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search);
@@ -57,5 +54,4 @@ projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
 FacingHints
 facingHints (const Points& points, const Request& request);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Also looks for triangles that cross each other. Not for scans that are connected as their sensor
 // saw them: it would take a quarter of their time, and noise along the rays makes true surfaces
 // cross themselves, too.
@@ -120,5 +116,4 @@ reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExami
   return problem;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

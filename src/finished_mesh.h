@@ -14,10 +14,7 @@
 
 #include <functional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The mesh as it is, on the user's own points, whatever the stages think that they made.
 MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
@@ -50,5 +47,4 @@ Problem
 reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
                 const Points& points, const Request& request, Report& report);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
 {
@@ -45,5 +42,4 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
                : findViewpointOfEven (points, planes.neighbors, samples, search, evidence, run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

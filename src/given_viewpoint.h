@@ -9,10 +9,7 @@
 
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Another place from which the points look evenly spaced, if they do not as seen from the given
 /// one: then that is likely to be wrong. The origin of the sensor that the file tells is tried
 /// first, then a place is searched. Clouds that look even from nowhere, such as a scan that was
@@ -21,5 +18,4 @@ namespace floater
 std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

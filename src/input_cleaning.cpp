@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Takes the points out whose rows are flagged. \return their cloud indices, ascending
 std::vector<Index>
 takeOut (Input& input, const std::vector<std::uint8_t>& is_taken)
@@ -62,5 +58,4 @@ cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limi
   return {};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Takes gross outliers out of the input and tells the report, if outliers are to be left out.
 /// Points that the user's loop names stay.
 /// \return DEGENERATE if a point stays that double precision cannot hold together with the others
@@ -20,5 +17,4 @@ Problem
 cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limits,
             const RunContext& run, Report& report);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -16,10 +16,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What reconstruct () finds out about the surroundings of each point of a surface, if that is
 /// known already. It has to be what reconstruct () would find itself; then the mesh is the same.
 /// The functions are called in the order of a run.
@@ -71,5 +68,4 @@ public:
 Result
 reconstruct (Input input, const Options& options, KnownStages& known);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

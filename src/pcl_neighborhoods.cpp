@@ -10,10 +10,7 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct PclNeighborhoods::Cloud
 {
   explicit Cloud (const Input& input)
@@ -69,5 +66,4 @@ PclNeighborhoods::normals (int k) const
   return all;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <memory>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// pcl::search::KdTree as a search method for the core, and normals by pcl::NormalEstimation. The
 /// core's own are faster and run on all threads; these are for the method of TW 385 as a user of
 /// PCL would put it together.
@@ -34,5 +31,4 @@ private:
   std::unique_ptr<Cloud> cloud_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

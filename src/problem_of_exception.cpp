@@ -8,12 +8,8 @@
 #include <new>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 Problem
 describeException ()
 {
@@ -54,5 +50,4 @@ problemOfException () noexcept
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include "core/problem.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A message so short that a string takes no memory for it.
 constexpr const char* NO_MEMORY = "out of memory";
 
@@ -17,5 +14,4 @@ constexpr const char* NO_MEMORY = "out of memory";
 Problem
 problemOfException () noexcept;
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,10 +4,7 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 DiscOptions
 DiscOptions::tw385 ()
 {
@@ -51,5 +48,4 @@ effectiveLimits (const Limits& limits, const Options& options)
   return effective;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The options with which a run works: those that are given, but for DiscOptions::as_published
 /// without all that goes beyond TW 385.
 Options
@@ -21,5 +18,4 @@ effectiveOptions (const Options& options);
 Limits
 effectiveLimits (const Limits& limits, const Options& options);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

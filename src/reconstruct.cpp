@@ -28,12 +28,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 DiscSettings
 discSettings (const Points& points, const Request& request)
 {
@@ -365,5 +361,4 @@ reconstruct (Input input, const Options& options, KnownStages& known)
   return run (input, options, {}, &known);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

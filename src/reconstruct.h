@@ -7,13 +7,9 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// See the function of the same name that takes no limits.
 Result
 reconstruct (Input input, const Options& options, const Limits& limits);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The work on the parts where it is done, and what has been found of a surface there.
 struct PartsInWork
 {
@@ -125,5 +121,4 @@ reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
   return problem;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

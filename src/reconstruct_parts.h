@@ -5,10 +5,7 @@
 
 #include "known_stages.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Reconstructs the surface of a cloud that has several parts.
 /// \param points   the same afterwards; if stages are known, possibly without their positions
 /// \param geometry if stages are known: the spacing alone
@@ -19,5 +16,4 @@ reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
                   const SurfaceSettings& surface_settings, const Request& request,
                   KnownStages* known, Result& result);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

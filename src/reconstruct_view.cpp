@@ -10,10 +10,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
                 const Request& request)
@@ -78,5 +75,4 @@ reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Re
   return problem;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

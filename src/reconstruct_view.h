@@ -13,10 +13,7 @@
 #include <array>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The viewpoint that is given, or the origin of the sensor if the cloud was seen from there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
@@ -35,5 +32,4 @@ std::optional<Problem>
 reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Request& request,
                       Result& result);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

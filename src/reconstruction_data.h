@@ -8,10 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct ReconstructionState::Data
 {
   Options options;
@@ -28,5 +25,4 @@ struct ReconstructionState::Data
       normals; // of each point; empty if there is no mesh, or not asked for
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 ReconstructionState::setTopology (Topology topology)
 {
@@ -391,5 +388,4 @@ ReconstructionState::getCancelledCallback () const
   return data_->options.cancelled_callback;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -17,12 +17,8 @@
 #include <new>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 pcl::Indices
 toPcl (const std::vector<std::uint32_t>& indices)
 {
@@ -420,5 +416,4 @@ ReconstructionState::printOutcome (const std::string& class_name) const
       PCL_WARN ("[pcl::%s::performReconstruction] %s\n", name, warning.c_str ());
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 #include <iterator>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // One point of so many that coincides with another is worth a warning; nothing else hangs on it.
 constexpr std::size_t MANY_COINCIDE = 100;
 
@@ -191,5 +187,4 @@ reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Re
   reportOutliers (outliers, points.size () - unused.size (), report);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Counts, non-finite points and duplicates.
 void
 reportPoints (const Points& points, Report& report);
@@ -67,5 +64,4 @@ reportOtherViewpoint (const Points& points, const Viewpoint& other, Report& repo
 void
 reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

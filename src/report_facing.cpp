@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // When to tell of a part; nothing else hangs on these.
 constexpr std::size_t TINY_OBJECT = 20; // the mesh has so many times as many triangles
 constexpr double SURE_FACING = 0.9;     // certainty; told to the user below
@@ -118,5 +114,4 @@ reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Rep
         place (points, guessed.largest->at) + ": " + whyGuessed (wanted));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

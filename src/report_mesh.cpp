@@ -9,12 +9,8 @@
 #include <limits>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // When to warn; nothing else hangs on these.
 constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary loop
 constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
@@ -336,5 +332,4 @@ reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOp
   return {RunStatus::DEGENERATE, whyNothingIsLeft (trimming, options)};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,10 +14,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The boundary, figures of the system, and the parameter of every cloud point: of equal points all
 /// have the same. Triangles are anti-clockwise in the plane, also where the disc was turned round.
 /// Warnings on linked points, and where the loop takes a long step.
@@ -63,5 +60,4 @@ Problem
 reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOptions& options,
                 std::size_t triangles_left, Report& report);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

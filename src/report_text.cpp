@@ -4,10 +4,7 @@
 
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::string
 place (const Points& points, Index p)
 {
@@ -40,5 +37,4 @@ oneAt (std::size_t count, const std::string& place)
   return (count == 1 ? " at " : ", one of them at ") + place;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// "point 7 (1.5, 0, 2.25)": its cloud index and its place in the cloud.
 std::string
 place (const Points& points, Index p);
@@ -28,5 +25,4 @@ counted (std::size_t count, const char* one, const char* several);
 std::string
 oneAt (std::size_t count, const std::string& place);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

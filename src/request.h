@@ -8,10 +8,7 @@
 
 #include <array>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct Request
 {
   const Options& options;
@@ -34,5 +31,4 @@ mayBeSeen (const Options& options)
   return !asksForDisc (options) && options.view.use != ViewUse::NEVER;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -17,10 +17,7 @@
 #include "points/outliers.h"
 #include "view/view_method.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct Limits
 {
   GrossOutlierLimits gross_outliers;
@@ -38,5 +35,4 @@ struct Limits
   UncrossingLimits uncrossing;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

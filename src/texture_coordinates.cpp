@@ -7,10 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 TextureCoordinates
 computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
                            const std::vector<Triangle>& triangles, const TextureOptions& options)
@@ -36,5 +33,4 @@ computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   return result;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,12 +5,8 @@
 #include <initializer_list>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct Change
 {
   const char* option;
@@ -177,5 +173,4 @@ describeUnusedOptions (const Options& options, const Report& report, bool has_pl
   return sentences.take ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

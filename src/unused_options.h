@@ -8,10 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// One sentence for each reason why options without effect have none, with the names of these
 /// options. An option counts if its value is not the default.
 /// \param report of the run: which method made the mesh
@@ -20,5 +17,4 @@ std::vector<std::string>
 describeUnusedOptions (const Options& options, const Report& report,
                        bool has_plane_normals = false);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

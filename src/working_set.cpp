@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report)
 {
@@ -44,5 +41,4 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
   return {};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,14 +9,10 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The first step of a run: gross outliers are taken out of the input, and the rest becomes the
 /// working set. Arrays of the input are freed as soon as they have been read.
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
                       const std::vector<float>& spacing, const std::vector<float>& reach,
@@ -123,5 +119,4 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
   return all;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A triangle of the star of one, two or all three of its corners.
 struct Candidate
 {
@@ -83,5 +80,4 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
                 const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
                 const Rows& rows, const CandidateLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

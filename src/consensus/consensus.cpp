@@ -10,12 +10,8 @@
 #include <tuple>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The sector that a triangle fills in the tangent plane of one of its corners: anti-clockwise from
 // one of the other corners to the other, less than half a turn.
 struct Sector
@@ -373,5 +369,4 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Cand
   return consensus;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

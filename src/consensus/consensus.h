@@ -10,10 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Consistently oriented triangles whose sectors around each point do not overlap in its tangent
 /// plane, so that every edge has one or two. A point may still have several fans (see
 /// manifoldPart).
@@ -60,5 +57,4 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Cand
                  const TriangleMesh& mesh, const std::vector<std::array<Index, 2>>& same_side,
                  std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

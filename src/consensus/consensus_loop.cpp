@@ -9,10 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 Boundary
 consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
                const RunContext& run, const ConsensusLoopLimits& limits)
@@ -49,5 +46,4 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
   return boundary;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

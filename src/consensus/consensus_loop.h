@@ -8,10 +8,7 @@
 #include "local/local_geometry.h"
 #include "mesh/open_loops.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The limits of all steps of consensusLoop.
 struct ConsensusLoopLimits
 {
@@ -31,5 +28,4 @@ Boundary
 consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
                const RunContext& run, const ConsensusLoopLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

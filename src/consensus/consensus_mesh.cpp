@@ -8,10 +8,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 ProposedTriangles
 proposeTriangles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                   const Stars& stars, const std::vector<float>& spacing,
@@ -64,5 +61,4 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   return made;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

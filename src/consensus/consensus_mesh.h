@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Which triangles of stars become a mesh.
 struct ConsensusLimits
 {
@@ -64,5 +61,4 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
                    std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,
                    const ConsensusLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 ClosedHoles
 closeHolesOf (TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
               const SurfaceSettings& settings, const RunContext& run)
@@ -57,5 +53,4 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   return surface;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {
@@ -66,5 +63,4 @@ Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
              const RunContext& run, std::optional<ProposedTriangles> proposed = std::nullopt);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

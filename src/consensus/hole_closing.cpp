@@ -4,10 +4,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 ClosedHoles
 closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,
             const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
@@ -26,5 +23,4 @@ closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t com
   return closed;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

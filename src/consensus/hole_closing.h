@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The limits of closeHoles.
 struct HoleClosingLimits
 {
@@ -46,5 +43,4 @@ closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t com
             const std::vector<Eigen::Vector3f>& normals, double unit, const HoleOptions& holes,
             const HoleClosingLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

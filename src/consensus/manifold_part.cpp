@@ -11,12 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Drops triangles until those around every point are one fan.
 class FanPruner
 {
@@ -307,5 +303,4 @@ manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smalle
       [&neighbors] (Index p) { return neighbors.row (p); }, smallest_island, {}, run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <functional>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Keeps the fan of most votes around every point, and drops small islands. An island is an open
 /// component that has points of a larger component among the nearest neighbours of its own points:
 /// it lies in a hole of that one. What is left is an oriented manifold whose boundary loops pass
@@ -39,5 +36,4 @@ manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighb
               std::size_t smallest_island, std::vector<std::uint8_t> is_partial,
               const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // How candidates tie two sets of points, named by their representatives.
 struct OrientationVote
 {
@@ -132,5 +128,4 @@ Orientation::turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run)
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Sets of points whose normals are oriented relative to each other. A triangle joins the sets of
 /// its corners: it shows which of their normals point to the same side. Amortized almost O(1) for
 /// each call, unless it says otherwise.
@@ -47,5 +44,4 @@ private:
   SignedSets sides_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<Triangle>
 findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam)
 {
@@ -47,5 +44,4 @@ findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t sho
   return row;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Where a one-sided surface was cut open: the longest row of contradicting triangles that are
 /// connected by edges. On such a surface, an orientation that spreads all the way round contradicts
 /// itself along a whole row across the surface. A wrong triangle between two sheets stands alone.
@@ -23,5 +20,4 @@ namespace floater
 std::vector<Triangle>
 findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A row of a table.
 struct Row
 {
@@ -103,5 +100,4 @@ sumRowLengths (std::vector<Index>& offsets)
     offsets[r] += offsets[r - 1];
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Disjoint sets of the elements 0 to size - 1. The smallest element of a set represents it, in
 /// whatever order the sets were joined. Amortized O(log size) for each call.
 ///
@@ -124,5 +121,4 @@ private:
   std::vector<std::uint8_t> rank_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <iterator>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 Kernel::Point_2
@@ -110,5 +106,4 @@ doMeet (const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& a
   return CGAL::do_intersect (exactly (triangle), Kernel::Segment_3 (exactly (a), exactly (b)));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Whether three points in the plane are the corners of a triangle, anti-clockwise.
 bool
 isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
@@ -45,5 +42,4 @@ bool
 doMeet (const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& a,
         const Eigen::Vector3d& b);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

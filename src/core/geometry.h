@@ -5,10 +5,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
 constexpr double DEGREE = PI / 180.0; ///< in radians
 
@@ -37,5 +34,4 @@ isFold (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
          product * product > SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,10 +4,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 HelperThreads::~HelperThreads ()
 {
   {
@@ -60,5 +57,4 @@ HelperThreads::help ()
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Threads that stay when their work is done. A run has dozens of loops, and a new thread takes as
 /// long as looking at some thousand points. May be used by several threads.
 class HelperThreads
@@ -48,5 +45,4 @@ private:
   std::vector<std::thread> threads_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

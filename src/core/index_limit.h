@@ -8,10 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A table would have more entries than its indices can count. The message says which one, and what
 /// to do. A run that meets it ends with RunStatus::OUT_OF_MEMORY.
 class IndexLimitReached : public std::length_error
@@ -34,5 +31,4 @@ requireCountable (std::size_t entries, std::size_t most, const char* table, cons
                              " that 32-bit indices can count: " + what);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

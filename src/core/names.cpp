@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pcl/surface/floater/report.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 const char*
 stageName (Stage stage)
 {
@@ -106,5 +103,4 @@ facingRuleName (FacingRule rule)
   return "unknown";
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

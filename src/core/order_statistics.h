@@ -8,10 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The value that has `rank` others before it. O(n).
 /// \param[in,out] values more than `rank`; their order changes
 template <typename Value>
@@ -68,5 +65,4 @@ sortUnique (std::vector<Value>& values)
   values.erase (std::unique (values.begin (), values.end ()), values.end ());
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

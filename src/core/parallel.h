@@ -15,10 +15,7 @@
 #include <mutex>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Calls body (i) for every i below `count`, on the threads of the run and in any order. So body
 /// may write only to places that belong to i; then the result does not depend on the number of
 /// threads. The first exception that a body throws is rethrown here, and no more tasks are begun.
@@ -106,5 +103,4 @@ parallelRanges (const RunContext& run, std::size_t count, Body&& body)
   });
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

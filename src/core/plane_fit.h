@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct Plane
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
@@ -108,5 +105,4 @@ private:
   double weight_ = 0.0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Status and one sentence for the user; RunStatus::SUCCESS means that there is no problem.
 struct Problem
 {
@@ -20,5 +17,4 @@ struct Problem
   explicit operator bool () const { return status != RunStatus::SUCCESS; }
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 #include <array>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::chrono::milliseconds BETWEEN_POLLS{50};
 constexpr auto STAGES = static_cast<std::size_t> (Stage::COUNT);
 using Shares = std::array<double, STAGES>; // in percent, in the order of the stages
@@ -191,5 +187,4 @@ ProgressLoop::reach (std::size_t count)
   monitor_->pollNowAndThen ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

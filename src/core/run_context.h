@@ -14,10 +14,7 @@
 #include <functional>
 #include <thread>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Unwinds a run that its caller has cancelled. It is no std::exception, so that no stage takes it
 /// for a failure of its own.
 struct Cancelled
@@ -197,5 +194,4 @@ private:
   bool moves_ = false; // is the outermost loop of the run's own thread
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Right-handed axes with the normal as the third.
 struct TangentFrame
 {
@@ -25,5 +22,4 @@ struct TangentFrame
   Eigen::Vector3d normal, x, y;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

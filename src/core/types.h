@@ -14,15 +14,11 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 using Index = std::uint32_t;
 constexpr Index NONE = std::numeric_limits<Index>::max ();
 
 /// Corners of a triangle, anti-clockwise seen from the front.
 using Triangle = std::array<Index, 3>;
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 template <typename Vector>
 double
 sqrLengths (const std::vector<Vector>& at, const Triangle& t)
@@ -227,5 +223,4 @@ findCollapsedRegions (const TriangleMesh& mesh, const std::vector<Eigen::Vector2
   return regions;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A disc of triangles that is too small in the plane, and all points that lie in it.
 struct CollapsedRegion
 {
@@ -39,5 +36,4 @@ findCollapsedRegions (const TriangleMesh& mesh, const std::vector<Eigen::Vector2
                       const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
                       const RunContext& run, const DiscLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

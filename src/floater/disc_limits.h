@@ -5,10 +5,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Thresholds that decide what the mesh of a disc is, or whether there is one.
 struct DiscLimits
 {
@@ -35,5 +32,4 @@ struct DiscLimits
   double largest_fold_share = 0.03;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

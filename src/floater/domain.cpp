@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Two steps g and h on a curve of curvature c turn left by an area of c g h / 2. Rounding may turn
 // them right unless that area is well above the distance of doubles near 1, which is 2e-16. With
 // these two values it is 8e-15 or more.
@@ -169,5 +165,4 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   return layOnRegularPolygon (chords, std::min (count, static_cast<std::size_t> (sides)));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

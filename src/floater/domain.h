@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Lays a closed loop on a convex curve in the unit circle, anti-clockwise. Steps along the circle,
 /// or along the sides of a polygon, are proportional to the lengths of the loop's steps, to the
 /// square roots of these, or equal (LoopSpacing). The first point of the loop is at angle 0 of the
@@ -36,5 +33,4 @@ std::vector<Eigen::Vector2d>
 layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
          const DomainOptions& options);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 Problem
 describeFolds (const Disc& disc)
 {
@@ -80,5 +76,4 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   return disc;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

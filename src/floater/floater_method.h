@@ -8,10 +8,7 @@
 #include "floater/parameterize.h"
 #include "mesh/finish.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct DiscSettings
 {
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
@@ -45,5 +42,4 @@ Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

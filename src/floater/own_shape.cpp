@@ -12,12 +12,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Outline = std::vector<Eigen::Vector2d>;
 
 // The loop in its least-squares plane along its principal axes, anti-clockwise, in the unit circle.
@@ -166,5 +162,4 @@ isStrictlyConvex (const std::vector<Eigen::Vector2d>& polygon)
   return count >= 3 && std::abs (turn - TWO_PI) < 1.0;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A convex polygon whose corners are points of a loop.
 struct OwnShape
 {
@@ -42,5 +39,4 @@ findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<I
 bool
 isStrictlyConvex (const std::vector<Eigen::Vector2d>& polygon);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

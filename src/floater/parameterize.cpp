@@ -10,12 +10,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Adds each link as one more neighbour, with the weight of an average neighbour.
 // \param links (point, neighbour), ascending
 void
@@ -124,5 +120,4 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   return result;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct ParameterizationSettings
 {
   Weighting weighting = Weighting::MEAN_VALUE;
@@ -52,5 +49,4 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
               const std::vector<Index>& loop, const ParameterizationSettings& settings,
               const RunContext& run, const DiscLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

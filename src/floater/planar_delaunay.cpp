@@ -13,12 +13,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
@@ -190,5 +186,4 @@ isInCircle (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
                                        DECIDES_TIES) == CGAL::ON_POSITIVE_SIDE;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The Delaunay triangulation of points in the plane, by CGAL with exact predicates. Its boundary
 /// is the loop: slivers between the loop and the convex hull, which rounding leaves where the loop
 /// is nearly straight, are removed. Of points at the very same place only one is a vertex, a loop
@@ -35,5 +32,4 @@ bool
 isInCircle (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
             const Eigen::Vector2d& d);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

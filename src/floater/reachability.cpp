@@ -7,12 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The reversed lists: row q holds the points p, ascending, whose row holds q. Only entries for
 // which use (p, q) is true.
 template <typename Use>
@@ -113,5 +109,4 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
   return result;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

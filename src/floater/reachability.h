@@ -11,10 +11,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The points from which the loop can be reached along directed neighbours.
 struct Reachability
 {
@@ -39,5 +36,4 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
            const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
            const RunContext& run, const DiscLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

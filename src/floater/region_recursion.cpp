@@ -10,12 +10,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A collapsed region as a cloud of its own. Its points are numbered from 0.
 struct Subproblem
 {
@@ -195,5 +191,4 @@ layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& 
   return levels;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

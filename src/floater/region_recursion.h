@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// On a tube of length L and radius R parameters shrink like exp (-L / R). From an L / R of about
 /// 35 on, points coincide in the plane. Here the loop of every collapsed region is laid on a circle
 /// of its own, the points of the region are parameterized and triangulated alone, and the region's
@@ -37,5 +34,4 @@ layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& 
                         const StarSettings& star_settings, const ParameterizationSettings& settings,
                         const RunContext& run, const DiscLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // tan (alpha / 2) of a sector of half a turn, or nearly. There the centre lies on the segment
 // between two neighbours, and their weights exceed all others without limit. Any large value
 // reproduces the centre up to an error of its reciprocal; a much larger one would decouple these
@@ -245,5 +241,4 @@ computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)
   return weights;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

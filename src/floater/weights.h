@@ -10,10 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Smallest weight of a row relative to its largest. Far below any weight that matters, and far
 /// above rounding: a weight that is lost in rounding would cut the graph.
 constexpr double SMALLEST_WEIGHT = 1e-10;
@@ -33,5 +30,4 @@ constexpr double SMALLEST_WEIGHT = 1e-10;
 std::vector<double>
 computeWeights (const Stars& stars, Weighting weighting, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

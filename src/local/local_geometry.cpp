@@ -8,12 +8,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Calls make (beyond) with what stars need to reach beyond the neighbours, or nullptr.
 template <typename Make>
 Stars
@@ -99,5 +95,4 @@ makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings&
       run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

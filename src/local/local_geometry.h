@@ -11,10 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What both methods know of the surface around each point.
 struct LocalGeometry
 {
@@ -69,5 +66,4 @@ LocalGeometry
 makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
                    const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Relative to the lengths involved: below it, a cross product of neighbours reads as zero, so that
 // rounding on grids does not open a star or turn a straight line into a corner.
 constexpr double COLLINEAR = 1e-9;
@@ -223,5 +219,4 @@ PlanarStar::order (std::vector<PlanarNeighbor>& neighbors)
   return open;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

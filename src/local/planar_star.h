@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A neighbour in the tangent plane, relative to the centre of the star.
 struct PlanarNeighbor
 {
@@ -53,5 +50,4 @@ private:
   bool is_open_ = true;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Which neighbours are taken for points of another sheet. Chosen on the clouds of the first
 /// benchmark: wide enough for sharp edges of 90 degrees, and not certain for thin sheets.
 struct SheetLimits
@@ -30,5 +27,4 @@ onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
          std::abs (normal.dot (other_normal)) >= limits.normal_cosine;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t FIRST_RING = 8; // neighbours over which the mean is taken: the first ring
 constexpr double PERPENDICULAR = 0.1; // cosine below which its sign does not tell the side
 constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
@@ -55,5 +51,4 @@ smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
   return smoothed_normals;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
 /// own. On a sharp edge the plane that fits best is that of either face; the mean lies between the
 /// faces.
@@ -28,5 +25,4 @@ smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
                  const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
                  const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

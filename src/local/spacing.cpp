@@ -4,10 +4,7 @@
 
 #include "core/parallel.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const Rows& rows, const RunContext& run)
@@ -35,5 +32,4 @@ localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   return localSpacing (positions, neighbors, Rows::all (positions.size ()), run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

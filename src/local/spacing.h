@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
 /// triangulation that is the length of an edge. O(n). \param neighbors nearest first
 std::vector<float>
@@ -24,5 +21,4 @@ std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const Rows& rows, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

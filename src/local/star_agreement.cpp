@@ -6,10 +6,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 bool
 hasTriangle (const Stars& stars, Index p, Index q, Index r)
 {
@@ -46,5 +43,4 @@ starAgreement (const Stars& stars, const RunContext& run)
   return agreement;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).
 bool
 hasTriangle (const Stars& stars, Index p, Index q, Index r);
@@ -22,5 +19,4 @@ hasTriangle (const Stars& stars, Index p, Index q, Index r);
 std::vector<float>
 starAgreement (const Stars& stars, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Below one by more than the rounding of a circumcircle: points on it, as on grids, are not inside.
 constexpr double INSIDE = 1.0 - 1e-9;
 
@@ -332,5 +328,4 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
   return open;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

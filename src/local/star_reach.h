@@ -12,10 +12,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How far stars reach beyond the nearest neighbours.
 struct ReachLimits
 {
@@ -130,5 +127,4 @@ private:
   std::vector<Neighbor> found_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 enum class Tier
 {
   EITHER_PLANE,
@@ -164,8 +160,7 @@ struct StarRange
   }
 };
 
-namespace
-{
+namespace {
 // Leaves out far neighbours across holes. Returns whether there were any.
 bool
 leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& reach,
@@ -385,5 +380,4 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
   return stars;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Which of the neighbours are in a star.
 enum class StarKind
 {
@@ -125,5 +122,4 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
              const StarSettings& settings, const RunContext& run,
              const BeyondNeighbors* beyond = nullptr);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

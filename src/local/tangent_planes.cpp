@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t ADDED = 2; // neighbours at a time, while all lie on a line
 
 Eigen::Vector3d
@@ -58,5 +54,4 @@ fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
   return normals;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What is taken for the sheet of a point. The first two values were chosen on the clouds of the
 /// first benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds
 /// there (test/benchmark/flaws.py tells what changes with them).
@@ -36,5 +33,4 @@ std::vector<Eigen::Vector3f>
 fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                   const Rows& rows, const RunContext& run, const PlaneLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 class FoldOpener
 {
 public:
@@ -111,5 +107,4 @@ openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
   return count;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

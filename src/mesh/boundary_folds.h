@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Takes triangles out where a folded edge (isFold) is so near the boundary that it ends with one
 /// or two of them: a triangle of the fold that lies at the boundary, or comes to lie there without
 /// the one before it. Of several choices, the one with the least area. Such a fold joins a rim to
@@ -26,5 +23,4 @@ std::size_t
 openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                    const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

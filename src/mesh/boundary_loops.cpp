@@ -6,12 +6,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t WIDTH_POINTS = 256; // at most, for the width: it takes their square
 
 double
@@ -61,5 +57,4 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
   return loops;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A closed walk along boundary edges.
 struct BoundaryLoop
 {
@@ -36,5 +33,4 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
                    const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
                    const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <tuple>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 // Of the angle opposite to an edge; 1 if points coincide.
@@ -127,5 +123,4 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& 
                       run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// At the boundary of a surface, points tell nothing of the triangle in a notch between them. If it
 /// belongs to the surface, its angles are like those of others; if it only fills the notch, the
 /// angle opposite to the boundary is obtuse: the boundary edge is then no Gabriel edge, as the
@@ -55,5 +52,4 @@ std::size_t
 openNotches (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const NotchLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Notes which triangles are to be taken from the boundary of a mesh; the mesh stays as it is.
 /// A triangle may be taken if it has one boundary edge, and its other corner is inside. So every
 /// point keeps a triangle, the mesh stays a manifold, and neither the number of components nor of
@@ -79,5 +76,4 @@ private:
   std::vector<std::uint8_t> is_at_boundary_; // per point
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Boxes in leaves of LEAF_SIZE, which lie in nodes of FAN nodes each. Those next to each other in
 /// the order in which they are given should be near in space. 28 bytes per box; they are rounded
 /// outwards to single precision, so that a few more may seem to overlap. Const functions may be
@@ -308,5 +305,4 @@ private:
   std::vector<std::vector<Box>> levels_; // boxes around the leaves, and around these, upwards
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

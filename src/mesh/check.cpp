@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 noteImproper (const std::vector<Triangle>& triangles, std::size_t points, Surroundings& around)
 {
@@ -113,5 +109,4 @@ checkCrossing (const std::vector<Triangle>& triangles, const Points& points, con
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What the examination counts as odd. None of it changes a mesh.
 struct CheckLimits
 {
@@ -86,5 +83,4 @@ void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
                MeshExamination& found);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <map>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 struct OpenEdge
@@ -173,5 +169,4 @@ findContinuations (const TriangleMesh& mesh, const MeshComponents& components,
   return found;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When a boundary edge is continued by another one.
 struct ContinuationLimits
 {
@@ -42,5 +39,4 @@ findContinuations (const TriangleMesh& mesh, const MeshComponents& components,
                    const std::vector<Eigen::Vector3d>& positions, const ContinuationLimits& limits,
                    const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t TESTS_PER_EXACT = 9; // that take as long as what it takes longer
 
 bool
@@ -140,5 +136,4 @@ CrossingTable::findPartners (Index t, std::vector<Index>& partners)
   tests_ += tests + TESTS_PER_EXACT * exact_tests;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The crossing pairs of a mesh. A search changes the mesh, asks what that does to the pairs around
 /// the triangles that changed, and either accepts the change or undoes it in the mesh and here. The
 /// mesh must keep its number of triangles.
@@ -70,5 +67,4 @@ private:
   std::size_t tests_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

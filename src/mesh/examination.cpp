@@ -8,12 +8,8 @@
 #include <numeric>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Boundary edges in cycles. Where the mesh is no manifold, a walk ends at a point that no edge
 // leaves.
 std::vector<BoundaryLoop>
@@ -147,5 +143,4 @@ makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
   return found;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

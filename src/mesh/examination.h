@@ -8,10 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What was found of a mesh, point by point.
 struct ExaminedParts
 {
@@ -33,5 +30,4 @@ makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
                  const std::function<Index (Index)>& pointOf, const std::vector<Index>& component,
                  const Points& points);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A mesh that is there as a whole.
 class WholeMesh : public FacedMesh
 {
@@ -58,5 +54,4 @@ faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   return facing;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When a surface has an inside and an outside, and along which axis it faces if not.
 struct FacingLimits
 {
@@ -134,5 +131,4 @@ MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 bool
@@ -396,5 +392,4 @@ judgeFacing (FacedMesh& mesh, const std::vector<FacingSums>& components,
   return is_turned;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A mesh whose facing is judged. It is asked for its triangles only where sums over its components
 /// do not decide, but lines of sight.
 class FacedMesh
@@ -37,5 +34,4 @@ judgeFacing (FacedMesh& mesh, const std::vector<FacingSums>& components,
              std::vector<Continuation> together, const FacingHints& hints,
              const FacingLimits& limits, const RunContext& run, MeshFacing& facing);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

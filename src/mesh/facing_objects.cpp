@@ -8,12 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Triangles that are summed by one task. The sums of tasks are added in their order, so that
 // threads do not matter.
 constexpr std::size_t SUMMED = 65536;
@@ -236,5 +232,4 @@ bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& comp
   return bulges;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Sums over the triangles of a component, or of the components of an object.
 struct FacingSums
 {
@@ -145,5 +142,4 @@ bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& comp
           const std::vector<BoundarySegment>& boundary, const FacingObjects& objects,
           double flatness);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

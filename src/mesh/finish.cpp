@@ -8,12 +8,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Fraction of the stage's time at which these steps end. Measured on clean clouds.
 constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
 } // namespace
@@ -70,5 +66,4 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   return finish;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

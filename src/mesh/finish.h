@@ -14,10 +14,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The limits of all steps of finishMesh.
 struct FinishLimits
 {
@@ -86,5 +83,4 @@ MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

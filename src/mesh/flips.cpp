@@ -11,12 +11,8 @@
 #include <atomic>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
 constexpr std::size_t EDGES_PER_POLL = 256;
 } // namespace
@@ -135,8 +131,7 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
   return total_then - total;
 }
 
-namespace
-{
+namespace {
 // Flips the edges that `is_chosen` names, and others after them.
 template <typename IsChosen>
 std::size_t
@@ -182,5 +177,4 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
                              [&] (Index t, Index u) { return is_free[t] == 0 || is_free[u] == 0; });
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Gives every normal the sign for which most of the area around its point faces along it. Normals
 /// of points without triangles stay as they are. O(n), on all threads.
 void
@@ -69,5 +66,4 @@ private:
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <functional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Nearest neighbours of the points of a block, counted within it; those elsewhere are left out.
 CsrLists
 neighborsWithin (const CsrLists& neighbors, Index first, Index last)
@@ -170,5 +166,4 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<I
   return moves_in_blocks + moves + kicks + rebuilds;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).
 std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -43,5 +40,4 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<I
               const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
               const RepairLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Edge = std::pair<Index, Index>;
 
 Edge
@@ -205,5 +201,4 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
   return filled;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,10 +6,7 @@
 #include "mesh/boundary_loops.h"
 #include "mesh/triangle_cost.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How holes are filled.
 struct HoleFillingLimits
 {
@@ -34,5 +31,4 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
            const std::vector<Eigen::Vector3d>& positions, const TriangleCost& cost,
            const HoleFillingLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

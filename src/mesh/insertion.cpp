@@ -11,12 +11,8 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t LARGEST_STAR = 200; // triangles: the largest k of the options
 
 // A partial point without a triangle has one that is not seen here.
@@ -235,5 +231,4 @@ orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,10 +6,7 @@
 #include "mesh/flips.h"
 #include "mesh/triangle_mesh.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Whether there are points that insertMissingPoints would insert if it could. O(n).
 bool
 isAnyMissing (const TriangleMesh& mesh);
@@ -38,5 +35,4 @@ void
 orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
                       std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have any number
 
 // Corners of a loop between which it is filled; a longer one is taken in even steps. A limit of
@@ -259,5 +255,4 @@ findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
   return evidence;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

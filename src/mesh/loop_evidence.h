@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When a point counts as one that sees no other point beyond the surface.
 struct EmptySectorLimits
 {
@@ -58,5 +55,4 @@ findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
               const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits,
               const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

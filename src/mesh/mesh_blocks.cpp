@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int SMALLEST_SHIFT = 12, LARGEST_SHIFT = 16; // 4,096 and 65,536 points
 constexpr std::size_t BLOCKS = 16;
 
@@ -113,5 +109,4 @@ MeshBlocks::putBack (const MeshBlock& part, std::size_t block, TriangleMesh& mes
       mesh.triangle_of[part.first + p] = ids[part.mesh.triangle_of[p]];
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

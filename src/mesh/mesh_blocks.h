@@ -10,10 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Consecutive points, and the triangles all of whose corners are among them. Triangles beside one
 /// that is not in the block are fixed. So the triangles beside one that is not fixed are all there,
 /// and its cost and that of its edges are those in the whole mesh. Fewer changes are possible: none
@@ -73,5 +70,4 @@ private:
   std::vector<std::uint8_t> is_partial_; // per point: a triangle around it is in no block
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <atomic>
 #include <unordered_map>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Wedges up to which comparing all with all is faster than a hash table. Measured.
 constexpr std::size_t MANY_IN_STAR = 32;
 
@@ -124,5 +120,4 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
   return is_manifold;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

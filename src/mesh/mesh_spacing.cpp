@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<float>
 spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const RunContext& run)
@@ -42,5 +39,4 @@ spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   return spacing;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

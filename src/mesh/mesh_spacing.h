@@ -7,15 +7,11 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Spacing of each point on a mesh: the median length of its edges. For points without edges, the
 /// median of all others. O(n).
 std::vector<float>
 spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <numeric>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Indices from that of the largest key on; equal keys keep their order.
 template <typename Key>
 std::vector<std::size_t>
@@ -120,5 +116,4 @@ chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgeme
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

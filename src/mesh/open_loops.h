@@ -10,10 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When a loop is taken for the end of the surface, and not for a gap of the sampling.
 ///
 /// The coefficients are those of a logistic regression: the sum of evidence times coefficient is
@@ -82,5 +79,4 @@ void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgement>& judgements,
                  std::size_t components, const HoleOptions& holes, double unit);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Triangulates polygons at least cost by dynamic programming over their sub-polygons (Barequet and
 /// Sharir 1995 "Filling gaps in the boundary of a polyhedron"; Liepa 2003 "Filling holes in
 /// meshes"). O(m^3) time and 16 m^2 bytes for m corners. Keeps its memory for the next polygon.
@@ -80,5 +77,4 @@ private:
   std::vector<Choice> best_; // [i * m + j]
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Counts marked points in patches, each of so many points along the space-filling curve.
 class PatchCounter
 {
@@ -81,5 +77,4 @@ findRepairTargets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
   return targets;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What the repair of folds knows of each point beforehand.
 enum class RepairTarget : std::uint8_t
 {
@@ -48,5 +45,4 @@ isBad (const TriangleMesh& mesh, const TriangleCost& cost, Index t, NormalOf&& n
   return false;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <limits>
 #include <unordered_map>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
 constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // that take about as long: an estimate
 
@@ -321,5 +317,4 @@ removeSelfIntersections (TriangleMesh& mesh, const std::vector<CrossingPair>& pa
   return CrossingRepair (mesh, pairs, neighbors, cost, positions, limits, run).run ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What a change may cost, and how much is tried; the latter are limits of time. All were
 /// chosen by hand.
 struct UncrossingLimits
@@ -68,5 +65,4 @@ removeSelfIntersections (TriangleMesh& mesh, const std::vector<CrossingPair>& pa
                          const std::vector<Eigen::Vector3d>& positions,
                          const UncrossingLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

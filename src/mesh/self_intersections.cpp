@@ -12,12 +12,8 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 // What rounding can do to a product of three differences of coordinates is some 20 units in the
@@ -389,5 +385,4 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
   return pairsInOrder (findSelfIntersectionsOf (sorted, 0, sorted.size (), positions, run), order);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Two triangles that have more in common than their common corners: they cross, touch, or overlap
 /// in a plane.
 struct CrossingPair
@@ -82,5 +79,4 @@ bool
 doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions,
          std::size_t* exact_tests = nullptr);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Spokes up to which a look at all of them is faster than a hash table. Measured.
 constexpr std::size_t MANY_AROUND = 32;
 
@@ -218,5 +214,4 @@ lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckL
   return all;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

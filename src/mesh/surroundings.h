@@ -11,10 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// From, to: the surface on the left.
 using BoundaryEdge = std::pair<Index, Index>;
 
@@ -91,5 +88,4 @@ Surroundings
 lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckLimits& limits,
             DisjointSets* sets, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double LEAST_AREA = 1e-9;  // doubled, by the sum of the squared edges: so that the costs
                                      // of needles stay finite and comparable
 constexpr double LARGEST_AREA = 1e9; // doubled, by the squared spacing, which may be 0: so that the
@@ -69,5 +65,4 @@ TriangleCost::isTurned (const Triangle& corners) const
   return agreement (a, b, c, area_vector, area_vector.norm ()) < limits_.turned_cosine;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Penalties of TriangleCost. The unit of cost is that of cotangents: a right isosceles triangle
 /// costs 2, an equilateral one 1.73. All values were chosen by hand, large compared with the cost
 /// of a good triangle; no measurement is recorded.
@@ -158,5 +155,4 @@ private:
   std::size_t asked_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

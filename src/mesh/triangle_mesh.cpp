@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Triangles whose components are found by one task. Long enough that few edges leave them.
 constexpr std::size_t JOINED = 65536;
 
@@ -312,5 +308,4 @@ countPoints (const TriangleMesh& mesh, const MeshComponents& components)
   return points;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// An edge of a triangle, the one opposite to its corner `side` (0 to 2).
 struct MeshEdge
 {
@@ -162,5 +159,4 @@ findComponents (const TriangleMesh& mesh, const RunContext& run);
 std::vector<std::size_t>
 countPoints (const TriangleMesh& mesh, const MeshComponents& components);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Triangles in the order of their smallest points, which lie along a space-filling curve. Of one
 /// point, in their own order. O(n).
 /// \param points number of points; corners are below
@@ -28,5 +25,4 @@ orderByPoints (const std::vector<Triangle>& triangles, std::size_t points)
       .ids;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 #include "core/geometry.h"
 #include "mesh/triangle_order.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 TriangleRays::TriangleRays (const std::vector<Triangle>& triangles,
                             const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
     : triangles_ (triangles), positions_ (positions),
@@ -47,5 +44,4 @@ TriangleRays::hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d
   return slope != 0.0 ? std::max (0.0, a.dot (normal) / slope) : 0.0;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

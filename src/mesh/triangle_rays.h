@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Triangles in a tree of boxes. About 12 bytes per triangle; O(n) to make, in parallel but for the
 /// sorting. Rays may be cast by several threads.
 class TriangleRays
@@ -56,5 +53,4 @@ private:
   BoxTree tree_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 class TriangleRemoval
 {
 public:
@@ -126,5 +122,4 @@ removeSmallComponents (TriangleMesh& mesh, std::size_t fewest_points, const RunC
                      [fewest_points] (std::size_t count) { return count < fewest_points; }));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Takes triangles out. Where that leaves a point with several fans of triangles, only the largest
 /// fan stays, and of equal ones the first; triangles of the others are taken out as well, until no
 /// point has several fans. The mesh stays an oriented manifold, and may become empty. O(n).
@@ -23,5 +20,4 @@ removeTriangles (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const
 std::size_t
 removeSmallComponents (TriangleMesh& mesh, std::size_t fewest_points, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <unordered_map>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // An edge is as long as the limit up to rounding; positions are in a box of diagonal 1.
 constexpr double LENGTH_ROUNDING = 1e-15;
 
@@ -123,5 +119,4 @@ trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& sp
   return done;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What trimMesh () has cut off.
 struct Trimming
 {
@@ -38,5 +35,4 @@ Trimming
 trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
           const TrimmingOptions& options, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

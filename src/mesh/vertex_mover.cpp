@@ -6,10 +6,7 @@
 #include <limits>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 // Cost of some triangles and of all their edges; an edge between two of them counts once.
 double
 VertexMover::costOf (const Index* first, const Index* last)
@@ -211,5 +208,4 @@ VertexMover::offer (Index t, Index v, std::size_t most)
   places_.insert (std::upper_bound (places_.begin (), places_.end (), place, isCheaper), place);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

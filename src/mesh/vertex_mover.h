@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Takes a vertex out, fills its hole by the triangulation of least cost (see PolygonFilling), puts
 /// it back into a triangle at one of its nearest neighbours, on whatever sheet, and flips edges
 /// around both places. Vertices at the boundary and those with too many triangles stay. As long as
@@ -97,5 +94,4 @@ private:
   std::uint32_t search_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

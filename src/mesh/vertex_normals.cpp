@@ -13,12 +13,8 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // What a triangle adds to the normal of one of its corners.
 struct CornerTerm
 {
@@ -104,5 +100,4 @@ vertexNormals (const std::vector<Eigen::Vector3d>& positions,
   return normals;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

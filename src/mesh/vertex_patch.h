@@ -10,10 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Adds the vertices beside those of a patch. The patch is ascending afterwards.
 inline void
 addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
@@ -45,5 +42,4 @@ tryOrders (std::vector<Index> patch, std::size_t orders, Attempt&& attempt)
   return false;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

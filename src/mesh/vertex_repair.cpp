@@ -10,12 +10,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::uint8_t NO_PLACE = 255; // a rank: all places were tried in vain
 } // namespace
 
@@ -234,5 +230,4 @@ VertexRepair::rebuildAround (Index v)
   return false;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

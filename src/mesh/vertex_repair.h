@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How much is tried to remove folds. All are limits of time: larger values may remove a few more
 /// folds. They were chosen by hand; no measurement is recorded.
 struct RepairLimits
@@ -98,5 +95,4 @@ private:
   std::vector<Index> fan_, around_, changed_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Triangles are counted in chunks. There are few of them, as each has a counter for each range, and
 // enough for the threads of a large machine. Short ones do not pay for a task.
 constexpr std::size_t MOST_CHUNKS = 64, SHORTEST_CHUNK = 65536;
@@ -104,5 +100,4 @@ VertexStars::VertexStars (const std::vector<Triangle>& triangles, const Triangle
   begins_.pop_back ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

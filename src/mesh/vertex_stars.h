@@ -9,10 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Whether the corners are three points below `points`.
 inline bool
 isProper (const Triangle& t, std::size_t points)
@@ -95,5 +92,4 @@ private:
   std::vector<Wedge> wedges_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A unit vector around the normal, distributed by the cosine law: a point of the unit disc, lifted
 // to the half sphere (Malley).
 Eigen::Vector3d
@@ -39,5 +35,4 @@ SightLineSampler::add (Index triangle, double area, const Eigen::Vector3d& middl
     lines.push_back ({triangle, middle, directionAround (normal, count_++)});
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

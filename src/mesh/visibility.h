@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A line through a triangle.
 struct SightLine
 {
@@ -74,5 +71,4 @@ look (const TriangleRays& rays, const std::vector<SightLine>& lines, Blocks&& bl
   return sights;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Connects inner triangles. Points at which other triangles are missing have several fans.
 void
 connectInner (TriangleMesh& mesh, std::size_t points, const RunContext& run)
@@ -142,5 +138,4 @@ turnInner (std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is
       std::swap (triangles[t][1], triangles[t][2]);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

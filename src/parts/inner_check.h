@@ -13,10 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Pairs of triangles that cross each other.
 struct CrossingSum
 {
@@ -105,5 +102,4 @@ std::vector<Index>
 innerComponents (std::vector<Triangle> triangles, Index first, std::size_t points,
                  const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

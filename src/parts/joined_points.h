@@ -9,10 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Numbers for some points of a cloud, in the order of the cloud.
 class JoinedPoints
 {
@@ -37,5 +34,4 @@ private:
   std::vector<Index> points_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Makes room for values between others. \param place where each value goes
 template <typename Value>
 void
@@ -168,5 +164,4 @@ RimJoiner::join (const RunContext& run) &&
   return joined;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

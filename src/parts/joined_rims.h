@@ -9,10 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A triangle of a part, by its corners, which are places in the joined points.
 struct RimTriangle
 {
@@ -75,5 +72,4 @@ private:
   Index parts_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

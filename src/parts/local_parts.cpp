@@ -10,12 +10,8 @@
 #include <atomic>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 template <typename Value>
 std::vector<Value>
 slice (const std::vector<Value>& values, Index first, Index last)
@@ -149,5 +145,4 @@ LocalParts::valuesOf (const std::vector<Index>& points)
   return values;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Meshes the parts when it is made.
 class LocalParts : public PartWork
 {
@@ -47,5 +44,4 @@ private:
   std::vector<std::vector<Eigen::AlignedBox3d>> buckets_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 // Each ring is a pass over all triangles, since a point may have several fans.
 MeshRegion
 regionAround (const std::vector<Triangle>& triangles, std::size_t points,
@@ -54,5 +51,4 @@ regionAround (const std::vector<Triangle>& triangles, std::size_t points,
   return region;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

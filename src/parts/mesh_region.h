@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Triangles of a mesh, and their corners. All numbers are those of the mesh.
 struct MeshRegion
 {
@@ -28,5 +25,4 @@ regionAround (const std::vector<Triangle>& triangles, std::size_t points,
               const std::vector<Index>& seeds, std::size_t rings,
               const std::vector<std::uint8_t>& besides = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A bucket that is in the box of another part.
 struct SharedBucket
 {
@@ -248,5 +244,4 @@ findNearTriangles (const std::vector<Triangle>& seam,
   return NearFinder (seam, seam_positions, checks, work, run).find ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Some inner triangles.
 struct NearTriangles
 {
@@ -39,5 +36,4 @@ findNearTriangles (const std::vector<Triangle>& seam,
                    const std::vector<Eigen::Vector3d>& seam_positions,
                    const std::vector<InnerCheck>& checks, PartWork& work, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

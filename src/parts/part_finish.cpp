@@ -14,12 +14,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Edge = std::array<Index, 2>; // from, to
 
 Triangle
@@ -332,5 +328,4 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
   return finished;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

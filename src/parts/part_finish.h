@@ -10,10 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The triangles of a part around those that have corners in several parts, and around the
 /// boundary, and all that is known of their corners. Points are those of the cloud.
 struct SeamZone
@@ -67,5 +64,4 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
             const NeighborRows& neighbors, const std::vector<Index>& scatter,
             const PartFinishSettings& settings, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 PartCandidates
 divideCandidates (CandidateLists of_part, Index first, Index last,
                   const std::vector<std::uint8_t>& reaches_out)
@@ -70,8 +67,7 @@ reachesOut (const CsrLists& stars, Index first, const Parts& parts)
   return reaches;
 }
 
-namespace
-{
+namespace {
 std::vector<Index>
 findRoom (const TriangleMesh& mesh)
 {
@@ -139,5 +135,4 @@ makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
   return part;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

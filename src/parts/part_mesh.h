@@ -11,10 +11,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The points of a part, from the first one of the part on.
 struct PartPoints
 {
@@ -73,5 +70,4 @@ makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
               PartCandidates candidates, const NeighborRows& neighbors,
               const ConsensusLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Rings that have to be seen behind a boundary, to judge it (see findEvidence).
 constexpr std::size_t BEHIND_BOUNDARY = 5;
 
@@ -115,5 +111,4 @@ findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& nei
   return rim;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

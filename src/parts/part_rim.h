@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The triangles of a part around its boundary, all that is known of their corners, and the
 /// candidates for which there is room. Points are those of the cloud.
 struct PartRim
@@ -49,5 +46,4 @@ PartRim
 findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& neighbors,
          const OtherPoints& others, std::size_t rings, std::size_t smallest);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What is known of some points.
 struct PointValues
 {
@@ -60,5 +57,4 @@ valuesOfAll (PartWork& work, std::size_t points)
   return work.valuesOf (all);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

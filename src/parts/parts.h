@@ -7,10 +7,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How a large cloud is cut, and how much of a part others see.
 struct PartLimits
 {
@@ -58,5 +55,4 @@ private:
   std::size_t points_, count_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // As many rims at a time as there are threads.
 JoinedRims
 joinRims (const Parts& parts, PartWork& work, std::size_t rings, const RunContext& run)
@@ -118,5 +114,4 @@ makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
   return made;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

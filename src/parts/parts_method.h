@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How a surface in parts is made and checked.
 struct PartsSettings
 {
@@ -42,5 +39,4 @@ SurfaceOfParts
 makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
                     const PartsSettings& settings, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -16,12 +16,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 template <typename Value>
 std::vector<Value>
 valuesOf (const std::vector<Value>& values, const JoinedPoints& points)
@@ -395,5 +391,4 @@ assembleTriangles (const MeshOfParts& mesh, const std::vector<InnerCheck>& check
   return all;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A mesh, most triangles of which stay where the parts are.
 struct MeshOfParts
 {
@@ -59,5 +56,4 @@ std::vector<Triangle>
 assembleTriangles (const MeshOfParts& mesh, const std::vector<InnerCheck>& checks,
                    const Parts& parts, PartWork& work, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 SeamComponents
 joinComponents (const JoinedPoints& points, const TriangleMesh& mesh, std::size_t seam,
                 const NearTriangles& near, const std::vector<InnerCheck>& checks)
@@ -77,5 +74,4 @@ joinComponents (const JoinedPoints& points, const TriangleMesh& mesh, std::size_
   return components;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Components in the order of their smallest points.
 struct SeamComponents
 {
@@ -34,5 +31,4 @@ SeamComponents
 joinComponents (const JoinedPoints& points, const TriangleMesh& mesh, std::size_t seam,
                 const NearTriangles& near, const std::vector<InnerCheck>& checks);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The neighbours that are in the zones.
 void
 toPlaces (const JoinedPoints& points, CsrLists& lists, const RunContext& run)
@@ -123,5 +119,4 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
   return finished;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The zones of all parts. Points are places in `points`.
 struct JoinedZones
 {
@@ -46,5 +43,4 @@ FinishedSeam
 finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<double> corners,
             const FinishSettings& settings, std::size_t rings, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,12 +14,8 @@
 #include <set>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Components of the whole mesh, of those of what is seen of it.
 MeshComponents
 joinComponents (const TriangleMesh& mesh, const JoinedRims& joined, const RunContext& run)
@@ -185,5 +181,4 @@ stitch (JoinedRims joined, const Parts& parts, double unit, const SurfaceSetting
   return stitching;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What the stitching changes in a part.
 struct PartChange
 {
@@ -43,5 +40,4 @@ std::optional<Stitching>
 stitch (JoinedRims joined, const Parts& parts, double unit, const SurfaceSettings& settings,
         const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Radius of the ball around a point, given its nearest others. A ball that holds fewer of them is
 // widened to the farthest.
 double
@@ -117,5 +113,4 @@ searchBallNeighbors (CallerSearch& search, const Rows& rows, double radius, cons
   return searchBalls (rows, radius, search, run.withThreads (1));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

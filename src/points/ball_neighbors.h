@@ -7,10 +7,7 @@
 #include "points/caller_search.h"
 #include "points/rows.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Neighbours of a point whose mean distance is its local spacing, and the fewest of a ball.
 constexpr int SPACING_NEIGHBORS = 6;
 /// The most neighbours taken from a ball: next to a jump in density it may hold any number.
@@ -28,5 +25,4 @@ findBallNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& ro
 CsrLists
 searchBallNeighbors (CallerSearch& search, const Rows& rows, double radius, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

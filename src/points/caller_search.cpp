@@ -4,10 +4,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 CallerSearch::CallerSearch (const Points& points, NeighborSearch& search)
     : points_ (points), search_ (search)
 {
@@ -65,5 +62,4 @@ CallerSearch::within (Index p, double radius, std::vector<Neighbor>& found)
   found.erase (std::find_if (found.begin (), found.end (), is_outside), found.end ());
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Translates between points and cloud indices, and trusts no answer more than needed: what is
 /// answered twice, or outside of the set, is ignored; distances are measured here. For one thread.
 class CallerSearch
@@ -35,5 +32,4 @@ private:
   std::vector<Index> cloud_indices_; // scratch: the search's answer
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

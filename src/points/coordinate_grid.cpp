@@ -10,12 +10,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t SAMPLED = 1U << 17;  // points
 constexpr std::size_t FIRST_OF = 128;      // of these, one in so many is looked at first
 constexpr std::size_t FEWEST_SAMPLED = 21; // points that tell anything
@@ -163,5 +159,4 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
   return found;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The step to which coordinates along one axis seem to be rounded.
 struct CoordinateGrid
 {
@@ -33,5 +30,4 @@ CoordinateGrid
 findCoordinateGrid (const Points& points, const std::vector<float>& spacing,
                     const RunContext& run = 1);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t PART = 16384;       // points, as a mean: some 700 kB
 constexpr std::size_t MOST_PARTS = 1024;  // each has the page in memory where it ends so far
 constexpr std::size_t SAMPLES = 32;       // of a part; so the largest is less than twice the mean
@@ -206,5 +202,4 @@ sortAlongCurve (const std::vector<Eigen::Vector3d>& positions,
   return CurveSort (positions, cloud_index, centre, scale, run).sorted ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

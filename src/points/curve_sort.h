@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Positions, and where each comes from.
 struct CurveOrder
 {
@@ -36,5 +33,4 @@ sortAlongCurve (const std::vector<Eigen::Vector3d>& positions,
                 const std::vector<Index>& cloud_index, const Eigen::Vector3d& centre, double scale,
                 const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 constexpr double MOST_BINS = 1e5;
@@ -195,5 +191,4 @@ findGrossOutliers (const Positions& positions, const RunContext& run,
   return found;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

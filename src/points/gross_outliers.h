@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When a point is a gross outlier. Distances are the largest difference in a coordinate, from the
 /// median of all points in each coordinate. The bulk is what lies around it: half of the points and
 /// more, up to the first wide gap. The values are chosen: real surfaces come nowhere near them.
@@ -41,5 +38,4 @@ GrossOutliers
 findGrossOutliers (const std::vector<Eigen::Vector3d>& positions, const RunContext& run,
                    const GrossOutlierLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct Orientation
 {
   std::array<std::uint8_t, 3> axes{0, 1, 2};     // which axis of the cell has become axis i
@@ -123,5 +119,4 @@ hilbertCode (const std::array<std::uint32_t, 3>& cell)
   return code;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

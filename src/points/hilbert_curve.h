@@ -6,10 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 constexpr int HILBERT_BITS = 21; ///< of each coordinate
 
 /// Place of a cell on a Hilbert curve through the grid of 2^HILBERT_BITS cells a side.
@@ -17,5 +14,4 @@ constexpr int HILBERT_BITS = 21; ///< of each coordinate
 std::uint64_t
 hilbertCode (const std::array<std::uint32_t, 3>& cell);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Index LARGEST_LEAF = 12; // points in a leaf, at most
 constexpr Index LARGEST_LEAF_OF_CURVE =
     20;                          // the same if the points keep their order; faster than 8 and 12
@@ -168,5 +164,4 @@ KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
   return points.size () <= most;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A neighbour and its squared distance. Ordered by distance, then index.
 struct Neighbor
 {
@@ -213,5 +210,4 @@ KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3
   searchIf (left_first ? here.right : left, query, ahead, accept, nearest);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // For the message that there are too many.
 constexpr const char* TABLE = "the table of neighbours";
 constexpr const char* REMEDY = "use fewer points or fewer neighbours";
@@ -159,5 +155,4 @@ searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const Run
   return lists;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

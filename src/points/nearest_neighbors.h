@@ -9,10 +9,7 @@
 #include "points/point_block.h"
 #include "points/rows.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The k nearest other points of some points, nearest first, ties by index; fewer if there are no
 /// more. Row i of the result is that of rows[i]. Large clouds are cut into blocks with halos, each
 /// with a kd-tree of its own; whether a halo is wide enough is checked, and the block cut anew if
@@ -39,5 +36,4 @@ findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, i
 CsrLists
 searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The neighbours of each point of a cloud, nearest first.
 class NeighborTable
 {
@@ -49,5 +46,4 @@ private:
   All all_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

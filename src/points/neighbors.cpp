@@ -8,12 +8,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 CsrLists
 findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings& settings,
                  const RunContext& run, std::optional<KdTree>* tree = nullptr)
@@ -124,5 +120,4 @@ renewNeighbors (const Points& points, const std::vector<Index>& removed, const C
   });
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,10 +14,7 @@
 #include <functional>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How neighbours are searched.
 struct NeighborSettings
 {
@@ -56,5 +53,4 @@ CsrLists
 renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
                 const NeighborSettings& settings, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

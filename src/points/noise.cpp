@@ -15,12 +15,8 @@
 #include <limits>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t FEWEST = 10;    // of them, so that a residual says something
 constexpr std::size_t SPACING_OF = 6; // nearest points whose mean distance is the local spacing
 constexpr std::size_t CENTRES = 8;    // noise is measured at every such point
@@ -235,8 +231,7 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
   return probes;
 }
 
-namespace
-{
+namespace {
 // The noise around each centre: a quantile of those measured near it.
 std::vector<float>
 smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
@@ -415,5 +410,4 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLi
   return disturbed >= limits.disturbed_share * points;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What is taken for noise.
 ///
 /// A neighbourhood has a residual: the root mean square distance of its points to the quadric that
@@ -102,5 +99,4 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
 bool
 isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

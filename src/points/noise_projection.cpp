@@ -10,10 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<Eigen::Vector3d>
 projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                     const Noise& noise, const NoiseLimits& limits, const RunContext& run)
@@ -66,5 +63,4 @@ projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   return projected;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include "points/noise.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Every noisy point projected on the plane of the points around it: up to 60 of those within
 /// NoiseLimits::radius, weighted by distance; a second pass leaves out what lies far off the first
 /// plane, as background behind an object. 3 microseconds for a noisy point.
@@ -17,5 +14,4 @@ std::vector<Eigen::Vector3d>
 projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                     const Noise& noise, const NoiseLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,14 +11,10 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t NEAREST_POINTS = 20; // nearest neighbours, however many there are
-constexpr std::size_t REACH_OF = 6; // nearest neighbour whose distance is a point's reach
+constexpr std::size_t REACH_OF = 6;        // nearest neighbour whose distance is a point's reach
 
 using Arc = std::pair<Index, Index>; // a point and one of its own
 
@@ -214,5 +210,4 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
                          limits);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

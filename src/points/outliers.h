@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When a point lies off any surface. Distances are in reaches: the distance of a point to its 6th
 /// nearest neighbour, about 1.3 spacings. The values were chosen on seeded clouds with outliers
 /// strewn into the box around them, and on the clouds of the first benchmark, which lose no point
@@ -70,5 +67,4 @@ std::vector<Index>
 findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const RunContext& run, const OutlierLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

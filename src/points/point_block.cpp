@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t BLOCK = 131072; // points: the halo then adds a tenth to the work
 constexpr std::size_t BUCKET = 64;    // points; a bucket is about 8 spacings wide, its diagonal 12
 
@@ -273,5 +269,4 @@ chooseBlocks (std::size_t points, int wanted, const RunContext& run)
   return (points / BLOCK + at_once) / at_once * at_once;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

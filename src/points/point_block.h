@@ -15,10 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct Ball
 {
   Eigen::Vector3d centre;
@@ -168,5 +165,4 @@ private:
 std::size_t
 chooseBlocks (std::size_t points, int wanted, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

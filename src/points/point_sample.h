@@ -9,10 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The scales at which a cloud is looked at: every point, every fourth, every sixteenth. On a
 /// surface, spacings double from one to the next.
 constexpr std::size_t SCALES = 3;
@@ -76,5 +73,4 @@ private:
   KdTree tree_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Equal points are neighbours in the order; the first of them, that of the smallest cloud index,
 // stands for the others.
 void
@@ -171,5 +167,4 @@ removePoints (Points& points, const std::vector<Index>& removed)
   return cloud_indices;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

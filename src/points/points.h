@@ -10,10 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The working set: finite, distinct points in the order of a space-filling curve, so that near
 /// points are near in memory. The order depends on the coordinates only, not on that of the cloud.
 struct Points
@@ -82,5 +79,4 @@ checkPoints (const Points& points);
 std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Points to work on, ascending: all, a range, or those that are listed. The list must outlive
 /// this.
 class Rows
@@ -46,5 +43,4 @@ private:
   std::size_t count_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

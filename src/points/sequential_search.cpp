@@ -6,12 +6,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Points that share a ball. More points need fewer balls, which have more points for each of them.
 // On a height field, this with the two below was the fastest of five choices: 16 or 24 points,
 // margins of 1.3 to 1.5, widths of 2 to 3. The slowest took a fifth more.
@@ -153,5 +149,4 @@ SequentialSearch::searchBall (const Eigen::Vector3d& query, double reach)
   return false;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The k nearest points to points of which most are near the one before, as along a space-filling
 /// curve. Finds the same as KdTree::nearest, in less than half of the time: some points in a row
 /// share what the tree has in a ball around all of them, and each knows by the one before how far
@@ -58,5 +55,4 @@ private:
   std::vector<Neighbor> near_;        // those within reach, in no order
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Signed.
 double
 planeArea (const ChartLayout& chart)
@@ -138,5 +134,4 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   return atlas;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

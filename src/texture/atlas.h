@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How charts are packed.
 struct AtlasLimits
 {
@@ -43,5 +40,4 @@ struct Atlas
 Atlas
 packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <numeric>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Shapes up to this many cells wide and high count as boxes. Then the search for a place can go on
 // where that for the last one of the same size ended.
 constexpr std::size_t SMALL = 8;
@@ -278,5 +274,4 @@ packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, con
   return best;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Cells first to last of a row.
 struct CellRun
 {
@@ -52,5 +49,4 @@ struct CellPacking
 CellPacking
 packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 bool
 isLayout (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)
 {
@@ -141,5 +137,4 @@ refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::V
   return true;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

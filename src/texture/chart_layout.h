@@ -9,10 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A chart in the plane.
 struct ChartLayout
 {
@@ -49,5 +46,4 @@ bool
 refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
               const DescentLimits& limits, const RunContext& run, ChartLayout& layout);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What a chart may be. None of it changes the mesh.
 struct ChartLimits
 {
@@ -67,5 +64,4 @@ struct ChartLimits
   int straightening_rounds = 8; ///< it ends sooner where nothing is left to do
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The boundary of a disc; empty if the mesh is none.
 std::vector<Index>
 discLoop (const TriangleMesh& mesh, std::size_t vertices)
@@ -56,5 +52,4 @@ makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>&
   return result;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

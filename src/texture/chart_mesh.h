@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Some triangles of a larger mesh, with vertices of their own.
 struct ChartMesh
 {
@@ -28,5 +25,4 @@ ChartMesh
 makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>& chart,
                const std::vector<Eigen::Vector3d>& positions);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

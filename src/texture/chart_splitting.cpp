@@ -11,12 +11,8 @@
 #include <iterator>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Layouts = std::vector<ChartLayout>;
 
 class ChartCutter
@@ -237,5 +233,4 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
   return result;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

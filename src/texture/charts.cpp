@@ -10,12 +10,8 @@
 #include <queue>
 #include <unordered_map>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // What two charts have in common.
 struct Contact
 {
@@ -439,5 +435,4 @@ findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
   return charts;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

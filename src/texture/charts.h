@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How far charts are to grow.
 struct ChartGrowth
 {
@@ -39,5 +36,4 @@ straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& p
                  const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
                  const RunContext& run, MeshParts& charts);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

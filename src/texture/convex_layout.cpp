@@ -13,12 +13,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int MOST_STEPS = 10;          // of evening out; the stretch hardly falls any more
 constexpr double LEAST_PROGRESS = 0.98; // of the stretch by a step that is worth the next one
 constexpr double SMALLEST_TANGENT = 1e-6, LARGEST_TANGENT = 1e6; // of half an angle
@@ -191,5 +187,4 @@ layOutWithin (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::
   return true;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 #include "texture/chart_mesh.h"
 #include "texture/rest_shapes.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A layout in the plane, or none.
 struct PlaneLayout
 {
@@ -34,5 +31,4 @@ layOutOnCircle (const ChartMesh& chart, const RestShapes& rest, const RunContext
 bool
 layOutWithin (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

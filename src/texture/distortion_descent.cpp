@@ -14,12 +14,8 @@
 #include <deque>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // CHOLMOD, which prints nothing. A matrix that rounding has made indefinite is told by info ().
 class Cholesky : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>
 {
@@ -416,5 +412,4 @@ isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vect
   });
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How long the descent goes on.
 struct DescentLimits
 {
@@ -57,5 +54,4 @@ isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv
 bool
 isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
 // deviation: where all is flat, facets are round.
 constexpr double ROUNDNESS = 0.01;
@@ -156,5 +152,4 @@ growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
   return facets;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A partition of the triangles of a mesh.
 struct MeshParts
 {
@@ -32,5 +29,4 @@ growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

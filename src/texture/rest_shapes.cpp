@@ -9,12 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct FlatTriangle
 {
   std::array<Eigen::Vector2d, 3> corners;
@@ -76,5 +72,4 @@ makeRestShapes (const ChartMesh& chart)
   return result;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include "texture/chart_mesh.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A triangle laid flat, as a map from the edges that leave its first corner to the unit vectors.
 struct RestShape
 {
@@ -33,5 +30,4 @@ struct RestShapes
 RestShapes
 makeRestShapes (const ChartMesh& chart);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

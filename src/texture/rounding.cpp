@@ -9,12 +9,8 @@
 #include <array>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int ROUNDS = 20;                              // over all that are flipped
 constexpr std::array<float, 5> REACHES{1, 2, 4, 8, 16}; // in steps of single precision below 1
 
@@ -83,5 +79,4 @@ repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vecto
   return flipped.size ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Moves corners of triangles that do not run anti-clockwise, by a few steps of single precision,
 /// where that makes more of the triangles around them run so. Decided exactly. O(triangles) where
 /// there are none. One thread, always in the same order.
@@ -20,5 +17,4 @@ namespace floater
 std::size_t
 repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vector2f>& uv);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <atomic>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The angles at the edges of a vertex, or of several.
 struct Bends
 {
@@ -252,5 +248,4 @@ smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
   return Smoother (mesh, positions, limits, run).run ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

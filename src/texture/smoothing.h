@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What counts as noise.
 struct SmoothingLimits
 {
@@ -47,5 +44,4 @@ std::vector<Eigen::Vector3d>
 smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const SmoothingLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 StretchSums::add (const std::array<Eigen::Vector3d, 3>& place,
                   const std::array<Eigen::Vector2d, 3>& uv)
@@ -60,5 +57,4 @@ StretchSums::largest () const
   return area_ > 0.0 ? largest_ * std::sqrt (plane_area_ / area_) : 1.0;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

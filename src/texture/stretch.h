@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Sums over triangles, from which the stretch follows. The map goes from the plane to the surface,
 /// as textures do: where it is wide, a texture is coarse.
 class StretchSums
@@ -43,5 +40,4 @@ private:
   double largest_ = 0.0; // singular value
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 Problem
 checkMesh (const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles)
 {
@@ -143,5 +139,4 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   return {};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,10 +14,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct TextureLimits
 {
   SmoothingLimits smoothing;
@@ -86,5 +83,4 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
                         const TextureLimits& limits, const RunContext& run,
                         TextureCoordinates& result);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double EAR_HEIGHT = 0.2; // of a triangle with two edges on the boundary, over its base
 
 class Untangler
@@ -182,5 +178,4 @@ untangle (const ChartMesh& chart, const UntanglingLimits& limits, const RunConte
   return Untangler (chart, limits, uv).untangle (run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

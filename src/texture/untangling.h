@@ -6,10 +6,7 @@
 #include "core/run_context.h"
 #include "texture/chart_mesh.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// When the repair is given up.
 struct UntanglingLimits
 {
@@ -37,5 +34,4 @@ bool
 untangle (const ChartMesh& chart, const UntanglingLimits& limits, const RunContext& run,
           std::vector<Eigen::Vector2d>& uv);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<Index>
 areaSampleCentres (std::size_t points, std::size_t count)
 {
@@ -79,5 +76,4 @@ areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
   return quartileSpread (angles);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A point and the area that it stands for.
 struct AreaSample
 {
@@ -49,5 +46,4 @@ double
 areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
             std::vector<double>& angles);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

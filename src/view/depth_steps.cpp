@@ -11,12 +11,8 @@
 #include <cstring>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // How the surface goes on from the first point of an edge to the second.
 struct Extension
 {
@@ -327,5 +323,4 @@ findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& li
   return StepFinder (view, rays, limits, run).find ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct StepLimits
 {
   double slope = 4.0; ///< depth over width of an edge; below, it is never a step. Surfaces that a
@@ -59,5 +56,4 @@ std::vector<std::uint8_t>
 findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
                 const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,20 +4,16 @@
 // the Delaunay triangulation, however the pixels lie.
 #include "view/lattice_view.h"
 
-#include "core/parallel.h"
 #include "core/exact.h"
+#include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// How a cell is split. Corner i of a cell comes before corner i + 1 anti-clockwise in the plane;
 /// side i is between them. Corner 0 is its pixel of the smallest cloud index.
 enum class Split : std::uint8_t
@@ -400,5 +396,4 @@ triangulateLattice (const std::vector<Eigen::Vector2d>& places,
   return LatticeView (places, cloud_index, lattice_width, run).triangulate ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The Delaunay triangulation of rays that lie in rows and columns: the same triangles as those of
 /// triangulateHull (), in another order. A cell is the square of four pixels next to each other.
 /// Where all four have a point and their circles are empty, its triangles are known; only what is
@@ -29,5 +26,4 @@ triangulateLattice (const std::vector<Eigen::Vector2d>& places,
                     const std::vector<Index>& cloud_index, std::size_t lattice_width,
                     const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

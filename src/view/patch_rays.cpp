@@ -6,10 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 PatchRays::PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
                       const Viewpoint& viewpoint)
     : x_ (patch.size ()), y_ (patch.size ()), z_ (patch.size ()), sqr_distances_ (patch.size ())
@@ -65,5 +62,4 @@ PatchRays::neighborsOf (std::size_t ray, bool with_across)
   return found;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

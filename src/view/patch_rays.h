@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Points at nearby rays: the nearest rays to that of a point, nearest first.
 using RayPatch = std::vector<Index>;
 
@@ -43,5 +40,4 @@ private:
   Eigen::ArrayXf sqr_distances_; // to the ray whose neighbours are searched
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

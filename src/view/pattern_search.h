@@ -11,10 +11,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A viewpoint and its cost.
 struct RatedViewpoint
 {
@@ -99,5 +96,4 @@ patternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost
   return {middle, most_evaluations, std::move (cost)};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <limits>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct PatchEvidence
 {
   std::size_t judged = 0, near = 0;
@@ -149,5 +145,4 @@ isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
          evidence.ray_spread <= limits.regularity * evidence.point_spread;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct EvidenceLimits
 {
   std::size_t patches = 128;     ///< places at which rays are looked at, spread over the cloud
@@ -56,5 +53,4 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
 bool
 isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

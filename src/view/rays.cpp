@@ -10,12 +10,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Directions that are tried, and rays that each is compared with. A cone of 5 degrees is found; it
 // matters only that the tear of the plane is small, and not in the middle of dense rays.
 constexpr std::size_t DIRECTIONS = 2000, COMPARED = 2000;
@@ -116,5 +112,4 @@ RayFrame::operator() (Index point) const
          rays_.directions[centre_].dot (direction);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

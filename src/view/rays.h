@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Where a cloud was seen from.
 struct Viewpoint
 {
@@ -74,5 +71,4 @@ private:
   Eigen::Vector3d x_ = Eigen::Vector3d::Zero (), y_ = Eigen::Vector3d::Zero ();
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

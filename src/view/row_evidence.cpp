@@ -7,10 +7,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 RowEvidence
 findRows (const Points& points, const NeighborTable& neighbors, std::size_t count,
           const RunContext& run)
@@ -76,5 +73,4 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
   return patches;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct RowEvidence
 {
   double share =
@@ -41,5 +38,4 @@ std::vector<RayPatch>
 findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                   std::size_t count, std::size_t size, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

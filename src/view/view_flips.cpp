@@ -9,12 +9,8 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A smaller change of cost may be rounding.
 constexpr double SHORTER = 1e-9;
 
@@ -182,5 +178,4 @@ flipInView (TriangleMesh& mesh, const Rays& rays, const std::vector<Eigen::Vecto
   return ViewFlipper (mesh, rays, positions, limits, run).run ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct ViewFlipLimits
 {
   double angle = 90.0; ///< degrees by which the angles opposite to the new edge may exceed 180 in
@@ -31,5 +28,4 @@ std::size_t
 flipInView (TriangleMesh& mesh, const Rays& rays, const std::vector<Eigen::Vector3d>& positions,
             const ViewFlipLimits& limits, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

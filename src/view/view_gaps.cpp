@@ -10,12 +10,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 std::vector<float>
 circumradii (const TriangleMesh& view, const Rays& rays, const RunContext& run)
 {
@@ -80,5 +76,4 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
   return is_gap;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

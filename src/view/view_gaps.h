@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 struct GapLimits
 {
   double radius = 4.0; ///< circumradius of a triangle, in those of the triangles around; above, it
@@ -26,5 +23,4 @@ std::vector<std::uint8_t>
 findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
           const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

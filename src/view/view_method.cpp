@@ -11,12 +11,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The triangles in an order that only they decide: what follows depends on it. Each begins with its
 // smallest corner; they are sorted by that and by the next one, so along the curve of the points.
 TriangleMesh
@@ -226,5 +222,4 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   return surface;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -16,10 +16,7 @@
 
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The limits of all steps of the view method.
 struct ViewLimits
 {
@@ -75,5 +72,4 @@ ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
                  const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Two rays, by the points they lead to.
 struct RayPair
 {
@@ -198,5 +194,4 @@ fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<R
   return viewpoint;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Fits a viewpoint to the rays of the patches: in each patch, the distances of the rays to the
 /// nearest one shall be alike, and so shall those to the nearest one across (the next row of a
 /// scanner). Least squares of the logarithms of these distances about their mean in the patch, by
@@ -24,5 +21,4 @@ Viewpoint
 fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
               const Viewpoint& start, bool is_coarse, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

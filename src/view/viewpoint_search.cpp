@@ -16,12 +16,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 class ViewpointSearch
 {
 public:
@@ -394,5 +390,4 @@ findViewpointOfEven (const Points& points, const NeighborTable& neighbors,
   return search.find ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How much worse than EvidenceLimits the evidence at a place may be, as factors, for the search to
 /// go on from there.
 struct EvidenceExcess
@@ -85,5 +82,4 @@ findViewpointOfEven (const Points& points, const NeighborTable& neighbors,
                      const std::vector<AreaSample>& samples, const SearchLimits& limits,
                      const EvidenceLimits& evidence, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

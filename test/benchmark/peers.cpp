@@ -27,8 +27,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace
-{
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 using Polygons = std::vector<std::array<std::size_t, 3>>;
 using Stages = std::vector<std::pair<const char*, double>>; // seconds since the begin, at the end

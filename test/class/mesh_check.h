@@ -21,10 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 constexpr std::uint64_t SEED = 385; ///< of all clouds of these tests
 
 constexpr const char* LINE_START = "[pcl::FloaterReconstruction::performReconstruction] ";
@@ -211,5 +208,4 @@ expectFailure (pcl::FloaterReconstruction<PointT>& floater, RunStatus status)
   EXPECT_TRUE (polygons.empty ());
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

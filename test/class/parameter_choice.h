@@ -8,10 +8,7 @@
 #include <functional>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A setter given a value, and whether the getter returns that value.
 struct Choice
 {
@@ -40,5 +37,4 @@ struct Choice
         [] (const Floater& floater) { return floater.getDiscOptions ().field == new_value; }       \
   }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST_F (FloaterClass, CallsBackForEachStage)
 {
   std::vector<Stage> stages;
@@ -75,5 +71,4 @@ TEST_F (FloaterClass, ReportsProgressAndCanBeCancelled)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <memory>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr float NOWHERE = std::numeric_limits<float>::quiet_NaN ();
 
 /// A wavy grid in row order, moved a little off its places.
@@ -347,5 +343,4 @@ TYPED_TEST (FloaterClassOf, IsInstantiated)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

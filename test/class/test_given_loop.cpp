@@ -5,12 +5,8 @@
 
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A given loop is the boundary of a disc, whatever topology is to be found.
 TEST_F (FloaterClass, AGivenLoopMakesADisc)
 {
@@ -97,5 +93,4 @@ TEST_F (FloaterClass, AGivenLoopIsAnOptionOfADisc)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Mesher = pcl::FloaterMeshConstruction<pcl::PointXYZ>;
 using State = ReconstructionState::PointState;
 
@@ -212,5 +208,4 @@ TEST_F (FloaterClass, AllPointsOfAClosedMeshAreCompleted)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

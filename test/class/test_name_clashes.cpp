@@ -54,12 +54,8 @@
 
 #include <pcl/surface/floater_mesh_construction.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST (NameClashes, MacrosOfX11AndCursesDoNoHarm)
 {
   static_assert (OK == 0 && ERR == -1 && None == 0 && Success == 0 && Always == 2 && Complex == 0,
@@ -86,5 +82,4 @@ TEST (NameClashes, MacrosOfX11AndCursesDoNoHarm)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

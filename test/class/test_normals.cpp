@@ -10,12 +10,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
 
 TEST_F (FloaterClass, TakesTheNormalsOfPoints)
@@ -279,5 +275,4 @@ TEST_F (FloaterClass, NormalsOfTheMeshReplaceThoseOfTheInput)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

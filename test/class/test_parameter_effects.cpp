@@ -7,12 +7,8 @@
 #include <limits>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST_F (FloaterClass, LongEdgesAreCutOff)
 {
   const Cloud::Ptr cloud = heightField ();
@@ -187,5 +183,4 @@ TEST_F (FloaterClass, ThreadsDoNotChangeTheResult)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -3,12 +3,8 @@
 // Setters and getters of FloaterReconstruction.
 #include "parameter_choice.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST_F (FloaterClass, DefaultsAreThoseOfTheOptions)
 {
   const Options defaults;
@@ -183,5 +179,4 @@ TEST_F (FloaterClass, TakesEveryTopologyAndPolicy)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <limits>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Search = pcl::search::Search<pcl::PointXYZ>;
 
 /// Counts its queries.
@@ -115,5 +111,4 @@ TEST_F (FloaterClass, LetsNoExceptionOut)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

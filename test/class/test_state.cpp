@@ -6,12 +6,8 @@
 #include <memory>
 #include <type_traits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Programs have the size of the class compiled into them: it must not grow with the options.
 struct BaseAndPointer : pcl::SurfaceReconstruction<pcl::PointXYZ>
 {
@@ -78,5 +74,4 @@ TEST_F (FloaterClass, ACallbackMaySetOptions)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

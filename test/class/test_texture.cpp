@@ -10,12 +10,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Floaters = pcl::FloaterReconstruction<pcl::PointXYZ>;
 
 double
@@ -152,5 +148,4 @@ TEST_F (FloaterClass, TextureFailuresAreThoseOfTheRun)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

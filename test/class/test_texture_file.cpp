@@ -10,12 +10,8 @@
 
 #include <filesystem>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST_F (FloaterClass, TextureMeshComesBackFromAFile)
 {
   pcl::FloaterReconstruction<pcl::PointNormal> floater;
@@ -46,5 +42,4 @@ TEST_F (FloaterClass, TextureMeshComesBackFromAFile)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A wave behind a square, seen by a camera at `at`, with noise along the rays.
 pcl::PointCloud<pcl::PointXYZ>::Ptr
 frameFrom (const Eigen::Vector3d& at)
@@ -178,5 +174,4 @@ TEST_F (ViewpointOfTheClass, ItMustBeFinite)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

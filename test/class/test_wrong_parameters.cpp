@@ -7,12 +7,8 @@
 #include <limits>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST_F (FloaterClass, RefusesValuesOutOfRange)
 {
   constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
@@ -110,5 +106,4 @@ TEST_F (FloaterClass, ReportsASolverThatGaveUp)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,7 @@
 #include <functional>
 #include <unordered_map>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 struct Dart
 {
   Eigen::Vector3d position;
@@ -107,6 +102,4 @@ randomInside (const std::vector<Outline>& outlines, RandomStream& random)
   }
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -17,12 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 using Positions = std::vector<Eigen::Vector3d>;
 
 /// Topology of a mesh, counted from its edges.
@@ -195,6 +190,4 @@ savePly (const std::string& path, const Positions& points, const std::vector<Tri
     file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

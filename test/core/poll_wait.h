@@ -7,12 +7,7 @@
 
 #include <thread>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 /// Returns when every monitor that has asked by now would ask again. A monitor of its own tells, so
 /// that nothing is assumed of the time between two questions.
 inline void
@@ -34,6 +29,4 @@ waitUntilAPollIsDue ()
   }
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -22,12 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 using Positions = std::vector<Eigen::Vector3d>;
 using Outline = std::vector<Eigen::Vector2d>;
 
@@ -204,6 +199,4 @@ discOptions ()
   return options;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

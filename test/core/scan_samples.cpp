@@ -4,14 +4,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
-namespace
-{
+namespace pcl::floater::samples {
+namespace {
 using Eigen::Vector3d;
 
 // The room is 6 by 6 wide and 3 high.
@@ -203,6 +197,4 @@ scanYard (DepthNoise noise, std::uint64_t seed)
   return scan;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -5,12 +5,7 @@
 
 #include "samples.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 /// How a sensor spaces its rays.
 enum class Raster
 {
@@ -46,6 +41,4 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed);
 Scan
 scanYard (DepthNoise noise, std::uint64_t seed);
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -3,14 +3,8 @@
 #include "darts.h"
 #include "surface_samples.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
-namespace
-{
+namespace pcl::floater::samples {
+namespace {
 using Lift = std::function<Eigen::Vector3d (const Eigen::Vector2d&)>;
 
 Outline
@@ -202,6 +196,4 @@ parallelSheets (double gap, std::uint64_t seed)
                         1.0, {0.3, 0.4, gap});
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

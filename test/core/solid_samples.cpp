@@ -4,14 +4,8 @@
 #include "surface_samples.h"
 #include "surfaces.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
-namespace
-{
+namespace pcl::floater::samples {
+namespace {
 double
 lengthOf (const Outline& outline)
 {
@@ -234,6 +228,4 @@ wedge (std::uint64_t seed)
   return made;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -11,10 +11,7 @@
 #include <set>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Cases that do not work yet. They are skipped as long as they fail. A case that works fails until
 /// it is taken off this list.
 inline const std::set<std::string>&
@@ -51,5 +48,4 @@ expectUnlessStillWrong (const std::string& name, const std::function<void ()>& e
     GTEST_SKIP () << name << " is still wrong:" << what;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_samples.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 KnownSurface
 components (std::uint64_t seed)
 {
@@ -75,6 +70,4 @@ withDuplicates (KnownSurface surface, std::size_t count, std::uint64_t seed)
   return surface;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

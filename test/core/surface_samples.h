@@ -11,12 +11,7 @@
 
 #include "samples.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 /// Points and the surface that they lie on.
 struct KnownSurface
 {
@@ -148,6 +143,4 @@ withOutliers (KnownSurface surface, std::size_t count, double distance, std::uin
 KnownSurface
 withDuplicates (KnownSurface surface, std::size_t count, std::uint64_t seed);
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -18,12 +18,8 @@
 #include <sstream>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::KnownSurface;
 using samples::Positions;
 
@@ -391,5 +387,4 @@ INSTANTIATE_TEST_SUITE_P (
     nameOf);
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

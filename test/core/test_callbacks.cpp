@@ -15,12 +15,8 @@
 #include <stdexcept>
 #include <thread>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::discOptions;
 using samples::Positions;
@@ -289,5 +285,4 @@ TEST (Callbacks, MayRunAnotherReconstruction)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN ();
 constexpr double INF = std::numeric_limits<double>::infinity ();
 
@@ -161,5 +157,4 @@ TEST (CheckOptions, ALoopHasThreePoints)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <numeric>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Neighborhood ALL_NEIGHBORHOODS[] = {Neighborhood::NEAREST_DELAUNAY, Neighborhood::NEAREST,
                                               Neighborhood::BALL_DELAUNAY, Neighborhood::BALL};
 constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
@@ -234,5 +230,4 @@ TEST (Choices, ThatCannotBeAreRefused)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

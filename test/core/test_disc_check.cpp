@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Two rings of a wheel: vertex 0, ring 1 to 6, ring 7 to 12.
 std::vector<Triangle>
 wheel (bool with_middle)
@@ -91,5 +87,4 @@ TEST (DiscCheck, WhatIsNoDiscInItsLoop)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

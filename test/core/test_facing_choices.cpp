@@ -13,12 +13,8 @@
 #include <functional>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::PI;
 using samples::Positions;
@@ -386,5 +382,4 @@ TEST (FacingChoices, AreTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

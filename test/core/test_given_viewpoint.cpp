@@ -10,12 +10,8 @@
 #include <algorithm>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 using samples::Raster;
 using samples::Scan;
@@ -108,5 +104,4 @@ TEST (GivenViewpoint, TheOriginOfTheFileTellsThatAnotherOneIsWrong)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::Positions;
 
@@ -161,5 +157,4 @@ TEST (GivenNormals, AreOneForEachPointOfTheCloud)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <sstream>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 
 std::string
@@ -284,5 +280,4 @@ INSTANTIATE_TEST_SUITE_P (Discs, RealCloud,
                           });
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

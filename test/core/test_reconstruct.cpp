@@ -8,12 +8,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::discOptions;
 using samples::Positions;
@@ -347,5 +343,4 @@ TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <new>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::discOptions;
 using samples::Positions;
@@ -246,5 +242,4 @@ TEST (Stages, EndWithTheOneThatFails)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // All warnings on so many flaws of each kind, at the same two points.
 std::string
 warningsOn (std::size_t count)
@@ -78,5 +74,4 @@ TEST (ReportMesh, OfSeveralFlawsOneIsNamed)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,14 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
-namespace
-{
+namespace pcl::floater::samples {
+namespace {
 double
 leastDistance (const Positions& points)
 {
@@ -102,6 +96,4 @@ TEST (SurfaceSamples, FlawsAreWhatTheySay)
 }
 
 } // namespace
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

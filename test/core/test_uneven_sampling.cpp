@@ -10,12 +10,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::PI;
 using samples::Positions;
 
@@ -145,5 +141,4 @@ TEST (Rings, AreTheSameInAnyNumberOfBlocksAndThreads)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

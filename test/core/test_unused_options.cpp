@@ -10,12 +10,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::discOptions;
 using samples::Positions;
@@ -213,5 +209,4 @@ TEST (UnusedOptions, OfTheNeighborsWhereAScanIsConnectedAsItsSensorSawIt)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// side x side points of a unit square in z = 0, row by row, interior ones moved at random by up to
 /// `jitter` of the spacing (below 0.15, so that every star surrounds its centre); cells are cut
 /// along one diagonal. Border stars are rotated so that their gap is at the end, as in Stars.
@@ -86,5 +83,4 @@ private:
   }
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 /// Takes numbers from the front of some bytes; zeros after their end.
 class ByteSource
 {
@@ -62,6 +57,4 @@ private:
   std::size_t left_;
 };
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

@@ -12,14 +12,8 @@
 #include <limits>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
-namespace
-{
+namespace pcl::floater::fuzz {
+namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
@@ -245,6 +239,4 @@ decodeAttack (ByteSource& bytes, std::size_t most)
   return attack;
 }
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

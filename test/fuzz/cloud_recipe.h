@@ -8,12 +8,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 /// What a run is given.
 struct Attack
 {
@@ -35,6 +30,4 @@ decodeAttack (ByteSource& bytes, std::size_t most);
 Options
 decodeOptions (ByteSource& bytes, std::size_t points);
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

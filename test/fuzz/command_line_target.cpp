@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 // What the tool does before it reads a file.
 void
 parse (std::vector<std::string> words)

@@ -20,14 +20,8 @@ void
 __libc_free (void* block);
 }
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
-namespace
-{
+namespace pcl::floater::fuzz {
+namespace {
 // No constructor and no allocation: they are used before main ().
 thread_local bool is_counting = false;
 thread_local MemoryFault fault = MemoryFault::NONE;
@@ -78,9 +72,7 @@ liveBlocks ()
   return live;
 }
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz
 
 using pcl::floater::fuzz::counted;
 using pcl::floater::fuzz::isToFail;

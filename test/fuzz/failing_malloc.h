@@ -7,12 +7,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 /// What fails of the allocations that a thread makes after failAllocations ().
 enum class MemoryFault
 {
@@ -34,6 +29,4 @@ stopFailing ();
 long
 liveBlocks ();
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

@@ -8,14 +8,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
-namespace
-{
+namespace pcl::floater::fuzz {
+namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
@@ -230,6 +224,4 @@ makeHardShape (std::size_t kind, std::size_t count, RandomStream& random)
   return MAKERS.at (kind) (count, random);
 }
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

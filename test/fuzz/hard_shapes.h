@@ -10,12 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 /// Number of shapes that makeHardShape knows.
 constexpr std::size_t HARD_SHAPES = 13;
 
@@ -28,6 +23,4 @@ constexpr std::size_t HARD_SHAPES = 13;
 std::vector<Eigen::Vector3d>
 makeHardShape (std::size_t kind, std::size_t count, RandomStream& random);
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

@@ -9,12 +9,7 @@
 #include <cstdint>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 /// The cloud and options of a seed. \param most points at most
 inline Attack
 randomAttack (std::uint64_t seed, std::size_t most)
@@ -28,6 +23,4 @@ randomAttack (std::uint64_t seed, std::size_t most)
   return decodeAttack (source, most);
 }
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

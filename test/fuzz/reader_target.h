@@ -10,12 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 [[noreturn]] inline void
 fail (const char* fault)
 {
@@ -74,6 +69,4 @@ readBytes (const std::uint8_t* data, std::size_t size, Parse&& parse)
   }
 }
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

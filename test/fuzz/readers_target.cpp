@@ -10,12 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 using Parse = std::function<Cloud (const FileBytes&)>;
 
 static const std::map<std::string, std::vector<Parse>> FORMATS{
@@ -41,9 +36,7 @@ chosenFormat ()
     fail ("FUZZED_FORMAT names no format");
   return found->second;
 }
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz
 
 int
 LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size)

@@ -12,14 +12,8 @@
 #include <map>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
-namespace
-{
+namespace pcl::floater::fuzz {
+namespace {
 std::string
 findFaultOfFailure (const Result& result)
 {
@@ -184,6 +178,4 @@ findFault (const Input& input, const Result& result)
   return findFaultOfFigures (input, result, topology);
 }
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

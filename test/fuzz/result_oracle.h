@@ -7,12 +7,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace fuzz
-{
+namespace pcl::floater::fuzz {
 /// Compares a result with what the headers promise, without any code of the library: no status that
 /// blames the library; without a mesh a message; else triangles of selected points that form an
 /// oriented manifold with the figures of the report, and every selected point accounted for exactly
@@ -22,6 +17,4 @@ namespace fuzz
 std::string
 findFault (const Input& input, const Result& result);
 
-} // namespace fuzz
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::fuzz

@@ -12,8 +12,7 @@
 #include <ctime>
 #include <map>
 
-namespace
-{
+namespace {
 using Clock = std::chrono::steady_clock;
 
 double

@@ -21,12 +21,8 @@
 
 #include <malloc.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Floater = pcl::FloaterReconstruction<pcl::PointXYZ>;
 
@@ -177,5 +173,4 @@ TEST (Memory, DoesNotGrowWithTheNumberOfRuns)
 #endif
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using fuzz::MemoryFault;
 using samples::Positions;
 
@@ -158,5 +154,4 @@ TEST_P (MemoryFaults, EndARunInAnOrderlyWay)
 INSTANTIATE_TEST_SUITE_P (Ways, MemoryFaults, testing::Range<std::size_t> (0, 7));
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

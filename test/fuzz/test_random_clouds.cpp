@@ -11,12 +11,8 @@
 
 #include <cstdlib>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::Positions;
 
@@ -203,5 +199,4 @@ TEST (Invariance, RigidMotionChangesFewTriangles)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double PI = 3.14159265358979323846;
@@ -215,5 +211,4 @@ TEST (Surfaces, RefuseWhatMakesNoSense)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

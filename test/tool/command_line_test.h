@@ -11,10 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 using Json = nlohmann::json;
 
 constexpr int USAGE = 1;
@@ -43,5 +40,4 @@ protected:
   Sample sample_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

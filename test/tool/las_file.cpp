@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "las_file.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::string
 lasBytes (const LasFile& file)
 {
@@ -47,5 +44,4 @@ lasBytes (const LasFile& file)
   return bytes;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

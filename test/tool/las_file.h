@@ -10,10 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What a LAS file is made of.
 struct LasFile
 {
@@ -41,5 +38,4 @@ putNumber (std::string& bytes, std::size_t at, T number)
     bytes.at (at + i) = from[i]; // on the machines of the tests
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -30,12 +30,8 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 copyTriangles (vtkPolyData& data, MeshContent& mesh)
 {
@@ -421,5 +417,4 @@ writePcd (const std::string& path, const Sample& sample, PcdKind kind)
     throw std::runtime_error ("PCL cannot write " + path);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

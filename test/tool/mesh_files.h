@@ -11,10 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What a file holds.
 struct MeshContent
 {
@@ -63,5 +60,4 @@ readGlb (const std::string& path);
 MeshContent
 readMesh (const std::string& path);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

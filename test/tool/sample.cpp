@@ -10,12 +10,8 @@
 #include <random>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int PRECISION = std::numeric_limits<double>::max_digits10;
 
 /// Appends numbers as text or as bytes of either order.
@@ -168,5 +164,4 @@ pcdText (const std::vector<Eigen::Vector3d>& points)
   return text.str ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

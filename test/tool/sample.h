@@ -12,10 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Points of a wavy square in random order.
 struct Sample
 {
@@ -90,5 +87,4 @@ objText (const Sample& sample);
 std::string
 pcdText (const std::vector<Eigen::Vector3d>& points);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -21,8 +21,7 @@
 #include <cstring>
 #include <string>
 
-namespace
-{
+namespace {
 enum class Fault
 {
   NONE,

@@ -7,12 +7,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int INPUT_FAILED = 2;
 constexpr int RECONSTRUCTION_FAILED = 3;
 
@@ -261,5 +257,4 @@ INSTANTIATE_TEST_SUITE_P (All, BadClouds, testing::ValuesIn (badClouds ()),
                           [] (const auto& instance) { return instance.param.name; });
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <random>
 #include <thread>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST (KeptPoints, NumbersAndRowsAreInverse)
 {
   std::mt19937 random (5);
@@ -168,5 +164,4 @@ TEST (RemainingTime, IsSmooth)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

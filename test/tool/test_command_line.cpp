@@ -6,12 +6,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST_F (CommandLineTest, HelpAndVersion)
 {
   for (const std::string option : {"--help", "-h"}) {
@@ -421,5 +417,4 @@ TEST_F (CommandLineTest, LongEdgesAndSmallComponentsAreCutOff)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The wavy square of the sample, with normals that point down.
 class FacingTest : public CommandLineTest
 {
@@ -116,5 +112,4 @@ TEST_F (FacingTest, TheOriginOfTheSensorThatTheFileTells)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

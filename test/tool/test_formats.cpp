@@ -13,12 +13,8 @@
 #include <iomanip>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct InputCase
 {
   std::string name;
@@ -398,5 +394,4 @@ TEST_F (Formats, FieldsOfEveryTypeAreKept)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <csignal>
 #include <fstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A bent sheet, so large that its mesh takes several writes.
 std::vector<Eigen::Vector3d>
 manyPoints ()
@@ -88,5 +84,4 @@ TEST_P (Interruption, WhileWritingLeavesNoPartOfAFile)
 INSTANTIATE_TEST_SUITE_P (Signals, Interruption, testing::Values (SIGINT, SIGTERM, SIGHUP));
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -23,12 +23,8 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::HasSubstr;
 
 // A sanitizer's own memory is resident, too.
@@ -453,5 +449,4 @@ TEST_F (LargeArrays, ResidentSetWithPoolStaysBelowTheLimit)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

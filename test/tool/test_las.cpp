@@ -10,12 +10,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -247,5 +243,4 @@ TEST_F (LasTool, CompressedFilesAreRefusedWithAdvice)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::HasSubstr;
 
 class LeftOut : public ToolTest
@@ -101,5 +97,4 @@ TEST_F (LeftOut, FacesThatNameWhatIsNotThereAreRefused)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::HasSubstr;
 
 // A sanitizer's own memory is resident, too.
@@ -141,5 +137,4 @@ TEST_F (MaxMemory, NothingIsLeftAfterASignal)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

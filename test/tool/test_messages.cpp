@@ -6,12 +6,8 @@
 
 #include <gmock/gmock.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -114,5 +110,4 @@ TEST_F (CommandLineTest, MistypedOptionsComeFirst)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // As vertexNormals () has them, by the simplest means.
 std::vector<Eigen::Vector3d>
 normalsOf (const MeshContent& mesh)
@@ -92,5 +88,4 @@ TEST_F (CommandLineTest, NormalsOfPointsThatHadNone)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using ReportTest = CommandLineTest;
 
 TEST_F (ReportTest, JsonIsTheLastLine)
@@ -229,5 +225,4 @@ TEST_F (ReportTest, TellsWhichSideMayNotBeTheFront)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 class ShiftTest : public CommandLineTest
 {
 protected:
@@ -173,5 +169,4 @@ TEST_F (ShiftTest, WhatWasGivenIsNotAdvised)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

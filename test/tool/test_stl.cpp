@@ -10,12 +10,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -152,5 +148,4 @@ TEST_F (CommandLineTest, PointsOfAMeshInStl)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

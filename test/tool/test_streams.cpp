@@ -4,12 +4,8 @@
 #include "command_line_test.h"
 #include "mesh_files.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 class StreamTest : public CommandLineTest
 {
 protected:
@@ -117,5 +113,4 @@ TEST_F (StreamTest, AFormatThatNoExtensionTells)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

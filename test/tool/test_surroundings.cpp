@@ -9,12 +9,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using RunSurroundings = CommandLineTest;
 
 // Files appear after the summary: what cannot be printed does not change any.
@@ -157,5 +153,4 @@ TEST_F (RunSurroundings, OptionsWithoutEffectAreWarnedOf)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <csignal>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 const std::string OLD = "what was there before";
 
 class SystemFaults : public CommandLineTest
@@ -179,5 +175,4 @@ TEST_F (SystemFaults, AClosedPipeLeavesNothing)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

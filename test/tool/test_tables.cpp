@@ -12,12 +12,8 @@
 #include <iomanip>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -336,5 +332,4 @@ TEST_F (CommandLineTest, MapCoordinatesInTextKeepTheirDigits)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -18,12 +18,8 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::HasSubstr;
 using testing::Not;
 
@@ -302,5 +298,4 @@ TEST_F (TextureFiles, WhatCannotBeIsRefused)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <gmock/gmock.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -155,5 +151,4 @@ TEST_F (CommandLineTest, WarningsOfOddFilesAreFailuresWithStrict)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 class ViewpointTest : public CommandLineTest
 {
 protected:
@@ -107,5 +103,4 @@ TEST_F (ViewpointTest, AWrongLineInTheFileIsTold)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

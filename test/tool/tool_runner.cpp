@@ -13,12 +13,8 @@
 #include <fstream>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 std::string
 readWhole (const std::filesystem::path& path)
 {
@@ -207,5 +203,4 @@ ToolTest::expectFailure (const std::vector<std::string>& arguments, int code,
   EXPECT_EQ (names (), before);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How a run ended and what it printed.
 struct Outcome
 {
@@ -86,5 +83,4 @@ class ToolTestWith : public ToolTest, public testing::WithParamInterface<T>
 {
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

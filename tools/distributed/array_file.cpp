@@ -16,12 +16,8 @@
 #include <cstring>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::uint64_t MAGIC = 0x0a42464c54434c50ULL; // "PLCTLFB\n" on a little-endian machine
 constexpr std::size_t PIECE = 16384; // bytes; what is read at least, to compare its checksum
 constexpr std::uint64_t NOWHERE = std::numeric_limits<std::uint64_t>::max ();
@@ -317,5 +313,4 @@ ArrayFile::verify ()
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

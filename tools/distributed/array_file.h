@@ -13,10 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
 constexpr std::uint32_t WORK_FORMAT = 6;
 
@@ -144,5 +141,4 @@ private:
   std::uint64_t piece_at_;  // where it is; NOWHERE: there is none
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

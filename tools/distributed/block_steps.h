@@ -9,10 +9,7 @@
 
 #include "request.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The steps that are done for each block, in order. All blocks have to be through with one before
 /// the next begins; between the first two, chooseOutliersStep has to be run.
 constexpr std::array<const char*, 4> BLOCK_STEPS{"neighbors", "planes", "stars", "triangles"};
@@ -75,5 +72,4 @@ Points
 readPoints (Store& store, const std::string& name, const Plan& plan,
             std::vector<Index>& gross_outliers);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

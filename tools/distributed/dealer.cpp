@@ -8,12 +8,8 @@
 #include <thread>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The blocks of a step that are still to be done, for several takers.
 class Queue
 {
@@ -216,5 +212,4 @@ Dealer::end (int code)
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

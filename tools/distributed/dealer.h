@@ -11,10 +11,7 @@
 #include <map>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Another process has failed, and has told why.
 class RemoteFailure : public std::exception
 {
@@ -61,5 +58,4 @@ private:
   int wait_ = 20; // microseconds
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

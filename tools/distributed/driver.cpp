@@ -16,12 +16,8 @@
 #include <cstdio>
 #include <deque>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 say (const Job& job, const std::string& text)
 {
@@ -378,5 +374,4 @@ printSteps (const Job& job, FolderStore& folder)
   std::printf ("%swrite\n", command.c_str ());
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

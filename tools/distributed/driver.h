@@ -5,10 +5,7 @@
 
 #include "job.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Does all steps that are not finished. Called by every process of MPI_COMM_WORLD with the same
 /// job. Process 0 does the steps of the whole cloud, deals out blocks, and works on some itself;
 /// without MPI, it does all.
@@ -25,5 +22,4 @@ runStep (Job job, FolderStore& folder, const std::string& step);
 void
 printSteps (const Job& job, FolderStore& folder);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <climits>
 #endif
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Makes all threads allocate from one heap. To be called before there are any.
 inline void
 useOneHeap ()
@@ -60,5 +57,4 @@ private:
   ArrayPool pool_; // of large arrays; the rest is in the heap
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -23,12 +23,8 @@
 #include <chrono>
 #include <cstdio>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
 constexpr const char* REPORT = "report.json";
 
@@ -310,5 +306,4 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   return EXIT_OK;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Exit code if a file of the work folder cannot be used.
 constexpr int EXIT_WORK = 7;
 
@@ -93,5 +90,4 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan);
 Plan
 readPlan (const Job& job, const FolderStore& store);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

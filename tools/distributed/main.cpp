@@ -14,12 +14,8 @@
 #include <malloc.h>
 #endif
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr const char* PROGRAM = "pcl_floater_distributed";
 
 int
@@ -73,8 +69,7 @@ runTool (const std::vector<std::string>& arguments)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater
 
 int
 main (int argc, char** argv)

@@ -10,12 +10,8 @@
 #include <limits>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 bool
 areAlike (const Field& a, const Field& b)
 {
@@ -143,5 +139,4 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
   return merged;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

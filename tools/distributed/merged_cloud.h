@@ -8,10 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
 /// are those that all files have with one type, and coordinates of different types become double.
 /// \param all_digits see readCloud
@@ -21,5 +18,4 @@ Cloud
 readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
             std::vector<std::size_t>* firsts = nullptr);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

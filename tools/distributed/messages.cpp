@@ -10,12 +10,8 @@
 #include <chrono>
 #include <thread>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int HEAD_TAG = 1, TEXT_TAG = 2;
 constexpr std::size_t MOST_AT_ONCE = std::size_t{1} << 28U; // bytes; MPI counts in 31 bits
 constexpr std::size_t HEAD = 4;                             // numbers
@@ -121,8 +117,7 @@ Processes::poll ()
   return std::make_pair (from, take (from));
 }
 
-namespace
-{
+namespace {
 class RemoteFile : public ByteSource
 {
 public:
@@ -170,5 +165,4 @@ RemoteStore::put (const std::string& name, const ArrayWriter& arrays, std::uint6
   processes_.receive (0); // it is on the disk
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What a message is about.
 enum class Topic : std::uint32_t
 {
@@ -82,5 +79,4 @@ private:
   Processes& processes_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double HALO = 1.0; // width, see BlockCutter: neighbours are nearer
 constexpr std::size_t POINTS_OF_APART = 20, REACH_OF = 6; // neighbours that findApart looks at
 
@@ -152,5 +148,4 @@ chooseOutliersStep (const StepContext& context)
   context.store.put (OUTLIERS, writer, context.plan.id);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

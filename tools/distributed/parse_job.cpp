@@ -12,12 +12,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 const char* const DESCRIPTION =
     "Reconstructs a surface from one or many files of points, in blocks, on any number of "
     "processes:\n"
@@ -233,5 +229,4 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
   return std::nullopt;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

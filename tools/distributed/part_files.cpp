@@ -4,12 +4,8 @@
 
 #include "stored_cloud.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 static_assert (sizeof (Triangle) == 3 * sizeof (Index),
                "they are written and read as plain numbers");
 
@@ -404,5 +400,4 @@ readChange (ArrayFile& file, std::size_t part)
           indices ("beside")};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <deque>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Arrays of a part for a file. All that is added must outlive this.
 class PartWriter
 {
@@ -65,5 +62,4 @@ readFinished (ArrayFile& file);
 PartChange
 readChange (ArrayFile& file, std::size_t part);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

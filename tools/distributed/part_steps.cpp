@@ -12,12 +12,8 @@
 #include <numeric>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr const char* CHANGES = "changes.bin"; // what `join` has decided of the parts
 
 // What the blocks have found out about the points of a part.
@@ -345,5 +341,4 @@ removeFinished (const FolderStore& folder, const Plan& plan, bool with_triangles
     folder.remove (blockFile (FINISH, part));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The step after those of the blocks: it is done for each part, if there are several.
 constexpr const char* MESH = "mesh";
 
@@ -85,5 +82,4 @@ private:
 void
 removeFinished (const FolderStore& folder, const Plan& plan, bool with_triangles);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,12 +14,8 @@
 #include <cstring>
 #include <fstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* FORMAT = "pcl_floater work folder";
@@ -172,5 +168,4 @@ parseManifest (const std::string& text, const std::string& name)
   return {};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

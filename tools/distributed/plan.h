@@ -10,10 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A file of points as it was when the plan was made.
 struct InputFile
 {
@@ -59,5 +56,4 @@ manifestText (const Plan& plan);
 Plan
 parseManifest (const std::string& text, const std::string& name);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

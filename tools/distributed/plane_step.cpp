@@ -9,12 +9,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Width, see BlockCutter. Every sixteenth point has its 20 nearest of these within 10 spacings.
 constexpr double PLANE_HALO = 2.0;
 
@@ -141,5 +137,4 @@ planesStep (const StepContext& context, std::size_t block)
   context.store.put (blockFile ("planes", block), writer, context.plan.id);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 ArrayFile&
 Slices::file (std::size_t block)
 {
@@ -116,5 +113,4 @@ LocalPoints::toPlaces (const std::vector<Index>& rows, CsrLists lists) const
   return places;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

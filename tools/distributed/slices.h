@@ -10,10 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What the blocks have written in one step.
 class Slices
 {
@@ -123,5 +120,4 @@ private:
   mutable std::size_t hint_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Width, see BlockCutter. Most stars look no farther than that; those at boundaries look up to 40
 // spacings ahead, and are made again where that leaves the block.
 constexpr double STAR_HALO = 2.0;
@@ -292,5 +288,4 @@ blockStep (const StepContext& context, const std::string& step, std::size_t bloc
   throw std::logic_error ("a block step of this name");
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,10 +6,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::string
 FolderStore::readText (const std::string& name) const
 {
@@ -98,5 +95,4 @@ BlockRanges::blockOf (std::uint32_t point) const
          1;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <mutex>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The files of a run.
 class Store
 {
@@ -106,5 +103,4 @@ private:
   std::vector<std::size_t> firsts_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
         BlockSearch& search)
@@ -90,5 +87,4 @@ readOutliers (const StepContext& context)
   return openArrays (context.store, OUTLIERS, context.plan).read<Index> ("outliers");
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 static_assert (sizeof (Eigen::Vector3d) == 3 * sizeof (double) &&
                    sizeof (Eigen::Vector3f) == 3 * sizeof (float) &&
                    sizeof (Eigen::AlignedBox3d) == 6 * sizeof (double),
@@ -253,5 +250,4 @@ void
 takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
         BlockSearch& search);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The inner triangles of a part, as the mesh has them.
 std::vector<Triangle>
 readPart (const StepContext& context, const Parts& parts, std::size_t part,
@@ -101,5 +97,4 @@ readMesh (const StepContext& context)
   return mesh;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

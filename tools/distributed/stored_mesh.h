@@ -8,10 +8,7 @@
 
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A mesh as `join` leaves it.
 struct FinishedMesh
 {
@@ -38,5 +35,4 @@ areBlocksFreed (FolderStore& folder, const Plan& plan);
 FinishedMesh
 readMesh (const StepContext& context);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Appends all values of an array.
 template <typename T>
 void
@@ -225,5 +221,4 @@ StoredStages::triangles ()
   return proposed;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

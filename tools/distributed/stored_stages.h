@@ -10,10 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Reads the files of all blocks, each when it is needed.
 class StoredStages : public KnownStages
 {
@@ -60,5 +57,4 @@ private:
   BlockRanges ranges_; // without outliers
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -16,12 +16,8 @@
 #include <cstdio>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* TILES_FORMAT = "pcl_floater tiles";
@@ -264,5 +260,4 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
   return losses;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,10 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The manifest, in the folder of the tiles. It is written last.
 constexpr const char* TILES = "tiles.json";
 
@@ -56,5 +53,4 @@ std::vector<std::string>
 writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Triangles& triangles,
             const TileOwners& owners);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 using pcl::floater::SurfaceKind;
 
 constexpr std::size_t MOST_POINTS = 1000000000;

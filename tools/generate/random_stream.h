@@ -7,10 +7,7 @@
 #include <cstdint>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 class RandomStream
 {
 public:
@@ -36,5 +33,4 @@ private:
   std::mt19937_64 engine_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

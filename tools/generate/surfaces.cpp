@@ -10,12 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double PI = 3.14159265358979323846;
 constexpr double GOLDEN = 0.61803398874989484820;
 constexpr double JITTER = 0.3;        // largest displacement of a sample, in local spacings
@@ -397,5 +393,4 @@ generateSurface (const SurfaceSpec& spec)
   return points;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 enum class SurfaceKind
 {
   HEIGHT_FIELD, ///< square of rolling terrain, sampled evenly in plan view: a disc
@@ -72,5 +69,4 @@ surfaceSpecError (const SurfaceSpec& spec);
 std::vector<Eigen::Vector3d>
 generateSurface (const SurfaceSpec& spec);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

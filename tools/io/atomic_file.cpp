@@ -18,12 +18,8 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t BUFFER_BYTES = 1U << 20U;
 constexpr std::size_t MOST_FILES = 8;
 
@@ -343,5 +339,4 @@ AtomicFile::fail (int error) const
   failOn (path_, std::strerror (error) + advice);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

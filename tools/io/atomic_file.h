@@ -11,10 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A file cannot be written. The message names the file and the cause.
 class WriteError : public std::runtime_error
 {
@@ -106,5 +103,4 @@ private:
   std::size_t written_ = 0; // bytes passed to the system
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

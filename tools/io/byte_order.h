@@ -6,10 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 enum class ByteOrder
 {
   LITTLE,
@@ -58,5 +55,4 @@ readNumber (const void* from, ByteOrder order)
   return number;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <limits>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 FieldTriple
 findTriple (const Cloud& cloud, const std::array<const char*, 3>& names)
 {
@@ -226,5 +222,4 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
   return cloud.rows - cloud.kept.size ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

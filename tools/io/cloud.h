@@ -16,10 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)
 /// of type UINT8, and normals are nx, ny, nz. All other fields keep their names. The fields have
 /// all rows of the file, also those of points that have been left out since.
@@ -107,5 +104,4 @@ shiftText (const Cloud& cloud);
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

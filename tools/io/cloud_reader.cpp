@@ -4,10 +4,7 @@
 
 #include "format.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path)
 {
@@ -66,5 +63,4 @@ readCloud (const std::filesystem::path& path, CloudFormat format, bool all_digit
   return parseTable (file, format == CloudFormat::PTS);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Formats of clouds.
 enum class CloudFormat
 {
@@ -91,5 +88,4 @@ parseLas (const FileBytes& file);
 Cloud
 parseTable (const FileBytes& file, bool is_intensity_first = false);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,12 +4,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 copyField (const Field& from, const std::vector<std::size_t>& rows, const Field& to)
 {
@@ -54,5 +50,4 @@ copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows, const std::v
   return copied;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A cloud of some rows of another one, in any order, each as often as it is named; all of them are
 /// kept. Coordinates, shift and all fields are copied. O(rows).
 /// \param added fields of one value that come after those of the cloud; setValues gives them their
@@ -32,5 +29,4 @@ setValues (Cloud& copied, const std::string& name, const std::vector<T>& values)
     std::memcpy (bytes + i * field.stride, &values[i], sizeof (T));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Type of the values of a field.
 enum class ScalarType
 {
@@ -131,5 +128,4 @@ allocateRows (const std::vector<Field*>& fields, std::size_t points)
   return rows;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

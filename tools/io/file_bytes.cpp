@@ -17,12 +17,8 @@
 #include <mutex>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// Addresses of the mapped files, for the signal handler. It does not know files beyond
 /// MOST_RANGES.
 struct MappedRange
@@ -188,5 +184,4 @@ isInMappedFile (const void* address)
   return false;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 #include <memory>
 #include <string_view>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The bytes of a file. A regular file is mapped, so that the system can take its pages out of
 /// memory again; a pipe is read. Copies share the bytes.
 ///
@@ -67,5 +64,4 @@ giveBackMappedFiles ();
 bool
 isInMappedFile (const void* address);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

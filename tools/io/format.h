@@ -7,10 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Extension of a file in lower case, with its dot.
 inline std::string
 lowerExtension (const std::filesystem::path& path)
@@ -36,5 +33,4 @@ inputName (const std::filesystem::path& path)
   return isStandardStream (path) ? "the standard input" : "'" + path.string () + "'";
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

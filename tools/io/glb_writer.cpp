@@ -11,12 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Json = nlohmann::json;
 
 // Numbers of the specification.
@@ -174,5 +170,4 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
       file.writeNumber (corner, ByteOrder::LITTLE);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A subset of the rows of a file, renumbered from 0. Takes a fifth of a byte per row, and no
 /// memory if all rows are kept.
 class KeptPoints
@@ -83,5 +80,4 @@ private:
   std::size_t kept_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

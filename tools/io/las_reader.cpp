@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// Where the header has what is read of it. Its numbers are little endian.
 constexpr std::size_t VERSION_AT = 24;
 constexpr std::size_t HEADER_SIZE_AT = 94;
@@ -184,5 +180,4 @@ parseLas (const FileBytes& file)
   return cloud;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

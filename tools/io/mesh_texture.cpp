@@ -8,12 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Colour = Eigen::Vector3d;
 
 // Pixels whose middles are in the triangle, or within half a pixel of it.
@@ -180,5 +176,4 @@ materialsText (const std::string& image)
          (image.empty () ? "" : "map_Kd " + image + "\n");
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

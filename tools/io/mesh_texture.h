@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Texture coordinates of the corners of a mesh. A point on a seam has several.
 struct MeshTexture
 {
@@ -73,5 +70,4 @@ pngOf (const ColourImage& image);
 std::string
 materialsText (const std::string& image);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

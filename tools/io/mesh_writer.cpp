@@ -9,12 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 const std::string COMMENT = "written by pcl_floater_reconstruct";
 
 void
@@ -266,5 +262,4 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

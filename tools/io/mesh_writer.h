@@ -9,10 +9,7 @@
 
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Formats of meshes.
 enum class MeshFormat
 {
@@ -80,5 +77,4 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 void
 writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

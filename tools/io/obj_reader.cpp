@@ -9,12 +9,8 @@
 #include <limits>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// Appends three fields that share an array of three values per point.
 template <typename T>
 void
@@ -227,5 +223,4 @@ parseObj (const FileBytes& file)
   return cloud;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

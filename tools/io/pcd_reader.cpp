@@ -12,12 +12,8 @@
 #include <limits>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct PcdHeader
 {
   std::vector<Field> fields; ///< without bytes
@@ -334,5 +330,4 @@ parsePcd (const FileBytes& file, bool all_digits)
   return cloud;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,10 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// "1 point", "2 points".
 inline std::string
 counted (std::size_t count, const std::string& noun)
@@ -17,5 +14,4 @@ counted (std::size_t count, const std::string& noun)
   return std::to_string (count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

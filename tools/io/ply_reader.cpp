@@ -7,12 +7,8 @@
 
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct Property
 {
   Field field; ///< of a list: name, and type of the entries
@@ -284,5 +280,4 @@ parsePly (const FileBytes& file, bool all_digits)
   return cloud;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

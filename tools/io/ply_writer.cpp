@@ -4,12 +4,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 bool
 isLong (ScalarType type)
 {
@@ -145,5 +141,4 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   return widened;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <new>
 #endif
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 bool
 canWritePng ()
 {
@@ -25,8 +22,7 @@ canWritePng ()
 }
 
 #ifdef PCL_FLOATER_HAS_ZLIB
-namespace
-{
+namespace {
 using Bytes = std::vector<unsigned char>;
 
 void
@@ -96,5 +92,4 @@ pngOf (const ColourImage& image)
 #endif
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

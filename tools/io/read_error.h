@@ -4,10 +4,7 @@
 
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A file cannot be used as input. The message names the cause, not the file.
 class ReadError : public std::runtime_error
 {
@@ -15,5 +12,4 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

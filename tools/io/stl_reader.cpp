@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t STL_HEADER_BYTES = 80;
 constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
 
@@ -164,8 +160,9 @@ parseStl (const FileBytes& file)
   const bool is_long = bytes.size () >= STL_HEADER_BYTES + sizeof (std::uint32_t);
   // Some programs begin binary files with "solid", too: then only the length tells.
   const bool fits_binary =
-      is_long && (bytes.size () - STL_HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
-                     readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
+      is_long &&
+      (bytes.size () - STL_HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
+          readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
   TextScanner scanner (bytes);
   const bool is_solid = scanner.nextFilledLine () && scanner.word () == "solid";
   if (is_solid && !fits_binary)
@@ -176,5 +173,4 @@ parseStl (const FileBytes& file)
   return parseBinary (bytes);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

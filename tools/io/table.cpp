@@ -9,12 +9,8 @@
 #include <cstring>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 bool
 isBlankOrQuote (char c)
 {
@@ -290,5 +286,4 @@ Table::fields (std::vector<std::string>& warnings)
   return fields;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,10 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Rows of numbers, and what the columns turned out to hold.
 class Table
 {
@@ -72,5 +69,4 @@ private:
   std::size_t rows_ = 0;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 bool
 isBlank (char c)
 {
@@ -168,5 +164,4 @@ commentText (std::string_view line)
   return std::nullopt;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The beginning of a line in a message, without what is not printable.
 std::string
 quoted (std::string_view line);
@@ -114,5 +111,4 @@ guessColumns (std::vector<Column>& columns, bool is_intensity_first, AreUnit&& a
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <optional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t MOST_COLUMNS = 256;
 
 /// What comes before the first point.
@@ -194,5 +190,4 @@ parseTable (const FileBytes& file, bool is_intensity_first)
   return cloud;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Parses a whole word as a number. Unlike streams it knows nan and inf and does not depend on the
 /// locale. Numbers beyond the range of a floating-point type become infinite or zero.
 /// \return false if the word is not a number, or out of the range of an integer type
@@ -159,5 +156,4 @@ scanField (TextScanner& scanner, const Field& field, char* to)
   return to;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 const char*
 vtkTypeName (ScalarType type)
 {
@@ -143,5 +139,4 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 enum ExitCode : int
 {
   DONE = 0,

@@ -27,12 +27,8 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int SUPERSAMPLING = 2; // pixels drawn per pixel of the picture, in each direction
 constexpr vtkIdType MOST_DRAWN_EDGES = 15000; // polygons of a shaded mesh up to which edges show
 constexpr int COLOUR_STEP = 5;                // of 256 levels of each colour
@@ -270,5 +266,4 @@ drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
   return shrink->GetOutput ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Options of a picture.
 struct PictureOptions
 {
@@ -38,5 +35,4 @@ drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options = {});
 bool
 displayAvailable ();
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr double MARGIN = 1.06; // side of the picture over that of the mesh in it
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 constexpr double CLOSED = 1e-3;         // a mesh with a shorter mean normal counts as closed
@@ -154,5 +150,4 @@ aimFromViewpoint (vtkRenderer* renderer, const Eigen::Vector3d& viewpoint,
   return true;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

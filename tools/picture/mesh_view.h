@@ -10,10 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Directions of a picture.
 struct View
 {
@@ -41,5 +38,4 @@ bool
 aimFromViewpoint (vtkRenderer* renderer, const Eigen::Vector3d& viewpoint,
                   const std::vector<Eigen::Vector3d>& points);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -18,12 +18,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int STRONGEST_COMPRESSION = 9; // of a PNG file
 
 // VTK does not know s and t of PLY files.
@@ -103,5 +99,4 @@ toPng (vtkImageData* image)
   return {bytes->Begin (), bytes->End ()};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Reads a triangle mesh from a .vtk or .ply file, with texture coordinates if it has some: TCoords
 /// of VTK, s and t of PLY.
 /// \throw std::runtime_error that names the file if it cannot be read or has no polygons
@@ -28,5 +25,4 @@ readPng (const std::string& path);
 std::vector<unsigned char>
 toPng (vtkImageData* image);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

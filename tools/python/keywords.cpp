@@ -10,12 +10,8 @@
 
 namespace py = pybind11;
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 std::string
 shown (const py::handle& value)
 {
@@ -241,5 +237,4 @@ readKeywords (const py::dict& keywords)
   return asked;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

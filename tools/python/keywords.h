@@ -7,10 +7,7 @@
 
 #include <pybind11/pybind11.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What the keyword arguments say.
 struct GivenOptions
 {
@@ -31,5 +28,4 @@ readKeywords (const pybind11::dict& keywords);
 std::array<double, 3>
 readPlace (const char* name, const pybind11::handle& value);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

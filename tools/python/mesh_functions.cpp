@@ -15,12 +15,8 @@
 
 namespace py = pybind11;
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// \throws pybind11::value_error
@@ -102,5 +98,4 @@ defineMeshFunctions (py::module_& module)
   module.def ("texture_coordinates", &textureOf);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,14 +5,10 @@
 
 #include <pybind11/pybind11.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Adds the functions vertex_normals and texture_coordinates. Triangles are a contiguous array of
 /// the shape (m, 3) of uint32.
 void
 defineMeshFunctions (pybind11::module_& module);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

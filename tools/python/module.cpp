@@ -22,12 +22,8 @@
 
 namespace py = pybind11;
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// Numbers are signed and of 64 bits at least, as Python's are.
 py::object
 toPython (const nlohmann::ordered_json& json)
@@ -139,8 +135,7 @@ run (const py::buffer& points, std::size_t lattice_width, const py::object& norm
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater
 
 PYBIND11_MODULE (_core, module)
 {

@@ -12,10 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Rows of three numbers in an array of NumPy, wherever they are in memory.
 class PointRows
 {
@@ -63,5 +60,4 @@ private:
   pybind11::buffer_info info_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,12 +4,8 @@
 
 namespace py = pybind11;
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 py::buffer_info
 bufferOf (const ResultArray& array)
 {
@@ -63,5 +59,4 @@ arraysOfResult (const std::shared_ptr<const Result>& result)
   return arrays;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

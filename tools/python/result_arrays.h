@@ -9,10 +9,7 @@
 
 #include <memory>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// One array of a result. NumPy takes it by the buffer protocol, so that the module depends on no
 /// version of NumPy's C interface. Keeps the whole result alive.
 struct ResultArray
@@ -33,5 +30,4 @@ defineResultArray (pybind11::module_& module);
 pybind11::dict
 arraysOfResult (const std::shared_ptr<const Result>& result);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,10 +11,7 @@
 #include <exception>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Tells Python's caller how far a run is, and ends the run if the callable or a signal raised an
 /// exception. The run does not hold the lock of the interpreter (GIL) meanwhile.
 class Watch
@@ -85,5 +82,4 @@ private:
   std::exception_ptr raised_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

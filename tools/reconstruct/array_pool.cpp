@@ -16,12 +16,8 @@
 #include <mutex>
 #include <new>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 std::size_t
 roundedUp (std::size_t bytes)
 {
@@ -240,5 +236,4 @@ freeInPool (void* pointer)
   return pool ().free (pointer);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

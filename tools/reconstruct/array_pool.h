@@ -5,10 +5,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Arrays in a pool begin at multiples of this, a page of most systems. Pointers of malloc rarely
 /// are such multiples, so that operator delete hardly ever looks for one of these in a pool.
 constexpr std::size_t POOL_ALIGNMENT = 4096;
@@ -54,5 +51,4 @@ makeInPool (std::size_t size);
 bool
 freeInPool (void* pointer);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,10 +4,7 @@
 
 #include <dlfcn.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 endBlasThreads ()
 {
@@ -18,5 +15,4 @@ endBlasThreads ()
     shutdown ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a
 /// tenth of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS
 /// would start them again if it were asked to use several threads. It is looked up at run time;
@@ -16,5 +13,4 @@ namespace floater
 void
 endBlasThreads ();
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// Whether two paths name the same file, which need not exist.
 bool
 areSame (const std::filesystem::path& a, const std::filesystem::path& b)
@@ -94,5 +90,4 @@ checkPaths (const CommandLine& line)
       requireWritable (*named.path);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,15 +5,11 @@
 
 #include "command_line.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Checks all paths against each other and against the disk, before the work begins.
 /// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
 /// ReadError if the extension of the input is unknown
 void
 checkPaths (const CommandLine& command_line);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

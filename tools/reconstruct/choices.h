@@ -8,10 +8,7 @@
 #include <array>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Words for the values of an enumeration, on the command line and in reports.
 template <typename Enum, std::size_t N>
 using Choices = std::array<std::pair<const char*, Enum>, N>;
@@ -79,5 +76,4 @@ choiceName (const Choices<Enum, N>& choices, Enum value)
   return "unknown";
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

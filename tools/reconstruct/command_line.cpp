@@ -11,12 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// \throws UsageError
 void
 checkMemoryLimit (CommandLine& line)
@@ -112,5 +108,4 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   return std::nullopt;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

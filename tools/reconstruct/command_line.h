@@ -18,10 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What the user asked for. Paths that were not given are empty.
 struct CommandLine
 {
@@ -95,5 +92,4 @@ constexpr Choices<std::optional<MeshFormat>, 7> MESH_FORMAT_CHOICES{{{"auto", st
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

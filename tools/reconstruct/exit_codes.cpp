@@ -9,10 +9,7 @@
 #include <cstdio>
 #include <new>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 int
 fail (const char* program, int code, const std::string& message)
 {
@@ -47,5 +44,4 @@ failByException (const char* program, const char* if_no_memory)
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,10 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Exit codes, as documented in --help.
 enum ExitCode
 {
@@ -39,5 +36,4 @@ fail (const char* program, int code, const std::string& message);
 int
 failByException (const char* program, const char* if_no_memory);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

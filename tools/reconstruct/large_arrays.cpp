@@ -25,12 +25,8 @@
 #include <new>
 #include <system_error>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct ScratchArray
 {
   std::size_t bytes;
@@ -276,5 +272,4 @@ largeArrayFailure ()
   return all.failure;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

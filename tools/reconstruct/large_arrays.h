@@ -11,10 +11,7 @@
 #include <functional>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Bytes from which on an array is large. At some hundred pages, mapping it costs little compared
 /// with filling it.
 constexpr std::size_t LARGE_ARRAY = std::size_t{1} << 20U;
@@ -76,5 +73,4 @@ scratchUse ();
 std::string
 largeArrayFailure ();
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,10 +6,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<std::uint32_t>
 readLoop (const std::filesystem::path& path)
 {
@@ -27,5 +24,4 @@ readLoop (const std::filesystem::path& path)
   return loop;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

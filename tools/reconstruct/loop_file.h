@@ -7,15 +7,11 @@
 #include <filesystem>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
 /// that begins with # begins a comment, up to the end of the line.
 /// \throws ReadError
 std::vector<std::uint32_t>
 readLoop (const std::filesystem::path& path);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

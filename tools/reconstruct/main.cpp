@@ -40,12 +40,8 @@
 #include <malloc.h>
 #endif
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr const char* PROGRAM = "pcl_floater_reconstruct";
 
 double
@@ -283,8 +279,7 @@ runTool (int argc, char** argv)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater
 
 /// Whether the system limits the addresses of this process (RLIMIT_AS, ulimit -v).
 static bool

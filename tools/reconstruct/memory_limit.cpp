@@ -15,12 +15,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Room between the limit and the resident set above which pages are dropped. The other threads may
 // fill it while the watchers sleep, wait for a processor or work. It is a fraction of the limit,
 // and a larger one of a small limit, because threads fill it at the same speed there.
@@ -222,5 +218,4 @@ MemoryLimit::watch () const
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Parses a size in bytes: a number, with K, M, G or T (or lower case) for powers of 1000.
 /// \return false if the word is not a size or out of range
 bool
@@ -97,5 +94,4 @@ private:
   std::vector<std::thread> watchers_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

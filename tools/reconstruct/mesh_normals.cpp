@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
 {
@@ -32,5 +29,4 @@ replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,14 +5,10 @@
 
 #include "cloud.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Gives the cloud the fields nx, ny and nz of 32-bit floats, with the normals of the vertices of
 /// the mesh (see vertexNormals ()), in place of those that it has. All points must be left.
 void
 replaceNormals (Cloud& cloud, const Triangles& triangles, int threads);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

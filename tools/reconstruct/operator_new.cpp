@@ -13,12 +13,8 @@
 #include <cstdlib>
 #include <new>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Whole huge pages of an array come into memory at once, in a fraction of the time of all their
 // small pages. Of other arrays, and where the system has none, this changes nothing.
 void*
@@ -85,8 +81,7 @@ release (void* pointer) noexcept
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater
 
 // All forms are replaced, because the runtime of a sanitizer brings its own version of each.
 void*

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind)
@@ -32,5 +29,4 @@ parsePlace (const std::string& word)
   return is_good && place.allFinite () ? std::optional (place) : std::nullopt;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

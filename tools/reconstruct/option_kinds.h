@@ -14,10 +14,7 @@
 #include <sstream>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// An option whose value is one of several words.
 template <typename Enum, std::size_t N>
 void
@@ -72,5 +69,4 @@ addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,12 +5,8 @@
 #include "memory_limit.h"
 #include "option_kinds.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 const char* const GENERAL = "General";
 const char* const NEIGHBORHOODS = "Neighbourhoods";
 
@@ -190,8 +186,7 @@ addSurfaceOptions (CLI::App& app, CommandLine& line)
              "take triangles out until no two cross each other", surface);
 }
 
-namespace
-{
+namespace {
 void
 addFiles (CLI::App& app, CommandLine& line)
 {
@@ -390,5 +385,4 @@ addOptions (CLI::App& app, CommandLine& line)
   addFiles (app, line);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,10 +10,7 @@ namespace CLI // NOLINT(readability-identifier-naming)
 class App;
 }
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Adds every option, the two positional arguments and the text around them to \a app, which writes
 /// to \a line when it parses, and so has to end before it.
 void
@@ -39,5 +36,4 @@ addMemoryLimit (CLI::App& app, CommandLine& line);
 void
 addCoordinates (CLI::App& app, CommandLine& line);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// The number that the shortest decimal of a float is.
 double
 shortestDecimal (float value)
@@ -73,5 +69,4 @@ choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::V
   return choosePrecision (wanted, output, fits, is_shift_asked, cloud.warnings);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

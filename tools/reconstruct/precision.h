@@ -10,10 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
 /// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
 enum class Precision
@@ -42,5 +39,4 @@ bool
 choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
                  bool is_shift_asked, Cloud& cloud);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

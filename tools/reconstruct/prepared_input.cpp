@@ -6,10 +6,7 @@
 
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 int
 exitCode (const Report& report, const RunFigures& run)
 {
@@ -85,5 +82,4 @@ shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
     sensor_origin -= cloud.shift;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

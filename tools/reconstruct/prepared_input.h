@@ -10,10 +10,7 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Calls read (), and adds the name of the file to a ReadError.
 template <typename Read>
 auto
@@ -44,5 +41,4 @@ shiftOrigin (CommandLine& line, Cloud& cloud, Input& input);
 int
 exitCode (const Report& report, const RunFigures& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

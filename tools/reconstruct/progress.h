@@ -11,10 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// What a stage does, for people.
 inline const char*
 stageWords (Stage stage)
@@ -91,5 +88,4 @@ private:
   std::string shown_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

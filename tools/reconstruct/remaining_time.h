@@ -8,10 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Estimates the time left from the time passed and the fraction done. The estimate is smoothed,
 /// because the fraction does not grow evenly.
 class RemainingTime
@@ -61,5 +58,4 @@ private:
   double total_ = 0.0; // estimated seconds of the whole run
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

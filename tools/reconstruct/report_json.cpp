@@ -6,12 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Json = nlohmann::ordered_json;
 
 Json
@@ -208,5 +204,4 @@ secondsJson (const Statistics& statistics)
   return seconds;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The options of a run, by the names of the tool.
 nlohmann::ordered_json
 optionsJson (const Options& options, bool use_input_normals);
@@ -29,5 +26,4 @@ resultJson (const Report& report);
 nlohmann::ordered_json
 secondsJson (const Statistics& statistics);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

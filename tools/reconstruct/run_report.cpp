@@ -10,12 +10,8 @@
 
 #include <sys/resource.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON is UTF-8; in names of files, bytes that are not are replaced.
@@ -163,5 +159,4 @@ reportMemory (const CommandLine& line, Report& report)
                                ", above --max-memory " + formatSize (line.max_memory));
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

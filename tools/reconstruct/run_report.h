@@ -11,10 +11,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Figures of a run that the core does not know.
 struct RunFigures
 {
@@ -52,5 +49,4 @@ reportText (const CommandLine& command_line, const Report& report, const RunFigu
 std::string
 summaryLine (const CommandLine& command_line, const Report& report, const RunFigures& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

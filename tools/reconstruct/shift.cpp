@@ -9,10 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 Eigen::Vector3d
 chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
 {
@@ -41,5 +38,4 @@ chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
   return unit * (box.center () / unit).array ().round ().matrix ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

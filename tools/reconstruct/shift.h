@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
 /// bounding box of all finite points that are no gross outliers, rounded to the power of ten below
 /// its diagonal. (0, 0, 0) if floats hold them well as they are: if the distance of two floats of
@@ -19,5 +16,4 @@ namespace floater
 Eigen::Vector3d
 chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,12 +4,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 char
 lower (char c)
 {
@@ -93,5 +89,4 @@ didYouMean (std::string_view word, const std::vector<std::string>& words)
   return text + "?";
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

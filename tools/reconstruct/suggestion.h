@@ -8,10 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Number of letters to insert, drop or replace, or of neighbours to swap, to make one word of the
 /// other; the case of letters does not count. O(product of the lengths).
 std::size_t
@@ -26,5 +23,4 @@ nearestWords (std::string_view word, const std::vector<std::string>& words);
 std::string
 didYouMean (std::string_view word, const std::vector<std::string>& words);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 printWarnings (const Report& report)
 {
@@ -173,5 +169,4 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
     throw WriteError ("cannot write to the standard output");
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include "run_report.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Prints errors and warnings to the standard error stream, the summary and the line of --json to
 /// the standard output. Comes before any output file is visible: if nothing can be printed, no file
 /// has been changed.
@@ -16,5 +13,4 @@ namespace floater
 void
 printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

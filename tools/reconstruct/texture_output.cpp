@@ -8,12 +8,8 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 bool
 isObj (const CommandLine& line)
 {
@@ -142,5 +138,4 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
   return notes;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

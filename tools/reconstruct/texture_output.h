@@ -13,10 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Checks what the command line asks for.
 /// \throws UsageError
 void
@@ -47,5 +44,4 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
 std::filesystem::path
 materialsOf (const CommandLine& line);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

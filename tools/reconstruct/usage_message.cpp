@@ -9,12 +9,8 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Words = std::vector<std::string>;
 
 /// "-k" and "--neighbors".
@@ -179,5 +175,4 @@ rangeMessage (const CLI::App& app, const std::string& refusal, const Words& argu
   return refusal;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

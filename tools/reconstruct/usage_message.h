@@ -13,10 +13,7 @@ class App;
 class ParseError;
 } // namespace CLI
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The message for a command line that could not be parsed. Options are named as they were typed.
 /// \param app that has refused it
 /// \param arguments as they were typed
@@ -30,5 +27,4 @@ std::string
 rangeMessage (const CLI::App& app, const std::string& refusal,
               const std::vector<std::string>& arguments);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

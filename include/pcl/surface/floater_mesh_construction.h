@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 /** \brief FloaterReconstruction as a pcl::MeshConstruction, the base of
  * pcl::GreedyProjectionTriangulation and pcl::OrganizedFastMesh: takes their place in a program.
  *

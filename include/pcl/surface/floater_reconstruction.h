@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 /** \brief Reconstructs a surface from an unorganized point cloud. The vertices of the mesh are the
  * points of the cloud.
  *

@@ -10,12 +10,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // The user's loop, given in cloud indices. A duplicate means the point that stands for it.
 Boundary
 fromUser (const Points& points, const std::vector<Index>& user_loop)
@@ -126,5 +122,4 @@ measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<f
   }
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The boundary loop of a disc.
 struct Boundary
 {
@@ -50,5 +47,4 @@ void
 measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
               Boundary& boundary);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

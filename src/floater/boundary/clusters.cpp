@@ -7,12 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A tree that counts points in spheres. A sphere with the growing distance as its radius holds a
 // good part of a dense boundary, so a node that lies inside of it is counted as a whole.
 class SphereCounter
@@ -159,5 +155,4 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
   return clusters;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

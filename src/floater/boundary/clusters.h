@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Clusters by region growing, each from the densest point that no earlier cluster has taken.
 /// O(n log n) for n points along curves.
 /// \param positions       per point
@@ -26,5 +23,4 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
                        const std::vector<Index>& boundary_points, double tolerance, int k,
                        const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

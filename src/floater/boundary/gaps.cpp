@@ -8,12 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Circumradius of the triangle of the origin, a and b: the product of its sides over four times its
 // area.
 double
@@ -75,5 +71,4 @@ findGaps (const Stars& stars, const std::vector<float>& spacing, double circumra
   return gaps;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

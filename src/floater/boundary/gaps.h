@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A run of consecutive sectors of one star without a triangle, or with one whose circumcircle is
 /// too wide. The neighbours at its two ends are the next boundary points as seen from this one.
 struct Gap
@@ -31,5 +28,4 @@ std::vector<Gap>
 findGaps (const Stars& stars, const std::vector<float>& spacing, double circumradius_ratio,
           const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

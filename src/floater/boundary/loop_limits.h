@@ -7,10 +7,7 @@
 
 #include <array>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Thresholds that decide which loop is found and whether it counts as a boundary. Lengths are in
 /// local spacings (see localSpacing ()) unless a field says otherwise.
 ///
@@ -66,5 +63,4 @@ struct LoopLimits
   std::size_t few_points = 100;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

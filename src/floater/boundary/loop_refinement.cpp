@@ -10,12 +10,8 @@
 #include <cmath>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Largest number of steps along the loop between two edges that 2-opt exchanges. A longer reversal
 // does not undo a crossing of neighbouring jags, and the time grows with the window.
 constexpr std::size_t WINDOW = 30;
@@ -183,5 +179,4 @@ refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
     untangle (positions, loop, run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

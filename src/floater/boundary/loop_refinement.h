@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Undoes crossings by 2-opt in a window, and inserts candidates that lie on or beyond an edge of
 /// the loop where that is a small detour. Left out, such a point would be an interior point outside
 /// of the boundary, and the surface would fold there. O(points + c log n) for c candidates
@@ -27,5 +24,4 @@ refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
             const std::vector<float>& spacing, const std::vector<Index>& candidates,
             std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

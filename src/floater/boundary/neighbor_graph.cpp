@@ -13,12 +13,8 @@
 #include <numeric>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // An edge from one component of the graph to another.
 struct Bridge
 {
@@ -208,5 +204,4 @@ nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k)
   return part;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

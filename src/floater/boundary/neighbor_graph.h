@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// An edge between two neighbouring points.
 struct NeighborEdge
 {
@@ -33,5 +30,4 @@ neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunCon
 std::vector<NeighborEdge>
 nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

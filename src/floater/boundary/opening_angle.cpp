@@ -6,10 +6,7 @@
 #include "core/tangent_frame.h"
 #include "local/planar_star.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<Index>
 openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                     const std::vector<Eigen::Vector3f>& normals, double opening_angle,
@@ -38,5 +35,4 @@ openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   return points;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Points whose widest sector without a neighbour exceeds the opening angle, ascending. Neighbours
 /// are projected on the tangent plane of the point. O(n k log k).
 /// \param positions     per point
@@ -23,5 +20,4 @@ openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
                     const std::vector<Eigen::Vector3f>& normals, double opening_angle,
                     const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

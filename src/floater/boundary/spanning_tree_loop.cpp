@@ -11,12 +11,8 @@
 #include <tuple>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 // Nearest candidates that a candidate is joined to, besides those at the ends of its gaps.
@@ -298,5 +294,4 @@ spanningTreeLoop (const Positions& positions, const Stars& stars, const std::vec
   return best;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Finds the longest boundary loop. This method is not in TW 385.
 ///
 /// Candidates are the points with a gap in their star (see gaps.h). Edges join them: an edge is
@@ -33,5 +30,4 @@ spanningTreeLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& st
                   const std::vector<float>& spacing, const RunContext& run,
                   const LoopLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

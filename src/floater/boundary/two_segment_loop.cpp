@@ -14,12 +14,8 @@
 #include <queue>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 // Appends points to a segment that begins with `seed` until it has `size` points.
@@ -184,5 +180,4 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
   return loop;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Splits a cluster into two connected segments with common ends, orders each of them between its
 /// ends by the univariate Floater parameterization (reciprocal distance weights), and joins them to
 /// a loop. O(n log n).
@@ -32,5 +29,4 @@ std::vector<Index>
 twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster,
                 const RunContext& run, const LoopLimits& limits = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

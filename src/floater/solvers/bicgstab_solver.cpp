@@ -14,12 +14,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
@@ -162,5 +158,4 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
   return solution;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Solves with Eigen's BiCGSTAB and IncompleteLUT: one incomplete factorization, then each
 /// coordinate by itself, both at the same time if there are threads. The residual that BiCGSTAB
 /// updates drifts away from the true one. So the true one is measured when it stops, and it starts
@@ -27,5 +24,4 @@ namespace floater
 Solution
 solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using ColumnMatrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
@@ -94,5 +90,4 @@ solveWithEigenSparseLu (const LinearSystem& system, Ordering ordering, const Run
              : solveOrdered<Eigen::COLAMDOrdering<int>> (system, false, run);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Solves by one factorization for both right-hand sides. The rows are passed as the columns of the
 /// transpose: their dominant diagonal makes partial pivoting keep to the diagonal. Outcomes OK,
 /// SINGULAR, OUT_OF_MEMORY, FAILED.
@@ -20,5 +17,4 @@ namespace floater
 Solution
 solveWithEigenSparseLu (const LinearSystem& system, Ordering ordering, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

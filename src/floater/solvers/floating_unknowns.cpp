@@ -5,12 +5,8 @@
 #include <cmath>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Largest rounding error of the sum of a row, relative to it. The smallest weight of a row is far
 // larger (SMALLEST_WEIGHT).
 constexpr double ROUNDING = 1e-13;
@@ -68,5 +64,4 @@ refuseFloatingUnknowns (const LinearSystem& system, Solution& solution)
   return true;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

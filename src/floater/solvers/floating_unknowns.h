@@ -6,10 +6,7 @@
 #include "floater/solvers/linear_system.h"
 #include "floater/solvers/solution.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Counts the unknowns from which no path, from row to column, leads to a row in which the boundary
 /// takes part: one whose diagonal exceeds the sum of its other entries. With positive weights the
 /// system is singular if and only if there are such unknowns. An iterative solver would not notice;
@@ -23,5 +20,4 @@ countFloatingUnknowns (const LinearSystem& system);
 bool
 refuseFloatingUnknowns (const LinearSystem& system, Solution& solution);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

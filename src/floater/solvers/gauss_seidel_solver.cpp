@@ -8,12 +8,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Sweeps between two measurements of the residual, each of which costs as much as a sweep.
 constexpr int SWEEPS_BETWEEN_CHECKS = 10;
 
@@ -63,5 +59,4 @@ solveWithGaussSeidel (const LinearSystem& system, double tolerance, int max_iter
   return solution;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

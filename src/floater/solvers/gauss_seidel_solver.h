@@ -6,10 +6,7 @@
 #include "floater/solvers/linear_system.h"
 #include "floater/solvers/solution.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Sweeps over the rows in their order, in which each unknown becomes the weighted mean of its
 /// neighbours, until the measured residual is within the tolerance. A sweep shrinks the error by a
 /// factor of 1 - O(1/n) for n unknowns, so the number of sweeps grows with n. Outcomes OK,
@@ -20,5 +17,4 @@ Solution
 solveWithGaussSeidel (const LinearSystem& system, double tolerance, int max_iterations,
                       const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

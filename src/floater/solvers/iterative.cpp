@@ -6,10 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 void
 concludeIteration (const LinearSystem& system, double tolerance, const char* name,
                    Solution& solution)
@@ -37,5 +34,4 @@ concludeIteration (const LinearSystem& system, double tolerance, const char* nam
   solution.uv.clear ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -5,10 +5,7 @@
 
 #include "floater/solvers/residual.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Measures the residual of solution.uv and sets the outcome: OK if the residual is within the
 /// tolerance, NOT_CONVERGED if it is not, FAILED if it is not finite. Unless it is OK, there is a
 /// message and no uv.
@@ -18,5 +15,4 @@ void
 concludeIteration (const LinearSystem& system, double tolerance, const char* name,
                    Solution& solution);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

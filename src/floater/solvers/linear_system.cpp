@@ -4,12 +4,8 @@
 
 #include "core/parallel.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Per point: its place in the loop, NONE if it is not on it.
 std::vector<Index>
 placesInLoop (const std::vector<Index>& loop, std::size_t points)
@@ -115,5 +111,4 @@ assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
   return system;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

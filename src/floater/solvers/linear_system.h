@@ -10,10 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A u = b for both coordinates of the interior points, in compressed rows.
 struct LinearSystem
 {
@@ -45,5 +42,4 @@ assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
                 const std::vector<std::uint8_t>& reachable, const RunContext& run,
                 std::size_t most_entries = MOST_MATRIX_ENTRIES);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

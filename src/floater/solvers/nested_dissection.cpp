@@ -9,12 +9,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Sets of so few unknowns are not dissected: their fronts are small in any order.
 constexpr std::size_t SMALLEST_SET = 8;
 // Half the width of the band: as a share of the set, or in rows of unknowns if that is less. A
@@ -271,5 +267,4 @@ dissectUnknowns (const LinearSystem& system, const std::vector<Eigen::Vector3d>&
   return dissect (symmetricPattern (system), system.point_of_unknown, positions, run).order;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

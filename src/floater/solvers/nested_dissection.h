@@ -8,10 +8,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A set of unknowns that are consecutive in the order: those of its two halves, then its cut.
 struct DissectedSet
 {
@@ -51,5 +48,4 @@ std::vector<int>
 dissectUnknowns (const LinearSystem& system, const std::vector<Eigen::Vector3d>& positions,
                  const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

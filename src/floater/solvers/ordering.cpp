@@ -14,12 +14,8 @@
 #include <string>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 void
 fail (const char* call, int status, bool is_out_of_memory)
 {
@@ -151,5 +147,4 @@ permuteSystem (const LinearSystem& system, const std::vector<int>& order)
   return permuted;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

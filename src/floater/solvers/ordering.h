@@ -9,10 +9,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// An order of the unknowns, for a factorization with its pivots on the diagonal: entry i is the
 /// unknown that comes i-th. It is made from the pattern of A + A^T alone. AMD is SuiteSparse's, and
 /// METIS is called through CHOLMOD. Both orders follow the elimination tree, so that the systems
@@ -33,5 +30,4 @@ reverseCuthillMckee (const LinearSystem& system);
 LinearSystem
 permuteSystem (const LinearSystem& system, const std::vector<int>& order);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

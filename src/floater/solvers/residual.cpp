@@ -6,10 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 double
 Residual::relative (std::size_t side) const
 {
@@ -67,5 +64,4 @@ recordResidual (const LinearSystem& system, Solution& solution)
   solution.uv.clear ();
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

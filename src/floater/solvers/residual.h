@@ -6,10 +6,7 @@
 #include "floater/solvers/linear_system.h"
 #include "floater/solvers/solution.h"
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// b - A u, computed from the matrix itself. An iterative solver may believe it to be less. Norms
 /// are Euclidean, one for each coordinate.
 struct Residual
@@ -38,5 +35,4 @@ measureResidual (const LinearSystem& system, const std::vector<Eigen::Vector2d>&
 void
 recordResidual (const LinearSystem& system, Solution& solution);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

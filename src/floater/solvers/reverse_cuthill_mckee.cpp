@@ -6,10 +6,7 @@
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <boost/graph/properties.hpp>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 std::vector<int>
 reverseCuthillMckee (const LinearSystem& system)
 {
@@ -36,5 +33,4 @@ reverseCuthillMckee (const LinearSystem& system)
   return {order.begin (), order.end ()};
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

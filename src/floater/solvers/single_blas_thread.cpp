@@ -9,12 +9,8 @@
 #include <mutex>
 #include <new>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 struct OpenBlas
 {
   using Get = int (*) ();
@@ -71,5 +67,4 @@ SingleBlasThread::~SingleBlasThread ()
     blas.change (1, blas.threads);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -3,10 +3,7 @@
 // One BLAS thread during a factorization.
 #pragma once
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Makes OpenBLAS use one thread while any instance exists, and its former number afterwards. More
 /// threads cost time on fronts as small as ours, and they change the last digits of the factors.
 /// OpenBLAS is looked up at run time; with any other BLAS this does nothing.
@@ -23,5 +20,4 @@ public:
   SingleBlasThread& operator= (const SingleBlasThread&) = delete;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The solution of a LinearSystem, and what it cost.
 struct Solution
 {
@@ -44,5 +41,4 @@ struct Solution
 /// stay above.
 constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-12;
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

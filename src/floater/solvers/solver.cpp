@@ -14,12 +14,8 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Above this number, nested dissection is faster than AMD. Its factors are smaller by a tenth (127k
 // unknowns, a closed shape with a hole) to a quarter (1M, a height field).
 constexpr std::size_t DISSECTION_UNKNOWNS = 100'000;
@@ -148,5 +144,4 @@ solve (const LinearSystem& system, const SolverOptions& options,
   return solution;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

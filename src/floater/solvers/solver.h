@@ -9,10 +9,7 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Whether this build has the library of the solver.
 bool
 isAvailable (Solver solver);
@@ -34,5 +31,4 @@ Solution
 solve (const LinearSystem& system, const SolverOptions& options,
        const std::vector<Eigen::Vector3d>* positions, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

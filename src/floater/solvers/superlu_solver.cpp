@@ -11,12 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A matrix of SuperLU, freed by the function for its kind. It is empty until it has a store.
 template <void (*release) (SuperMatrix*)>
 struct Owned
@@ -143,5 +139,4 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering)
   return solution;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

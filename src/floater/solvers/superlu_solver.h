@@ -8,10 +8,7 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Solves by one factorization for both right-hand sides, with one BLAS thread. The rows are passed
 /// as the columns of the transpose: their dominant diagonal makes partial pivoting keep to the
 /// diagonal. If the factors do not fit into memory, that is an outcome; if SuperLU cannot get one
@@ -21,5 +18,4 @@ namespace floater
 Solution
 solveWithSuperlu (const LinearSystem& system, Ordering ordering);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,12 +14,8 @@
 #include <memory>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Unknowns from which on the interface has 64-bit indices. That with 32 bits takes an eighth less
 // memory, and holds factors of up to 2 GB; there are about 1.2 kB of them per unknown.
 constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
@@ -265,5 +261,4 @@ solveWithUmfpack (const LinearSystem& system, const std::vector<int>& order, con
   return solveInOrder (system, Ordering::NATURAL, order, run, UmfpackStrategy::SYMMETRIC);
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,10 +8,7 @@
 
 #include <pcl/surface/floater/options.h>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// How UMFPACK chooses pivots.
 enum class UmfpackStrategy
 {
@@ -38,5 +35,4 @@ solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContex
 Solution
 solveWithUmfpack (const LinearSystem& system, const std::vector<int>& order, const RunContext& run);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

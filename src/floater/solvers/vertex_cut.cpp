@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/vertex_cut.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Index SIDE = NONE - 1; // instead of a vertex, where a path begins or ends
 
 } // namespace
@@ -145,5 +141,4 @@ VertexCut::find (const CsrLists& graph, const std::vector<std::uint8_t>& ends)
   return parts_;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

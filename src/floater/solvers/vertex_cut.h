@@ -7,10 +7,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The part of a graph to which a vertex belongs.
 enum class CutPart : std::uint8_t
 {
@@ -64,5 +61,4 @@ private:
   std::vector<CutPart> parts_;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

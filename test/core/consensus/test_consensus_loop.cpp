@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::makeNeighborhoods;
 using samples::Neighborhoods;
 using samples::Positions;
@@ -75,5 +71,4 @@ TEST (ConsensusLoop, OfAClosedSurfaceIsEmpty)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

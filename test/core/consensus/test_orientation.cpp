@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // A candidate by the normals of its corners: bit i of `down` is set if normal i points down.
 Candidate
 candidate (const Triangle& corners, std::uint8_t down, std::uint8_t votes = 3)
@@ -118,5 +114,4 @@ TEST (Orientation, VotesJoinAllThatCandidatesConnect)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t SHORTEST_SEAM = 8;
 
 std::vector<Triangle>
@@ -69,5 +65,4 @@ TEST (OrientationSeam, StrayTrianglesAreNone)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 std::vector<Index>
 asVector (Row row)
 {
@@ -109,5 +105,4 @@ TEST (CsrLists, RowLengthsBecomeOffsets)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST (DisjointSets, TheSmallestElementRepresentsASet)
 {
   DisjointSets sets (8);
@@ -112,5 +108,4 @@ TEST (SignedSets, AgreeWithAColouring)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -4,12 +4,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Whether normals at this angle, in degrees, make a fold. Expects the same for any lengths.
 bool
 isFoldAt (double angle)
@@ -58,5 +54,4 @@ TEST (AreaVector, PointsToTheSideFromWhichCornersRunAnticlockwise)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

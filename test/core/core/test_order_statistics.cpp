@@ -10,12 +10,8 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // All ranks of lists of every size up to 40, whose numbers are different or mostly equal.
 TEST (OrderStatistics, TwoRanksAreThoseOfTheSortedList)
 {
@@ -38,5 +34,4 @@ TEST (OrderStatistics, TwoRanksAreThoseOfTheSortedList)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 #include <new>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST (ParallelTasks, RunsEachTaskOnce)
 {
   for (const int threads : {1, 2, 7})
@@ -56,5 +52,4 @@ TEST (ParallelRanges, CoverAllWithoutOverlap)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::waitUntilAPollIsDue;
 
 // Tasks that last until the run is cancelled end with it, on whatever thread they are.
@@ -248,5 +244,4 @@ TEST (RunContext, WithoutAMonitorIsANumberOfThreads)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

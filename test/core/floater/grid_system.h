@@ -11,10 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The system of all interior points.
 /// \param loop_uv parameters of the grid's loop
 inline LinearSystem
@@ -45,5 +42,4 @@ randomOrder (std::size_t count, std::uint64_t seed)
   return order;
 }
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

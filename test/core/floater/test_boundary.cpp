@@ -13,12 +13,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::makeNeighborhoods;
 using samples::Neighborhoods;
 using samples::Positions;
@@ -196,5 +192,4 @@ TEST (Boundary, CanBeCancelledInEveryStep)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 #include <numeric>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 using Clusters = std::vector<std::vector<Index>>;
 
@@ -197,5 +193,4 @@ TEST (Clusters, EqualTheStepsOfTw385WhereDistancesTie)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

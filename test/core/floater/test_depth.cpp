@@ -12,12 +12,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::discOptions;
 using samples::Outline;
@@ -348,5 +344,4 @@ TEST (Depth, ShallowSurfacesStayAsTheyAre)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

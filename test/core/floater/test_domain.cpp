@@ -12,12 +12,8 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
                                   Domain::OWN_SHAPE};
 constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
@@ -394,5 +390,4 @@ TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

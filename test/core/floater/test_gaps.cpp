@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::PI;
 
 // One star: point 0 with neighbours 1, 2, and so on. The neighbours have no stars.
@@ -121,5 +117,4 @@ TEST (Gaps, OfASheetAreAtItsBorder)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Ids = std::vector<Index>;
 
 TEST (LinearSystem, WithTwoUnknowns)
@@ -149,5 +145,4 @@ TEST (LinearSystem, KeepsRowsWithoutNeighbors)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <random>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 using Pair = std::pair<Index, Index>;
 
@@ -201,5 +197,4 @@ TEST (NearestPart, KeepsTheNearestAndStaysConnected)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

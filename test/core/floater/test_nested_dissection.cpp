@@ -10,12 +10,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Random rows: distant points are joined as well as close ones.
 LinearSystem
 randomPattern (std::size_t unknowns, RandomStream& random)
@@ -162,5 +158,4 @@ TEST (NestedDissection, IsTheAutomaticOrderOfLargeSystems)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Ordering SYMMETRIC_ORDERINGS[] = {Ordering::AMD, Ordering::METIS, Ordering::NATURAL,
                                             Ordering::REVERSE_CUTHILL_MCKEE};
 
@@ -125,5 +121,4 @@ TEST (UnknownOrder, PermutingMovesRowsColumnsAndRightHandSides)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

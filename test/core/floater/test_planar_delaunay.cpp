@@ -9,12 +9,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::PI;
 using Places = std::vector<Eigen::Vector2d>;
 
@@ -250,5 +246,4 @@ TEST (TriangulateHull, PointsOnALineHaveNone)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

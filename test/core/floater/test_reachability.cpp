@@ -14,12 +14,8 @@
 #include <set>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Lists = std::vector<std::vector<Index>>;
 using Links = std::vector<std::array<Index, 2>>;
 
@@ -242,5 +238,4 @@ TEST (Reachability, OfNothingIsEmpty)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

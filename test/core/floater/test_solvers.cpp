@@ -13,12 +13,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Outcome = Solution::Outcome;
 
 constexpr Solver ALL_SOLVERS[] = {Solver::UMFPACK,       Solver::UMFPACK_UNSYMMETRIC,
@@ -323,5 +319,4 @@ TEST (Solvers, ReturnZeroForARightHandSideOfZero)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

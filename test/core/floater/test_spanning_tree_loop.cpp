@@ -8,12 +8,8 @@
 
 #include <complex>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::canonicalCycle;
 using samples::Outline;
 using samples::PI;
@@ -228,5 +224,4 @@ TEST (SpanningTreeLoop, FewPoints)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

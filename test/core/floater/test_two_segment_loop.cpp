@@ -11,12 +11,8 @@
 #include <numeric>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
 // The same cycle from its smallest point on, towards that one's smaller neighbour.
@@ -255,5 +251,4 @@ TEST (TwoSegmentLoop, LongBorder)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -17,12 +17,8 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Outcome = Solution::Outcome;
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
@@ -362,5 +358,4 @@ TEST_F (BlasThreads, AreRestoredBySolversInAnyThread)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

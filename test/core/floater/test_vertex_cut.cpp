@@ -9,12 +9,8 @@
 #include <algorithm>
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Edges = std::set<std::pair<Index, Index>>; // each in both directions
 
 CsrLists
@@ -160,5 +156,4 @@ TEST (VertexCut, WithoutSides)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

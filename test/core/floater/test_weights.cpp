@@ -15,12 +15,8 @@
 #include <numeric>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Star = std::vector<Eigen::Vector2d>;
 constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
                                         Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE};
@@ -377,5 +373,4 @@ TEST (Weights, OfManyNeighborsReproduceTheCentre)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::PI;
 using Neighbors = std::vector<PlanarNeighbor>;
 
@@ -279,5 +275,4 @@ TEST (PlanarStar, AVeryCloseNeighborStays)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::makeNeighborhoods;
 using samples::Neighborhoods;
 using samples::PI;
@@ -328,5 +324,4 @@ TEST (Stars, OfSomePointsAreThoseOfAll)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

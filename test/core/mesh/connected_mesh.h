@@ -8,12 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 /// The triangles of a mesh, in the same order, with their neighbours. The calling test fails if
 /// they are no oriented manifold.
 inline TriangleMesh
@@ -25,6 +20,4 @@ connected (const Mesh& mesh)
   return result;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

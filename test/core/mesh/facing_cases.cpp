@@ -11,14 +11,8 @@
 #include <functional>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
-namespace
-{
+namespace pcl::floater::facing_cases {
+namespace {
 FacingCase
 asCase (Soup soup)
 {
@@ -427,6 +421,4 @@ wrongShare (const FacingCase& one, const TriangleMesh& mesh)
   return all > 0.0 ? wrong / all : 0.0;
 }
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

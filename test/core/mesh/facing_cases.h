@@ -9,12 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
+namespace pcl::floater::facing_cases {
 /// What a case is an example of.
 enum class Family
 {
@@ -63,6 +58,4 @@ turnAtRandom (const FacingCase& one, RandomStream& random);
 double
 wrongShare (const FacingCase& one, const TriangleMesh& mesh);
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

@@ -10,12 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 using Triangles = std::vector<Triangle>;
 
 struct Mesh
@@ -117,6 +112,4 @@ beside (Mesh a, const Mesh& b)
   return a;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

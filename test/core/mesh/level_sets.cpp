@@ -8,14 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
-namespace
-{
+namespace pcl::floater::facing_cases {
+namespace {
 // The level set of a field by tetrahedra (Kuhn's six of each cube). A closed oriented manifold if
 // the field is positive on the border of the box.
 class LevelSet
@@ -164,6 +158,4 @@ levelSet (const Field& field)
   return LevelSet (field, 1.3, CELLS).take ();
 }
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

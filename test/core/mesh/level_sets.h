@@ -8,12 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
+namespace pcl::floater::facing_cases {
 /// Below zero inside a solid.
 using Field = std::function<double (const Vector&)>;
 
@@ -37,6 +32,4 @@ unite (std::vector<Field> parts);
 Soup
 levelSet (const Field& field);
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

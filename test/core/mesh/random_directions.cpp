@@ -4,12 +4,7 @@
 
 #include "core/geometry.h"
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
+namespace pcl::floater::facing_cases {
 double
 between (RandomStream& random, double low, double high)
 {
@@ -40,6 +35,4 @@ randomTilt (RandomStream& random, double degrees)
   return (tilt * around).toRotationMatrix ();
 }
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

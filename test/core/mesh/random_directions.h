@@ -7,12 +7,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
+namespace pcl::floater::facing_cases {
 double
 between (RandomStream& random, double low, double high);
 
@@ -28,6 +23,4 @@ randomRotation (RandomStream& random);
 Eigen::Matrix3d
 randomTilt (RandomStream& random, double degrees);
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

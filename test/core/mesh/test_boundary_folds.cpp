@@ -9,12 +9,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::connected;
 using samples::Mesh;
 
@@ -120,5 +116,4 @@ TEST (BoundaryFolds, EveryPointKeepsATriangle)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 
 // A loop of all points in order, measured.
@@ -98,5 +94,4 @@ TEST (BoundaryLoops, AreFoundInOrderWithTheirComponents)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::connected;
 using samples::Mesh;
 
@@ -133,5 +129,4 @@ TEST (BoundaryNotches, CutSurfacesEndWhereTheyAreCut)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

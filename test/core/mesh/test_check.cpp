@@ -17,12 +17,8 @@
 #include <sstream>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::annulus;
 using samples::beside;
 using samples::check;
@@ -425,5 +421,4 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutArea)
   EXPECT_EQ (check (tetrahedron (1e-9), 1e-10F).check.degenerate_triangles, 0U);
 }
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

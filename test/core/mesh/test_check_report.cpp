@@ -10,12 +10,8 @@
 #include <string>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::annulus;
 using samples::beside;
 using samples::check;
@@ -160,5 +156,4 @@ TEST (CheckReport, TheReportHasCloudIndicesAndTheLongestLoop)
   EXPECT_EQ (report.loop, (std::vector<Index>{1, 2, 3}));
 }
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

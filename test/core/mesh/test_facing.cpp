@@ -12,12 +12,8 @@
 #include <algorithm>
 #include <functional>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::PI;
 using samples::Positions;
 using Shape = std::function<Eigen::Vector3d (double, double)>;
@@ -425,5 +421,4 @@ TEST (Facing, TheReportTellsWhatIsNotSure)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::unordered;
 using Places = std::vector<Eigen::Vector2d>;
 
@@ -177,5 +173,4 @@ TEST (Finish, ATorusLaidOutAsADiscIsRefused)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 using samples::Sheet;
 using samples::unordered;
@@ -283,5 +279,4 @@ TEST (TriangleCost, IsFiniteHoweverNearThePointsAre)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 
 constexpr Index GRID_SIDE = 9; // points along a grid
@@ -355,5 +351,4 @@ TEST (FoldRepair, CachedCostsAreTheCosts)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::PI;
 using samples::Positions;
 
@@ -224,5 +220,4 @@ TEST (HoleFilling, AConeOfThreeTrianglesIsClosed)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,8 +12,7 @@
 
 using namespace pcl::floater;
 
-namespace
-{
+namespace {
 constexpr Index BLOCKS_SIDE = 150; // 22,500 points: six blocks
 
 // A bumpy sheet, row by row; its cells are cut along a diagonal at random.

@@ -10,12 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 HoleOptions
 policy (HolePolicy kind)
 {
@@ -289,5 +285,4 @@ TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

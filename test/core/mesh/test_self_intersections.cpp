@@ -10,12 +10,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::beside;
 using samples::Mesh;
 using samples::Positions;
@@ -335,5 +331,4 @@ TEST (SelfIntersections, AreInTheReportWithPlaces)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

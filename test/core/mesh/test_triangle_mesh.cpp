@@ -11,12 +11,8 @@
 #include <numeric>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Connected mesh of these triangles.
 TriangleMesh
 meshOf (std::vector<Triangle> triangles, std::size_t points)
@@ -370,5 +366,4 @@ TEST (TriangleMesh, BoundaryLoopsHaveTheSurfaceOnTheirLeft)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <map>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 
 Eigen::Vector3d
@@ -127,5 +123,4 @@ TEST (TriangleRays, DoNotSlipBetweenTriangles)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::Mesh;
 using samples::Positions;
@@ -309,5 +305,4 @@ TEST (Trimming, NothingLeftIsAFailure)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

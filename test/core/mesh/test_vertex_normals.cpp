@@ -14,12 +14,8 @@
 #include <limits>
 #include <stdexcept>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Mesh;
 using samples::Positions;
 using samples::Triangles;
@@ -233,5 +229,4 @@ TEST (VertexNormals, DoNotDependOnThreadsOrOrder)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 TEST (VertexStars, HaveTheTrianglesOfEachPointInTheirOrder)
 {
   constexpr std::size_t POINTS = 3 * TriangleRanges::LENGTH + 5;
@@ -124,5 +120,4 @@ TEST (VertexStars, SumsOfComponentsAreThoseOfOneThread)
   }
 }
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
+namespace pcl::floater::facing_cases {
 TriangleMesh
 meshOf (const Soup& soup)
 {
@@ -228,6 +223,4 @@ cutCones (const std::vector<Soup*>& walls, int windows, RandomStream& random)
   }
 }
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

@@ -9,12 +9,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace facing_cases
-{
+namespace pcl::floater::facing_cases {
 using Vector = Eigen::Vector3d;
 
 struct Soup
@@ -76,6 +71,4 @@ tear (Soup& soup, int cuts, double width, RandomStream& random);
 void
 cutCones (const std::vector<Soup*>& walls, int windows, RandomStream& random);
 
-} // namespace facing_cases
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::facing_cases

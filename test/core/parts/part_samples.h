@@ -11,12 +11,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 inline Positions
 surface (SurfaceKind kind, std::size_t points, double noise = 0.0)
 {
@@ -48,6 +43,4 @@ prepare (const Positions& positions)
   return prepared;
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

@@ -6,12 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Index SIDE = 9; // points of a row of the grid
 
 Index
@@ -75,5 +71,4 @@ TEST (MeshRegion, PointOfTwoFans)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

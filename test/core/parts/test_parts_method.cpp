@@ -13,12 +13,8 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 using samples::surface;
 
@@ -179,5 +175,4 @@ TEST (PartsMethod, CanBeCancelled)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

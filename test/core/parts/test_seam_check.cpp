@@ -14,12 +14,8 @@
 #include <optional>
 #include <string>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 using samples::surface;
 
@@ -235,5 +231,4 @@ TEST (UncrossingOfParts, LeavesFewPairs)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr Index ROW = 20; // points of a row of the sheet
 
 // A flat sheet of points, and one above its middle that has no triangle, whose neighbours are the
@@ -104,5 +100,4 @@ TEST (PartFinish, TrianglesBesideAPointOfAnotherPartAreInTheZone)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

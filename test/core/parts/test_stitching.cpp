@@ -9,12 +9,8 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::prepare;
 using samples::Prepared;
 using samples::surface;
@@ -158,5 +154,4 @@ TEST (Stitching, TellsThatTooLittleIsSeen)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

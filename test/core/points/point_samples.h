@@ -14,12 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 const Eigen::Vector3d ON_A_MAP (5e5, 5.5e6, 300.0);
 
 /// \param noise in spacings
@@ -83,6 +78,4 @@ private:
   Positions cloud_;
 };
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

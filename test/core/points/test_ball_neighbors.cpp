@@ -14,12 +14,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::workingPoints;
 
 std::vector<Eigen::Vector3d>
@@ -216,5 +212,4 @@ TEST (PlanarStarOfAll, GoesRoundAndBeginsAfterTheGap)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 using samples::surface;
 using samples::workingPoints;
@@ -215,5 +211,4 @@ TEST (Blocks, AreChosenByPointsAndThreads)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::ON_A_MAP;
 using samples::placed;
@@ -138,5 +134,4 @@ TEST (CoordinateGrid, TheReportWarns)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

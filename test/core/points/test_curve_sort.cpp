@@ -11,12 +11,8 @@
 #include <limits>
 #include <tuple>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::indices;
 using samples::Positions;
 
@@ -140,5 +136,4 @@ TEST (CurveSort, ScalesWhatItSorts)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::asInput;
 using samples::indices;
 using samples::ON_A_MAP;
@@ -212,5 +208,4 @@ TEST (GrossOutliers, ObjectsFarApartAreBothReconstructed)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

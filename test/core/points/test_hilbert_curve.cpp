@@ -9,12 +9,8 @@
 #include <random>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Cell = std::array<std::uint32_t, 3>;
 
 /// Bit by bit, as Skilling (2004) gives it.
@@ -87,5 +83,4 @@ TEST (HilbertCurve, GoesFromCellToCell)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

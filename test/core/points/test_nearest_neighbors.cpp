@@ -8,12 +8,8 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::BruteForceSearch;
 using samples::indices;
 using samples::Positions;
@@ -186,5 +182,4 @@ TEST (NearestNeighbors, FewerWhereThereAreFewerPoints)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::BruteForceSearch;
 using samples::Positions;
 using samples::workingPoints;
@@ -154,5 +150,4 @@ TEST (RenewNeighbors, OfFewPoints)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -8,12 +8,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 using samples::surface;
 
@@ -384,5 +380,4 @@ TEST (Noise, SurfaceOfNoisyPoints)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

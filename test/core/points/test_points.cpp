@@ -9,12 +9,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::indices;
 using samples::Positions;
 
@@ -429,5 +425,4 @@ TEST (RemovePoints, DownToOnePlace)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -9,12 +9,8 @@
 
 #include <numeric>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Positions;
 
 void
@@ -107,5 +103,4 @@ TEST (SequentialSearch, TinyDistances)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,12 +13,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Mesh;
 
 std::vector<Index>
@@ -395,5 +391,4 @@ TEST (Charts, FacetsAreDiscs)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,12 +10,8 @@
 
 #include <set>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using Plane = std::vector<Eigen::Vector2d>;
 
 std::set<std::pair<Index, Index>>
@@ -138,5 +134,4 @@ TEST (Rounding, WhatCannotBeRightedIsCounted)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Mesh;
 
 // With nothing wrong with it.
@@ -350,5 +346,4 @@ TEST (TextureCoordinates, ProgressAndCancellation)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -10,14 +10,8 @@
 #include <set>
 #include <sstream>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
-namespace
-{
+namespace pcl::floater::samples {
+namespace {
 using Corners = std::array<Eigen::Vector2f, 3>;
 
 CGAL::Orientation
@@ -243,6 +237,4 @@ flawsOfTexture (const std::vector<Eigen::Vector3d>& positions,
   return flaws.str ();
 }
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

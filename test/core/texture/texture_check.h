@@ -10,12 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
-namespace samples
-{
+namespace pcl::floater::samples {
 /// Pairs of triangles in the plane whose insides have a point in common, found exactly.
 /// \param corners per triangle, anti-clockwise
 std::size_t
@@ -30,6 +25,4 @@ flawsOfTexture (const std::vector<Eigen::Vector3d>& positions,
                 const std::vector<Triangle>& triangles, const TextureCoordinates& texture,
                 bool with_distances = false);
 
-} // namespace samples
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater::samples

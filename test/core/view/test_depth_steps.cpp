@@ -14,12 +14,8 @@
 #include <map>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr int COLUMNS = 100;
 constexpr double AZIMUTH = 0.2 * DEGREE, ELEVATION = 1.1 * DEGREE;
 constexpr double NEVER = std::numeric_limits<double>::infinity ();
@@ -148,5 +144,4 @@ TEST (DepthSteps, AJointTooLongForOneOfItsSurfacesIsLeftOpen)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

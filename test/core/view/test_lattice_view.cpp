@@ -15,12 +15,8 @@
 #include <numeric>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 /// Places in the plane, in any order, with the pixel of each.
 struct Frame
 {
@@ -264,5 +260,4 @@ TEST (LatticeView, AFullTurn)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::DepthNoise;
 using samples::Positions;
 using samples::Raster;
@@ -144,5 +140,4 @@ TEST (RayEvidence, FewPointsAreNoEvidence)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -12,12 +12,8 @@
 #include <numeric>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 constexpr std::size_t SAMPLES = 200;
 
 Points
@@ -97,5 +93,4 @@ TEST (RowEvidence, EachSampleIsATask)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -11,12 +11,8 @@
 #include <cmath>
 #include <random>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 // Angle of the longest edge of the triangles that are in no gap.
 double
 longestEdge (const std::vector<Eigen::Vector3d>& positions)
@@ -72,5 +68,4 @@ TEST (ViewGaps, RaysAtRandomHaveHardlyAny)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

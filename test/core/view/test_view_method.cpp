@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::DepthNoise;
 using samples::Positions;
 using samples::Raster;
@@ -254,5 +250,4 @@ TEST (ViewMethod, AllPointsOnOneRayGiveNoMesh)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

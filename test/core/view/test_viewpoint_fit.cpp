@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-namespace pcl
-{
-namespace floater
-{
-namespace
-{
+namespace pcl::floater {
+namespace {
 using samples::Raster;
 using samples::Scan;
 
@@ -41,5 +37,4 @@ TEST (ViewpointFit, AllRastersAreFittedToTheirPlace)
 }
 
 } // namespace
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -16,10 +16,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// The kind of surface that the points are taken for. It decides which method makes the mesh.
 enum class Topology
 {
@@ -311,5 +308,4 @@ struct Options
   std::function<void ()> task_callback;
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// A search structure of the caller's. The core uses it in one thread at a time.
 class NeighborSearch
 {
@@ -109,5 +106,4 @@ reconstruct (Input input, const Options& options);
 PCL_FLOATER_EXPORT Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

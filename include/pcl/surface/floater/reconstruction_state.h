@@ -18,13 +18,11 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 struct PolygonMesh;
 struct TextureMesh;
 
-namespace floater
-{
+namespace floater {
 /** \brief The options of FloaterReconstruction and the results of its last run.
  *
  * It has nothing but a pointer to them, and no member is inline: options and results may be added
@@ -369,5 +367,4 @@ private:
   std::unique_ptr<Data> data_; // never null
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -13,10 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Outcome of a run. With every status but SUCCESS, the mesh is empty and a message names the
 /// cause.
 enum class RunStatus
@@ -218,5 +215,4 @@ struct Report
   Statistics statistics;                                ///< counts, times and figures
 };
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -14,10 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Options of computeTextureCoordinates (). The defaults need no tuning.
 struct TextureOptions
 {
@@ -85,5 +82,4 @@ computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
                            const std::vector<std::array<std::uint32_t, 3>>& triangles,
                            const TextureOptions& options = {});
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

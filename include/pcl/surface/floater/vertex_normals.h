@@ -11,10 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Normals of the vertices of a triangle mesh: the mean of the normals of the triangles around each
 /// one, weighted by their angles there (G. Thuermer, C. A. Wuethrich, Computing vertex normals from
 /// polygonal facets, 1998). So it does not matter how a flat face is cut into triangles. They point
@@ -35,5 +32,4 @@ PCL_FLOATER_EXPORT std::vector<Eigen::Vector3f>
 vertexNormals (const std::vector<Eigen::Vector3d>& positions,
                const std::vector<std::array<std::uint32_t, 3>>& triangles, int threads = 0);
 
-} // namespace floater
-} // namespace pcl
+} // namespace pcl::floater

@@ -17,10 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace floater
-{
+namespace pcl::floater {
 /// Lets the core use a search method of PCL.
 template <typename PointT>
 class SearchMethod : public NeighborSearch
