@@ -44,7 +44,8 @@ public:
   /// See measureNoise.
   virtual NoiseProbes noiseProbes () = 0;
 
-  /// The geometry around each point. \param with_stars whether their lists are read
+  /// The geometry around each point.
+  /// \param with_stars whether their lists are read
   virtual LocalGeometry geometry (LocalPlanes planes, bool with_stars) = 0;
 
   /// The spacing of that geometry alone.

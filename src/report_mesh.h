@@ -47,8 +47,8 @@ inCloud (const Points& points, std::vector<Triangle> triangles);
 /// What checkMesh () found: its figures, in a few words if they are why no disc was made, points
 /// that are in no triangle, but for those that the report lists as outliers, the longest loop if
 /// there is none yet, and warnings with places: on unused points, folds, long edges, triangles
-/// without area, components of a few points, and small holes that no option asked for. \return
-/// INTERNAL_ERROR if the mesh is no oriented manifold
+/// without area, components of a few points, and small holes that no option asked for.
+/// \return INTERNAL_ERROR if the mesh is no oriented manifold
 Problem
 reportCheck (const Points& points, const MeshExamination& found, const Options& options,
              Report& report);

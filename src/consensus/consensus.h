@@ -49,8 +49,8 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
                  Consensus& consensus, const RunContext& run);
 
 /// The same for candidates that are known to have room.
-/// \param open      with corners, votes and circumradius ratio; in any order, but equal ones keep
-/// it \param mesh      all of the mesh around the corners of the candidates, and any more of it
+/// \param open with corners, votes and circumradius ratio; in any order, but equal ones keep it
+/// \param mesh all of the mesh around the corners of the candidates, and any more of it
 /// \param same_side points of one component of the mesh whose connection is not part of `mesh`
 Consensus
 extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> open,

@@ -55,7 +55,8 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run);
 
-/// The same of candidates that are known. \param normals those of the stars
+/// The same of candidates that are known.
+/// \param normals those of the stars
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,

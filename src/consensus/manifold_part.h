@@ -26,11 +26,12 @@ using NeighborsOf = std::function<Row (Index point)>;
 
 /// The same for a part of a larger consensus. At partial points, triangles are missing, and all
 /// that there are stay. Components with such points, and those of partial points without a
-/// triangle, count as large. \param points number of points
+/// triangle, count as large.
+/// \param points number of points
 /// \param neighbors_of asked of some points of small components only
-/// \param is_partial   of each point; empty: none is
+/// \param is_partial of each point; empty: none is
 /// \return nothing if triangles that are missing would have to be known: a triangle at a partial
-///         point would be dropped
+///   point would be dropped
 std::optional<TriangleMesh>
 manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighbors_of,
               std::size_t smallest_island, std::vector<std::uint8_t> is_partial,

@@ -32,7 +32,8 @@ public:
     return element;
   }
 
-  /// Joins the sets of two elements. \return false if they are in one set already
+  /// Joins the sets of two elements.
+  /// \return false if they are in one set already
   bool join (Index a, Index b)
   {
     a = find (a);
@@ -42,8 +43,9 @@ public:
   }
 
   /// The number of each element's set, from 0 in the order of their smallest elements, NONE for
-  /// sets that are left out. The sets are used up. O(size). \param is_numbered called with the
-  /// smallest element of each set, ascending: false leaves it out
+  /// sets that are left out. The sets are used up. O(size).
+  /// \param is_numbered called with the smallest element of each set, ascending: false leaves it
+  ///   out
   template <typename IsNumbered>
   std::vector<Index> number (IsNumbered&& is_numbered) &&
   {

@@ -31,7 +31,8 @@ public:
   HelperThreads& operator= (HelperThreads&&) = delete;
 
   /// Gives work to a thread that waits, or to a new one: it never waits for other work, so that
-  /// work may wait for work that it starts. \throws std::exception if no thread can be started
+  /// work may wait for work that it starts.
+  /// \throws std::exception if no thread can be started
   void start (Work work);
 
 private:

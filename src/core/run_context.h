@@ -54,17 +54,20 @@ public:
   void setMethod (Topology method) { is_disc_ = method == Topology::DISC; }
 
   /// A stage begins. It takes over what is left of the run for it and for the stages that were
-  /// skipped before it. Does nothing if the stage is running already. \throws Cancelled
+  /// skipped before it. Does nothing if the stage is running already.
+  /// \throws Cancelled
   void beginStage (Stage stage);
 
   /// A step of the stage begins, which ends when the fraction `until` of the stage is done. One
-  /// loop is to run through it. \throws Cancelled
+  /// loop is to run through it.
+  /// \throws Cancelled
   void beginStep (double until);
 
   /// No stage is running from here on; time is booked to none.
   void stopClock ();
 
-  /// Asks whether to go on if the last time is long enough ago. \throws Cancelled
+  /// Asks whether to go on if the last time is long enough ago.
+  /// \throws Cancelled
   void pollNowAndThen ();
 
   /// The run has ended well: tells that all of it is done.
@@ -129,7 +132,8 @@ public:
     return context;
   }
 
-  /// See RunMonitor. All do nothing without a monitor. \throws Cancelled
+  /// See RunMonitor. All do nothing without a monitor.
+  /// \throws Cancelled
   void beginStage (Stage stage) const;
   void beginStep (double until) const;
   void setMethod (Topology method) const;
@@ -175,14 +179,16 @@ public:
   ProgressLoop (ProgressLoop&&) = delete;
   ProgressLoop& operator= (ProgressLoop&&) = delete;
 
-  /// One more item. Asks every 256th time; as many take no tenth of a second. \throws Cancelled
+  /// One more item. Asks every 256th time; as many take no tenth of a second.
+  /// \throws Cancelled
   void next ()
   {
     if (++count_ % ITEMS_PER_POLL == 0)
       reach (count_);
   }
 
-  /// So many items are done. For loops of few and large items. \throws Cancelled
+  /// So many items are done. For loops of few and large items.
+  /// \throws Cancelled
   void reach (std::size_t count);
 
 private:

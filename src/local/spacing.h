@@ -11,12 +11,14 @@
 
 namespace pcl::floater {
 /// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
-/// triangulation that is the length of an edge. O(n). \param neighbors nearest first
+/// triangulation that is the length of an edge. O(n).
+/// \param neighbors nearest first
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const RunContext& run);
 
-/// That of some points only; 0 for all others. \param neighbors of the points in `rows`
+/// That of some points only; 0 for all others.
+/// \param neighbors of the points in `rows`
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const Rows& rows, const RunContext& run);

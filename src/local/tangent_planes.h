@@ -20,8 +20,8 @@ struct PlaneLimits
   double sheet_sine = 0.5;     ///< of the largest angle, 30 degrees, between the first plane and a
                                ///< neighbour that the second one takes in
   double least_aspect = 0.05;  ///< of the points of the first plane (see Plane::aspect); neighbours
-                              ///< are added until it is reached. Points on a line with noise of one
-                              ///< step stay below, a third of an evenly sampled disc is above
+      ///< are added until it is reached. Points on a line with noise of one
+      ///< step stay below, a third of an evenly sampled disc is above
 };
 
 /// Unit normals, of arbitrary sign: those of the planes through the 8 nearest neighbours, refitted

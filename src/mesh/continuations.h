@@ -33,7 +33,8 @@ struct Continuation
 /// another component, that one continues this one. Where both run the same way round, the fronts
 /// are on opposite sides, whatever the angle between the surfaces: edges that are shared run
 /// opposite ways. O(b log b) for b boundary edges; none are looked at if there is but one component
-/// with boundary. \return ordered by (a, b)
+/// with boundary.
+/// \return ordered by (a, b)
 std::vector<Continuation>
 findContinuations (const TriangleMesh& mesh, const MeshComponents& components,
                    const std::vector<Eigen::Vector3d>& positions, const ContinuationLimits& limits,

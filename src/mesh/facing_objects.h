@@ -135,7 +135,8 @@ makeObjects (const std::vector<FacingSums>& components, SignedSets sets);
 /// How far each object bulges out of its boundary to its front: the volume between it and the
 /// middle of its boundary, signed over unsigned, from -1 to 1: 1 of a dome that faces outwards,
 /// about 0 of a wave. 0 of a flat one. O(n).
-/// \param component of each triangle \param flatness see FacingLimits
+/// \param component of each triangle
+/// \param flatness see FacingLimits
 std::vector<double>
 bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& component,
           const std::vector<Eigen::Vector3d>& positions,

@@ -62,7 +62,8 @@ private:
 
 /// Flips edges of the whole mesh (see EdgeFlipper): first within blocks, on all threads, then what
 /// is left between them. Boundary edges are kept. Of a part of a mesh, fixed triangles stay; it
-/// takes one thread. O(n) in practice. \return number of flips
+/// takes one thread. O(n) in practice.
+/// \return number of flips
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);
 

@@ -56,7 +56,8 @@ findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t fir
                          std::size_t last, const std::vector<Eigen::Vector3d>& positions,
                          const RunContext& run);
 
-/// Pairs of places in an order become pairs of triangles. \return sorted
+/// Pairs of places in an order become pairs of triangles.
+/// \return sorted
 /// \param order triangle of each place
 std::vector<CrossingPair>
 pairsInOrder (const std::vector<CrossingPair>& places, const std::vector<Index>& order);

@@ -83,7 +83,8 @@ private:
 };
 
 /// Looks around all points, on all threads. Their number does not matter to what is found.
-/// \param ranges of the triangles \param sets see SurroundingsCheck
+/// \param ranges of the triangles
+/// \param sets see SurroundingsCheck
 Surroundings
 lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckLimits& limits,
             DisjointSets* sets, const RunContext& run);

@@ -126,9 +126,10 @@ struct TriangleMesh
 
   /// Sets neighbours and triangle_of from the triangles. Points that are partial may have several
   /// fans. O(n), on all threads. 5 bytes per triangle while it runs, 12 if they are in random
-  /// order. \param points number of points; corners must be below \return false if the triangles
-  /// are no oriented manifold; the mesh is then unusable \throws IndexLimitReached if there are
-  /// 2^32 / 3 triangles or more
+  /// order.
+  /// \param points number of points; corners must be below
+  /// \return false if the triangles are no oriented manifold; the mesh is then unusable
+  /// \throws IndexLimitReached if there are 2^32 / 3 triangles or more
   bool connect (std::size_t points, const RunContext& run);
 
 private:

@@ -21,8 +21,8 @@ public:
 
   /// Calls visit (t, at) for each triangle t that a ray meets beyond its origin, at origin + at *
   /// direction, in any order, until it returns true. A ray through an edge or a corner meets at
-  /// least one of the triangles around, and none that it runs along. \param direction not zero, any
-  /// length
+  /// least one of the triangles around, and none that it runs along.
+  /// \param direction not zero, any length
   template <typename Visit>
   void forHits (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                 Visit&& visit) const

@@ -28,7 +28,8 @@ struct CrossingSum
 
   void add (const CrossingSum& next);
 
-  /// Sets what is left. \param point_of a corner
+  /// Sets what is left.
+  /// \param point_of a corner
   template <typename PointOf>
   void take (const std::vector<CrossingPair>& pairs, const std::vector<Triangle>& triangles,
              PointOf&& point_of)
@@ -91,13 +92,15 @@ makeTriangleBuckets (const std::vector<Triangle>& triangles,
                      const std::vector<Eigen::Vector3d>& positions);
 
 /// Turns the triangles of some components round.
-/// \param triangles of a part, as they were checked \param is_turned each component
+/// \param triangles of a part, as they were checked
+/// \param is_turned each component
 void
 turnInner (std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is_turned,
            Index first, std::size_t points, const RunContext& run);
 
 /// The component of each inner triangle, as InnerCheck numbers them.
-/// \param triangles corners are points of the cloud \param first, points of the part
+/// \param triangles corners are points of the cloud
+/// \param first, points of the part
 std::vector<Index>
 innerComponents (std::vector<Triangle> triangles, Index first, std::size_t points,
                  const RunContext& run);

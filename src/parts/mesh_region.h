@@ -17,9 +17,10 @@ struct MeshRegion
 };
 
 /// All triangles with a corner that is fewer than `rings` edges away from a seed, all triangles
-/// that are asked for besides, and the seeds themselves. O(rings n). \param points  number of
-/// points of the mesh \param seeds   points of the mesh; need not be vertices \param besides of
-/// each triangle: 1 for those that are in the region anyway; empty: none
+/// that are asked for besides, and the seeds themselves. O(rings n).
+/// \param points number of points of the mesh
+/// \param seeds points of the mesh; need not be vertices
+/// \param besides of each triangle: 1 for those that are in the region anyway; empty: none
 MeshRegion
 regionAround (const std::vector<Triangle>& triangles, std::size_t points,
               const std::vector<Index>& seeds, std::size_t rings,

@@ -15,8 +15,9 @@ constexpr std::size_t MOST_IN_BALL = 200;
 
 /// All other points in a ball around each of some points, nearest first, ties by index. Row i of
 /// the result is that of rows[i]. The radius is `radius` times the mean distance of the point's
-/// SPACING_NEIGHBORS nearest. At least as many as these, and at most the MOST_IN_BALL nearest.
-/// O(n (log n + neighbours)). \throws IndexLimitReached if there are 2^32 - 1 entries or more
+/// SPACING_NEIGHBORS nearest. At least as many as these, and at most the MOST_IN_BALL nearest. O(n
+/// (log n + neighbours)).
+/// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 CsrLists
 findBallNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, double radius,
                    const RunContext& run);

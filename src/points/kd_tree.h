@@ -83,8 +83,8 @@ public:
   /// All points within `radius` of `query` (that distance included), nearest first.
   void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
-  /// All points within `radius` of `query` (that distance included), in no order. \return false if
-  /// there are more than `most`, and not all were found
+  /// All points within `radius` of `query` (that distance included), in no order.
+  /// \return false if there are more than `most`, and not all were found
   bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
                 std::vector<Index>& points) const;
 

@@ -33,10 +33,12 @@ public:
   {
   }
 
-  /// Of lists that are fetched. \param all fetches all of them, and keeps them
+  /// Of lists that are fetched.
+  /// \param all fetches all of them, and keeps them
   NeighborTable (Some some, All all) : some_ (std::move (some)), all_ (std::move (all)) {}
 
-  /// Row i is that of points[i]. \param points ascending
+  /// Row i is that of points[i].
+  /// \param points ascending
   CsrLists some (const std::vector<Index>& points) const { return some_ (points); }
 
   const CsrLists& all () const { return all_ (); }

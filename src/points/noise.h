@@ -85,8 +85,9 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 /// Clouds of fewer than 320 points have no such scales, and no noise; those in which fewer than 1 %
 /// of the places are noisy have none, either. The same holds for scatter, which needs 320 points
 /// that are no surface: a single bush of fewer lies in a surface at the largest scale. A place
-/// where all three scales are lines, as on a wire, is scatter, too. O(n log n). \param positions
-/// along a space-filling curve \param neighbors of each point, nearest first
+/// where all three scales are lines, as on a wire, is scatter, too. O(n log n).
+/// \param positions along a space-filling curve
+/// \param neighbors of each point, nearest first
 /// \param known of every NOISE_PROBES-th point, if they have been measured before
 Noise
 measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,

@@ -51,14 +51,16 @@ public:
   using ReadBuckets =
       std::function<void (std::size_t first, std::size_t last, std::vector<Box>& buckets)>;
 
-  /// O(n), 1 byte per point. \param positions of the working set; must outlive the cutter
+  /// O(n), 1 byte per point.
+  /// \param positions of the working set; must outlive the cutter
   /// \param blocks wanted; fewer if they had less than a bucket of points each
   BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
                const RunContext& run);
 
   /// The same for positions and buckets that lie elsewhere: 0.012 bytes per point. If there are
   /// more blocks than buckets, some blocks have no points; these cannot be cut.
-  /// \param groups see makeGroups \param read_buckets those of makeBuckets
+  /// \param groups see makeGroups
+  /// \param read_buckets those of makeBuckets
   BlockCutter (std::size_t points, std::vector<Box> groups, std::size_t blocks,
                ReadBuckets read_buckets, Read read);
 
@@ -114,7 +116,8 @@ private:
 class BlockSearch : private SearchWatch
 {
 public:
-  /// \param cutter must outlive this \param widths see BlockCutter::cut
+  /// \param cutter must outlive this
+  /// \param widths see BlockCutter::cut
   BlockSearch (const BlockCutter& cutter, std::size_t block, const RunContext& run,
                double widths = 1.0);
   ~BlockSearch () override = default;
@@ -142,7 +145,8 @@ public:
   /// The own points around which searches have left the block since it was cut, ascending.
   std::vector<Index> left ();
 
-  /// Cuts the block anew with these balls, and makes its tree. \return false if there are none
+  /// Cuts the block anew with these balls, and makes its tree.
+  /// \return false if there are none
   bool widen ();
 
 private:
@@ -161,7 +165,8 @@ private:
 };
 
 /// How many blocks a cloud is worth: one up to 262144 points, else of at most 131072 points each
-/// and the same number for every thread. \param wanted 0: choose
+/// and the same number for every thread.
+/// \param wanted 0: choose
 std::size_t
 chooseBlocks (std::size_t points, int wanted, const RunContext& run);
 

@@ -54,8 +54,9 @@ struct Points
 /// (the smallest cloud index stands for all), and sorts along a Hilbert curve, which is fine enough
 /// for objects many orders of magnitude smaller than the box. O(n log n). Points are equal if they
 /// are so after scaling. Points nearer to each other than 1e-16 of the diagonal may be, and no
-/// later stage could tell them apart. \param positions   any \param cloud_index of each position;
-/// distinct
+/// later stage could tell them apart.
+/// \param positions any
+/// \param cloud_index of each position; distinct
 Points
 makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
             const RunContext& run);

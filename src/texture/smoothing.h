@@ -38,8 +38,8 @@ struct SmoothingLimits
 /// Moves rough vertices, and those around them, to the mean of their neighbours, on the boundary to
 /// that of the two along it, until they are smooth. Charts are found and laid out on this surface:
 /// on the noisy one, triangles face all ways, and there are as many charts as bumps. O(n) for each
-/// round; one if there is no noise. \return positions per point; those of other vertices are
-/// unchanged
+/// round; one if there is no noise.
+/// \return positions per point; those of other vertices are unchanged
 std::vector<Eigen::Vector3d>
 smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const SmoothingLimits& limits, const RunContext& run);

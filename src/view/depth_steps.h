@@ -51,7 +51,8 @@ struct StepLimits
 /// Noise of depth grows with depth in every sensor, in some with its square. So it is measured by
 /// depth: as a quantile of the deviations at edges of about the same depth, each divided by the sum
 /// of weights in it. Where most deviations are mere rounding, depths are quantized, and the noise
-/// is one quantum. O(n log n). \return of each triangle: 1 if one of its edges is a step
+/// is one quantum. O(n log n).
+/// \return of each triangle: 1 if one of its edges is a step
 std::vector<std::uint8_t>
 findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
                 const RunContext& run);

@@ -25,9 +25,8 @@ struct SearchLimits
   double even = 1.0; ///< spread of the areas that points stand for (logarithm of the ratio of the
                      ///< quartiles); below, and without noise, the cloud is sampled evenly, and
                      ///< needs no view. Points at random have 0.5
-  double rows =
-      0.6; ///< share of points between their two nearest neighbours; above, the cloud was
-           ///< scanned along lines. Of points at random it is 0.25, on a square raster 0.33
+  double rows = 0.6; ///< share of points between their two nearest neighbours; above, the cloud was
+      ///< scanned along lines. Of points at random it is 0.25, on a square raster 0.33
   std::size_t row_directions = 180; ///< in which such a cloud is looked at: one degree apart
   std::size_t by_rows = 4;          ///< best of the directions between, which are refined
   double explained = 0.75; ///< of that spread; with more left at the best place, areas do not come

@@ -59,7 +59,8 @@ isHeightField (const pcl::PointCloud<PointT>& cloud, const std::vector<pcl::Vert
          (upward == 0 || upward == polygons.size ());
 }
 
-/// Reconstructs with the default options and checks the mesh. \return exit code of the program
+/// Reconstructs with the default options and checks the mesh.
+/// \return exit code of the program
 template <typename PointT>
 int
 reconstructHeightField (const pcl::PointCloud<PointT>& cloud, pcl::PolygonMesh& mesh)

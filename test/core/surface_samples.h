@@ -36,7 +36,8 @@ eulerOf (const KnownSurface& surface)
 
 // ---- one disc
 
-/// A tube with a round tip and an open base. \param slenderness length of the tube over its radius
+/// A tube with a round tip and an open base.
+/// \param slenderness length of the tube over its radius
 KnownSurface
 finger (double slenderness, std::size_t points, std::uint64_t seed);
 
@@ -49,8 +50,8 @@ KnownSurface
 comb (double gap, bool ragged, std::uint64_t seed);
 
 /// A bent square sheet sampled more densely at one side; unit of length is the smaller spacing.
-/// \param ratio largest over smallest points per area \param abrupt in two halves, or as an
-/// exponential from side to side
+/// \param ratio largest over smallest points per area
+/// \param abrupt in two halves, or as an exponential from side to side
 KnownSurface
 unevenSheet (double ratio, bool abrupt, std::uint64_t seed);
 

@@ -21,7 +21,8 @@ enum class MemoryFault
 void
 failAllocations (MemoryFault fault, std::size_t n);
 
-/// Ends it. \return how many there were, with those that failed
+/// Ends it.
+/// \return how many there were, with those that failed
 std::size_t
 stopFailing ();
 

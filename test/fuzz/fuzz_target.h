@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Runs the target on some bytes. \return 0. A fault ends the program.
+/// Runs the target on some bytes.
+/// \return 0. A fault ends the program.
 extern "C" int
 LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size);

@@ -10,7 +10,8 @@
 #include <random>
 
 namespace pcl::floater::fuzz {
-/// The cloud and options of a seed. \param most points at most
+/// The cloud and options of a seed.
+/// \param most points at most
 inline Attack
 randomAttack (std::uint64_t seed, std::size_t most)
 {

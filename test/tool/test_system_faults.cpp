@@ -66,7 +66,8 @@ protected:
     return faulty;
   }
 
-  /// All calls of this name, one after the other. \return how many there are
+  /// All calls of this name, one after the other.
+  /// \return how many there are
   int forEachCall (const std::string& call, const std::string& kind,
                    const std::function<void (const Faulty&)>& check)
   {

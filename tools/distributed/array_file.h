@@ -32,7 +32,8 @@ public:
 
   virtual std::uint64_t size () const = 0;
 
-  /// Reads `count` bytes from `offset`. \throws WorkError if they are not there
+  /// Reads `count` bytes from `offset`.
+  /// \throws WorkError if they are not there
   virtual void read (std::uint64_t offset, std::size_t count, char* bytes) = 0;
 };
 
@@ -64,7 +65,8 @@ public:
              const std::function<void (const char* bytes, std::size_t count)>& write) const;
 
   /// Writes a file that is visible when it is complete. It may still be on its way to the disk
-  /// then. \throws WriteError
+  /// then.
+  /// \throws WriteError
   void write (const std::filesystem::path& path, std::uint64_t plan) const;
 
 private:
@@ -86,9 +88,10 @@ private:
 class ArrayFile
 {
 public:
-  /// \param name for messages \param plan of which the arrays have to be a part
+  /// \param name for messages
+  /// \param plan of which the arrays have to be a part
   /// \throws WorkError if it is no such file, has another version, is truncated, or is of another
-  /// plan; as do all members that read, if the file is damaged
+  ///   plan; as do all members that read, if the file is damaged
   ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std::uint64_t plan);
 
   const std::string& name () const { return name_; }
@@ -118,7 +121,8 @@ public:
     return read<T> (array, 0, count (array));
   }
 
-  /// Reads all of the file. \throws WorkError if anything is damaged
+  /// Reads all of the file.
+  /// \throws WorkError if anything is damaged
   void verify ();
 
 private:

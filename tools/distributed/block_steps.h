@@ -61,13 +61,15 @@ blockRanges (const Plan& plan, std::size_t points);
 const char*
 pointsLeft (const std::vector<Index>& outliers);
 
-/// Writes a working set and what is needed to cut it. \param name POINTS or POINTS_LEFT
+/// Writes a working set and what is needed to cut it.
+/// \param name POINTS or POINTS_LEFT
 /// \param gross_outliers cloud indices
 void
 writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
              const std::vector<Index>& gross_outliers, const RunContext& run);
 
-/// Reads it. \param[out] gross_outliers cloud indices
+/// Reads it.
+/// \param[out] gross_outliers cloud indices
 Points
 readPoints (Store& store, const std::string& name, const Plan& plan,
             std::vector<Index>& gross_outliers);

@@ -39,7 +39,8 @@ struct Job
 };
 
 /// Parses the command line. Prints the help or the version if asked for.
-/// \return the exit code if there is nothing else to do \throws UsageError
+/// \return the exit code if there is nothing else to do
+/// \throws UsageError
 std::optional<int>
 parseJob (const std::vector<std::string>& arguments, Job& job);
 
@@ -56,7 +57,8 @@ struct EffectiveOptions
   Limits limits;
 };
 
-/// Makes the work folder, and checks that all outputs can be written. \throws WriteError
+/// Makes the work folder, and checks that all outputs can be written.
+/// \throws WriteError
 void
 prepareFolders (const Job& job);
 

@@ -52,7 +52,8 @@ planId (const std::vector<InputFile>& inputs, const std::string& parameters, std
 std::string
 manifestText (const Plan& plan);
 
-/// \param name for messages \throws WorkError if it is no manifest of this version, or damaged
+/// \param name for messages
+/// \throws WorkError if it is no manifest of this version, or damaged
 Plan
 parseManifest (const std::string& text, const std::string& name);
 

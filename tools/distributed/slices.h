@@ -94,7 +94,8 @@ public:
   /// Place of a point; NONE if it is not in the part.
   Index placeOf (Index point) const;
 
-  /// Replaces points by their places. \return whether all are in the part
+  /// Replaces points by their places.
+  /// \return whether all are in the part
   bool toPlaces (std::vector<Index>& points) const;
 
   /// Replaces places by their points.
@@ -105,7 +106,8 @@ public:
   }
 
   /// Lists of places for all points of the part, of lists of points of some. Those of the others
-  /// are empty. \param rows whose lists are given, as points, ascending; all in the part
+  /// are empty.
+  /// \param rows whose lists are given, as points, ascending; all in the part
   CsrLists toPlaces (const std::vector<Index>& rows, CsrLists lists) const;
 
 private:

@@ -24,7 +24,8 @@ public:
   /// \throws WorkError if it is not there
   virtual std::unique_ptr<ByteSource> open (const std::string& name) = 0;
 
-  /// Writes a file that is visible when it is complete. \throws WriteError
+  /// Writes a file that is visible when it is complete.
+  /// \throws WriteError
   virtual void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) = 0;
 };
 
@@ -52,10 +53,12 @@ public:
   /// Removes a file, if it is there. Others that are open go on to read it.
   void remove (const std::string& name) const;
 
-  /// Waits until all files are on the disk. \throws WriteError if one is not; it is removed
+  /// Waits until all files are on the disk.
+  /// \throws WriteError if one is not; it is removed
   void finish ();
 
-  /// A text file. \throws WorkError
+  /// A text file.
+  /// \throws WorkError
   std::string readText (const std::string& name) const;
 
   /// \throws WriteError

@@ -102,7 +102,8 @@ sortUnique (std::vector<Index>& points)
   points.erase (std::unique (points.begin (), points.end ()), points.end ());
 }
 
-/// A range of points, and those of others that are not in it. \return ascending, each once
+/// A range of points, and those of others that are not in it.
+/// \return ascending, each once
 inline std::vector<Index>
 joinPoints (Index first, Index last, std::initializer_list<const std::vector<Index>*> others)
 {

@@ -25,7 +25,8 @@ public:
 void
 requireWritable (const std::filesystem::path& path);
 
-/// Waits until the bytes of a file are on the disk. \throws WriteError if they do not get there
+/// Waits until the bytes of a file are on the disk.
+/// \throws WriteError if they do not get there
 void
 syncFile (const std::filesystem::path& path);
 
@@ -68,8 +69,8 @@ public:
   template <typename T>
   void writeDecimal (T number);
 
-  /// Writes all bytes and checks that they arrived. \param syncs whether to wait until they are on
-  /// the disk; else see syncFile
+  /// Writes all bytes and checks that they arrived.
+  /// \param syncs whether to wait until they are on the disk; else see syncFile
   void close (bool syncs = true);
 
   /// Gives the closed file its final name, which makes it visible, or copies it to the standard

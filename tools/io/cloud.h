@@ -86,7 +86,8 @@ Cloud
 makeCloud (std::vector<Field> fields, std::size_t size);
 
 /// Makes the fields x, y and z of a text double if they are float: then they get all digits of the
-/// text. \return whether all three were float
+/// text.
+/// \return whether all three were float
 bool
 widenCoordinates (const std::vector<Field*>& fields);
 

@@ -30,10 +30,11 @@ meshFormatOf (const std::filesystem::path& path);
 
 /// Writes the mesh. All coordinates must be finite. All formats but STL tell the shift in a
 /// comment. As far as the format allows, vertex k is point k of the cloud with all its fields, and
-/// every number reads back exactly. \param path for messages; the bytes are written to `file`
+/// every number reads back exactly.
+/// \param path for messages; the bytes are written to `file`
 /// \param format by default that which the extension of the path tells
 /// \param texture if it is not nullptr, the texture coordinates are written as well: as vt of OBJ,
-/// s and t of PLY, TCoords of VTK. In PLY and VTK, points on seams are doubled (doubleSeamPoints)
+///   s and t of PLY, TCoords of VTK. In PLY and VTK, points on seams are doubled (doubleSeamPoints)
 /// \return losses of the format, one sentence each
 /// \throws WriteError
 std::vector<std::string>
@@ -53,8 +54,9 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
           bool with_texture = false);
 
 /// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
-/// ... \return names of the 64-bit integer fields, which are written as double, because PLY has no
-/// type for them
+/// ...
+/// \return names of the 64-bit integer fields, which are written as double, because PLY has no type
+///   for them
 std::vector<std::string>
 writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
@@ -69,7 +71,8 @@ void
 writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
 /// Binary glTF 2.0: positions in single precision, colours, normals of length 1 (0 0 1 where there
-/// is none), and triangles. \throws WriteError also if it would have more than 4 GB
+/// is none), and triangles.
+/// \throws WriteError also if it would have more than 4 GB
 void
 writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 

@@ -78,7 +78,8 @@ joinLines (std::string_view text)
   return joined;
 }
 
-/// Reads the numbers in the rest of the line. \return how many
+/// Reads the numbers in the rest of the line.
+/// \return how many
 std::size_t
 readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
 {
@@ -101,7 +102,8 @@ struct ObjFaces
 };
 
 /// The part of a corner "7/8/9" up to the next slash, as an index from 0; the rest stays in `text`.
-/// Negative numbers count back from the last of `size`. \return nothing if that part is empty
+/// Negative numbers count back from the last of `size`.
+/// \return nothing if that part is empty
 std::optional<std::size_t>
 takeIndex (const TextScanner& scanner, std::string_view& text, std::size_t size)
 {

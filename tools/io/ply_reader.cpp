@@ -172,7 +172,8 @@ readAscii (TextScanner& scanner, Element& element, bool keep)
   }
 }
 
-/// As readAscii, for a binary element with lists. \return the bytes that follow it
+/// As readAscii, for a binary element with lists.
+/// \return the bytes that follow it
 std::string_view
 readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
 {

@@ -35,7 +35,8 @@ public:
     return values_.get ()[row * width () + column];
   }
 
-  /// Reads a line with a point. \throws ReadError if it has other columns than those before it
+  /// Reads a line with a point.
+  /// \throws ReadError if it has other columns than those before it
   void readRow (const TextScanner& scanner, std::string_view line);
 
   /// Decides what columns without names are. The warning tells.
@@ -45,8 +46,8 @@ public:
   std::vector<Field> fields (std::vector<std::string>& warnings);
 
 private:
-  /// Reads a column that is a number as nearly all are. \return its text; empty, and nothing is
-  /// taken, if it is another
+  /// Reads a column that is a number as nearly all are.
+  /// \return its text; empty, and nothing is taken, if it is another
   std::string_view takeNumber (const char*& at, const char* end, double& to) const;
 
   /// Reads any other column: empty, with a decimal comma, beyond the range of numbers, or a text.

@@ -27,7 +27,8 @@ struct ColumnSeparator
 std::vector<std::string_view>
 splitColumns (std::string_view line, char separator);
 
-/// Parses a column as a number; an empty one is NaN. \return false if it is neither
+/// Parses a column as a number; an empty one is NaN.
+/// \return false if it is neither
 bool
 parseColumn (std::string_view column, bool has_decimal_comma, double& number);
 

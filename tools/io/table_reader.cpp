@@ -53,7 +53,8 @@ isPoint (const std::vector<std::string_view>& words, const ColumnSeparator& sepa
 }
 
 /// Takes the line for that of the first point: finds how its columns are separated, and which of
-/// them are numbers. \return false if it is none
+/// them are numbers.
+/// \return false if it is none
 bool
 isFirstPoint (std::string_view line, TableHead& head)
 {
@@ -91,7 +92,8 @@ failWithoutPoints (const TableHead& head, const std::string& where)
   throw ReadError (cause);
 }
 
-/// Reads up to the first point, and that line. \return its text
+/// Reads up to the first point, and that line.
+/// \return its text
 std::string_view
 readHead (TextScanner& scanner, TableHead& head)
 {

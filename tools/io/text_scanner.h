@@ -52,7 +52,8 @@ public:
       next_ = MARK.size ();
   }
 
-  /// Goes to the next line. \return false at the end of the text
+  /// Goes to the next line.
+  /// \return false at the end of the text
   bool nextLine ()
   {
     if (next_ >= text_.size ())
@@ -65,7 +66,8 @@ public:
     return true;
   }
 
-  /// Goes to the next line with a word in it. \return false at the end of the text
+  /// Goes to the next line with a word in it.
+  /// \return false at the end of the text
   bool nextFilledLine ()
   {
     while (nextLine ()) {
@@ -142,7 +144,8 @@ private:
   std::size_t line_ = 0; // number of the line, from 1
 };
 
-/// Parses `field.count` words as values of a point. \return where the next values go
+/// Parses `field.count` words as values of a point.
+/// \return where the next values go
 inline char*
 scanField (TextScanner& scanner, const Field& field, char* to)
 {

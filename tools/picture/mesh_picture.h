@@ -26,8 +26,8 @@ vtkSmartPointer<vtkImageData>
 makeCheckerboard ();
 
 /// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
-/// are few. It is seen from the side to which most of it faces. Needs an X display. \param height
-/// in pixels; mesh and parameterization are as wide each
+/// are few. It is seen from the side to which most of it faces. Needs an X display.
+/// \param height in pixels; mesh and parameterization are as wide each
 vtkSmartPointer<vtkImageData>
 drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options = {});
 

@@ -23,7 +23,8 @@ struct GivenOptions
 GivenOptions
 readKeywords (const pybind11::dict& keywords);
 
-/// Reads three numbers. \param name of the argument, for messages
+/// Reads three numbers.
+/// \param name of the argument, for messages
 /// \throws pybind11::type_error, pybind11::value_error
 std::array<double, 3>
 readPlace (const char* name, const pybind11::handle& value);

@@ -37,7 +37,8 @@ public:
     stage_ = "texture";
   }
 
-  /// To be called with the lock. \throws what was raised during the run
+  /// To be called with the lock.
+  /// \throws what was raised during the run
   void rethrow () const
   {
     if (raised_)

@@ -42,12 +42,13 @@ memoryOfMachine ();
 bool
 areAllInPool ();
 
-/// Makes an array in the pool. For operator new. \return nullptr if it does not fit, or there is no
-/// pool
+/// Makes an array in the pool. For operator new.
+/// \return nullptr if it does not fit, or there is no pool
 void*
 makeInPool (std::size_t size);
 
-/// Frees an array of the pool. For operator delete. \return false if it is not in the pool
+/// Frees an array of the pool. For operator delete.
+/// \return false if it is not in the pool
 bool
 freeInPool (void* pointer);
 

@@ -26,7 +26,8 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Prints "program: message" to standard error. \return the code
+/// Prints "program: message" to standard error.
+/// \return the code
 int
 fail (const char* program, int code, const std::string& message);
 

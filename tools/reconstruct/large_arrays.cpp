@@ -66,7 +66,8 @@ pointerTo (std::uintptr_t address)
   return reinterpret_cast<char*> (address);
 }
 
-/// Makes a file without a name. \return its descriptor; -1 and errno if there is none
+/// Makes a file without a name.
+/// \return its descriptor; -1 and errno if there is none
 int
 makeScratchFile (const std::string& folder)
 {
@@ -102,7 +103,8 @@ reserveAddresses (std::size_t bytes)
   return begin;
 }
 
-/// Maps a new scratch file at reserved addresses. \return 0, or the error number
+/// Maps a new scratch file at reserved addresses.
+/// \return 0, or the error number
 int
 mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
 {

@@ -26,8 +26,10 @@ constexpr std::size_t LARGE_ARRAY_ALIGNMENT = std::size_t{1} << 21U;
 /// Makes every large array from now on a shared mapping of a file in this folder. The files have no
 /// names, so that none is left however the program ends. Their space is reserved when they are
 /// made: on a full disk, operator new throws std::bad_alloc. Must not be called while other threads
-/// run. \param make_room called before each of these arrays is made, in the same thread, with its
-/// bytes; must not throw \throws WriteError if no file can be made in the folder
+/// run.
+/// \param make_room called before each of these arrays is made, in the same thread, with its bytes;
+///   must not throw
+/// \throws WriteError if no file can be made in the folder
 void
 keepLargeArraysIn (const std::filesystem::path& scratch_folder,
                    std::function<void (std::size_t)> make_room = {});

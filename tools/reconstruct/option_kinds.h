@@ -65,7 +65,8 @@ void
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind = "FILE");
 
-/// Reads "1,-2.5,3". \return nothing if these are not three finite numbers
+/// Reads "1,-2.5,3".
+/// \return nothing if these are not three finite numbers
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word);
 

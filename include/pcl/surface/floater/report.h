@@ -134,8 +134,8 @@ struct Statistics
   std::size_t working_points = 0;    ///< distinct finite points that are no outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
   std::size_t scatter_points = 0;    ///< points around which the cloud is flat at no scale, such as
-                                  ///< leaves. Not looked for in a view, in fewer than 320 points,
-                                  ///< and without denoising if scatter is kept
+      ///< leaves. Not looked for in a view, in fewer than 320 points,
+      ///< and without denoising if scatter is kept
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
                       ///< surface, in local spacings; below 0.15 it counts as 0. Not of a view
   double noise_quantile_90 = 0.0;   ///< 90 % of the points have at most that noise
