@@ -39,8 +39,8 @@ def parser(doc):
 def run(command, seconds=0):
     """Ends it after so many seconds, 0: never, and raises TimeoutError. The peak memory of a process is at least that
     of the one that started it, so that a small one comes between."""
-    done = subprocess.run(["timeout", "--kill-after=10", str(seconds), *map(str, command)], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True)
+    limit = ["timeout", "--foreground", "--kill-after=10", str(seconds)]
+    done = subprocess.run([*limit, *map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode in (124, 137):
         raise TimeoutError
     return done
