@@ -63,28 +63,27 @@ fi
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-# Tells how far it is, in steps of 20 %, and keeps all else for the case of a fault.
 apt () {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o DPkg::Lock::Timeout=300 \
-    -o Acquire::Retries=3 -o APT::Status-Fd=1 "$@" 2>&1 |
-    awk -F: -v log_file="$log" '
-      /^dlstatus:/ { tell("downloaded", $3); next }
-      /^pmstatus:/ { tell("installed", $3); next }
-      { print >>log_file }
-      function tell(what, percent) {
-        if (what != last || percent >= next_step) {
-          next_step = (int(percent / 20) + 1) * 20
-          last = what
-          printf "  packages %s: %d %%\n", what, percent
-          fflush()
-        }
-      }'
+    -o Acquire::Retries=3 "$@" >>"$log" 2>&1
+}
+install () {
+  local total
+  total=$(apt-get -qq -s install --no-install-recommends "${missing[@]}" | grep -c '^Inst') || true
+  # Tells how far it is, from what apt has written.
+  (while sleep 10; do
+     echo "  package $(grep -c '^Setting up' "$log") of $total"
+   done | uniq) &
+  local teller=$! result=0
+  apt install --no-install-recommends "${missing[@]}" || result=$?
+  kill "$teller"
+  return "$result"
 }
 
 echo "Installing these packages, and those that they need: ${missing[*]}"
 for attempt in 1 2 3; do
   # Outdated package lists name files that the mirror no longer has.
-  if apt update >/dev/null && apt install --no-install-recommends "${missing[@]}"; then
+  if apt update && install; then
     exit 0
   fi
   echo "install_packages.sh: attempt $attempt of 3 failed" >&2
