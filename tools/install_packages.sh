@@ -71,9 +71,12 @@ install () {
   local total
   total=$(apt-get -qq -s install --no-install-recommends "${missing[@]}" | grep -c '^Inst') || true
   # Tells how far it is, from what apt has written.
-  (while sleep 10; do
-     echo "  package $(grep -c '^Setting up' "$log") of $total"
-   done | uniq) &
+  (last=
+   while sleep 10 >/dev/null 2>&1; do
+     now=$(grep -c '^Setting up' "$log" || true)
+     [[ $now == "$last" ]] || echo "  package $now of $total"
+     last=$now
+   done) &
   local teller=$! result=0
   apt install --no-install-recommends "${missing[@]}" || result=$?
   kill "$teller"
