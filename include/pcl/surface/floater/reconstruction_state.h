@@ -367,4 +367,5 @@ private:
   std::unique_ptr<Data> data_; // never null
 };
 
-} // namespace pcl::floater
+} // namespace floater
+} // namespace pcl

@@ -17,7 +17,8 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::floater {
+namespace pcl {
+namespace floater {
 /// Lets the core use a search method of PCL.
 template <typename PointT>
 class SearchMethod : public NeighborSearch
