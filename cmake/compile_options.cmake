@@ -28,7 +28,7 @@ if (PCL_FLOATER_WARNINGS_AS_ERRORS)
 endif ()
 
 # pcl_floater_in_batches (<target>)
-# Compiles the sources of each folder as one, which takes a fourth of the time. So what a source keeps in its
+# Compiles the sources of each folder as one, which takes a third of the time. So what a source keeps in its
 # unnamed namespace has a name of its own within its folder.
 option (PCL_FLOATER_UNITY "Compile the sources of a folder together: faster, but for small changes" ON)
 function (pcl_floater_in_batches target)

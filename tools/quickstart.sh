@@ -47,7 +47,7 @@ if [[ -z $build ]]; then
   if command -v apt-get >/dev/null; then
     bash "$root/tools/install_packages.sh"
   fi
-  echo "Building the library, the tool and the pictures (some two minutes on two cores; the tools that are left" \
+  echo "Building the library, the tool and the pictures (some three minutes on two cores; the tools that are left" \
        "out: cmake --build --preset release) ..."
   mkdir -p "$build"
   log=$build/quickstart.log
