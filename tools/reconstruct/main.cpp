@@ -299,6 +299,7 @@ static void
 prepareHeap (bool are_addresses_limited)
 {
   constexpr int THRESHOLD = 8 << 20, IN_HUGE_PAGES = 64 << 20;
+  constexpr std::uintptr_t MOST = 2 * static_cast<std::uintptr_t> (IN_HUGE_PAGES);
   constexpr std::uintptr_t PAGE = pcl::floater::HUGE_PAGE;
   mallopt (M_MMAP_THRESHOLD, THRESHOLD);
   mallopt (M_TRIM_THRESHOLD, 4 * IN_HUGE_PAGES);
@@ -308,7 +309,7 @@ prepareHeap (bool are_addresses_limited)
     void* const begin = std::malloc (THRESHOLD / 2); // grows the heap
     const auto first = (reinterpret_cast<std::uintptr_t> (begin) / PAGE + 1) * PAGE;
     const auto last = reinterpret_cast<std::uintptr_t> (::sbrk (0));
-    if (first < last && last - first < 2 * IN_HUGE_PAGES) // else it is no heap of glibc
+    if (first < last && last - first < MOST) // else it is no heap of glibc
       ::madvise (reinterpret_cast<void*> (first), last - first, MADV_HUGEPAGE);
     std::free (begin);
   }
