@@ -8,6 +8,7 @@ set -euo pipefail
 usage () {
   cat <<'END'
 Usage: quickstart.sh [--build FOLDER] [CLOUD]
+Builds the tools that make and draw meshes, and the library for PCL if PCL is installed.
 Reconstructs a point cloud (.pcd, .ply, .las, .xyz and others of doc/formats.md; without one, the scan
 tools/sample/tum_rabbit.pcd).
 Writes the mesh, a report and a picture to the folder floater_result in the working directory.
@@ -45,10 +46,9 @@ if [[ -z $build ]]; then
   build=$root/build/release
   # On another system than Debian, CMake tells what is missing.
   if command -v apt-get >/dev/null; then
-    bash "$root/tools/install_packages.sh"
+    bash "$root/tools/install_packages.sh" --tools-only
   fi
-  echo "Building the library, the tool and the pictures (some three minutes on two cores; the tools that are left" \
-       "out: cmake --build --preset release) ..."
+  echo "Building the tools that make and draw meshes (some three minutes on two cores) ..."
   mkdir -p "$build"
   log=$build/quickstart.log
   # On a terminal, each line takes the place of the last one.
@@ -85,4 +85,8 @@ ${picture:+  picture.png  a picture of the mesh
 END
 if ! command -v pcl_viewer >/dev/null; then
   echo "(pcl_viewer is in the Debian package pcl-tools.)"
+fi
+if [[ ! -e $build/src/libpcl_floater.so && ! -e $build/src/libpcl_floater.a ]]; then
+  echo "For the library for PCL, all tools and the Python module: tools/install_packages.sh, then" \
+       "'cmake --preset release && cmake --build --preset release'."
 fi
