@@ -67,6 +67,6 @@ public:
 /// Reconstructs a surface of which these stages are known.
 /// \param input without points: what else is known of the cloud
 Result
-reconstruct (Input input, const Options& options, KnownStages& known);
+reconstruct (Input input, const Options& options, const Limits& limits, KnownStages& known);
 
 } // namespace pcl::floater

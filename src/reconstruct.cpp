@@ -356,9 +356,9 @@ reconstruct (Input input, const Options& options, const Limits& limits)
 }
 
 Result
-reconstruct (Input input, const Options& options, KnownStages& known)
+reconstruct (Input input, const Options& options, const Limits& limits, KnownStages& known)
 {
-  return run (input, options, {}, &known);
+  return run (input, options, limits, &known);
 }
 
 } // namespace pcl::floater

@@ -38,6 +38,11 @@ def mpirun(processes, *more):
             processes]
 
 
+def small_parts():
+    """Parts are of half a million points by themselves."""
+    return () if OPTIONS.long else ("--limit", "parts.points=13107")
+
+
 def write_ply(path, points, more=()):
     fields = ["x", "y", "z", *more]
     header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n" +
@@ -523,24 +528,17 @@ class Steps(Case):
 
 
 class Parts(Case):
-    """Clouds that are meshed in parts, of half a million points at most."""
-    POINTS = 560000
+    """Clouds that are meshed in parts. With --long, parts are as large as they are for users."""
 
-    @classmethod
-    def setUpClass(cls):
-        cls.shared = pathlib.Path(tempfile.mkdtemp(prefix="pcl_floater_parts."))
-        cls.cloud, cls.mesh = cls.shared / "cloud.ply", cls.shared / "reference.ply"
-        for command in ([OPTIONS.generate, "cut-out", cls.cloud, "--points", cls.POINTS, "--holes", 40],
-                        [OPTIONS.reconstruct, "-q", cls.cloud, cls.mesh]):
-            outcome = run(command)
-            assert outcome.returncode == 0, outcome.stderr
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.shared, ignore_errors=True)
+    def setUp(self):
+        super().setUp()
+        self.scale = 1 if OPTIONS.long else 40
+        self.limit = small_parts()
+        self.cloud = self.generate("cut-out", "--points", 560000 // self.scale, "--holes", 40 // self.scale + 1)
+        self.mesh = self.reference(self.cloud, *self.limit)
 
     def check(self, processes, blocks, *options):
-        return self.expect_same(self.mesh.read_bytes(), [self.cloud], processes, blocks, *options)
+        return self.expect_same(self.mesh, [self.cloud], processes, blocks, *self.limit, *options)
 
     def test_processes_and_blocks(self):
         for processes, blocks in [(2, 5), (1, 2), (3, 64), (7, 5)] if OPTIONS.long else [(3, 5)]:
@@ -560,7 +558,7 @@ class Parts(Case):
 
     def test_printed_steps_and_restart(self):
         mesh = self.path("mesh.ply")
-        outcome = run(self.command("--step", "plan", self.cloud, mesh))
+        outcome = run(self.command("--step", "plan", "--blocks", 2, *self.limit, self.cloud, mesh))
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         printed = run(self.command("--print-steps"))
         groups = [group.split("\n") for group in printed.stdout.rstrip("\n").split("\n\n")]
@@ -579,16 +577,16 @@ class Parts(Case):
         part.write_bytes(saved[:-1000])
         self.expect_failure(self.step("join"), WORK, "mesh.0.bin", "is truncated")
         part.write_bytes(saved)
-        outcome = run(self.command(self.cloud, mesh))
+        outcome = run(self.command("--blocks", 2, *self.limit, self.cloud, mesh))
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         self.assertIn("mesh: 0 parts done, 2 finished before", outcome.stderr)
-        self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+        self.assertTrue(mesh.read_bytes() == self.mesh)
         self.expect_failure(self.step("finish", "--block", 2), USAGE, "there are only 2 parts")
         self.assertEqual(self.step("finish", "--block", 1).returncode, 0)
 
     def test_ended_while_parts_are_finished(self):
         mesh = self.path("mesh.ply")
-        command = self.command("--blocks", 2, self.cloud, mesh)
+        command = self.command("--blocks", 2, *self.limit, self.cloud, mesh)
         program = subprocess.Popen([str(word) for word in command], stderr=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL)
         changes = self.path("work") / "changes.bin"
@@ -601,11 +599,11 @@ class Parts(Case):
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         for step in STEPS:
             self.assertIn(f"{step}: 0 blocks done, 2 finished before", outcome.stderr)
-        self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+        self.assertTrue(mesh.read_bytes() == self.mesh)
 
     def test_what_the_mesh_is_made_of_is_damaged_or_missing(self):
         mesh, work = self.path("mesh.ply"), self.path("work")
-        command = self.command("--blocks", 2, self.cloud, mesh)
+        command = self.command("--blocks", 2, *self.limit, self.cloud, mesh)
         self.assertEqual(run(command).returncode, 0)
         part = work / "finish.1.bin"
         saved = part.read_bytes()
@@ -620,18 +618,19 @@ class Parts(Case):
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         self.assertIn("triangles: 0 blocks done, 2 finished before", outcome.stderr)
         self.assertTrue(part.read_bytes() == saved)
-        self.assertTrue(mesh.read_bytes() == self.mesh.read_bytes())
+        self.assertTrue(mesh.read_bytes() == self.mesh)
 
     def check_two_sheets(self, gap, *options):
         """Two sheets, so that each part has several components."""
         numbers = random.Random(3)
-        side, points = 520, []
+        side, points = int(520 / math.sqrt(self.scale)) + 1, []
         for i in range(2 * side * side):
             x, y = i // 2 % side + 0.6 * numbers.random(), i // 2 // side + 0.6 * numbers.random()
             z = 8.0 * math.sin(0.02 * x) * math.cos(0.03 * y) + 0.2 * numbers.random()
             is_upper = i % 2 == 1
             points.append((x + (0.4 if is_upper else 0), y, z + gap * is_upper, 0, 0, -1.0 if is_upper else 1.0))
         write_ply(self.path("sheets.ply"), points, ["nx", "ny", "nz"])
+        options += self.limit
         expected = self.reference(self.path("sheets.ply"), *options)
         told = self.expect_same(expected, [self.path("sheets.ply")], 2, 3, *options)
         self.assertIn("finish: 2 parts done", told)
@@ -643,24 +642,24 @@ class Parts(Case):
         self.check_two_sheets(1.8)
 
     def test_trimming(self):
-        options = ("--min-component", 300000, "--max-edge-ratio", 4)
+        options = ("--min-component", 300000 // self.scale, "--max-edge-ratio", 4, *self.limit)
         expected = self.reference(self.cloud, *options)
         self.expect_same(expected, [self.cloud], 2, 2, *options)
         self.assertEqual(list(self.path("work").glob("finish*")), [])
 
     def test_one_part_is_left_without_outliers(self):
         """The plan has two parts, as the points with outliers would have."""
-        write_ply(self.path("terrain.ply"), terrain_points(523500))
-        expected = self.reference(self.path("terrain.ply"))
-        self.expect_same(expected, [self.path("terrain.ply")], 2, 2)
+        write_ply(self.path("terrain.ply"), terrain_points(523300 // self.scale))
+        expected = self.reference(self.path("terrain.ply"), *self.limit)
+        self.expect_same(expected, [self.path("terrain.ply")], 2, 2, *self.limit)
         manifest = json.loads((self.path("work") / "manifest.json").read_text())
         self.assertEqual(manifest["parts"], 2)
 
     def test_slurm_script(self):
-        tasks = self.submit("--blocks", 3, self.cloud, self.path("mesh.ply"))
+        tasks = self.submit("--blocks", 3, *self.limit, self.cloud, self.path("mesh.ply"))
         self.assertEqual(tasks, {"neighbors": 3, "outliers": 1, "planes": 3, "stars": 3, "triangles": 3,
                                  "mesh": 2, "stitch": 1, "finish": 2, "join": 1, "write": 1})
-        self.assertTrue(self.path("mesh.ply").read_bytes() == self.mesh.read_bytes())
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.mesh)
 
 
 class Disk(Case):
@@ -709,15 +708,16 @@ class Disk(Case):
 
 class Restart(Case):
     def test_killed_and_started_again(self):
-        self.check_killed(self.generate("height-field", "--points", 40000), 12, 4)
+        self.check_killed(self.generate("height-field", "--points", 20000), 6, 4)
 
     def test_killed_in_parts(self):
-        self.check_killed(self.generate("height-field", "--points", 560000), 3, 3)
+        points = 560000 if OPTIONS.long else 14000
+        self.check_killed(self.generate("height-field", "--points", points), 3, 3, *small_parts())
 
-    def check_killed(self, cloud, blocks, moments):
-        expected = self.reference(cloud)
+    def check_killed(self, cloud, blocks, moments, *options):
+        expected = self.reference(cloud, *options)
         mesh = self.path("mesh.ply")
-        command = [str(word) for word in mpirun(3) + self.command("--blocks", blocks, cloud, mesh)]
+        command = [str(word) for word in mpirun(3) + self.command("--blocks", blocks, *options, cloud, mesh)]
         begin = time.monotonic()
         self.assertEqual(run(command).returncode, 0)
         usual = time.monotonic() - begin
@@ -829,13 +829,15 @@ class Errors(Case):
         for name in ["points.bin", "neighbors.1.bin", "outliers.bin", "stars.2.bin", "mesh.bin"]:
             file = self.path("work") / name
             good = file.read_bytes()
-            for bad, word in [(good[:len(good) // 2], "truncated"),
-                              (good + b"x", "grown"),
-                              (good[:len(good) - 3] + bytes([good[-3] ^ 4]) + good[-2:], "damaged"),
-                              (good[:20] + bytes([good[20] ^ 1]) + good[21:], "damaged"),
-                              (good[:8] + struct.pack("<I", 99) + good[12:], "format version 99"),
-                              (b"PLY" + good[3:], "no file of this program"),
-                              (b"", "truncated")]:
+            faults = [(good[:len(good) - 3] + bytes([good[-3] ^ 4]) + good[-2:], "damaged"),
+                      (good[:len(good) // 2], "truncated"),
+                      (good + b"x", "grown"),
+                      (good[:20] + bytes([good[20] ^ 1]) + good[21:], "damaged"),
+                      (good[:8] + struct.pack("<I", 99) + good[12:], "format version 99"),
+                      (b"PLY" + good[3:], "no file of this program"),
+                      (b"", "truncated")]
+            # One function reads all files, so every fault is tried on one of them, and one fault on each.
+            for bad, word in faults if name == "points.bin" or OPTIONS.long else faults[:1]:
                 file.write_bytes(bad)
                 with self.subTest(name=name, word=word):
                     self.expect_failure(self.again(), WORK, str(file), word)

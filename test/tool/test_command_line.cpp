@@ -89,6 +89,9 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"--max-iterations", "0"}, "1 or more"},
       {{"--ilut-fill", "0"}, "from 1 to"},
       {{"--ilut-drop", "2"}, "from 0 to 1"},
+      {{"--limit", "parts.pints=5000"}, "no NAME=VALUE of a limit"},
+      {{"--limit", "parts.points"}, "'' is no value of parts.points"},
+      {{"--limit", "parts.points=3"}, "'3' is no value of parts.points"},
       {{"--flips", "maybe"}, "'maybe' is none of: on, off"},
       {{"--sheet-filter", "maybe"}, "'maybe' is none of: on, off"},
       {{"third.ply"}, "third.ply"}};

@@ -94,6 +94,8 @@ parametersText (const Job& job)
   json["shift"] = job.line.auto_shift ? nlohmann::ordered_json ("auto") : nlohmann::ordered_json ();
   if (job.line.shift)
     json["shift"] = {job.line.shift->x (), job.line.shift->y (), job.line.shift->z ()};
+  if (!job.line.changed_limits.empty ())
+    json["limits"] = job.line.changed_limits;
   return json.dump ();
 }
 
@@ -118,7 +120,8 @@ prepareFolders (const Job& job)
 }
 
 EffectiveOptions::EffectiveOptions (const CommandLine& line)
-    : options (effectiveOptions (line.options)), limits (effectiveLimits ({}, line.options))
+    : options (effectiveOptions (line.options)),
+      limits (effectiveLimits (line.limits, line.options))
 {
 }
 
@@ -220,7 +223,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
   options.threads = job.join_threads;
   Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -=
       Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
-  Result result = reconstruct (std::move (input), options, stages);
+  Result result = reconstruct (std::move (input), options, line.limits, stages);
   Report& report = result.report;
   if (report.status == RunStatus::CANCELLED) // see stitchStep; nobody else does so
     return EXIT_OK;

@@ -127,6 +127,7 @@ addGeneral (CLI::App& app, Job& job)
              "same",
              general);
   addMemoryLimit (app, job.line);
+  addLimit (app, job.line);
   addCoordinates (app, job.line);
   app.add_flag ("-q,--quiet", job.line.quiet, "print errors only")->group (general);
 }

@@ -8,6 +8,7 @@
 #include "exit_codes.h"
 #include "mesh_writer.h"
 #include "precision.h"
+#include "stage_limits.h"
 
 #include <pcl/surface/floater/options.h>
 
@@ -41,6 +42,8 @@ struct CommandLine
   bool use_input_normals = false;          ///< for tangent planes, and so for the facing
   bool compute_normals = false;            ///< of the vertices of the mesh
   Options options;                         ///< without the loop, which has not been read yet
+  std::vector<std::string> changed_limits; ///< NAME=VALUE
+  Limits limits;                           ///< with the changes
   bool quiet = false;
   bool json = false;
   bool strict = false;                 ///< write no mesh if there is a warning

@@ -17,12 +17,11 @@
 #include "precision.h"
 #include "prepared_input.h"
 #include "progress.h"
+#include "reconstruct.h"
 #include "remaining_time.h"
 #include "run_report.h"
 #include "summary.h"
 #include "texture_output.h"
-
-#include <pcl/surface/floater/reconstruct.h>
 
 #include <algorithm>
 #include <chrono>
@@ -61,7 +60,7 @@ giveFreedBack ()
 }
 
 Result
-reconstructInput (Input input, Options options, Progress& progress)
+reconstructInput (Input input, Options options, const Limits& limits, Progress& progress)
 {
   const auto start = std::chrono::steady_clock::now ();
   RemainingTime remaining;
@@ -79,7 +78,7 @@ reconstructInput (Input input, Options options, Progress& progress)
     const std::string text = remaining.text ();
     progress.show (name + (text.empty () ? "" : ": " + text));
   };
-  return reconstruct (std::move (input), options);
+  return reconstruct (std::move (input), options, limits);
 }
 
 /// The mesh in the plane z = 0. Its cloud refers to the parameters of the result, and has no
@@ -239,7 +238,7 @@ run (CommandLine line)
   start = std::chrono::steady_clock::now ();
   if (memory_limit)
     line.options.task_callback = [&memory_limit] { memory_limit->makeRoom (); };
-  Result result = reconstructInput (std::move (input), line.options, progress);
+  Result result = reconstructInput (std::move (input), line.options, line.limits, progress);
   figures.reconstruct_seconds = secondsSince (start);
   Report& report = result.report;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());

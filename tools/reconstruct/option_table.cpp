@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "option_table.h"
 
+#include "limit_settings.h"
 #include "memory_limit.h"
 #include "option_kinds.h"
 
@@ -134,6 +135,7 @@ addGeneral (CLI::App& app, CommandLine& line)
              "points; the result is\nthe same",
              GENERAL);
   addMemoryLimit (app, line);
+  addLimit (app, line);
   addCoordinates (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
@@ -333,6 +335,19 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
            "--max-memory: folder where the arrays are kept; these\nfiles have no names and end "
            "with the run",
            GENERAL, "FOLDER (that of OUTPUT)");
+}
+
+void
+addLimit (CLI::App& app, CommandLine& line)
+{
+  const auto change = [&line] (const std::string& setting) {
+    if (const std::optional<std::string> problem = setLimit (setting, line.limits))
+      throw CLI::ValidationError ("--limit", *problem);
+  };
+  app.add_option ("--limit", line.changed_limits)
+      ->allow_extra_args (false)
+      ->each (change)
+      ->group ("");
 }
 
 void

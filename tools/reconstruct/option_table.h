@@ -32,6 +32,10 @@ addTangentPlaneOptions (CLI::App& app, CommandLine& line);
 void
 addMemoryLimit (CLI::App& app, CommandLine& line);
 
+/// --limit, which the help does not show.
+void
+addLimit (CLI::App& app, CommandLine& line);
+
 /// --shift and --precision.
 void
 addCoordinates (CLI::App& app, CommandLine& line);
