@@ -48,4 +48,14 @@ effectiveLimits (const Limits& limits, const Options& options)
   return effective;
 }
 
+void
+choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given)
+{
+  const DiscOptions published = DiscOptions::tw385 ();
+  if (!boundary_is_given)
+    disc.boundary.method = published.boundary.method;
+  if (!ordering_is_given && disc.solver.method == published.solver.method)
+    disc.solver.ordering = published.solver.ordering;
+}
+
 } // namespace pcl::floater

@@ -18,4 +18,9 @@ effectiveOptions (const Options& options);
 Limits
 effectiveLimits (const Limits& limits, const Options& options);
 
+/// Sets what the report chose for a disc and the user did not: the boundary method, and for UMFPACK the ordering.
+/// What is given stays: the report compares solvers and weights.
+void
+choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given);
+
 } // namespace pcl::floater

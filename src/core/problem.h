@@ -8,11 +8,13 @@
 #include <string>
 
 namespace pcl::floater {
-/// Status and one sentence for the user; RunStatus::SUCCESS means that there is no problem.
+/// Status and one sentence for the user; RunStatus::SUCCESS means that there is no problem. If an option is out of
+/// its range, the sentence begins with its name, which is also in \a option.
 struct Problem
 {
   RunStatus status = RunStatus::SUCCESS;
   std::string message;
+  std::string option = {};
 
   explicit operator bool () const { return status != RunStatus::SUCCESS; }
 };

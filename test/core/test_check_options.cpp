@@ -3,95 +3,72 @@
 #include "check_options.h"
 
 #include "core/types.h"
+#include "option_rows.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <type_traits>
 
 namespace pcl::floater {
 namespace {
 constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN ();
 constexpr double INF = std::numeric_limits<double>::infinity ();
 
-// Checks which values of an option in a group are in range.
-template <typename Group, typename Value>
-void
-expectRange (Group Options::*group, Value Group::*option, std::initializer_list<Value> good,
-             std::initializer_list<Value> bad)
+// Tries the ends of each range, and what lies beyond them.
+struct RangeTrial
 {
-  Options options;
-  for (const Value value : good) {
-    options.*group.*option = value;
-    EXPECT_FALSE (checkOptions (options)) << value;
-  }
-  for (const Value value : bad) {
-    options.*group.*option = value;
-    const Problem problem = checkOptions (options);
-    EXPECT_EQ (problem.status, RunStatus::INVALID_OPTION) << value;
-    EXPECT_FALSE (problem.message.empty ());
-  }
-}
+  Options& options;
+  int numbers = 0;
 
-// The same for a group of what only a disc takes.
-template <typename Group, typename Value>
-void
-expectDiscRange (Group DiscOptions::*group, Value Group::*option, std::initializer_list<Value> good,
-                 std::initializer_list<Value> bad)
-{
-  Options options;
-  for (const Value value : good) {
-    options.disc.*group.*option = value;
-    EXPECT_FALSE (checkOptions (options)) << value;
+  template <typename Number>
+  void operator() (const OptionRow& row, Number& value, const NumberRange& range)
+  {
+    SCOPED_TRACE (row.name);
+    const Number usual = value;
+    const auto expect = [&] (double number, bool is_good) {
+      value = static_cast<Number> (number);
+      const Problem problem = checkOptions (options);
+      EXPECT_EQ (problem.status, is_good ? RunStatus::SUCCESS : RunStatus::INVALID_OPTION)
+          << number;
+      EXPECT_EQ (problem.option, is_good ? "" : row.name);
+      EXPECT_EQ (problem.message, is_good ? "" : row.name + (" must be " + range.text ()));
+      value = usual;
+    };
+    expect (range.least, !range.without_least);
+    expect (range.least - 1.0, false);
+    if (range.most != NO_LIMIT) {
+      expect (range.most, !range.without_most);
+      expect (range.most + 1.0, false);
+    }
+    if (!std::is_integral_v<Number>) {
+      expect (NO_NUMBER, false);
+      expect (INF, false);
+    }
+    ++numbers;
   }
-  for (const Value value : bad) {
-    options.disc.*group.*option = value;
-    EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION) << value;
+  void operator() (const OptionRow& row, HoleOptions& holes, LengthUnit unit)
+  {
+    holes.unit = unit;
+    (*this) (row, holes.largest_hole, NumberRange{0, NO_LIMIT});
   }
-}
-
-// The same for an option without a group.
-void
-expectRange (int Options::*option, std::initializer_list<int> good, std::initializer_list<int> bad)
-{
-  Options options;
-  for (const int value : good) {
-    options.*option = value;
-    EXPECT_FALSE (checkOptions (options)) << value;
+  template <typename... More>
+  void operator() (const OptionRow&, More&...)
+  {
   }
-  for (const int value : bad) {
-    options.*option = value;
-    EXPECT_EQ (checkOptions (options).status, RunStatus::INVALID_OPTION) << value;
-  }
-}
+};
 
 TEST (CheckOptions, NumbersHaveRanges)
 {
-  EXPECT_FALSE (checkOptions ({}));
-  expectRange (&Options::neighbors, &NeighborOptions::k, {6, 20, 200}, {5, 0, -1, 201});
-  expectDiscRange (&DiscOptions::boundary, &BoundaryOptions::opening_angle, {1e-3, 160.0, 359.9},
-                   {0.0, -10.0, 360.0, NO_NUMBER, INF});
-  expectDiscRange (&DiscOptions::boundary, &BoundaryOptions::cluster_tolerance, {1e-6, 0.05, 1.0},
-                   {0.0, -0.1, 1.01, NO_NUMBER});
-  expectDiscRange (&DiscOptions::boundary, &BoundaryOptions::cluster_k, {1, 10}, {0, -3});
-  expectDiscRange (&DiscOptions::domain, &DomainOptions::polygon_sides, {3, 100}, {2, 0, -1});
-  expectRange (&Options::neighbors, &NeighborOptions::ball_radius, {1.0, 2.25, 10.0},
-               {0.99, 10.1, NO_NUMBER, INF});
-  expectDiscRange (&DiscOptions::solver, &SolverOptions::tolerance, {1e-16, 1e-3},
-                   {0.0, -1e-9, 1.0, NO_NUMBER});
-  expectDiscRange (&DiscOptions::solver, &SolverOptions::max_iterations, {1, 1000000}, {0, -1});
-  expectDiscRange (&DiscOptions::solver, &SolverOptions::ilut_fill, {1, 15, 10000}, {0, -1, 10001});
-  expectDiscRange (&DiscOptions::solver, &SolverOptions::ilut_drop, {0.0, 1e-2, 1.0},
-                   {-1e-9, 1.1, NO_NUMBER});
-  expectRange (&Options::threads, {0, 1, 64}, {-1});
-  expectRange (&Options::blocks, {0, 1, 64}, {-1});
-  expectRange (&Options::holes, &HoleOptions::kept_loops, {0, 1, 1000}, {-1});
-  expectRange (&Options::holes, &HoleOptions::largest_hole, {0.0, 1e-20, 5.5, 1e20},
-               {-1e-9, NO_NUMBER, INF});
-  expectRange (&Options::trimming, &TrimmingOptions::maximum_edge_length, {0.0, 1e-20, 1e20},
-               {-1e-9, NO_NUMBER, INF});
-  expectRange (&Options::trimming, &TrimmingOptions::maximum_edge_ratio, {0.0, 0.5, 1e6},
-               {-1e-9, NO_NUMBER, INF});
-  expectRange (&Options::trimming, &TrimmingOptions::minimum_component_size, {0, 1, 1000000}, {-1});
+  Options options;
+  EXPECT_FALSE (checkOptions (options));
+  RangeTrial trial{options};
+  visitOptions (options, trial);
+  EXPECT_GT (trial.numbers, 15);
+  EXPECT_EQ ((NumberRange{6, 200}.text ()), "from 6 to 200");
+  EXPECT_EQ ((NumberRange{0, 360, true, true}.text ()), "above 0 and below 360");
+  EXPECT_EQ ((NumberRange{0, 1, true, false}.text ()), "above 0 and at most 1");
+  EXPECT_EQ ((NumberRange{3, NO_LIMIT}.text ()), "3 or more");
 }
 
 TEST (CheckOptions, PoliciesFitTheTopology)

@@ -128,8 +128,7 @@ TEST (RunStatus, InvalidOption)
   Options options = discOptions ();
   options.neighbors.k = 5;
   const Result result = reconstruct (asInput (cloud), options);
-  expectFailure (result, RunStatus::INVALID_OPTION,
-                 "the number of neighbours must be from 6 to 200");
+  expectFailure (result, RunStatus::INVALID_OPTION, "neighbors must be from 6 to 200");
   EXPECT_EQ (options.neighbors.k, 5);
 }
 

@@ -5,6 +5,8 @@ import ast
 import inspect
 import pathlib
 import re
+import subprocess
+import sys
 import typing
 
 import numpy as np
@@ -14,16 +16,6 @@ import pytest
 from conftest import ROOT
 
 STUB = pathlib.Path(pcl_floater.__file__).with_name("__init__.pyi")
-# Options of the tool that concern files, printing, or memory.
-OF_THE_TOOL_ONLY = {
-    "max_memory", "scratch",  # the arrays of a program are its own
-    "shift", "precision",  # the points stay as they are, in double precision
-    "report", "parameterization",  # of every Mesh
-    "input_format", "output_format", "texture", "texture_size",  # of files
-    "normals", "uv",  # functions of their own: vertex_normals, texture_coordinates
-    "json", "quiet", "help", "version"}
-
-
 @pytest.fixture(scope="module")
 def stub():
     return {node.name: node for node in ast.parse(STUB.read_text()).body if hasattr(node, "name")}
@@ -83,25 +75,10 @@ def test_words_are_those_of_the_stub(annotations):
     assert found == 12
 
 
-def test_every_option_of_the_tool_is_an_argument():
-    table = (ROOT / "tools/reconstruct/option_table.cpp").read_text()
-    options = {name.replace("-", "_") for name in re.findall(r'"(?:-\w,)?--([a-z][a-z-]+)"', table)}
-    arguments = set(SIGNATURE.parameters) - {"points", "normals", "sensor_origin", "progress"}
-    assert len(options) > 40
-    assert options - OF_THE_TOOL_ONLY == arguments
-    assert OF_THE_TOOL_ONLY <= options
-
-
-def test_defaults_are_those_of_the_core(terrain_points):
-    """A run is given all arguments, so that a report tells nothing of the defaults of the core."""
-    status, _, _, known, _ = pcl_floater._core.run(terrain_points, 0, None, None, {}, None)
-    assert status == "SUCCESS"
-    of_core = known["options"]
-    del of_core["loop_given"]
-    arguments = {name: SIGNATURE.parameters[name].default for name in of_core}
-    assert (arguments.pop("boundary"), arguments.pop("ordering")) == (None, None)
-    assert (of_core.pop("boundary"), of_core.pop("ordering")) == ("spanning-tree", "automatic")
-    assert arguments == of_core
+def test_stub_and_page_have_the_table_of_options():
+    made = subprocess.run([sys.executable, ROOT / "doc/make_options.py", "--check",
+                           pathlib.Path(pcl_floater.__file__).parent.parent], capture_output=True, text=True, check=False)
+    assert made.returncode == 0, made.stdout + made.stderr
 
 
 @pytest.mark.parametrize("function", FUNCTIONS)

@@ -5,6 +5,7 @@
 #include "check_options.h"
 #include "format.h"
 #include "option_kinds.h"
+#include "option_rows.h"
 #include "option_table.h"
 #include "usage_message.h"
 
@@ -72,11 +73,11 @@ addSteps (CLI::App& app, Job& job)
 {
   const std::string group = "Steps";
   addPath (app, "--work", job.work,
-           "folder for what is known between the steps; it is made if\nit "
+           "folder for what is known between the steps; it is made if it "
            "does not exist",
            group, "FOLDER");
   addNumber (app, "--blocks", job.blocks,
-             "blocks into which the points are cut; 0: of half a\nmillion points each; the result "
+             "blocks into which the points are cut; 0: of half a million points each; the result "
              "is the same",
              group);
   const auto choose = [&job] (const std::string& word) {
@@ -87,8 +88,8 @@ addSteps (CLI::App& app, Job& job)
   };
   app.add_option_function<std::string> (
          "--step", choose,
-         "do this step only: plan, outliers, stitch, join, write;\nfor a block: neighbors, planes, "
-         "stars, triangles; or for a\npart of a large cloud: mesh, finish")
+         "do this step only: plan, outliers, stitch, join, write; for a block: neighbors, planes, "
+         "stars, triangles; or for a part of a large cloud: mesh, finish")
       ->option_text ("NAME (all)")
       ->group (group);
   const auto setBlock = [&job] (const std::string& word) {
@@ -104,13 +105,13 @@ addSteps (CLI::App& app, Job& job)
       ->group (group);
   constexpr Choices<bool, 2> EXCHANGE_CHOICES{{{"files", false}, {"messages", true}}};
   addChoice (app, "--exchange", job.sends_files, EXCHANGE_CHOICES,
-             "how processes get what others have found: from files in\nthe work folder, or by "
+             "how processes get what others have found: from files in the work folder, or by "
              "messages of the first one",
              group);
   app.add_flag (
          "--free-disk", job.frees_disk,
-         "remove the files of the blocks as soon as join needs them\nno longer; if join is ended "
-         "early, the blocks are worked on\nagain")
+         "remove the files of the blocks as soon as join needs them no longer; if join is ended "
+         "early, the blocks are worked on again")
       ->group (group);
 }
 
@@ -118,12 +119,11 @@ void
 addGeneral (CLI::App& app, Job& job)
 {
   const std::string general = "General";
-  addNumber (
-      app, "-j,--threads", job.line.options.threads,
-      "threads of each process for its blocks, 0: one for\neach core; the result is the same",
-      general);
+  addNumber (app, "-j,--threads", job.line.options.threads,
+             "threads of each process for its blocks, 0: one for each core; the result is the same",
+             general);
   addNumber (app, "--join-threads", job.join_threads,
-             "threads of the steps of the whole cloud, 0: one for\neach core; the result is the "
+             "threads of the steps of the whole cloud, 0: one for each core; the result is the "
              "same",
              general);
   addMemoryLimit (app, job.line);
@@ -136,17 +136,17 @@ void
 addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
 {
   app.add_option ("FILES", files,
-                  "point clouds: .pcd, .ply, .obj, .stl, .las, .xyz, .txt,\n.csv, .asc or .pts; "
-                  "then the mesh to write: .vtk, .ply,\n.obj, .stl, .off or .glb; with --tiles "
+                  "point clouds: .pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts; "
+                  "then the mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; with --tiles "
                   "a folder")
       ->option_text (" ");
   const std::string output = "More output";
   app.add_flag ("--tiles", job.writes_tiles,
-                "write the mesh as a folder of .ply files: one for each\nfile of points, or of a "
-                "single one for each block; and\ntiles.json, which tells what they share")
+                "write the mesh as a folder of .ply files: one for each file of points, or of a "
+                "single one for each block; and tiles.json, which tells what they share")
       ->group (output);
   app.add_flag ("--normals", job.line.compute_normals,
-                "give the vertices normals, made from the triangles; those\nof the input are "
+                "give the vertices normals, made from the triangles; those of the input are "
                 "replaced")
       ->group (output);
   addPath (app, "--report", job.line.report, "write a report on the run as JSON", output);
@@ -197,10 +197,13 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
       ->group ("General");
   addSteps (app, job);
   addGeneral (app, job);
-  addSurfaceOptions (app, job.line);
-  addNeighborCount (app, job.line);
-  addTangentPlaneOptions (app, job.line);
+  addTableOptions (app, job.line, [] (const OptionRow& row) {
+    const std::string name = row.name;
+    return row.group == std::string (option_group::SURFACE) || name == "neighbors" ||
+           name == "sheet_filter";
+  });
   addFiles (app, files, job);
+  wrapTexts (app);
   try {
     std::vector<std::string> reversed (arguments.rbegin (), arguments.rend ());
     app.parse (std::move (reversed));
@@ -213,11 +216,8 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
   job.arguments = arguments;
   if (job.work.empty ())
     throw UsageError ("--work is missing: name a folder for what is known between the steps");
-  if (app.count ("--largest-hole") > 0 && app.count ("--largest-hole-length") > 0)
-    throw UsageError ("--largest-hole and --largest-hole-length are one size in two units; give "
-                      "one of them");
   if (const Problem problem = checkOptions (job.line.options))
-    throw UsageError (rangeMessage (app, problem.message, arguments));
+    throw UsageError (rangeMessage (app, problem, arguments));
   if (job.prints_steps && !job.step.empty ())
     throw UsageError ("--print-steps and --step exclude each other");
   if (isBlockStep (job.step) != job.has_block)

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "keywords.h"
 
-#include "choices.h"
+#include "option_rows.h"
+#include "published_method.h"
 
 #include <limits>
 #include <string>
@@ -116,70 +117,55 @@ private:
   py::dict left_;
 };
 
-void
-takeViewpoint (Keywords& keywords, ViewOptions& view)
+// Takes the options of the table.
+struct TableKeywords
 {
-  const py::object given = keywords.take ("viewpoint");
-  if (!given)
-    return;
-  if (given.is_none ())
-    throw py::type_error ("viewpoint must be 'auto', 'none' or three numbers; 'none' says that the "
-                          "cloud is no single scan");
-  if (!py::isinstance<py::str> (given)) {
-    view.use = ViewUse::GIVEN;
-    view.viewpoint = readPlace ("viewpoint", given);
-    return;
-  }
-  const auto word = given.cast<std::string> ();
-  if (word != "auto" && word != "none")
-    throw py::value_error ("viewpoint must be 'auto', 'none' or three numbers, not " +
-                           shown (given));
-  view.use = word == "auto" ? ViewUse::AUTO : ViewUse::NEVER;
-}
+  Keywords& keywords;
 
-void
-takeLargestHole (Keywords& keywords, HoleOptions& holes)
-{
-  double length = 0.0;
-  keywords.take ("largest_hole", holes.largest_hole);
-  keywords.take ("largest_hole_length", length);
-  if (length == 0.0)
-    return;
-  if (holes.largest_hole != 0.0)
-    throw py::value_error ("largest_hole and largest_hole_length are one size in two units; give "
-                           "one of them");
-  holes.largest_hole = length;
-  holes.unit = LengthUnit::CLOUD;
-}
-
-void
-takeDisc (Keywords& keywords, DiscOptions& disc)
-{
-  const DiscOptions published = DiscOptions::tw385 ();
-  keywords.take ("method", disc.as_published, METHOD_CHOICES);
-  keywords.take ("solver", disc.solver.method, SOLVER_CHOICES);
-  if (disc.as_published) {
-    disc.boundary.method = published.boundary.method;
-    if (disc.solver.method == published.solver.method)
-      disc.solver.ordering = published.solver.ordering;
+  template <typename Number>
+  void operator() (const OptionRow& row, Number& value, const NumberRange&)
+  {
+    keywords.take (row.name, value);
   }
-  keywords.take ("boundary", disc.boundary.method, BOUNDARY_CHOICES);
-  if (const py::object loop = keywords.take ("loop"))
-    for (const py::handle& index : loop)
-      disc.boundary.loop.push_back (index.cast<std::uint32_t> ());
-  keywords.take ("opening_angle", disc.boundary.opening_angle);
-  keywords.take ("cluster_tolerance", disc.boundary.cluster_tolerance);
-  keywords.take ("cluster_neighbors", disc.boundary.cluster_k);
-  keywords.take ("domain", disc.domain.curve, DOMAIN_CHOICES);
-  keywords.take ("sides", disc.domain.polygon_sides);
-  keywords.take ("spacing", disc.domain.loop_spacing, SPACING_CHOICES);
-  keywords.take ("weights", disc.weighting, WEIGHTING_CHOICES);
-  keywords.take ("ordering", disc.solver.ordering, ORDERING_CHOICES);
-  keywords.take ("tolerance", disc.solver.tolerance);
-  keywords.take ("max_iterations", disc.solver.max_iterations);
-  keywords.take ("ilut_fill", disc.solver.ilut_fill);
-  keywords.take ("ilut_drop", disc.solver.ilut_drop);
-}
+  void operator() (const OptionRow& row, bool& value) { keywords.take (row.name, value); }
+  template <typename Enum, std::size_t N>
+  void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
+  {
+    keywords.take (row.name, value, choices);
+  }
+  void operator() (const OptionRow& row, HoleOptions& holes, LengthUnit unit)
+  {
+    double size = 0.0;
+    keywords.take (row.name, size);
+    if (size == 0.0)
+      return;
+    if (holes.largest_hole != 0.0)
+      throw py::value_error (
+          "largest_hole and largest_hole_length are one size in two units; give one of them");
+    holes.largest_hole = size;
+    holes.unit = unit;
+  }
+  void operator() (const OptionRow& row, ViewOptions& view)
+  {
+    const py::object given = keywords.take (row.name);
+    if (!given)
+      return;
+    if (given.is_none ())
+      throw py::type_error (
+          "viewpoint must be 'auto', 'none' or three numbers; 'none' says that the cloud is no "
+          "single scan");
+    if (!py::isinstance<py::str> (given)) {
+      view.use = ViewUse::GIVEN;
+      view.viewpoint = readPlace (row.name, given);
+      return;
+    }
+    const auto word = given.cast<std::string> ();
+    if (word != "auto" && word != "none")
+      throw py::value_error ("viewpoint must be 'auto', 'none' or three numbers, not " +
+                             shown (given));
+    view.use = word == "auto" ? ViewUse::AUTO : ViewUse::NEVER;
+  }
+};
 
 } // namespace
 
@@ -208,31 +194,15 @@ GivenOptions
 readKeywords (const py::dict& keywords)
 {
   GivenOptions asked;
-  Options& options = asked.options;
+  DiscOptions& disc = asked.options.disc;
   Keywords taken (keywords);
-  taken.take ("topology", options.topology, TOPOLOGY_CHOICES);
-  taken.take ("holes", options.holes.policy, HOLE_CHOICES);
-  taken.take ("kept_loops", options.holes.kept_loops);
-  takeLargestHole (taken, options.holes);
-  takeViewpoint (taken, options.view);
-  taken.take ("facing", options.facing, FACING_CHOICES);
-  taken.take ("max_edge", options.trimming.maximum_edge_length);
-  taken.take ("max_edge_ratio", options.trimming.maximum_edge_ratio);
-  taken.take ("min_component", options.trimming.minimum_component_size);
-  taken.take ("remove_outliers", options.remove_outliers);
-  taken.take ("scatter", options.scatter, SCATTER_CHOICES);
-  taken.take ("denoise", options.denoise);
-  taken.take ("flips", options.flip_edges);
-  taken.take ("uncross", options.remove_self_intersections);
-  taken.take ("open_crossings", options.trimming.open_self_intersections);
-  taken.take ("neighbors", options.neighbors.k);
-  taken.take ("neighborhood", options.neighbors.kind, NEIGHBORHOOD_CHOICES);
-  taken.take ("ball_radius", options.neighbors.ball_radius);
+  visitOptions (asked.options, TableKeywords{taken});
   taken.take ("use_input_normals", asked.use_input_normals);
-  taken.take ("sheet_filter", options.filter_sheets);
-  takeDisc (taken, options.disc);
-  taken.take ("threads", options.threads);
-  taken.take ("blocks", options.blocks);
+  if (const py::object loop = taken.take ("loop"))
+    for (const py::handle& index : loop)
+      disc.boundary.loop.push_back (index.cast<std::uint32_t> ());
+  if (disc.as_published)
+    choosePublished (disc, keywords.contains ("boundary"), keywords.contains ("ordering"));
   taken.finish ();
   return asked;
 }

@@ -143,5 +143,6 @@ PYBIND11_MODULE (_core, module)
   module.attr ("__version__") = PCL_FLOATER_VERSION;
   pcl::floater::defineResultArray (module);
   module.def ("run", &pcl::floater::run);
+  module.def ("options", [] { return pcl::floater::toPython (pcl::floater::optionTableJson ()); });
   pcl::floater::defineMeshFunctions (module);
 }

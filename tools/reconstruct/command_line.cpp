@@ -4,6 +4,8 @@
 
 #include "check_options.h"
 #include "memory_limit.h"
+#include "option_kinds.h"
+#include "option_rows.h"
 #include "option_table.h"
 #include "published_method.h"
 #include "texture_output.h"
@@ -36,20 +38,16 @@ void
 warnOfUnpublished (const CLI::App& app, const Options& given, const Options& effective,
                    std::vector<std::string>& warnings)
 {
-  const std::pair<const char*, bool> changes[] = {
-      {"--remove-outliers", given.remove_outliers != effective.remove_outliers},
-      {"--scatter", given.scatter != effective.scatter},
-      {"--denoise", given.denoise != effective.denoise},
-      {"--sheet-filter", given.filter_sheets != effective.filter_sheets},
-      {"--flips", given.flip_edges != effective.flip_edges},
-      {"--uncross", given.remove_self_intersections != effective.remove_self_intersections}};
   std::string names;
   std::size_t count = 0;
-  for (const auto& [name, is_changed] : changes)
-    if (is_changed && app.count (name) > 0) {
-      names += (count == 0 ? "" : ", ") + std::string (name);
+  const OptionValues before (given), after (effective);
+  for (std::size_t i = 0; i < before.rows.size (); ++i) {
+    const std::string name = toolName (before.rows[i].name);
+    if (before.values[i] != after.values[i] && app.count (name) > 0) {
+      names += (count == 0 ? "" : ", ") + name;
       ++count;
     }
+  }
   if (count > 0)
     warnings.push_back ((count == 1 ? "an option has no effect: " : "options have no effect: ") +
                         names + "; --method tw385 is that report and nothing else");
@@ -75,18 +73,9 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
     command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
                                         "triangles only, write .ply, .vtk or "
                                         ".obj");
-  if (app.count ("--largest-hole") > 0 && app.count ("--largest-hole-length") > 0)
-    throw UsageError ("--largest-hole and --largest-hole-length are one size in two units; give "
-                      "one of them");
-  if (command_line.as_published) {
-    // What is given stays: the report compares solvers and weights.
-    const DiscOptions published = DiscOptions::tw385 ();
-    DiscOptions& disc = command_line.options.disc;
-    disc.as_published = true;
-    if (app.count ("--boundary") == 0)
-      disc.boundary.method = published.boundary.method;
-    if (app.count ("--ordering") == 0 && disc.solver.method == published.solver.method)
-      disc.solver.ordering = published.solver.ordering;
+  if (command_line.options.disc.as_published) {
+    choosePublished (command_line.options.disc, app.count ("--boundary") > 0,
+                     app.count ("--ordering") > 0);
     const Options given = command_line.options;
     command_line.options = effectiveOptions (given); // the report lists these
     warnOfUnpublished (app, given, command_line.options, command_line.warnings);
@@ -100,7 +89,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   if (needs_disc)
     topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
-    throw UsageError (rangeMessage (app, problem.message, arguments));
+    throw UsageError (rangeMessage (app, problem, arguments));
   command_line.texture_coordinates =
       command_line.texture_coordinates || !command_line.texture.empty ();
   checkTextureOptions (command_line);

@@ -38,7 +38,6 @@ struct CommandLine
   std::optional<Eigen::Vector3d> shift;    ///< --shift x,y,z
   bool auto_shift = false;                 ///< --shift auto
   Precision precision = Precision::AUTO;   ///< of coordinates in outputs
-  bool as_published = false;               ///< --method tw385
   bool use_input_normals = false;          ///< for tangent planes, and so for the facing
   bool compute_normals = false;            ///< of the vertices of the mesh
   Options options;                         ///< without the loop, which has not been read yet

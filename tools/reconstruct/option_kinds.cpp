@@ -15,6 +15,36 @@ addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
       ->group (group);
 }
 
+std::string
+toolName (std::string name)
+{
+  std::replace (name.begin (), name.end (), '_', '-');
+  return "--" + name;
+}
+
+void
+wrapTexts (CLI::App& app)
+{
+  constexpr std::size_t COLUMNS = 55;
+  for (CLI::Option* const option : app.get_options ()) {
+    std::string text = option->get_description ();
+    std::size_t begin = 0; // of the line
+    for (std::size_t i = 0, space = 0; i < text.size (); ++i) {
+      if (text[i] == '\n')
+        begin = i + 1;
+      else if (text[i] == ' ')
+        space = i;
+      // The words of a choice stay on one line, behind a colon.
+      const bool is_choice = begin >= 2 && text[begin - 2] == ':';
+      if (i - begin >= COLUMNS && space > begin && !is_choice) {
+        text[space] = '\n';
+        begin = space + 1;
+      }
+    }
+    option->description (text);
+  }
+}
+
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word)
 {

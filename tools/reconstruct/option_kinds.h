@@ -65,6 +65,14 @@ void
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind = "FILE");
 
+/// The name that the tools have for an option of the table: "--kept-loops" of "kept_loops".
+std::string
+toolName (std::string name);
+
+/// Breaks the texts of all options into lines.
+void
+wrapTexts (CLI::App& app);
+
 /// Reads "1,-2.5,3".
 /// \return nothing if these are not three finite numbers
 std::optional<Eigen::Vector3d>

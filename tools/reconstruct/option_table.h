@@ -5,28 +5,25 @@
 
 #include "command_line.h"
 
+#include <functional>
+
 namespace CLI // NOLINT(readability-identifier-naming)
 {
 class App;
 }
 
 namespace pcl::floater {
+struct OptionRow;
+
 /// Adds every option, the two positional arguments and the text around them to \a app, which writes
 /// to \a line when it parses, and so has to end before it.
 void
 addOptions (CLI::App& app, CommandLine& line);
 
-/// Those on surfaces that are no disc, but for what the points are taken for.
+/// The rows of the table of options that the tool takes, and --use-input-normals.
 void
-addSurfaceOptions (CLI::App& app, CommandLine& line);
-
-/// --neighbors.
-void
-addNeighborCount (CLI::App& app, CommandLine& line);
-
-/// --use-input-normals and --sheet-filter.
-void
-addTangentPlaneOptions (CLI::App& app, CommandLine& line);
+addTableOptions (CLI::App& app, CommandLine& line,
+                 const std::function<bool (const OptionRow&)>& takes);
 
 /// --max-memory and --scratch.
 void

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
-#include "choices.h"
+#include "option_rows.h"
 
 #include <nlohmann/json.hpp>
 
@@ -121,53 +121,95 @@ facingPartsJson (const Report& report)
   return parts;
 }
 
+// Writes the value of each option.
+struct OptionsWriter
+{
+  Json& json;
+
+  template <typename Number>
+  void operator() (const OptionRow& row, Number value, const NumberRange&)
+  {
+    json[row.name] = value;
+  }
+  void operator() (const OptionRow& row, bool value) { json[row.name] = value; }
+  template <typename Enum, std::size_t N>
+  void operator() (const OptionRow& row, Enum value, const Choices<Enum, N>& choices)
+  {
+    json[row.name] = choiceName (choices, value);
+  }
+  void operator() (const OptionRow& row, const HoleOptions& holes, LengthUnit unit)
+  {
+    json[row.name] = holes.unit == unit ? holes.largest_hole : 0.0;
+  }
+  void operator() (const OptionRow& row, const ViewOptions& view)
+  {
+    json[row.name] = view.use == ViewUse::GIVEN  ? Json (view.viewpoint)
+                     : view.use == ViewUse::AUTO ? Json ("auto")
+                                                 : Json ("none");
+  }
+};
+
+// Writes what the table has on each option.
+struct TableWriter
+{
+  Json& table;
+  Json defaults;
+
+  template <typename Number>
+  void operator() (const OptionRow& row, Number, const NumberRange& range)
+  {
+    add (row, std::is_integral_v<Number> ? "int" : "float", range.text ());
+  }
+  void operator() (const OptionRow& row, bool) { add (row, "bool", {true, false}); }
+  template <typename Enum, std::size_t N>
+  void operator() (const OptionRow& row, Enum, const Choices<Enum, N>& choices)
+  {
+    Json words = Json::array ();
+    for (const auto& choice : choices)
+      words.push_back (choice.first);
+    add (row, "word", words);
+  }
+  void operator() (const OptionRow& row, const HoleOptions&, LengthUnit)
+  {
+    add (row, "float", NumberRange{0, NO_LIMIT}.text ());
+  }
+  void operator() (const OptionRow& row, const ViewOptions&)
+  {
+    add (row, "place", "x,y,z, auto or none");
+  }
+
+  void add (const OptionRow& row, const char* kind, const Json& values)
+  {
+    table.push_back ({{"name", row.name},
+                      {"letter", row.letter},
+                      {"group", row.group},
+                      {"class", row.in_class},
+                      {"kind", kind},
+                      {"default", defaults[row.name]},
+                      {"values", values},
+                      {"text", row.text}});
+  }
+};
+
 } // namespace
 
 nlohmann::ordered_json
 optionsJson (const Options& options, bool use_input_normals)
 {
-  const bool in_cloud_units = options.holes.unit == LengthUnit::CLOUD;
-  return {{"method", choiceName (METHOD_CHOICES, options.disc.as_published)},
-          {"topology", choiceName (TOPOLOGY_CHOICES, options.topology)},
-          {"holes", choiceName (HOLE_CHOICES, options.holes.policy)},
-          {"kept_loops", options.holes.kept_loops},
-          {"largest_hole", in_cloud_units ? 0.0 : options.holes.largest_hole},
-          {"largest_hole_length", in_cloud_units ? options.holes.largest_hole : 0.0},
-          {"max_edge", options.trimming.maximum_edge_length},
-          {"max_edge_ratio", options.trimming.maximum_edge_ratio},
-          {"min_component", options.trimming.minimum_component_size},
-          {"viewpoint", options.view.use == ViewUse::GIVEN  ? Json (options.view.viewpoint)
-                        : options.view.use == ViewUse::AUTO ? Json ("auto")
-                                                            : Json ("none")},
-          {"facing", choiceName (FACING_CHOICES, options.facing)},
-          {"use_input_normals", use_input_normals},
-          {"remove_outliers", options.remove_outliers},
-          {"scatter", choiceName (SCATTER_CHOICES, options.scatter)},
-          {"denoise", options.denoise},
-          {"neighbors", options.neighbors.k},
-          {"neighborhood", choiceName (NEIGHBORHOOD_CHOICES, options.neighbors.kind)},
-          {"ball_radius", options.neighbors.ball_radius},
-          {"sheet_filter", options.filter_sheets},
-          {"boundary", choiceName (BOUNDARY_CHOICES, options.disc.boundary.method)},
-          {"loop_given", !options.disc.boundary.loop.empty ()},
-          {"opening_angle", options.disc.boundary.opening_angle},
-          {"cluster_tolerance", options.disc.boundary.cluster_tolerance},
-          {"cluster_neighbors", options.disc.boundary.cluster_k},
-          {"domain", choiceName (DOMAIN_CHOICES, options.disc.domain.curve)},
-          {"sides", options.disc.domain.polygon_sides},
-          {"spacing", choiceName (SPACING_CHOICES, options.disc.domain.loop_spacing)},
-          {"weights", choiceName (WEIGHTING_CHOICES, options.disc.weighting)},
-          {"solver", choiceName (SOLVER_CHOICES, options.disc.solver.method)},
-          {"ordering", choiceName (ORDERING_CHOICES, options.disc.solver.ordering)},
-          {"tolerance", options.disc.solver.tolerance},
-          {"max_iterations", options.disc.solver.max_iterations},
-          {"ilut_fill", options.disc.solver.ilut_fill},
-          {"ilut_drop", options.disc.solver.ilut_drop},
-          {"flips", options.flip_edges},
-          {"uncross", options.remove_self_intersections},
-          {"open_crossings", options.trimming.open_self_intersections},
-          {"threads", options.threads},
-          {"blocks", options.blocks}};
+  Json json = Json::object ();
+  visitOptions (options, OptionsWriter{json});
+  json["use_input_normals"] = use_input_normals;
+  json["loop_given"] = !options.disc.boundary.loop.empty ();
+  return json;
+}
+
+nlohmann::ordered_json
+optionTableJson ()
+{
+  Json table = Json::array ();
+  const Options defaults;
+  visitOptions (defaults, TableWriter{table, optionsJson (defaults, false)});
+  return table;
 }
 
 nlohmann::ordered_json

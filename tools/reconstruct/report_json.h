@@ -13,6 +13,11 @@ namespace pcl::floater {
 nlohmann::ordered_json
 optionsJson (const Options& options, bool use_input_normals);
 
+/// The table of options: an array with name, letter, group, class, kind (bool, int, float, word, place), default,
+/// values and text of each.
+nlohmann::ordered_json
+optionTableJson ();
+
 /// Null if the mesh is not that of a single scan.
 nlohmann::ordered_json
 viewpointJson (const Report& report);

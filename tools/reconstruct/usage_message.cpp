@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "usage_message.h"
 
+#include "option_kinds.h"
 #include "suggestion.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 
 namespace pcl::floater {
 namespace {
@@ -129,6 +129,8 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
            "' is one file too many: there are one INPUT and one OUTPUT";
   if (kind == CLI::ExitCodes::RequiredError)
     return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
+  if (kind == CLI::ExitCodes::ExcludesError)
+    return message;
   const CLI::Option* const option = optionOf (app, message);
   if (kind == CLI::ExitCodes::ConversionError) // only flags are converted by the parser itself
     for (const CLI::Option* const flag : app.get_options ())
@@ -143,36 +145,13 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
 }
 
 std::string
-rangeMessage (const CLI::App& app, const std::string& refusal, const Words& arguments)
+rangeMessage (const CLI::App& app, const Problem& problem, const Words& arguments)
 {
-  // Words of the core, and the options that they are about.
-  static constexpr std::array<std::pair<const char*, const char*>, 22> KNOWN{
-      {{"number of kept loops", "--kept-loops"},
-       {"size of the largest hole must", "--largest-hole"},
-       {"size of the largest hole must", "--largest-hole-length"},
-       {"holes chosen by their size", "--holes"},
-       {"a disc has one boundary loop", "--holes"},
-       {"maximum edge length", "--max-edge"},
-       {"maximum edge ratio", "--max-edge-ratio"},
-       {"minimum component size", "--min-component"},
-       {"a viewpoint is of no use", "--viewpoint"},
-       {"number of neighbours", "--neighbors"},
-       {"ball radius", "--ball-radius"},
-       {"opening angle", "--opening-angle"},
-       {"cluster tolerance", "--cluster-tolerance"},
-       {"number of cluster neighbours", "--cluster-neighbors"},
-       {"number of polygon sides", "--sides"},
-       {"the tolerance must", "--tolerance"},
-       {"number of iterations", "--max-iterations"},
-       {"fill of ILUT", "--ilut-fill"},
-       {"drop tolerance of ILUT", "--ilut-drop"},
-       {"does not take the ordering", "--ordering"},
-       {"number of threads", "--threads"},
-       {"number of blocks", "--blocks"}}};
-  for (const auto& [words, name] : KNOWN)
-    if (refusal.find (words) != std::string::npos && app.count (name) > 0)
-      return typedName (*app.get_option (name), arguments) + ": " + refusal;
-  return refusal;
+  const std::string name = toolName (problem.option);
+  if (problem.option.empty () || app.get_option_no_throw (name) == nullptr)
+    return problem.message;
+  return typedName (*app.get_option (name), arguments) +
+         problem.message.substr (problem.option.size ());
 }
 
 } // namespace pcl::floater

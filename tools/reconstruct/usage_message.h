@@ -3,6 +3,8 @@
 // What is wrong with a command line, in words of the user.
 #pragma once
 
+#include "core/problem.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +24,9 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error,
               const std::vector<std::string>& arguments);
 
 /// The message for an option that is out of its range.
-/// \param refusal of checkOptions (), which does not know the names of the tool's options
+/// \param problem of checkOptions ()
 std::string
-rangeMessage (const CLI::App& app, const std::string& refusal,
+rangeMessage (const CLI::App& app, const Problem& problem,
               const std::vector<std::string>& arguments);
 
 } // namespace pcl::floater

@@ -13,6 +13,8 @@ camera or a lidar. It needs no normals and no tuning.
     corners = mesh.points[mesh.triangles]    # (m, 3, 3): the three corners of each triangle
 """
 import functools
+import inspect
+import textwrap
 
 import numpy as np
 
@@ -110,17 +112,28 @@ def _loop(given):
     return array.tolist()
 
 
-def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", holes="auto",
-                kept_loops=1, largest_hole=0.0, largest_hole_length=0.0, viewpoint="auto",
-                facing="auto", max_edge=0.0, max_edge_ratio=0.0, min_component=0,
-                remove_outliers=True, scatter="keep", denoise=True, flips=True, uncross=True,
-                open_crossings=False, neighbors=20, neighborhood="nearest-delaunay",
-                ball_radius=2.25, use_input_normals=False, sheet_filter=True, method="auto",
-                boundary=None, loop=None, opening_angle=160.0, cluster_tolerance=0.05,
-                cluster_neighbors=10, domain="circle", sides=6, spacing="chord-length",
-                weights="mean-value", solver="umfpack", ordering=None, tolerance=1e-15,
-                max_iterations=1000, ilut_fill=15, ilut_drop=0.01, threads=0, blocks=0,
-                strict=False, progress=None):
+def _signature_and_text():
+    """Of the options: the parameters of `reconstruct`, and what its documentation says of them."""
+    parameters, text = [], ""
+    for row in _core.options():
+        default = None if row["name"] in _BY_METHOD else row["default"]
+        parameters.append(inspect.Parameter(row["name"], inspect.Parameter.KEYWORD_ONLY, default=default))
+        values = row["values"]
+        kind = "{%s}" % ", ".join(f'"{word}"' for word in values) if row["kind"] == "word" else {
+            "bool": "bool", "int": f"int, {values}", "float": f"float, {values}",
+            "place": '"auto", "none" or three numbers'}[row["kind"]]
+        body = textwrap.fill(row["text"][0].upper() + row["text"][1:] + ".", 102)
+        text += f"{row['name']} : {kind}\n" + textwrap.indent(body, "    ") + "\n"
+    return parameters, textwrap.indent(text, "    ").strip()
+
+
+# Their defaults depend on the method.
+_BY_METHOD = ("boundary", "ordering")
+_PARAMETERS, _TEXT = _signature_and_text()
+
+
+def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=False, loop=None, strict=False,
+                progress=None, **options):
     """Reconstructs the surface on which points lie.
 
     The names, values and defaults are those of the tool pcl_floater_reconstruct. The defaults need no
@@ -143,94 +156,18 @@ def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", ho
         Where the sensor of a single scan was, if that is known but not sure to fit: it is used if the
         spacing of the points confirms it. The mesh faces it where it can.
 
-    topology : {"auto", "disc", "surface"}
-        What the points are taken for: a disc (one component with one boundary loop, laid out in the
-        plane, so that the mesh has `parameters`) or any surface. "auto": a disc if `loop` is given.
-    holes : {"auto", "close-all", "keep-largest", "keep-count", "by-size"}
-        Boundary loops that stay open: those that look like boundaries, not like gaps of the sampling;
-        none; the largest of each component; `kept_loops` of them; or those above a size.
-    kept_loops : int
-        "keep-count": boundary loops that stay open, 0 or more.
-    largest_hole, largest_hole_length : float
-        "by-size": width of the widest hole to fill, in local spacings (mean distances of the points
-        there to their 6 nearest), or in units of the cloud. One of them.
-    viewpoint : "auto", "none" or three numbers
-        One scan: where its sensor was. Its points are connected as they were seen from there. "auto":
-        `sensor_origin`, or a place that is found, if the spacing of the points tells so. "none": the
-        cloud is no single scan.
-    facing : {"auto", "outwards", "up", "viewpoint", "normals"}
-        Which side of each component is its front.
-    max_edge, max_edge_ratio : float
-        Cut off triangles with a longer edge, in units of the cloud, or in local spacings. 0: no limit.
-    min_component : int
-        Cut off components of fewer points.
-    remove_outliers : bool
-        Leave points that lie off any surface out of the mesh.
-    scatter : {"keep", "drop"}
-        Points of no surface at any scale, such as leaves.
-    denoise : bool
-        Where noise is strong, connect the points as they lie when projected on local planes. The
-        points themselves are not moved.
-    flips : bool
-        Flip edges in space and repair folds at the end.
-    uncross : bool
-        Change the mesh where its triangles cross each other.
-    open_crossings : bool
-        Take triangles out until no two cross each other.
-
-    neighbors : int
-        Nearest neighbours of each point, 6 to 200.
-    neighborhood : {"nearest-delaunay", "nearest", "ball-delaunay", "ball"}
-        Points that a point of a disc is a mean of.
-    ball_radius : float
-        "ball", "ball-delaunay": radius, in mean distances of a point to its 6 nearest, 1 to 10.
     use_input_normals : bool
         Take `normals` for the tangent planes as well.
-    sheet_filter : bool
-        Drop neighbours on another sheet of the surface.
-
-    method : {"auto", "tw385"}
-        "tw385": a disc by the method of the report TW 385 and nothing else.
-    boundary : {"spanning-tree", "consensus", "two-segments"}, optional
-        How the boundary loop of a disc is found. None: "spanning-tree", and with `method="tw385"`
-        "two-segments".
     loop : sequence of int, optional
-        The boundary loop: indices of points, in order. Makes a disc.
-    opening_angle, cluster_tolerance, cluster_neighbors : float, float, int
-        "two-segments": degrees, above 0 and below 360, of the sector without neighbours that a
-        boundary point has; the distance over which clusters grow, as a fraction of the bounding box
-        diagonal, above 0, at most 1; boundary points that a cluster takes in at a time, 1 or more.
-    domain : {"circle", "square", "polygon", "own-shape"}
-        Convex curve on which the loop is laid.
-    sides : int
-        Sides of the polygon, 3 or more.
-    spacing : {"chord-length", "centripetal", "uniform"}
-        How the points of the loop are spaced on that curve.
-    weights : {"uniform", "inverse-distance", "shape-preserving", "mean-value"}
-        Weights of the neighbours of a point.
-    solver : {"umfpack", "umfpack-unsymmetric", "superlu", "eigen-sparse-lu", "bicgstab-ilut", \
-"gauss-seidel"}
-        What solves the linear system.
-    ordering : {"automatic", "amd", "metis", "colamd", "reverse-cuthill-mckee", "natural"}, optional
-        Order of the unknowns. None: "automatic", and with `method="tw385"` and UMFPACK "amd".
-    tolerance, max_iterations : float, int
-        Iterative solvers: relative residual to reach, above 0 and below 1; iterations after which they
-        give up, 1 or more.
-    ilut_fill, ilut_drop : int, float
-        "bicgstab-ilut": entries kept in a row of each factor, 1 to 10000; those below this fraction of
-        their row are dropped, 0 to 1.
-
-    threads : int
-        Threads to use. 0: one for each core.
-    blocks : int
-        Blocks in which the nearest neighbours are searched. 0: chosen by the number of points. The
-        result is the same.
+        The boundary loop of a disc: indices of points, in order. Makes a disc.
     strict : bool
         Take warnings for a failure: raise `FloaterError` with the status "WARNINGS".
     progress : callable, optional
         Called as progress(stage, fraction) by this thread, when a stage begins and up to 20 times a
         second: the name of the stage, and the fraction of the run that is done, from 0 to 1. An
         exception that it raises ends the run, and is raised here.
+
+    %OPTIONS%
 
     Returns
     -------
@@ -257,20 +194,15 @@ def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", ho
     >>> mesh.report["check"]["genus"]
     1
     """
-    options = dict(locals())
-    given = options.pop("points")
-    for name in ("normals", "sensor_origin", "strict", "progress"):
-        del options[name]
-    for name in ("boundary", "ordering", "loop"):
-        if options[name] is None:
-            del options[name]
+    options = {name: value for name, value in options.items() if value is not None or name not in _BY_METHOD}
+    options["use_input_normals"] = use_input_normals
     if loop is not None:
         options["loop"] = _loop(loop)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a callable, not {progress!r}")
     if not isinstance(strict, (bool, np.bool_)):
         raise TypeError(f"strict must be True or False, not {strict!r}")
-    array, columns = _as_list("points", given)
+    array, columns = _as_list("points", points)
     status, message, warnings, known, arrays = _core.run(
         array, columns, None if normals is None else _as_list("normals", normals)[0], sensor_origin,
         options, progress)
@@ -287,3 +219,8 @@ def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", ho
     if status != "SUCCESS":
         raise FloaterError(message, status, _with_lists(report, arrays))
     return Mesh(array, arrays, tuple(warnings), report)
+
+
+reconstruct.__doc__ = (reconstruct.__doc__ or "").replace("%OPTIONS%", _TEXT)
+reconstruct.__signature__ = inspect.Signature([
+    *(p for p in inspect.signature(reconstruct).parameters.values() if p.kind is not p.VAR_KEYWORD), *_PARAMETERS])
