@@ -17,18 +17,17 @@ END
 }
 
 # With libopenblas0-pthread the factorization is 2.5 times as fast as with the reference BLAS.
-# libgl1-mesa-dri and xvfb are for drawing without a screen.
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
           libsuperlu-dev libboost-dev
-          libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
+          libopenblas0-pthread libcli11-dev nlohmann-json3-dev liblzf-dev liblodepng-dev
           zlib1g-dev libopenmpi-dev openmpi-bin libxxhash-dev
-          libgl1-mesa-dri xvfb
           pybind11-dev python3-dev python3-numpy)
 for argument in "$@"; do
   case "$argument" in
     --tests) packages+=(libgtest-dev libgmock-dev pcl-tools pkg-config python3
                          python3-pytest python3-pip python3-setuptools python3-venv python3-wheel
-                         python3-scipy python3-matplotlib) ;;
+                         python3-scipy python3-matplotlib
+                         libvtk9-dev libgl1-mesa-dri xvfb) ;;
     --benchmarks) packages+=(python3 python3-numpy python3-scipy python3-matplotlib) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     --packages) packages+=(dpkg-dev lintian debootstrap) ;;
