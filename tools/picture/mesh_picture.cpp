@@ -17,7 +17,7 @@ constexpr int COLOUR_STEP = 5;                  // of 256 levels of each colour
 constexpr int BOUNDARY_WIDTH = 4, EDGE_WIDTH = 1; // pixels drawn
 
 const Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
-    EDGE{0.18, 0.27, 0.40}, PAPER{1.0, 1.0, 1.0};
+    EDGE{0.18, 0.27, 0.40};
 
 std::vector<Spot>
 project (const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Canvas& canvas)
@@ -39,27 +39,33 @@ lift (std::vector<Spot> spots, const Camera& camera, const Canvas& canvas)
   return spots;
 }
 
-using Edge = std::array<std::uint32_t, 2>;
-
 // \param opacity of the edges of all triangles; those of the boundary are opaque
 void
 drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& triangles,
            double opacity)
 {
-  std::vector<Edge> edges;
+  constexpr unsigned HALF = 32; // of the bits of an edge: the lower and the higher of its vertices
+  std::vector<std::uint64_t> edges;
   edges.reserve (3 * triangles.size ());
-  for (const auto& [a, b, c] : triangles)
-    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}})
-      edges.push_back ({std::min (from, to), std::max (from, to)});
+  for (const auto& triangle : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax (triangle[i], triangle[(i + 1) % 3]);
+      edges.push_back (std::uint64_t{low} << HALF | high);
+    }
+  const auto draw = [&] (std::uint64_t edge, int width, const Colour& colour, double its_opacity) {
+    canvas.drawLine (spots[edge >> HALF], spots[static_cast<std::uint32_t> (edge)], width, colour,
+                     its_opacity);
+  };
   if (opacity > 0.0)
-    for (const auto& [from, to] : edges)
-      canvas.drawLine (spots[from], spots[to], EDGE_WIDTH, EDGE, opacity);
+    for (const std::uint64_t edge : edges)
+      draw (edge, EDGE_WIDTH, EDGE, opacity);
   // Those that one triangle has.
   std::sort (edges.begin (), edges.end ());
   for (auto edge = edges.begin (), next = edge; edge != edges.end (); edge = next) {
-    next = std::find_if (edge, edges.end (), [edge] (const Edge& other) { return other != *edge; });
+    next =
+        std::find_if (edge, edges.end (), [edge] (std::uint64_t other) { return other != *edge; });
     if (next - edge == 1)
-      canvas.drawLine (spots[(*edge)[0]], spots[(*edge)[1]], BOUNDARY_WIDTH, BOUNDARY, 1.0);
+      draw (*edge, BOUNDARY_WIDTH, BOUNDARY, 1.0);
   }
 }
 
@@ -106,27 +112,26 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, co
     sum.normalize ();
   for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
     const auto& triangle = mesh.triangles[t];
-    const auto atCorners = [&triangle] (const auto& values) {
-      return std::array{values[triangle[0]], values[triangle[1]], values[triangle[2]]};
+    const std::array<Spot, 3> corners{spots[triangle[0]], spots[triangle[1]], spots[triangle[2]]};
+    const auto mean = [&triangle] (const auto& values, const Eigen::Vector3d& shares) {
+      return (shares[0] * values[triangle[0]] + shares[1] * values[triangle[1]] +
+              shares[2] * values[triangle[2]])
+          .eval ();
     };
-    const auto mean = [] (const auto& values, const Eigen::Vector3d& shares) {
-      return (shares[0] * values[0] + shares[1] * values[1] + shares[2] * values[2]).eval ();
-    };
-    const std::array<Spot, 3> corners = atCorners (spots);
-    const std::array<Eigen::Vector3d, 3> corner_normals = atCorners (sums);
-    std::array<Eigen::Vector2d, 3> coordinates{};
+    double level = 0.0;
     if (texture != nullptr)
-      coordinates = atCorners (mesh.coordinates);
-    const double level = texture != nullptr ? texture->level (coordinates, corners) : 0.0;
+      level = texture->level ({mesh.coordinates[triangle[0]], mesh.coordinates[triangle[1]],
+                               mesh.coordinates[triangle[2]]},
+                              corners);
     const double side = Canvas::signedArea (corners) < 0.0 ? 1.0 : -1.0;
     canvas.fill (corners, [&] (const Eigen::Vector3d& shares) -> Colour {
-      const Colour colour = texture != nullptr ? texture->colour (mean (coordinates, shares), level)
-                            : side > 0.0       ? FRONT
-                                               : BACK;
+      Colour colour = side > 0.0 ? FRONT : BACK;
+      if (texture != nullptr)
+        colour = texture->colour (mean (mesh.coordinates, shares), level);
       if (shading == Shading::NONE)
         return colour;
       const Eigen::Vector3d normal =
-          shading == Shading::FLAT ? normals[t] : mean (corner_normals, shares).normalized ();
+          shading == Shading::FLAT ? normals[t] : mean (sums, shares).normalized ();
       return (brightness (side * normal) * colour).cwiseMin (1.0);
     });
   }
