@@ -132,7 +132,7 @@ private:
     return static_cast<int> (std::floor (std::clamp (place, 0.0, side ()) - 0.5));
   }
 
-  // Whether there is nothing nearer in a pixel; then it is hidden.
+  // Whether nothing in the pixel is nearer; then what is there is hidden.
   bool hide (std::size_t pixel, double nearness)
   {
     if (static_cast<float> (nearness) < nearness_[pixel])

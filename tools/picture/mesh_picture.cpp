@@ -15,27 +15,22 @@ constexpr std::size_t SUPERSAMPLING = 2;        // pixels drawn per pixel, in ea
 constexpr std::size_t MOST_DRAWN_EDGES = 15000; // triangles of a shaded mesh up to which edges show
 constexpr int COLOUR_STEP = 5;                  // of 256 levels of each colour
 constexpr int BOUNDARY_WIDTH = 4, EDGE_WIDTH = 1; // pixels drawn
+constexpr double LIFT = 3.0;                      // pixels drawn
 
 const Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
     EDGE{0.18, 0.27, 0.40};
 
+// \param lift in pixels, by which lines on a surface are nearer than that
 std::vector<Spot>
-project (const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Canvas& canvas)
+project (const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Canvas& canvas,
+         double lift = 0.0)
 {
   std::vector<Spot> spots;
   spots.reserve (points.size ());
-  for (const Eigen::Vector3d& point : points)
+  for (const Eigen::Vector3d& point : points) {
     spots.push_back (camera.project (point, canvas.side ()));
-  return spots;
-}
-
-// The same nearer by some pixels, so that lines on a surface are seen.
-std::vector<Spot>
-lift (std::vector<Spot> spots, const Camera& camera, const Canvas& canvas)
-{
-  constexpr double PIXELS = 3.0;
-  for (Spot& spot : spots)
-    spot.nearness += PIXELS * 2.0 * camera.half_side / canvas.side () * spot.weight;
+    spots.back ().nearness += lift * 2.0 * camera.half_side / canvas.side () * spots.back ().weight;
+  }
   return spots;
 }
 
@@ -102,7 +97,7 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, co
   normals.reserve (mesh.triangles.size ());
   for (const auto& triangle : mesh.triangles) {
     const Eigen::Vector3d& a = mesh.points[triangle[0]];
-    normals.push_back (
+    normals.emplace_back (
         camera.axes *
         (mesh.points[triangle[1]] - a).cross (mesh.points[triangle[2]] - a).normalized ());
     for (const std::uint32_t corner : triangle)
@@ -136,7 +131,8 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, co
     });
   }
   if (texture == nullptr)
-    drawEdges (canvas, lift (spots, camera, canvas), mesh.triangles, edgesShow (mesh) ? 1.0 : 0.0);
+    drawEdges (canvas, project (mesh.points, camera, canvas, LIFT), mesh.triangles,
+               edgesShow (mesh) ? 1.0 : 0.0);
 }
 
 // Rounds the colours, which is invisible and makes the file a third smaller.
@@ -155,13 +151,13 @@ ColourImage
 makeCheckerboard ()
 {
   constexpr std::size_t SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
-  constexpr std::size_t SIDE = SQUARES * PIXELS;
+  constexpr std::size_t SIDE = SQUARES * PIXELS, FIELD = SIDE / FIELDS;
   ColourImage image{SIDE, SIDE, {}};
   for (std::size_t row = 0; row < SIDE; ++row)
     for (std::size_t x = 0; x < SIDE; ++x) {
-      const std::size_t y = SIDE - 1 - row;
-      const double right = static_cast<double> (x * FIELDS / SIDE) / (FIELDS - 1);
-      const double up = static_cast<double> (y * FIELDS / SIDE) / (FIELDS - 1);
+      const std::size_t y = SIDE - 1 - row, column = x / FIELD, line = y / FIELD; // of fields
+      const double right = static_cast<double> (column) / (FIELDS - 1);
+      const double up = static_cast<double> (line) / (FIELDS - 1);
       const double shade = 255.0 * ((x / PIXELS + y / PIXELS) % 2 != 0 ? 0.45 : 1.0);
       image.pixels.push_back ({static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
                                static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
