@@ -16,7 +16,7 @@ set (distributed_package "pcl-floater-mpi")
 
 find_program (GZIP_PROGRAM gzip)
 mark_as_advanced (GZIP_PROGRAM)
-if (NOT GZIP_PROGRAM OR NOT BUILD_SHARED_LIBS OR NOT PCL_FLOATER_BUILD_TOOLS OR NOT TARGET pcl_floater_picture
+if (NOT GZIP_PROGRAM OR NOT BUILD_SHARED_LIBS OR NOT PCL_FLOATER_BUILD_TOOLS
     OR NOT TARGET pcl_floater_distributed OR NOT makes_man_pages OR NOT TARGET pcl_floater_python)
   message (FATAL_ERROR "The packages have the shared library, all tools (also that for MPI), their man pages and the "
                        "Python module, and need gzip")
@@ -105,7 +105,7 @@ set (CPACK_DEBIAN_TOOLS_PACKAGE_NAME ${tools_package})
 set (CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set (CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set (CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS libopenblas0-pthread)
-set (CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "pcl-tools, xvfb")
+set (CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS pcl-tools)
 set (CPACK_DEBIAN_TOOLS_DESCRIPTION
 "surface reconstruction from point clouds - tools
 ${what_it_is}

@@ -119,12 +119,12 @@ at_200_moments shrink_it "0 2 3" || result=1
 PCL_FLOATER_MOMENTS=200 nice -n 19 "$tests/test_concurrency" --gtest_brief=1 \
   --gtest_filter='*CancelledFromAnotherThread' || result=1
 
-declare -A share=([pcd]=1 [ply]=1 [obj]=1 [stl]=1 [las]=1 [table]=1 [command_line]=1 [reconstruct]=5)
-for target in pcd ply obj stl las table command_line reconstruct; do
+declare -A share=([pcd]=1 [ply]=1 [vtk]=1 [obj]=1 [stl]=1 [las]=1 [table]=1 [command_line]=1 [reconstruct]=5)
+for target in pcd ply vtk obj stl las table command_line reconstruct; do
   # The limit of one input is in wall time, and this process has the lowest priority. On a busy
   # machine, an input that ends took 751 seconds; one that does not end must still be found.
   mkdir -p "$work/corpus/$target" "$work/found/$target"
-  time=$((seconds * share[$target] / 24))
+  time=$((seconds * share[$target] / 26))
   program=build/fuzz/test/fuzz/fuzz_$target
   [[ $target == command_line || $target == reconstruct ]] || program=build/fuzz/test/fuzz/fuzz_readers
   FUZZED_FORMAT=$target nice -n 19 "$program" -max_total_time="$time" -timeout=1800 -rss_limit_mb=3000 \

@@ -67,20 +67,14 @@ mkdir -p "$result"
 # Nothing of an earlier cloud stays beside what is made of this one.
 rm -f "$result/mesh.vtk" "$result/report.json" "$result/picture.png"
 "$build/tools/reconstruct/pcl_floater_reconstruct" --report "$result/report.json" "$cloud" "$result/mesh.vtk"
-# The tool for pictures is not built without VTK and X11.
-picture=
-if [[ -x $build/tools/picture/pcl_floater_picture ]] && command -v Xvfb >/dev/null; then
-  picture=yes
-  "$root/tools/picture/on_virtual_display.sh" "$build/tools/picture/pcl_floater_picture" \
-    "$result/mesh.vtk" "$result/picture.png"
-fi
+"$build/tools/picture/pcl_floater_picture" "$result/mesh.vtk" "$result/picture.png"
 
 cat <<END
 Done. In $result:
   mesh.vtk     the mesh; its vertices are the points of the cloud
   report.json  the report on the run
-${picture:+  picture.png  a picture of the mesh
-}To view the mesh (key r: reset the view, w: edges, q: quit):
+  picture.png  a picture of the mesh
+To view the mesh (key r: reset the view, w: edges, q: quit):
   pcl_viewer '$result/mesh.vtk'
 END
 if ! command -v pcl_viewer >/dev/null; then

@@ -99,8 +99,7 @@ class Tools:
         return result
 
     def picture(self, *arguments):
-        subprocess.run([ROOT / "tools/picture/on_virtual_display.sh", self.program("picture"), *map(str, arguments)],
-                       check=True)
+        subprocess.run([self.program("picture"), *map(str, arguments)], check=True)
 
 
 def write_ply(path, points):

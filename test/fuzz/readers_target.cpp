@@ -13,13 +13,34 @@
 namespace pcl::floater::fuzz {
 using Parse = std::function<Cloud (const FileBytes&)>;
 
+/// The cloud of a mesh. Ends the program if the mesh does not hold together.
+static Cloud
+withCorners (Cloud cloud, const Triangles& triangles)
+{
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t corner : triangle)
+      if (corner >= cloud.rows)
+        fail ("a triangle has a corner that is no point");
+  return cloud;
+}
+
 static const std::map<std::string, std::vector<Parse>> FORMATS{
     {"pcd",
      {[] (const FileBytes& file) { return parsePcd (file, false); },
       [] (const FileBytes& file) { return parsePcd (file, true); }}},
     {"ply",
      {[] (const FileBytes& file) { return parsePly (file, false); },
-      [] (const FileBytes& file) { return parsePly (file, true); }}},
+      [] (const FileBytes& file) { return parsePly (file, true); },
+      [] (const FileBytes& file) {
+        Triangles triangles;
+        Cloud cloud = parsePly (file, false, &triangles);
+        return withCorners (std::move (cloud), triangles);
+      }}},
+    {"vtk", {[] (const FileBytes& file) {
+       Triangles triangles;
+       Cloud cloud = parseVtk (file, triangles);
+       return withCorners (std::move (cloud), triangles);
+     }}},
     {"obj", {[] (const FileBytes& file) { return parseObj (file); }}},
     {"stl", {[] (const FileBytes& file) { return parseStl (file); }}},
     {"las", {[] (const FileBytes& file) { return parseLas (file); }}},

@@ -23,10 +23,8 @@ class ContactSheet(unittest.TestCase):
         self.folder = self.temporary.name
 
     def run_script(self, *clouds, **environment):
-        environment = {**os.environ, **environment}
-        environment.pop("DISPLAY", None)
         return subprocess.run([CONTACT_SHEET, "--build", BUILD, *clouds], cwd=self.folder,
-                              env=environment, capture_output=True, text=True, timeout=1800)
+                              env={**os.environ, **environment}, capture_output=True, text=True, timeout=1800)
 
     def test_shows_a_mesh_and_the_reason_for_none(self):
         data = os.path.join(self.folder, "data")

@@ -3,8 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs pcl_floater_generate and pcl_floater_picture as a user would: files, exit codes, messages.
 
-Usage: run_tools.py pcl_floater_generate [pcl_floater_picture on_virtual_display.sh]
-Without the last two, the tests of pcl_floater_picture are skipped.
+Usage: run_tools.py pcl_floater_generate pcl_floater_picture
 """
 
 import os
@@ -15,11 +14,29 @@ import tempfile
 import unittest
 import zlib
 
-GENERATE, PICTURE, ON_DISPLAY = (sys.argv[1:] + ["", ""])[:3]
-draws = unittest.skipUnless(PICTURE, "pcl_floater_picture or Xvfb is missing")
+GENERATE, PICTURE = sys.argv[1:]
 
-SQUARE = ("# vtk DataFile Version 3.0\nsquare\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
-          "0 0 0\n1 0 0\n1 1 0\n0 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\n")
+CORNERS = (0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
+TRIANGLES = (3, 0, 1, 2, 3, 0, 2, 3)
+
+
+def vtk_text(points, polygons, kind="float"):
+    """A mesh from coordinates, and from polygons: the number of corners before the corners of each."""
+    count, at = 0, 0
+    while at < len(polygons):
+        count, at = count + 1, at + polygons[at] + 1
+    return (f"# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET POLYDATA\nPOINTS {len(points) // 3} {kind}\n"
+            f"{' '.join(map(str, points))}\nPOLYGONS {count} {at}\n{' '.join(map(str, polygons))}\n")
+
+
+SQUARE = vtk_text(CORNERS, TRIANGLES)
+BINARY_HEAD = SQUARE[:SQUARE.index("POINTS")].replace("ASCII", "BINARY").encode() + b"POINTS 4 double\n"
+SQUARE_BINARY = (BINARY_HEAD + struct.pack(">12d", *CORNERS) + b"\nPOLYGONS 2 8\n" + struct.pack(">8i", *TRIANGLES) +
+                 b"\nPOINT_DATA 4\nSCALARS a float\nLOOKUP_TABLE default\n" + bytes(16) +
+                 b"\nTEXTURE_COORDINATES TCoords 2 float\n" + struct.pack(">8f", 0, 0, 1, 0, 1, 1, 0, 1) + b"\n")
+SQUARE_OFFSETS = (BINARY_HEAD.replace(b"3.0", b"5.1") + struct.pack(">12d", *CORNERS) +
+                  b"\nMETADATA\nINFORMATION 0\n\nPOLYGONS 3 6\nOFFSETS vtktypeint64\n" + struct.pack(">3q", 0, 3, 6) +
+                  b"\nCONNECTIVITY vtktypeint64\n" + struct.pack(">6q", 0, 1, 2, 0, 2, 3) + b"\n")
 SQUARE_PLY = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
               "property float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\n"
               "end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n3 0 1 2\n3 0 2 3\n")
@@ -35,8 +52,8 @@ class Tools(unittest.TestCase):
         return os.path.join(self.temporary.name, name)
 
     def write(self, name, text):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            file.write(text)
+        with open(self.path(name), "wb") as file:
+            file.write(text if isinstance(text, bytes) else text.encode())
         return self.path(name)
 
     def read(self, name):
@@ -45,8 +62,7 @@ class Tools(unittest.TestCase):
 
     def check(self, code, *command, says=""):
         """Runs a command; checks its exit code, its message, and that no temporary file is left."""
-        environment = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1800)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=1800)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(says, done.stdout + done.stderr)
         self.assertFalse([name for name in os.listdir(self.temporary.name) if "tmp" in name])
@@ -83,10 +99,10 @@ class Tools(unittest.TestCase):
         self.check(4, GENERATE, "torus", self.path("folder.pcd"), says="folder.pcd")
 
     def picture(self, code, *arguments, says=""):
-        self.check(code, ON_DISPLAY, PICTURE, *arguments, says=says)
+        self.check(code, PICTURE, *arguments, says=says)
 
     def pixels(self, name):
-        """Width and height of a picture, and the number of different bytes in it: few if blank."""
+        """The rows of a picture, of (red, green, blue)."""
         data = self.read(name)
         self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
         width, height = struct.unpack(">II", data[16:24])
@@ -96,65 +112,122 @@ class Tools(unittest.TestCase):
             if data[at + 4:at + 8] == b"IDAT":
                 packed += data[at + 8:at + 8 + length]
             at += length + 12
-        return width, height, len(set(zlib.decompress(packed)))
+        data, rows, above = zlib.decompress(packed), [], bytes(3 * width + 3)
+        self.assertEqual(len(data), height * (3 * width + 1))
+        for first in range(0, len(data), 3 * width + 1):
+            line = bytearray(3)  # a pixel to the left of the first
+            for i, value in enumerate(data[first + 1:first + 3 * width + 1], 3):
+                a, b, c = line[i - 3], above[i], above[i - 3]
+                nearest = min((a, b, c), key=lambda x, p=a + b - c: abs(p - x))
+                line.append((value + (0, a, b, (a + b) // 2, nearest)[data[first]]) % 256)
+            rows.append([tuple(line[i:i + 3]) for i in range(3, len(line), 3)])
+            above = line
+        return rows
 
-    @draws
+    def draw(self, mesh, *options):
+        """The pixels of a picture of a mesh."""
+        self.picture(0, mesh, self.path("drawn.png"), "--height", "100", *options)
+        return self.pixels("drawn.png")
+
+    def draw_middle(self, mesh, viewpoint):
+        """What the middle of a picture shows."""
+        red, _, blue = self.draw(mesh, "--viewpoint", viewpoint)[40][60]
+        return "front" if blue > red + 20 else "back" if red > blue + 20 else "neither"
+
     def test_picture_draws_one_or_two_panels(self):
         mesh = self.write("square.vtk", SQUARE)
-        self.picture(0, mesh, self.path("one.png"), "--height", "100")
-        width, height, values = self.pixels("one.png")
-        self.assertEqual((width, height), (100, 100))
-        self.assertGreater(values, 16)
+        rows = self.draw(mesh)
+        self.assertEqual((len(rows), len(rows[0])), (100, 100))
+        colours = [colour for row in rows for colour in row]
+        self.assertGreater(len(set(colours)), 4)
+        self.assertEqual(rows[0][0], (255, 255, 255))
+        boundary = sum(red > 180 and green < 60 for red, green, _ in colours)
+        self.assertTrue(200 < boundary < 1000, boundary)
         self.picture(0, mesh, mesh, self.path("two.png"), "--height", "100")
-        self.assertEqual(self.pixels("two.png")[:2], (200, 100))
+        both = self.pixels("two.png")
+        self.assertEqual([row[:100] for row in both], rows)
+        wires = [row[100:] for row in both]
+        self.assertGreater(wires[90][10][0], 200)  # beside its lines, the square is empty
+        self.assertLess(min(wires[50])[0], 200)
 
-    @draws
     def test_picture_is_seen_from_a_viewpoint(self):
         mesh = self.write("square.vtk", SQUARE)
-        for name, viewpoint in (("front.png", "0.5,0.5,3"), ("back.png", "0.5,0.5,-3")):
-            self.picture(0, mesh, self.path(name), "--height", "100", "--flat", "--viewpoint", viewpoint)
-            self.assertGreater(self.pixels(name)[2], 2)
-        self.assertNotEqual(self.read("front.png"), self.read("back.png"))
+        self.assertEqual(self.draw_middle(mesh, "0.5,0.5,3"), "front")
+        self.assertEqual(self.draw_middle(mesh, "0.5,0.5,-3"), "back")
         self.picture(1, mesh, self.path("none.png"), "--viewpoint", "0.5,0.5", says="--viewpoint")
 
-    @draws
+    def test_picture_shows_what_is_nearer(self):
+        above = tuple(value if i % 3 < 2 else 1 for i, value in enumerate(CORNERS))
+        facing_down = (3, 6, 5, 4, 3, 7, 6, 4)
+        for polygons in (TRIANGLES + facing_down, facing_down + TRIANGLES):
+            mesh = self.write("two.vtk", vtk_text(CORNERS + above, polygons))
+            # From both sides, that of the farther one would be the front.
+            self.assertEqual(self.draw_middle(mesh, "0.5,0.5,4"), "back")
+            self.assertEqual(self.draw_middle(mesh, "0.5,0.5,-3"), "back")
+
+    def test_picture_with_flat_shading_has_one_shade_for_each_triangle(self):
+        roof = self.write("roof.vtk", vtk_text((0, 0, 0, 4, 0, 0, 2, 0, 3, 2, 5, 0), (3, 0, 2, 3, 3, 2, 1, 3)))
+        shades = [{colour for row in self.draw(roof, *options) for colour in row if colour[2] > colour[0] + 20}
+                  for options in ([], ["--flat"])]
+        self.assertGreater(len(shades[0]), len(shades[1]))
+
+    def test_picture_is_the_same_of_all_layouts(self):
+        expected = self.draw(self.write("square.vtk", SQUARE))
+        for name, content in (("binary.vtk", SQUARE_BINARY), ("offsets.vtk", SQUARE_OFFSETS),
+                              ("polygon.vtk", vtk_text(CORNERS, (4, 0, 1, 2, 3))), ("square.ply", SQUARE_PLY)):
+            self.assertEqual(self.draw(self.write(name, content)), expected, name)
+        # Vertices that are in no triangle, or not finite; triangles without an area; a large offset.
+        nan = float("nan")
+        for points, polygons in ((CORNERS + (nan, 0, 0, 9, 9, 9), TRIANGLES + (3, 0, 4, 1)),
+                                 (CORNERS, TRIANGLES + (3, 1, 1, 1)),
+                                 (tuple(2**30 + value for value in CORNERS), TRIANGLES)):
+            self.assertEqual(self.draw(self.write("odd.vtk", vtk_text(points, polygons, "double"))), expected, points)
+
     def test_picture_draws_textures(self):
-        vtk = self.write("square.vtk", SQUARE + "POINT_DATA 4\nTEXTURE_COORDINATES TCoords 2 float\n"
-                                                "0 0\n1 0\n1 1\n0 1\n")
+        vtk = self.write("square.vtk", SQUARE_BINARY)
         ply = self.write("square.ply", SQUARE_PLY)
-        for mesh, name in ((vtk, "vtk.png"), (ply, "ply.png")):
-            self.picture(0, mesh, self.path(name), "--checkerboard", "--height", "200")
-            width, height, values = self.pixels(name)
-            self.assertEqual((width, height), (400, 200))
-            self.assertGreater(values, 40)
-        self.assertEqual(self.read("vtk.png"), self.read("ply.png"))
+        rows = self.draw(vtk, "--checkerboard")
+        self.assertEqual((len(rows), len(rows[0])), (100, 200))
+        self.assertGreater(len({colour for row in rows for colour in row}), 100)
+        # In the square beside the mesh, there is more red at the right, and more green above.
+        for channel, low, high in ((0, rows, [row[:100] + row[:99:-1] for row in rows]), (1, rows[::-1], rows)):
+            self.assertLess(1.5 * sum(row[x][channel] for row in low[5:25] for x in range(105, 125)),
+                            sum(row[x][channel] for row in high[5:25] for x in range(105, 125)))
+        self.assertEqual(self.draw(ply, "--checkerboard"), rows)
         # A picture is an image as any other.
-        self.picture(0, vtk, self.path("again.png"), "--texture", self.path("vtk.png"), "--height", "200")
-        self.assertNotEqual(self.read("again.png"), self.read("vtk.png"))
+        self.picture(0, ply, self.path("image.png"), "--height", "64")
+        again = self.draw(vtk, "--texture", self.path("image.png"))
+        self.assertNotEqual(again, rows)
+        self.assertGreater(again[50][150][2], again[50][150][0] + 20)
         out = self.path("out.png")
         plain = self.write("plain.vtk", SQUARE)
         self.picture(2, plain, out, "--checkerboard", says="has no texture coordinates")
         self.picture(2, vtk, out, "--texture", vtk, says="no PNG file")
-        self.picture(1, vtk, out, "--texture", self.path("vtk.png"), "--checkerboard", says="--checkerboard")
+        self.picture(1, vtk, out, "--texture", self.path("image.png"), "--checkerboard", says="--checkerboard")
         self.picture(1, vtk, plain, out, "--checkerboard", says="not both")
         self.assertFalse(os.path.exists(out))
 
-    @draws
     def test_picture_refuses_what_is_not_a_mesh(self):
         mesh, out = self.write("square.vtk", SQUARE), self.path("out.png")
         self.picture(1, mesh, says="required")
         self.picture(1, mesh, out, "--height", "0", says="--height")
         self.picture(2, self.path("none.vtk"), out, says="none.vtk")
-        self.picture(2, self.write("no_mesh.vtk", NO_MESH), out, says="no_mesh.vtk")
+        self.picture(2, self.write("no_mesh.vtk", NO_MESH), out, says="no_mesh.vtk': it has no polygons")
         self.picture(2, self.write("mesh.stl", "solid"), out, says="mesh.stl")
         self.picture(2, mesh, self.path("none.ply"), out, says="none.ply")
+        for name, content, cause in (
+                ("a.vtk", SQUARE[:-4], "truncated"), ("b.vtk", SQUARE_BINARY[:-9], "truncated"),
+                ("c.vtk", SQUARE_OFFSETS[:-9], "truncated"), ("d.vtk", SQUARE.replace("2 3\n", "2 4\n"), "none of"),
+                ("e.vtk", SQUARE.replace("2 3\n", "2 -1\n"), "none of"), ("f.vtk", "solid", "not a VTK file"),
+                ("g.vtk", SQUARE.replace("POINTS 4", "POINTS 4000000000"), "fits into the file"),
+                ("h.vtk", SQUARE.replace("POLYGONS 2", "POLYGONS 3"), "lengths"),
+                ("i.vtk", SQUARE.replace("POLYDATA", "STRUCTURED_GRID"), "no POLYDATA"),
+                ("a.ply", SQUARE_PLY[:-8], "truncated"), ("b.ply", SQUARE_PLY.replace("2 3\n", "2 4\n"), "none of")):
+            self.picture(2, self.write(name, content), out, says=cause)
         self.assertFalse(os.path.exists(out))
 
-    @draws
-    def test_picture_tells_where_it_cannot_draw_or_write(self):
-        mesh = self.write("square.vtk", SQUARE)
-        self.check(3, PICTURE, mesh, self.path("out.png"), says="display")
-        self.picture(4, mesh, self.path("no/out.png"), says="no/out.png")
+    def test_picture_tells_where_it_cannot_write(self):
+        self.picture(4, self.write("square.vtk", SQUARE), self.path("no/out.png"), says="no/out.png")
 
 
 if __name__ == "__main__":

@@ -207,8 +207,6 @@ TEST_F (TextureFiles, DiscIsOneChart)
   EXPECT_EQ (nlohmann::json::parse (readFile ("r.json"))["texture"]["charts"], 1);
 }
 
-#ifdef PCL_FLOATER_HAS_ZLIB
-
 TEST_F (TextureFiles, ColoursAreBaked)
 {
   std::filesystem::create_directories (path ("images"));
@@ -273,15 +271,6 @@ TEST_F (TextureFiles, PointsWithoutColoursAreRefused)
   writeFile ("plain.pcd", pcdText (plain.points));
   expectFailure ({"--texture", "c.png", "plain.pcd", "out.obj"}, 1, "have no colours");
 }
-
-#else
-
-TEST_F (TextureFiles, TextureWithoutZlibIsRefused)
-{
-  expectFailure ({"--texture", "c.png", "in.ply", "out.obj"}, 1, "without zlib");
-}
-
-#endif
 
 TEST_F (TextureFiles, WhatCannotBeIsRefused)
 {

@@ -47,7 +47,7 @@ class Display:
 
     def __init__(self, folder):
         if shutil.which("Xvfb") is None:
-            raise Failure("Xvfb is missing; tools/install_packages.sh installs it")
+            raise Failure("Xvfb is missing; tools/install_packages.sh --tests installs it")
         self.framebuffer = os.path.join(folder, "Xvfb_screen0")
         reader, writer = os.pipe()
         self.server = subprocess.Popen(

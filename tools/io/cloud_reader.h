@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads point clouds: PCD, PLY, OBJ, STL, LAS, and text with a point in each line.
+// Reads point clouds: PCD, PLY, OBJ, STL, LAS, and text with a point in each line; and meshes: PLY and
+// VTK.
 //
 // PCL's own readers would do for most PCD, PLY and OBJ files. But they read a word that is no
 // number as 0 without an error, round the coordinates of OBJ to single precision, and need 2 s for
@@ -59,9 +60,15 @@ Cloud
 parsePcd (const FileBytes& file, bool all_digits = false);
 
 /// PLY, ascii and binary in both byte orders: the element "vertex", without its list properties.
-/// Elements after it are ignored.
+/// \param triangles gets the element "face", polygons as several; without it, elements after the
+/// vertices are ignored
 Cloud
-parsePly (const FileBytes& file, bool all_digits = false);
+parsePly (const FileBytes& file, bool all_digits = false, Triangles* triangles = nullptr);
+
+/// Polygons in VTK's legacy format (POLYDATA, both layouts), and their points, with texture
+/// coordinates as the fields s and t. All other data are left out.
+Cloud
+parseVtk (const FileBytes& file, Triangles& triangles);
 
 /// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
 /// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other

@@ -48,7 +48,7 @@ spread (ColourImage& image, std::vector<std::uint8_t>& is_painted)
     if (is_painted[i] != 0)
       reached.push_back (i);
   for (std::size_t next = 0; next < reached.size (); ++next) {
-    const std::size_t i = reached[next], x = i % image.side, y = i / image.side;
+    const std::size_t i = reached[next], x = i % image.width, y = i / image.width;
     const auto visit = [&] (std::size_t other) {
       if (is_painted[other] != 0)
         return;
@@ -58,12 +58,12 @@ spread (ColourImage& image, std::vector<std::uint8_t>& is_painted)
     };
     if (x > 0)
       visit (i - 1);
-    if (x + 1 < image.side)
+    if (x + 1 < image.width)
       visit (i + 1);
     if (y > 0)
-      visit (i - image.side);
-    if (y + 1 < image.side)
-      visit (i + image.side);
+      visit (i - image.width);
+    if (y + 1 < image.width)
+      visit (i + image.width);
   }
 }
 
@@ -124,7 +124,7 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& 
 {
   constexpr std::uint8_t GREY = 128;
   ColourImage image;
-  image.side = side;
+  image.width = image.height = side;
   image.pixels.assign (side * side, {GREY, GREY, GREY});
   std::vector<std::uint8_t> is_painted (side * side, 0);
   const FieldTriple fields = colorFields (cloud);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cloud.h"
+#include "colour_image.h"
 
 #include <array>
 #include <string>
@@ -35,13 +36,6 @@ countVertices (const Cloud& cloud, const MeshTexture& texture)
   return cloud.size () + doubled;
 }
 
-/// An image of 8-bit colours, row by row from the top.
-struct ColourImage
-{
-  std::size_t side = 0; ///< in pixels; it is square
-  std::vector<std::array<std::uint8_t, 3>> pixels;
-};
-
 /// Side of the image at which an edge of the mesh is about two pixels long: a power of two from 256
 /// to 8192.
 /// \param area_used share of the square that the mesh covers
@@ -55,15 +49,6 @@ imageSideFor (std::size_t points, double area_used);
 ColourImage
 bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& texture,
              std::size_t side);
-
-/// Whether this build can write PNG files: that takes zlib.
-bool
-canWritePng ();
-
-/// The bytes of a PNG file.
-/// \throws std::runtime_error if this build cannot write one; std::bad_alloc
-std::vector<unsigned char>
-pngOf (const ColourImage& image);
 
 /// A file of materials for OBJ: one, named "surface", white, or with an image.
 /// \param image name of the image as the file of materials is to tell it; may be empty

@@ -3,6 +3,7 @@
 #include "byte_order.h"
 #include "cloud_reader.h"
 #include "plural.h"
+#include "polygon_fans.h"
 #include "text_scanner.h"
 
 #include <optional>
@@ -26,8 +27,16 @@ struct Element
 struct PlyHeader
 {
   std::optional<ByteOrder> byte_order; ///< none if ascii
-  std::vector<Element> elements;       ///< up to the vertices, which are the last
-  std::size_t faces = 0;
+  std::vector<Element> elements;
+
+  /// The first element of this name, or nullptr.
+  Element* find (std::string_view name)
+  {
+    for (Element& element : elements)
+      if (element.name == name)
+        return &element;
+    return nullptr;
+  }
 };
 
 ScalarType
@@ -82,7 +91,6 @@ readPlyHeader (TextScanner& scanner)
     throw ReadError ("it does not begin with 'ply', so it is not a PLY file");
   PlyHeader header;
   bool has_format = false;
-  bool is_after_vertices = false;
   while (scanner.nextFilledLine ()) {
     const std::string_view key = scanner.word ();
     if (key == "comment" || key == "obj_info")
@@ -98,26 +106,20 @@ readPlyHeader (TextScanner& scanner)
       has_format = true;
     }
     else if (key == "element") {
-      is_after_vertices |= !header.elements.empty () && header.elements.back ().name == "vertex";
       Element element;
       element.name = std::string (scanner.word ());
       element.count = scanner.number<std::size_t> ();
-      if (element.name == "face")
-        header.faces = element.count;
-      if (!is_after_vertices)
-        header.elements.push_back (std::move (element));
+      header.elements.push_back (std::move (element));
     }
     else if (key == "property") {
       if (header.elements.empty ())
         scanner.fail ("a property before the first element");
-      Property property = readProperty (scanner);
-      if (!is_after_vertices)
-        header.elements.back ().properties.push_back (std::move (property));
+      header.elements.back ().properties.push_back (readProperty (scanner));
     }
     else if (key == "end_header") {
       if (!has_format)
         scanner.fail ("the header has no format line");
-      if (header.elements.empty () || header.elements.back ().name != "vertex")
+      if (header.find ("vertex") == nullptr)
         scanner.fail ("the header has no element 'vertex'");
       return header;
     }
@@ -145,10 +147,17 @@ fieldsOf (Element& element)
   return fields;
 }
 
+bool
+haveCorners (const Property& list)
+{
+  return list.field.name == "vertex_indices" || list.field.name == "vertex_index";
+}
+
 /// Reads an element.
 /// \param keep whether to store its values, without lists, in rows of its fields
+/// \param fans get the corners of faces, which are kept; may be nullptr
 void
-readAscii (TextScanner& scanner, Element& element, bool keep)
+readAscii (TextScanner& scanner, Element& element, bool keep, PolygonFans* fans)
 {
   std::shared_ptr<char> rows;
   if (keep)
@@ -160,12 +169,18 @@ readAscii (TextScanner& scanner, Element& element, bool keep)
     if (!keep)
       continue;
     for (const Property& property : element.properties) {
-      if (!property.is_list)
+      if (!property.is_list) {
         to = scanField (scanner, property.field, to);
-      else
-        for (auto left = scanner.number<std::uint32_t> (); left > 0; --left)
-          if (scanner.word ().empty ())
-            scanner.fail ("the list '" + property.field.name + "' is shorter than its length");
+        continue;
+      }
+      const bool are_corners = fans != nullptr && haveCorners (property);
+      if (are_corners)
+        fans->begin ();
+      for (auto left = scanner.number<std::uint32_t> (); left > 0; --left)
+        if (are_corners)
+          fans->add (scanner.number<double> ());
+        else if (scanner.word ().empty ())
+          scanner.fail ("the list '" + property.field.name + "' is shorter than its length");
     }
     if (!scanner.word ().empty ())
       scanner.fail ("it has more values than there are properties");
@@ -175,7 +190,7 @@ readAscii (TextScanner& scanner, Element& element, bool keep)
 /// As readAscii, for a binary element with lists.
 /// \return the bytes that follow it
 std::string_view
-readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
+readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep, PolygonFans* fans)
 {
   std::shared_ptr<char> rows;
   if (keep)
@@ -199,7 +214,12 @@ readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
           });
           if (length > bytes.size () / sizeof (T))
             failTruncated (element, i);
-          take (length * sizeof (T), i);
+          const char* from = take (length * sizeof (T), i);
+          if (fans != nullptr && haveCorners (property)) {
+            fans->begin ();
+            for (std::size_t c = 0; c < length; ++c)
+              fans->add (static_cast<double> (readNumber<T> (from + c * sizeof (T), order)));
+          }
         }
         else {
           const char* from = take (sizeof (T), i);
@@ -216,11 +236,11 @@ readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep)
 /// \return the bytes that follow it
 std::string_view
 readBinary (const FileBytes& file, std::string_view bytes, ByteOrder order, Element& element,
-            bool keep)
+            bool keep, PolygonFans* fans)
 {
   const std::vector<Field*> fields = fieldsOf (element);
   if (fields.size () < element.properties.size ())
-    return readLists (bytes, order, element, keep);
+    return readLists (bytes, order, element, keep, fans);
   std::size_t row = 0;
   for (const Field* field : fields)
     row += field->pointBytes ();
@@ -246,23 +266,29 @@ checkCount (const Element& element, bool is_ascii, std::size_t bytes)
 } // namespace
 
 Cloud
-parsePly (const FileBytes& file, bool all_digits)
+parsePly (const FileBytes& file, bool all_digits, Triangles* triangles)
 {
   TextScanner scanner (file.view ());
   PlyHeader header = readPlyHeader (scanner);
   std::string_view rest = scanner.rest ();
+  Element& vertices = *header.find ("vertex");
+  const Element* const faces = header.find ("face");
   const bool is_widened =
-      all_digits && !header.byte_order && widenCoordinates (fieldsOf (header.elements.back ()));
-  for (Element& element : header.elements) {
-    const bool keep = element.name == "vertex";
-    checkCount (element, !header.byte_order,
+      all_digits && !header.byte_order && widenCoordinates (fieldsOf (vertices));
+  Triangles none;
+  PolygonFans fans (vertices.count, triangles == nullptr ? none : *triangles);
+  const Element* const last =
+      triangles != nullptr && faces != nullptr && faces > &vertices ? faces : &vertices;
+  for (Element* element = header.elements.data (); element <= last; ++element) {
+    PolygonFans* const its_fans = triangles != nullptr && element == faces ? &fans : nullptr;
+    const bool keep = element == &vertices || its_fans != nullptr;
+    checkCount (*element, !header.byte_order,
                 header.byte_order ? rest.size () : scanner.rest ().size ());
     if (header.byte_order)
-      rest = readBinary (file, rest, *header.byte_order, element, keep);
+      rest = readBinary (file, rest, *header.byte_order, *element, keep, its_fans);
     else
-      readAscii (scanner, element, keep);
+      readAscii (scanner, *element, keep, its_fans);
   }
-  Element& vertices = header.elements.back ();
   std::vector<Field> fields;
   std::vector<std::string> warnings;
   for (Property& property : vertices.properties) {
@@ -271,8 +297,8 @@ parsePly (const FileBytes& file, bool all_digits)
     else
       fields.push_back (std::move (property.field));
   }
-  if (header.faces > 0)
-    warnings.push_back (facesLeftOut (header.faces));
+  if (triangles == nullptr && faces != nullptr && faces->count > 0)
+    warnings.push_back (facesLeftOut (faces->count));
   Cloud cloud = makeCloud (std::move (fields), vertices.count);
   cloud.single_precision |= is_widened;
   if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())

@@ -3,14 +3,15 @@
 // pcl_floater_picture: draws a mesh and its parameterization into a PNG file.
 #include "atomic_file.h"
 #include "mesh_picture.h"
-#include "picture_files.h"
+#include "read_error.h"
 
 #include <CLI/CLI.hpp>
-#include <vtkPointData.h>
 
-#include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -19,7 +20,7 @@ enum ExitCode : int
   DONE = 0,
   USAGE = 1,
   CANNOT_READ = 2,
-  CANNOT_DRAW = 3,
+  NO_MEMORY = 3,
   CANNOT_WRITE = 4
 };
 
@@ -38,8 +39,8 @@ main (int argc, char** argv)
   CLI::App app{
       "Draws a triangle mesh, and beside it its parameterization, into a PNG file.\n"
       "Front sides are blue, back sides orange, boundary edges red.\n"
-      "Exit codes: 0 success, 1 usage, 2 an input cannot be read, 3 the picture cannot be\n"
-      "drawn, 4 the output cannot be written.",
+      "Exit codes: 0 success, 1 usage, 2 an input cannot be read, 3 there is not enough memory,\n"
+      "4 the output cannot be written.",
       "pcl_floater_picture"};
   std::vector<std::string> files;
   std::string texture;
@@ -87,38 +88,32 @@ main (int argc, char** argv)
   catch (const pcl::floater::WriteError& error) {
     return fail (CANNOT_WRITE, error.what ());
   }
-  vtkSmartPointer<vtkPolyData> mesh, parameterization;
-  vtkSmartPointer<vtkImageData> image;
-  try {
-    mesh = pcl::floater::readMesh (files[0]);
-    if (has_texture && mesh->GetPointData ()->GetTCoords () == nullptr)
-      throw std::runtime_error ("'" + files[0] +
-                                "' has no texture coordinates; pcl_floater_reconstruct --uv writes "
-                                "some");
-    if (has_texture)
-      image =
-          has_checkerboard ? pcl::floater::makeCheckerboard () : pcl::floater::readPng (texture);
-    if (files.size () == 3)
-      parameterization = pcl::floater::readMesh (files[1]);
-  }
-  catch (const std::exception& error) {
-    return fail (CANNOT_READ, error.what ());
-  }
-  if (!pcl::floater::displayAvailable ())
-    return fail (
-        CANNOT_DRAW,
-        "there is no X display to draw on; tools/picture/on_virtual_display.sh provides one");
+  pcl::floater::PictureMesh mesh;
+  pcl::floater::PictureOptions options;
+  options.flat_shading = is_flat;
+  if (!viewpoint.empty ())
+    options.viewpoint.emplace (viewpoint[0], viewpoint[1], viewpoint[2]);
   std::vector<unsigned char> png;
+  std::filesystem::path reading; // the file that is being read
   try {
-    pcl::floater::PictureOptions options;
-    options.parameterization = parameterization;
-    options.texture = image;
-    options.flat_shading = is_flat;
-    options.viewpoint = viewpoint.empty () ? nullptr : viewpoint.data ();
-    png = pcl::floater::toPng (pcl::floater::drawMesh (mesh, height, options));
+    mesh = pcl::floater::readPictureMesh (reading = files[0]);
+    if (has_texture && mesh.coordinates.empty ())
+      throw pcl::floater::ReadError (
+          "it has no texture coordinates; pcl_floater_reconstruct --uv writes some");
+    if (has_checkerboard)
+      options.texture = pcl::floater::makeCheckerboard ();
+    else if (has_texture)
+      options.texture = pcl::floater::parsePng (pcl::floater::FileBytes (reading = texture));
+    if (files.size () == 3)
+      options.parameterization = pcl::floater::readPictureMesh (reading = files[1]);
+    png = pcl::floater::pngOf (
+        pcl::floater::drawMesh (std::move (mesh), static_cast<std::size_t> (height), options));
   }
-  catch (const std::exception& error) {
-    return fail (CANNOT_DRAW, error.what ());
+  catch (const pcl::floater::ReadError& error) {
+    return fail (CANNOT_READ, "cannot read '" + reading.string () + "': " + error.what ());
+  }
+  catch (const std::bad_alloc&) {
+    return fail (NO_MEMORY, "there is not enough memory");
   }
   try {
     pcl::floater::AtomicFile file (files.back ());

@@ -2,268 +2,209 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_picture.h"
 
+#include "canvas.h"
 #include "mesh_view.h"
-
-#include <vtkActor.h>
-#include <vtkFeatureEdges.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkImageShrink3D.h>
-#include <vtkLight.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTexture.h>
-#include <vtkWindowToImageFilter.h>
-
-#include <X11/Xlib.h>
+#include "mipmap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace pcl::floater {
 namespace {
-constexpr int SUPERSAMPLING = 2; // pixels drawn per pixel of the picture, in each direction
-constexpr vtkIdType MOST_DRAWN_EDGES = 15000; // polygons of a shaded mesh up to which edges show
-constexpr int COLOUR_STEP = 5;                // of 256 levels of each colour
+constexpr std::size_t SUPERSAMPLING = 2;        // pixels drawn per pixel, in each direction
+constexpr std::size_t MOST_DRAWN_EDGES = 15000; // triangles of a shaded mesh up to which edges show
+constexpr int COLOUR_STEP = 5;                  // of 256 levels of each colour
+constexpr int BOUNDARY_WIDTH = 4, EDGE_WIDTH = 1; // pixels drawn
+constexpr double LIFT = 3.0;                      // pixels drawn
 
-using Colour = std::array<double, 3>;
-constexpr Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
-    EDGE{0.18, 0.27, 0.40}, PAPER{1.0, 1.0, 1.0};
+const Colour FRONT{0.56, 0.69, 0.85}, BACK{0.93, 0.66, 0.40}, BOUNDARY{0.83, 0.06, 0.13},
+    EDGE{0.18, 0.27, 0.40};
 
-vtkSmartPointer<vtkActor>
-makeActor (vtkPolyDataMapper* mapper, const Colour& colour)
+// \param lift in pixels, by which lines on a surface are nearer than that
+std::vector<Spot>
+project (const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Canvas& canvas,
+         double lift = 0.0)
 {
-  mapper->ScalarVisibilityOff ();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper (mapper);
-  actor->GetProperty ()->SetColor (colour[0], colour[1], colour[2]);
-  return actor;
+  std::vector<Spot> spots;
+  spots.reserve (points.size ());
+  for (const Eigen::Vector3d& point : points) {
+    spots.push_back (camera.project (point, canvas.side ()));
+    spots.back ().nearness += lift * 2.0 * camera.half_side / canvas.side () * spots.back ().weight;
+  }
+  return spots;
 }
 
-// Draws lines that lie on the surface.
+// \param opacity of the edges of all triangles; those of the boundary are opaque
 void
-addLines (vtkRenderer* renderer, vtkPolyData* edges, const Colour& colour)
+drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& triangles,
+           double opacity)
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData (edges);
-  mapper->SetResolveCoincidentTopologyToPolygonOffset ();
-  const vtkSmartPointer<vtkActor> lines = makeActor (mapper, colour);
-  lines->GetProperty ()->LightingOff ();
-  lines->GetProperty ()->SetLineWidth (2.0F * SUPERSAMPLING);
-  renderer->AddActor (lines);
-}
-
-void
-addBoundary (vtkRenderer* renderer, vtkPolyData* mesh)
-{
-  vtkNew<vtkFeatureEdges> edges;
-  edges->SetInputData (mesh);
-  edges->BoundaryEdgesOn ();
-  edges->FeatureEdgesOff ();
-  edges->ManifoldEdgesOff ();
-  edges->NonManifoldEdgesOff ();
-  edges->ColoringOff ();
-  edges->Update ();
-  addLines (renderer, edges->GetOutput (), BOUNDARY);
+  constexpr unsigned HALF = 32; // of the bits of an edge: the lower and the higher of its vertices
+  std::vector<std::uint64_t> edges;
+  edges.reserve (3 * triangles.size ());
+  for (const auto& triangle : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax (triangle[i], triangle[(i + 1) % 3]);
+      edges.push_back (std::uint64_t{low} << HALF | high);
+    }
+  const auto draw = [&] (std::uint64_t edge, int width, const Colour& colour, double its_opacity) {
+    canvas.drawLine (spots[edge >> HALF], spots[static_cast<std::uint32_t> (edge)], width, colour,
+                     its_opacity);
+  };
+  if (opacity > 0.0)
+    for (const std::uint64_t edge : edges)
+      draw (edge, EDGE_WIDTH, EDGE, opacity);
+  // Those that one triangle has.
+  std::sort (edges.begin (), edges.end ());
+  for (auto edge = edges.begin (), next = edge; edge != edges.end (); edge = next) {
+    next =
+        std::find_if (edge, edges.end (), [edge] (std::uint64_t other) { return other != *edge; });
+    if (next - edge == 1)
+      draw (*edge, BOUNDARY_WIDTH, BOUNDARY, 1.0);
+  }
 }
 
 bool
-edgesShow (vtkPolyData* mesh)
+edgesShow (const PictureMesh& mesh)
 {
-  return mesh->GetNumberOfPolys () <= MOST_DRAWN_EDGES;
-}
-
-void
-addSurface (vtkRenderer* renderer, vtkPolyData* mesh, bool flat_shading)
-{
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData (mesh);
-  normals->SplittingOff ();
-  normals->ConsistencyOff (); // keep the orientation of the mesh
-  normals->AutoOrientNormalsOff ();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection (normals->GetOutputPort ());
-  const vtkSmartPointer<vtkActor> surface = makeActor (mapper, FRONT);
-  if (flat_shading)
-    surface->GetProperty ()->SetInterpolationToFlat ();
-  surface->GetProperty ()->SetEdgeVisibility (edgesShow (mesh) ? 1 : 0);
-  surface->GetProperty ()->SetEdgeColor (EDGE[0], EDGE[1], EDGE[2]);
-  vtkNew<vtkProperty> back;
-  back->DeepCopy (surface->GetProperty ());
-  back->SetColor (BACK[0], BACK[1], BACK[2]);
-  surface->SetBackfaceProperty (back);
-  renderer->AddActor (surface);
-  addBoundary (renderer, mesh);
-}
-
-// The mesh with an image on it, both sides alike.
-// \param is_lit false: the image as it is
-void
-addTextured (vtkRenderer* renderer, vtkPolyData* mesh, vtkImageData* image, bool is_lit)
-{
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData (mesh);
-  normals->SplittingOff ();
-  normals->ConsistencyOff ();
-  normals->AutoOrientNormalsOff ();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection (normals->GetOutputPort ());
-  const vtkSmartPointer<vtkActor> surface = makeActor (mapper, PAPER);
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData (image);
-  texture->InterpolateOn ();
-  texture->MipmapOn ();
-  surface->SetTexture (texture);
-  if (!is_lit)
-    surface->GetProperty ()->LightingOff ();
-  renderer->AddActor (surface);
-}
-
-// The mesh as its texture coordinates place it.
-vtkSmartPointer<vtkPolyData>
-flattened (vtkPolyData* mesh)
-{
-  vtkNew<vtkPolyData> flat;
-  flat->DeepCopy (mesh);
-  vtkDataArray* coordinates = mesh->GetPointData ()->GetTCoords ();
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints (); ++i) {
-    const double* uv = coordinates->GetTuple2 (i);
-    flat->GetPoints ()->SetPoint (i, std::max (uv[0], 0.0), std::max (uv[1], 0.0), 0.0);
-  }
-  return flat;
-}
-
-void
-addWireframe (vtkRenderer* renderer, vtkPolyData* mesh)
-{
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData (mesh);
-  const vtkSmartPointer<vtkActor> wires = makeActor (mapper, EDGE);
-  wires->GetProperty ()->LightingOff ();
-  wires->GetProperty ()->SetRepresentationToWireframe ();
-  wires->GetProperty ()->SetOpacity (edgesShow (mesh) ? 1.0 : 0.2);
-  renderer->AddActor (wires);
-  addBoundary (renderer, mesh);
+  return mesh.triangles.size () <= MOST_DRAWN_EDGES;
 }
 
 // One light over the left shoulder of the viewer, and a weaker one from the lower right.
-void
-addLights (vtkRenderer* renderer)
+double
+brightness (const Eigen::Vector3d& normal)
 {
-  for (const auto& [x, y, z, intensity] :
-       {std::array<double, 4>{-0.8, 1.0, 1.0, 0.9}, std::array<double, 4>{1.0, -0.6, 0.8, 0.55}}) {
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToCameraLight ();
-    light->SetPosition (x, y, z);
-    light->SetFocalPoint (0.0, 0.0, 0.0);
-    light->SetIntensity (intensity);
-    renderer->AddLight (light);
+  static const Eigen::Vector3d LEFT = 0.9 * Eigen::Vector3d (-0.8, 1.0, 1.0).normalized (),
+                               RIGHT = 0.55 * Eigen::Vector3d (1.0, -0.6, 0.8).normalized ();
+  return std::max (normal.dot (LEFT), 0.0) + std::max (normal.dot (RIGHT), 0.0);
+}
+
+enum class Shading
+{
+  NONE,
+  FLAT,
+  SMOOTH
+};
+
+// \param texture or nullptr: front and back sides have their colours
+void
+drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, const Mipmap* texture,
+               Shading shading)
+{
+  const std::vector<Spot> spots = project (mesh.points, camera, canvas);
+  // As the camera sees them: unit normals of triangles, and their sums around the vertices.
+  std::vector<Eigen::Vector3d> normals, sums (mesh.points.size (), Eigen::Vector3d::Zero ());
+  normals.reserve (mesh.triangles.size ());
+  for (const auto& triangle : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.points[triangle[0]];
+    normals.emplace_back (
+        camera.axes *
+        (mesh.points[triangle[1]] - a).cross (mesh.points[triangle[2]] - a).normalized ());
+    for (const std::uint32_t corner : triangle)
+      sums[corner] += normals.back ();
   }
+  for (Eigen::Vector3d& sum : sums)
+    sum.normalize ();
+  for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    const std::array<Spot, 3> corners{spots[triangle[0]], spots[triangle[1]], spots[triangle[2]]};
+    const auto mean = [&triangle] (const auto& values, const Eigen::Vector3d& shares) {
+      return (shares[0] * values[triangle[0]] + shares[1] * values[triangle[1]] +
+              shares[2] * values[triangle[2]])
+          .eval ();
+    };
+    double level = 0.0;
+    if (texture != nullptr)
+      level = texture->level ({mesh.coordinates[triangle[0]], mesh.coordinates[triangle[1]],
+                               mesh.coordinates[triangle[2]]},
+                              corners);
+    const double side = Canvas::signedArea (corners) < 0.0 ? 1.0 : -1.0;
+    canvas.fill (corners, [&] (const Eigen::Vector3d& shares) -> Colour {
+      Colour colour = side > 0.0 ? FRONT : BACK;
+      if (texture != nullptr)
+        colour = texture->colour (mean (mesh.coordinates, shares), level);
+      if (shading == Shading::NONE)
+        return colour;
+      const Eigen::Vector3d normal =
+          shading == Shading::FLAT ? normals[t] : mean (sums, shares).normalized ();
+      return (brightness (side * normal) * colour).cwiseMin (1.0);
+    });
+  }
+  if (texture == nullptr)
+    drawEdges (canvas, project (mesh.points, camera, canvas, LIFT), mesh.triangles,
+               edgesShow (mesh) ? 1.0 : 0.0);
 }
 
 // Rounds the colours, which is invisible and makes the file a third smaller.
 void
-coarsenColours (vtkImageData* image)
+coarsenColours (ColourImage& image)
 {
-  const vtkIdType values = image->GetNumberOfPoints () * image->GetNumberOfScalarComponents ();
-  auto* value = static_cast<unsigned char*> (image->GetScalarPointer ());
-  for (vtkIdType i = 0; i < values; ++i)
-    value[i] = static_cast<unsigned char> (
-        std::min (255, (value[i] + COLOUR_STEP / 2) / COLOUR_STEP * COLOUR_STEP));
+  for (ColourImage::Pixel& pixel : image.pixels)
+    for (std::uint8_t& value : pixel)
+      value = static_cast<std::uint8_t> (
+          std::min (255, (value + COLOUR_STEP / 2) / COLOUR_STEP * COLOUR_STEP));
 }
 
 } // namespace
 
-bool
-displayAvailable ()
-{
-  Display* display = XOpenDisplay (nullptr);
-  if (display != nullptr)
-    XCloseDisplay (display);
-  return display != nullptr;
-}
-
-vtkSmartPointer<vtkImageData>
+ColourImage
 makeCheckerboard ()
 {
-  constexpr int SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
-  constexpr int SIDE = SQUARES * PIXELS;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions (SIDE, SIDE, 1);
-  image->AllocateScalars (VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < SIDE; ++y)
-    for (int x = 0; x < SIDE; ++x) {
-      const int field_x = x * FIELDS / SIDE, field_y = y * FIELDS / SIDE;
-      const bool is_dark = (x / PIXELS + y / PIXELS) % 2 != 0;
-      const std::array<double, 3> colour{0.35 + 0.65 * field_x / (FIELDS - 1),
-                                         0.35 + 0.65 * field_y / (FIELDS - 1),
-                                         1.0 - 0.5 * (field_x + field_y) / (2.0 * (FIELDS - 1))};
-      auto* pixel = static_cast<unsigned char*> (image->GetScalarPointer (x, y, 0));
-      for (std::size_t channel = 0; channel < 3; ++channel)
-        pixel[channel] =
-            static_cast<unsigned char> (255.0 * colour[channel] * (is_dark ? 0.45 : 1.0));
+  constexpr std::size_t SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
+  constexpr std::size_t SIDE = SQUARES * PIXELS, FIELD = SIDE / FIELDS;
+  ColourImage image{SIDE, SIDE, {}};
+  for (std::size_t row = 0; row < SIDE; ++row)
+    for (std::size_t x = 0; x < SIDE; ++x) {
+      const std::size_t y = SIDE - 1 - row, column = x / FIELD, line = y / FIELD; // of fields
+      const double right = static_cast<double> (column) / (FIELDS - 1);
+      const double up = static_cast<double> (line) / (FIELDS - 1);
+      const double shade = 255.0 * ((x / PIXELS + y / PIXELS) % 2 != 0 ? 0.45 : 1.0);
+      image.pixels.push_back ({static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
+                               static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
+                               static_cast<std::uint8_t> (shade * (1.0 - 0.25 * (right + up)))});
     }
   return image;
 }
 
-vtkSmartPointer<vtkImageData>
-drawMesh (vtkPolyData* mesh, int height, const PictureOptions& options)
+ColourImage
+drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
 {
-  const int panels = options.parameterization != nullptr || options.texture != nullptr ? 2 : 1;
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering (1);
-  window->SetMultiSamples (0);
-  window->SetSize (panels * height * SUPERSAMPLING, height * SUPERSAMPLING);
+  const View from_above{Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()};
+  const bool has_two_panels = options.parameterization || options.texture;
+  ColourImage image{has_two_panels ? 2 * height : height, height, {}};
+  image.pixels.resize (image.width * image.height);
+  std::optional<Mipmap> texture;
+  if (options.texture)
+    texture.emplace (*options.texture);
 
-  for (int panel = 0; panel < panels; ++panel) {
-    vtkNew<vtkRenderer> renderer;
-    renderer->SetViewport (panel / static_cast<double> (panels), 0.0,
-                           (panel + 1) / static_cast<double> (panels), 1.0);
-    renderer->SetBackground (PAPER[0], PAPER[1], PAPER[2]);
-    window->AddRenderer (renderer);
-    if (panel == 0) {
-      if (options.texture != nullptr)
-        addTextured (renderer, mesh, options.texture, true);
-      else
-        addSurface (renderer, mesh, options.flat_shading);
-      addLights (renderer);
-      const std::vector<Eigen::Vector3d> points = pointsOf (mesh);
-      if (options.viewpoint == nullptr ||
-          !aimFromViewpoint (renderer, Eigen::Map<const Eigen::Vector3d> (options.viewpoint),
-                             points))
-        aimCamera (renderer, chooseView (mesh, points), points);
-    }
-    else if (options.texture != nullptr) {
-      const vtkSmartPointer<vtkPolyData> flat = flattened (mesh);
-      addTextured (renderer, flat, options.texture, false);
-      aimCamera (renderer, {Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()},
-                 {Eigen::Vector3d::Zero (), Eigen::Vector3d (1.0, 1.0, 0.0)});
-    }
-    else {
-      addWireframe (renderer, options.parameterization);
-      aimCamera (renderer, {Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()},
-                 pointsOf (options.parameterization));
-    }
+  Canvas canvas (SUPERSAMPLING * height);
+  std::optional<Camera> camera;
+  if (options.viewpoint)
+    camera = aimFromViewpoint (mesh.scale * (*options.viewpoint - mesh.centre), mesh.points);
+  if (!camera)
+    camera = aimCamera (chooseView (mesh), mesh.points);
+  drawTriangles (canvas, mesh, *camera, texture ? &*texture : nullptr,
+                 options.flat_shading ? Shading::FLAT : Shading::SMOOTH);
+  canvas.copyTo (image, 0);
+
+  canvas = Canvas (SUPERSAMPLING * height);
+  if (texture) {
+    for (std::size_t i = 0; i < mesh.points.size (); ++i)
+      mesh.points[i] << mesh.coordinates[i], 0.0;
+    drawTriangles (canvas, mesh,
+                   aimCamera (from_above, {Eigen::Vector3d::Zero (), Eigen::Vector3d::Ones ()}),
+                   &*texture, Shading::NONE);
   }
-  window->Render ();
-
-  vtkNew<vtkWindowToImageFilter> pixels;
-  pixels->SetInput (window);
-  pixels->ReadFrontBufferOff ();
-  vtkNew<vtkImageShrink3D> shrink;
-  shrink->SetInputConnection (pixels->GetOutputPort ());
-  shrink->SetShrinkFactors (SUPERSAMPLING, SUPERSAMPLING, 1);
-  shrink->MeanOn ();
-  shrink->Update ();
-  coarsenColours (shrink->GetOutput ());
-  return shrink->GetOutput ();
+  else if (options.parameterization) {
+    const PictureMesh& flat = *options.parameterization;
+    const std::vector<Spot> spots =
+        project (flat.points, aimCamera (from_above, flat.points), canvas);
+    drawEdges (canvas, spots, flat.triangles, edgesShow (flat) ? 1.0 : 0.2);
+  }
+  if (has_two_panels)
+    canvas.copyTo (image, height);
+  coarsenColours (image);
+  return image;
 }
 
 } // namespace pcl::floater

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_view.h"
 
-#include <vtkCamera.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -19,6 +15,7 @@ constexpr double CLOSED = 1e-3;         // a mesh with a shorter mean normal cou
 constexpr double ONE_SIDED = 0.55;      // a mesh with a longer mean normal faces one way ...
 constexpr double SHEET = 0.8;           // ... and is a sheet if it is longer than this
 constexpr double NEARLY_PARALLEL = 0.8; // cosine
+constexpr double SMALLEST = 1e-9;       // half of the side of a picture
 constexpr double TIP_BACK = 50.0, FROM_ABOVE = 15.0, TURN = 20.0; // degrees
 
 Eigen::Vector3d
@@ -33,23 +30,17 @@ centreOf (const std::vector<Eigen::Vector3d>& points)
 // Mean of the unit normals, weighted by area, on the outer side if the surface bulges. The longer
 // it is, the more of the mesh faces one way.
 Eigen::Vector3d
-meanNormal (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
+meanNormal (const PictureMesh& mesh)
 {
-  const Eigen::Vector3d centre = centreOf (points);
+  const Eigen::Vector3d centre = centreOf (mesh.points);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
   double area = 0.0, volume = 0.0; // twice the area, six times the volume seen from the centre
-  vtkNew<vtkIdList> polygon;
-  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells (); ++cell) {
-    mesh->GetCellPoints (cell, polygon);
-    for (vtkIdType i = 2; i < polygon->GetNumberOfIds (); ++i) {
-      const auto corner = [&] (vtkIdType j) -> const Eigen::Vector3d& {
-        return points[static_cast<std::size_t> (polygon->GetId (j))];
-      };
-      const Eigen::Vector3d normal = (corner (i - 1) - corner (0)).cross (corner (i) - corner (0));
-      sum += normal;
-      area += normal.norm ();
-      volume += normal.dot (corner (0) - centre);
-    }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d& corner = mesh.points[a];
+    const Eigen::Vector3d normal = (mesh.points[b] - corner).cross (mesh.points[c] - corner);
+    sum += normal;
+    area += normal.norm ();
+    volume += normal.dot (corner - centre);
   }
   if (!(area > 0.0))
     return Eigen::Vector3d::Zero ();
@@ -68,24 +59,25 @@ axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
   return axis.sum () < 0.0 ? Eigen::Vector3d (-axis) : axis;
 }
 
-} // namespace
-
-std::vector<Eigen::Vector3d>
-pointsOf (vtkPolyData* mesh)
+Camera
+lookAlong (const View& view)
 {
-  std::vector<Eigen::Vector3d> points (static_cast<std::size_t> (mesh->GetNumberOfPoints ()));
-  for (std::size_t i = 0; i < points.size (); ++i)
-    mesh->GetPoint (static_cast<vtkIdType> (i), points[i].data ());
-  return points;
+  const Eigen::Vector3d right = view.up.cross (view.towards_viewer).normalized ();
+  Camera camera{};
+  camera.axes << right.transpose (), view.towards_viewer.cross (right).normalized ().transpose (),
+      view.towards_viewer.transpose ();
+  return camera;
 }
 
+} // namespace
+
 View
-chooseView (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
+chooseView (const PictureMesh& mesh)
 {
-  const Eigen::Vector3d normal = meanNormal (mesh, points);
+  const Eigen::Vector3d normal = meanNormal (mesh);
   Eigen::Vector3d facing = normal.normalized (), up = Eigen::Vector3d::UnitY ();
   if (normal.norm () <= ONE_SIDED) {
-    facing = axisOfLeastVariance (points);
+    facing = axisOfLeastVariance (mesh.points);
     if (normal.norm () > CLOSED)
       up = normal.normalized ();
   }
@@ -101,30 +93,20 @@ chooseView (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points)
   return {Eigen::AngleAxisd (TURN * DEGREE, up) * tilted, up};
 }
 
-void
-aimCamera (vtkRenderer* renderer, const View& view, const std::vector<Eigen::Vector3d>& points)
+Camera
+aimCamera (const View& view, const std::vector<Eigen::Vector3d>& points)
 {
-  const Eigen::Vector3d right = view.up.cross (view.towards_viewer).normalized ();
-  const Eigen::Vector3d up = view.towards_viewer.cross (right).normalized ();
+  Camera camera = lookAlong (view);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : points)
-    box.extend (Eigen::Vector3d (right.dot (p), up.dot (p), view.towards_viewer.dot (p)));
-  const Eigen::Vector3d middle = box.center ();
-  const Eigen::Vector3d focus =
-      middle.x () * right + middle.y () * up + middle.z () * view.towards_viewer;
-  const Eigen::Vector3d position = focus + box.diagonal ().norm () * view.towards_viewer;
-  vtkCamera* camera = renderer->GetActiveCamera ();
-  camera->ParallelProjectionOn ();
-  camera->SetFocalPoint (focus.data ());
-  camera->SetPosition (position.data ());
-  camera->SetViewUp (up.data ());
-  camera->SetParallelScale (0.5 * MARGIN * std::max (box.sizes ().x (), box.sizes ().y ()));
-  renderer->ResetCameraClippingRange ();
+    box.extend (camera.axes * p);
+  camera.origin = camera.axes.transpose () * box.center ();
+  camera.half_side = 0.5 * MARGIN * std::max ({box.sizes ().x (), box.sizes ().y (), SMALLEST});
+  return camera;
 }
 
-bool
-aimFromViewpoint (vtkRenderer* renderer, const Eigen::Vector3d& viewpoint,
-                  const std::vector<Eigen::Vector3d>& points)
+std::optional<Camera>
+aimFromViewpoint (const Eigen::Vector3d& viewpoint, const std::vector<Eigen::Vector3d>& points)
 {
   constexpr double WIDEST = 60.0, ALONG_Z = 0.8; // degrees on either side; a cosine
   Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
@@ -134,20 +116,16 @@ aimFromViewpoint (vtkRenderer* renderer, const Eigen::Vector3d& viewpoint,
   double least = 1.0;
   for (const Eigen::Vector3d& p : points)
     least = std::min (least, mean.dot ((p - viewpoint).normalized ()));
-  const double angle = std::acos (least) / DEGREE;
-  if (!(angle < WIDEST))
-    return false;
-  const Eigen::Vector3d focus = viewpoint + mean;
-  vtkCamera* camera = renderer->GetActiveCamera ();
-  camera->SetPosition (viewpoint.data ());
-  camera->SetFocalPoint (focus.data ());
-  if (mean.z () > ALONG_Z)
-    camera->SetViewUp (0.0, -1.0, 0.0);
-  else
-    camera->SetViewUp (0.0, 0.0, 1.0);
-  camera->SetViewAngle (2.0 * angle);
-  renderer->ResetCameraClippingRange ();
-  return true;
+  if (!(least > std::cos (WIDEST * DEGREE)))
+    return std::nullopt;
+  const Eigen::Vector3d up = std::abs (mean.z ()) > ALONG_Z
+                                 ? Eigen::Vector3d (0.0, mean.z () > 0.0 ? -1.0 : 1.0, 0.0)
+                                 : Eigen::Vector3d::UnitZ ();
+  Camera camera = lookAlong ({-mean, up});
+  camera.origin = viewpoint;
+  camera.half_side = std::max (std::sqrt (1.0 - least * least) / least, SMALLEST);
+  camera.is_perspective = true;
+  return camera;
 }
 
 } // namespace pcl::floater

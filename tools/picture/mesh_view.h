@@ -3,12 +3,12 @@
 // From where a mesh is seen in a picture.
 #pragma once
 
-#include <vtkPolyData.h>
-#include <vtkRenderer.h>
+#include "canvas.h"
+#include "picture_mesh.h"
 
 #include <Eigen/Geometry>
 
-#include <vector>
+#include <optional>
 
 namespace pcl::floater {
 /// Directions of a picture.
@@ -17,25 +17,38 @@ struct View
   Eigen::Vector3d towards_viewer, up; ///< unit vectors
 };
 
-/// The vertices of a mesh.
-std::vector<Eigen::Vector3d>
-pointsOf (vtkPolyData* mesh);
+/// Where points are on a canvas.
+struct Camera
+{
+  Eigen::Matrix3d axes;   ///< its rows are right, up and towards the viewer
+  Eigen::Vector3d origin; ///< the middle of the picture; in perspective, the viewer
+  double half_side;       ///< of the picture; in perspective, at the distance 1
+  bool is_perspective;
+
+  Spot project (const Eigen::Vector3d& point, double side) const
+  {
+    const Eigen::Vector3d p = axes * (point - origin);
+    const double weight = is_perspective ? -1.0 / p.z () : 1.0;
+    const double pixels = 0.5 * side / half_side * weight;
+    return {0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y (),
+            is_perspective ? weight : p.z (), weight};
+  }
+};
 
 /// A mesh that faces one way is seen from there, and a sheet is tipped back; up is y, as in scans,
 /// or z. A mesh that faces all ways is seen along its axis of least variance; if it is open, its
 /// opening is below, because the mean normal points away from it.
 View
-chooseView (vtkPolyData* mesh, const std::vector<Eigen::Vector3d>& points);
+chooseView (const PictureMesh& mesh);
 
 /// Parallel projection, scaled so that the points fill the square picture.
-void
-aimCamera (vtkRenderer* renderer, const View& view, const std::vector<Eigen::Vector3d>& points);
+Camera
+aimCamera (const View& view, const std::vector<Eigen::Vector3d>& points);
 
-/// Perspective from a viewpoint, along the mean direction to the points. The vertical is z, or -y
-/// as in depth cameras if they look along z.
-/// \return whether all points can be seen so
-bool
-aimFromViewpoint (vtkRenderer* renderer, const Eigen::Vector3d& viewpoint,
-                  const std::vector<Eigen::Vector3d>& points);
+/// Perspective from a viewpoint, along the mean direction to the points. Up is z; where that is
+/// nearly the direction, y, or -y as in depth cameras if they look along z.
+/// \return nothing if not all points are within 60 degrees of that direction
+std::optional<Camera>
+aimFromViewpoint (const Eigen::Vector3d& viewpoint, const std::vector<Eigen::Vector3d>& points);
 
 } // namespace pcl::floater

@@ -53,9 +53,6 @@ checkTextureOptions (const CommandLine& line)
   if (!line.texture.empty () && lowerExtension (line.texture) != ".png")
     throw UsageError ("--texture: '" + line.texture.string () +
                       "' is no PNG file; give a name that ends with .png");
-  if (!line.texture.empty () && !canWritePng ())
-    throw UsageError ("--texture: this program was built without zlib, and cannot write PNG files; "
-                      "leave it out, or build pcl_floater where zlib is installed");
   if (line.texture_size != 0 && line.texture.empty ())
     throw UsageError ("--texture-size is of no use without --texture");
   if (line.texture_coordinates && line.max_memory > 0)

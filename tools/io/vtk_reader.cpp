@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloud_reader.h"
+#include "polygon_fans.h"
+#include "text_scanner.h"
+
+#include <algorithm>
+
+namespace pcl::floater {
+namespace {
+constexpr std::size_t LONGEST_QUOTE = 40; // of a word in a message
+
+ScalarType
+vtkType (std::string_view name)
+{
+  static const std::array<std::pair<std::string_view, ScalarType>, 6> known{
+      {{"float", ScalarType::FLOAT32},
+       {"double", ScalarType::FLOAT64},
+       {"int", ScalarType::INT32},
+       {"vtkIdType", ScalarType::INT32},
+       {"long", ScalarType::INT64},
+       {"vtktypeint64", ScalarType::INT64}}};
+  for (const auto& [known_name, type] : known)
+    if (name == known_name)
+      return type;
+  throw ReadError ("it has coordinates or polygons of the type '" +
+                   std::string (name.substr (0, LONGEST_QUOTE)) + "', which cannot be read");
+}
+
+/// Finds sections by their names, so that what is between them need not be understood.
+class VtkParser
+{
+public:
+  explicit VtkParser (const FileBytes& file) : file_ (file), bytes_ (file.view ()) {}
+
+  Cloud parse (Triangles& triangles)
+  {
+    if (bytes_.substr (0, 14) != "# vtk DataFile")
+      throw ReadError ("it does not begin with '# vtk DataFile', so it is not a VTK file");
+    skipLine ();
+    skipLine (); // the title
+    is_binary_ = word () == "BINARY";
+    if (!find ("DATASET") || word () != "POLYDATA" || !find ("POINTS"))
+      throw ReadError ("it has no POLYDATA with POINTS");
+    const std::size_t points = count ();
+    const ScalarType type = vtkType (word ());
+    std::vector<Field> fields{{"x", type}, {"y", type}, {"z", type}};
+    readArray ({&fields[0], &fields[1], &fields[2]}, points);
+    if (find ("POLYGONS"))
+      readPolygons (PolygonFans (points, triangles));
+    if (find ("POINT_DATA") && count () == points && find ("TEXTURE_COORDINATES")) {
+      word (); // their name
+      const std::size_t each = count ();
+      const ScalarType texture_type = vtkType (word ());
+      if (each < 2)
+        throw ReadError ("its texture coordinates are not two of each point");
+      Field s{"s", texture_type}, t{"t", texture_type}, others{"", texture_type, each - 2};
+      readArray ({&s, &t, &others}, points);
+      fields.insert (fields.end (), {s, t});
+    }
+    Cloud cloud = makeCloud (std::move (fields), points);
+    cloud.file = file_;
+    return cloud;
+  }
+
+private:
+  // Two layouts: the length of each polygon before its corners; or, since VTK 9, where each begins.
+  void readPolygons (PolygonFans fans)
+  {
+    const std::size_t rows = count (), size = count (), before = at_;
+    const bool has_offsets = word () == "OFFSETS";
+    Field offsets{"", ScalarType::INT32}, corners = offsets;
+    if (has_offsets) {
+      offsets.type = vtkType (word ());
+      readArray ({&offsets}, rows);
+      word (); // CONNECTIVITY
+      corners.type = vtkType (word ());
+    }
+    else
+      at_ = before;
+    readArray ({&corners}, size);
+    const auto whole = static_cast<double> (size);
+    double end = 0.0;
+    for (std::size_t polygon = 0; polygon + (has_offsets ? 1 : 0) < rows; ++polygon) {
+      double begin = end + 1.0;
+      if (has_offsets) {
+        begin = offsets.asDouble (polygon);
+        end = offsets.asDouble (polygon + 1);
+      }
+      else if (end < whole)
+        end = begin + corners.asDouble (static_cast<std::size_t> (end));
+      if (!(begin >= 0.0 && begin <= end && end <= whole))
+        throw ReadError ("the lengths of its polygons are wrong");
+      fans.begin ();
+      for (auto i = static_cast<std::size_t> (begin); i < static_cast<std::size_t> (end); ++i)
+        fans.add (corners.asDouble (i));
+    }
+  }
+
+  // Binary values stay in the file.
+  void readArray (const std::vector<Field*>& fields, std::size_t rows)
+  {
+    if (is_binary_)
+      skipLine ();
+    std::size_t row_bytes = 0, values = 0;
+    for (const Field* field : fields) {
+      row_bytes += field->pointBytes ();
+      values += field->count;
+    }
+    // A value of a text is a digit and a blank, but for the last one of the file.
+    const std::size_t fewest = is_binary_ ? row_bytes : 2 * values;
+    if (rows > (bytes_.size () - at_ + (is_binary_ ? 0 : 1)) / fewest)
+      throw ReadError ("its " + section_ + " end before their values do; it is truncated");
+    if (is_binary_) {
+      viewRows (fields, file_.at (at_), ByteOrder::BIG);
+      at_ += rows * row_bytes;
+      return;
+    }
+    char* to = allocateRows (fields, rows).get (); // which the fields keep
+    for (std::size_t row = 0; row < rows; ++row)
+      for (const Field* field : fields)
+        visitType (field->type, [&] (auto value) {
+          for (std::size_t c = 0; c < field->count; ++c, to += sizeof value) {
+            value = number<decltype (value)> ();
+            std::memcpy (to, &value, sizeof value);
+          }
+        });
+  }
+
+  // Goes on after the name of a section, if there is one after this place.
+  bool find (const std::string& section)
+  {
+    const std::size_t found = bytes_.find ("\n" + section + " ", at_);
+    if (found == std::string_view::npos)
+      return false;
+    section_ = section;
+    at_ = found + section.size () + 2;
+    return true;
+  }
+
+  // The next word, which may be in another line.
+  std::string_view word ()
+  {
+    constexpr const char* BLANKS = " \t\r\n\v\f";
+    const std::size_t first = std::min (bytes_.find_first_not_of (BLANKS, at_), bytes_.size ());
+    at_ = std::min (bytes_.find_first_of (BLANKS, first), bytes_.size ());
+    return bytes_.substr (first, at_ - first);
+  }
+
+  void skipLine () { at_ = std::min (bytes_.find ('\n', at_), bytes_.size () - 1) + 1; }
+
+  template <typename T>
+  T number ()
+  {
+    T result;
+    const std::string_view text = word ();
+    if (!parseNumber (text, result))
+      throw ReadError ("in its " + section_ + ", '" + std::string (text.substr (0, LONGEST_QUOTE)) +
+                       "' is not a number of the right type");
+    return result;
+  }
+
+  // How many there are of something: not more than the file has bytes, so that products with
+  // sizes do not overflow.
+  std::size_t count ()
+  {
+    const auto result = number<std::size_t> ();
+    if (result > bytes_.size ())
+      throw ReadError ("its " + section_ + " promise more than fits into the file");
+    return result;
+  }
+
+  const FileBytes& file_;
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  bool is_binary_ = false;
+  std::string section_;
+};
+
+} // namespace
+
+Cloud
+parseVtk (const FileBytes& file, Triangles& triangles)
+{
+  return VtkParser (file).parse (triangles);
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Triangles and lines as pixels.
+#pragma once
+
+#include "colour_image.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace pcl::floater {
+using Colour = Eigen::Vector3d; ///< red, green, blue from 0 to 1
+
+/// A point of space on the canvas.
+struct Spot
+{
+  double x, y;     ///< in pixels from the upper left corner
+  double nearness; ///< what is nearer hides what is farther; linear on the canvas
+  double weight;   ///< 1 over the distance from the viewer in perspective, else 1
+};
+
+/// A white square on which triangles and lines hide each other.
+class Canvas
+{
+public:
+  /// \param side in pixels
+  explicit Canvas (std::size_t side)
+      : side_ (side), nearness_ (side * side, -std::numeric_limits<float>::infinity ()),
+        colours_ (side * side, {255, 255, 255})
+  {
+  }
+
+  double side () const { return static_cast<double> (side_); }
+
+  /// Fills a triangle.
+  /// \param shade gives the colour of a point of it from the shares of its corners, which sum to 1
+  template <typename Shade>
+  void fill (const std::array<Spot, 3>& corners, const Shade& shade)
+  {
+    constexpr double SMALLEST = 1e-6; // pixels; below, the shares would be noise
+    constexpr double SLACK = 1e-9;    // so that no pixel between two triangles is missed
+    const auto& [a, b, c] = corners;
+    const double area = signedArea (corners);
+    if (!(std::abs (area) > SMALLEST && std::abs (area) < std::numeric_limits<double>::max ()))
+      return;
+    const Eigen::Array3d weights (a.weight, b.weight, c.weight);
+    const Eigen::Array3d nearness (a.nearness, b.nearness, c.nearness);
+    const Eigen::Array3d slope (b.y - c.y, c.y - a.y, a.y - b.y); // of the shares along a row
+    const auto [top, bottom] = std::minmax ({a.y, b.y, c.y});
+    for (int y = firstPixel (top); y <= lastPixel (bottom); ++y) {
+      const double down = y + 0.5 - a.y;
+      Eigen::Array3d start (0.0, -down * (c.x - a.x), down * (b.x - a.x)); // shares below a
+      start[0] = area - start[1] - start[2];
+      double low = -std::numeric_limits<double>::max (), high = -low;
+      for (int i = 0; i < 3; ++i) {
+        const double rise = slope[i] / area, value = start[i] / area + SLACK;
+        if (rise > 0.0)
+          low = std::max (low, -value / rise);
+        else if (rise < 0.0)
+          high = std::min (high, -value / rise);
+        else if (value < 0.0)
+          high = -std::numeric_limits<double>::max ();
+      }
+      for (int x = firstPixel (a.x + low); x <= lastPixel (a.x + high); ++x) {
+        const Eigen::Array3d shares = (start + (x + 0.5 - a.x) * slope) / area;
+        if (!hide (at (x, y), (shares * nearness).sum ()))
+          continue;
+        const Eigen::Array3d weighted = shares * weights;
+        paint (at (x, y), shade (Eigen::Vector3d (weighted / weighted.sum ())));
+      }
+    }
+  }
+
+  /// Twice the area of a triangle in pixels; negative if its corners run anticlockwise on the
+  /// canvas.
+  static double signedArea (const std::array<Spot, 3>& corners)
+  {
+    const auto& [a, b, c] = corners;
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+
+  /// Draws a line.
+  /// \param width in pixels
+  void drawLine (Spot from, Spot to, int width, const Colour& colour, double opacity)
+  {
+    const bool is_steep = std::abs (to.y - from.y) > std::abs (to.x - from.x);
+    for (Spot* end : {&from, &to})
+      if (is_steep)
+        std::swap (end->x, end->y);
+    if (from.x > to.x)
+      std::swap (from, to);
+    for (int x = firstPixel (from.x); x <= lastPixel (to.x); ++x) {
+      const double share = to.x > from.x ? (x + 0.5 - from.x) / (to.x - from.x) : 0.0;
+      const double nearness = from.nearness + share * (to.nearness - from.nearness);
+      const double low = from.y + share * (to.y - from.y) - 0.5 * width;
+      for (int y = firstPixel (low); y < firstPixel (low + width); ++y) {
+        const std::size_t pixel = is_steep ? at (y, x) : at (x, y);
+        if (hide (pixel, nearness))
+          paint (pixel, colour, opacity);
+      }
+    }
+  }
+
+  /// Puts the canvas into an image, from column `left` on; each pixel is the mean of a block.
+  void copyTo (ColourImage& image, std::size_t left) const
+  {
+    const std::size_t factor = side_ / image.height;
+    for (std::size_t y = 0; y < image.height; ++y)
+      for (std::size_t x = 0; x < image.height; ++x)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          std::size_t sum = 0;
+          for (std::size_t i = 0; i < factor * factor; ++i)
+            sum += colours_[(y * factor + i / factor) * side_ + x * factor + i % factor][channel];
+          image.pixels[y * image.width + left + x][channel] =
+              static_cast<std::uint8_t> (sum / (factor * factor));
+        }
+  }
+
+private:
+  // The pixels whose middles are on either side of a place.
+  int firstPixel (double place) const
+  {
+    return static_cast<int> (std::ceil (std::clamp (place, 0.0, side ()) - 0.5));
+  }
+  int lastPixel (double place) const
+  {
+    return static_cast<int> (std::floor (std::clamp (place, 0.0, side ()) - 0.5));
+  }
+
+  // Whether nothing in the pixel is nearer; then what is there is hidden.
+  bool hide (std::size_t pixel, double nearness)
+  {
+    if (static_cast<float> (nearness) < nearness_[pixel])
+      return false;
+    nearness_[pixel] = static_cast<float> (nearness);
+    return true;
+  }
+
+  void paint (std::size_t pixel, const Colour& colour, double opacity = 1.0)
+  {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      std::uint8_t& value = colours_[pixel][channel];
+      const double wanted = 255.0 * colour[static_cast<Eigen::Index> (channel)];
+      value = static_cast<std::uint8_t> (std::lround (value + opacity * (wanted - value)));
+    }
+  }
+
+  std::size_t at (int x, int y) const
+  {
+    return static_cast<std::size_t> (y) * side_ + static_cast<std::size_t> (x);
+  }
+
+  std::size_t side_;
+  std::vector<float> nearness_;
+  std::vector<ColourImage::Pixel> colours_;
+};
+
+} // namespace pcl::floater
