@@ -73,8 +73,9 @@ install () {
   # Tells how far it is, from what apt has written.
   (last=
    while sleep 10 >/dev/null 2>&1; do
-     now=$(grep -c '^Setting up' "$log" || true)
-     [[ $now == "$last" ]] || echo "  package $now of $total"
+     # Each package is unpacked, and set up later.
+     now=$(grep -cE '^(Unpacking|Setting up)' "$log" || true)
+     [[ $now == "$last" ]] || echo "  step $now of $((2 * total))"
      last=$now
    done) &
   local teller=$! result=0
