@@ -38,7 +38,7 @@ TEST_F (FloaterClass, RefusesValuesOutOfRange)
       DISC_CHOICE (boundary.cluster_k, 0),
       DISC_CHOICE (domain.polygon_sides, 2),
       CHOICE (NumberOfThreads, static_cast<unsigned int> (-1)),
-      DISC_CHOICE (solver.ordering, Ordering::COLAMD), // not for the default solver
+      DISC_CHOICE (solver.ordering, Ordering::COLAMD), // no longer offered
       CHOICE (BallRadius, 0.5),
       CHOICE (BallRadius, 11.0),
       DISC_CHOICE (solver.tolerance, 0.0),

@@ -43,7 +43,7 @@ const Change OF_THE_DISC[] = {
     {"the spacing on the domain",
      [] (Options& o) { o.disc.domain.loop_spacing = LoopSpacing::UNIFORM; }},
     {"the weights", [] (Options& o) { o.disc.weighting = Weighting::UNIFORM; }},
-    {"the solver", [] (Options& o) { o.disc.solver.method = Solver::EIGEN_SPARSE_LU; }},
+    {"the solver", [] (Options& o) { o.disc.solver.method = Solver::GAUSS_SEIDEL; }},
     {"the ordering", [] (Options& o) { o.disc.solver.ordering = Ordering::AMD; }},
     {"the tolerance", [] (Options& o) { o.disc.solver.tolerance = 1e-9; }},
     {"the number of iterations", [] (Options& o) { o.disc.solver.max_iterations = 7; }},

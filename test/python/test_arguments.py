@@ -88,7 +88,7 @@ def test_wrong_points(points, kind, text):
     (dict(max_iterations=0), ValueError, "the number of iterations"),
     (dict(ilut_fill=0), ValueError, "the fill of ILUT"),
     (dict(ilut_drop=2), ValueError, "the drop tolerance of ILUT"),
-    (dict(solver="umfpack", ordering="colamd"), ValueError, "COLAMD"),
+    (dict(solver="eigen-sparse-lu"), ValueError, "umfpack"),
     (dict(loop=[[0, 1, 2]]), ValueError, "not an array of the shape (1, 3)"),
     (dict(loop=[0.0, 1.0, 2.0]), TypeError, "loop must be a list of whole numbers, not of float64"),
     (dict(loop=[0, -1, 2]), ValueError, "loop has an index that is negative, or too large"),

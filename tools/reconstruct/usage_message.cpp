@@ -146,7 +146,7 @@ std::string
 rangeMessage (const CLI::App& app, const std::string& refusal, const Words& arguments)
 {
   // Words of the core, and the options that they are about.
-  static constexpr std::array<std::pair<const char*, const char*>, 22> KNOWN{
+  static constexpr std::array<std::pair<const char*, const char*>, 21> KNOWN{
       {{"number of kept loops", "--kept-loops"},
        {"size of the largest hole must", "--largest-hole"},
        {"size of the largest hole must", "--largest-hole-length"},
@@ -166,7 +166,6 @@ rangeMessage (const CLI::App& app, const std::string& refusal, const Words& argu
        {"number of iterations", "--max-iterations"},
        {"fill of ILUT", "--ilut-fill"},
        {"drop tolerance of ILUT", "--ilut-drop"},
-       {"does not take the ordering", "--ordering"},
        {"number of threads", "--threads"},
        {"number of blocks", "--blocks"}}};
   for (const auto& [words, name] : KNOWN)

@@ -208,10 +208,9 @@ def reconstruct(points, *, normals=None, sensor_origin=None, topology="auto", ho
         How the points of the loop are spaced on that curve.
     weights : {"uniform", "inverse-distance", "shape-preserving", "mean-value"}
         Weights of the neighbours of a point.
-    solver : {"umfpack", "umfpack-unsymmetric", "superlu", "eigen-sparse-lu", "bicgstab-ilut", \
-"gauss-seidel"}
+    solver : {"umfpack", "superlu", "bicgstab-ilut", "gauss-seidel"}
         What solves the linear system.
-    ordering : {"automatic", "amd", "metis", "colamd", "reverse-cuthill-mckee", "natural"}, optional
+    ordering : {"automatic", "amd", "metis", "reverse-cuthill-mckee", "natural"}, optional
         Order of the unknowns. None: "automatic", and with `method="tw385"` and UMFPACK "amd".
     tolerance, max_iterations : float, int
         Iterative solvers: relative residual to reach, above 0 and below 1; iterations after which they

@@ -95,12 +95,8 @@ def reconstruct(
     sides: int = 6,
     spacing: Literal["chord-length", "centripetal", "uniform"] = "chord-length",
     weights: Literal["uniform", "inverse-distance", "shape-preserving", "mean-value"] = "mean-value",
-    solver: Literal[
-        "umfpack", "umfpack-unsymmetric", "superlu", "eigen-sparse-lu", "bicgstab-ilut", "gauss-seidel"
-    ] = "umfpack",
-    ordering: Optional[
-        Literal["automatic", "amd", "metis", "colamd", "reverse-cuthill-mckee", "natural"]
-    ] = None,
+    solver: Literal["umfpack", "superlu", "bicgstab-ilut", "gauss-seidel"] = "umfpack",
+    ordering: Optional[Literal["automatic", "amd", "metis", "reverse-cuthill-mckee", "natural"]] = None,
     tolerance: float = 1e-15,
     max_iterations: int = 1000,
     ilut_fill: int = 15,

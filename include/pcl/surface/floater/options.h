@@ -97,23 +97,21 @@ enum class Weighting
 enum class Solver
 {
   UMFPACK,             ///< direct; symmetric strategy
-  UMFPACK_UNSYMMETRIC, ///< direct; unsymmetric strategy
+  UMFPACK_UNSYMMETRIC, ///< deprecated, SOLVER_UNAVAILABLE: until version 2 only
   SUPERLU,             ///< direct; if built with SuperLU; ends the program if there is no memory
-  EIGEN_SPARSE_LU,     ///< direct; may end the program if there is no memory
+  EIGEN_SPARSE_LU,     ///< deprecated, SOLVER_UNAVAILABLE: until version 2 only
   BICGSTAB_ILUT,       ///< iterative, preconditioned by an incomplete LU factorization
   GAUSS_SEIDEL         ///< iterative; converges for small clouds only
 };
 
-/// Order of the unknowns. All but COLAMD permute rows and columns alike, and every solver takes
-/// them. COLAMD permutes columns only: UMFPACK_UNSYMMETRIC, SUPERLU and EIGEN_SPARSE_LU take it.
+/// Order of the unknowns, of rows and columns alike.
 enum class Ordering
 {
-  AUTOMATIC, ///< UMFPACK: AMD up to 100,000 unknowns, above that nested dissection by the positions
-             ///< of the points; SUPERLU: minimum degree; UMFPACK_UNSYMMETRIC and EIGEN_SPARSE_LU:
-             ///< COLAMD; iterative solvers: NATURAL
+  AUTOMATIC, ///< UMFPACK: AMD up to 100,000 unknowns, METIS above; SUPERLU: minimum degree;
+             ///< iterative solvers: NATURAL
   AMD,       ///< approximate minimum degree
   METIS,     ///< nested dissection by METIS
-  COLAMD,    ///< column approximate minimum degree
+  COLAMD,    ///< deprecated, INVALID_OPTION: until version 2 only
   REVERSE_CUTHILL_MCKEE, ///< small bandwidth
   NATURAL                ///< as the points are stored: along a space-filling curve
 };
