@@ -19,8 +19,7 @@ END
 # With libopenblas0-pthread the factorization is 2.5 times as fast as with the reference BLAS.
 # libgl1-mesa-dri and xvfb are for drawing without a screen.
 packages=(g++ cmake ninja-build libpcl-dev libeigen3-dev libcgal-dev libsuitesparse-dev
-          libsuperlu-dev libboost-dev
-          libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
+          libsuperlu-dev libopenblas0-pthread libvtk9-dev libx11-dev libcli11-dev nlohmann-json3-dev liblzf-dev
           zlib1g-dev libopenmpi-dev openmpi-bin libxxhash-dev
           libgl1-mesa-dri xvfb
           pybind11-dev python3-dev python3-numpy)
