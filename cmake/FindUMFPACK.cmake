@@ -1,12 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Finds SuiteSparse's UMFPACK with the orderings that come with it, AMD and CHOLMOD's METIS (Debian 12
-# ships no CMake config for them), and makes the targets SuiteSparse::UMFPACK, SuiteSparse::AMD and
-# SuiteSparse::CHOLMOD.
+# Finds SuiteSparse's UMFPACK and CHOLMOD, by which AMD and METIS are called (Debian 12 ships no CMake
+# config for them), and makes the targets SuiteSparse::UMFPACK and SuiteSparse::CHOLMOD.
 find_path (UMFPACK_INCLUDE_DIR NAMES umfpack.h PATH_SUFFIXES suitesparse)
 find_library (UMFPACK_LIBRARY NAMES umfpack)
-find_path (AMD_INCLUDE_DIR NAMES amd.h PATH_SUFFIXES suitesparse)
-find_library (AMD_LIBRARY NAMES amd)
 find_path (CHOLMOD_INCLUDE_DIR NAMES cholmod.h PATH_SUFFIXES suitesparse)
 find_library (CHOLMOD_LIBRARY NAMES cholmod)
 if (UMFPACK_INCLUDE_DIR AND EXISTS "${UMFPACK_INCLUDE_DIR}/umfpack.h")
@@ -17,10 +14,10 @@ if (UMFPACK_INCLUDE_DIR AND EXISTS "${UMFPACK_INCLUDE_DIR}/umfpack.h")
 endif ()
 include (FindPackageHandleStandardArgs)
 find_package_handle_standard_args (UMFPACK
-  REQUIRED_VARS UMFPACK_LIBRARY UMFPACK_INCLUDE_DIR AMD_LIBRARY AMD_INCLUDE_DIR CHOLMOD_LIBRARY CHOLMOD_INCLUDE_DIR
+  REQUIRED_VARS UMFPACK_LIBRARY UMFPACK_INCLUDE_DIR CHOLMOD_LIBRARY CHOLMOD_INCLUDE_DIR
   VERSION_VAR UMFPACK_VERSION)
 if (UMFPACK_FOUND)
-  foreach (library AMD CHOLMOD UMFPACK)
+  foreach (library CHOLMOD UMFPACK)
     if (NOT TARGET SuiteSparse::${library})
       add_library (SuiteSparse::${library} UNKNOWN IMPORTED)
       set_target_properties (SuiteSparse::${library} PROPERTIES

@@ -14,11 +14,12 @@ namespace pcl::floater {
 Problem
 checkInput (const Input& input);
 
-/// A sensor at the origin of the cloud is one that nobody told.
+/// A sensor position of (0, 0, 0) means: unknown.
 bool
 isSensorKnown (const std::array<double, 3>& sensor_origin);
 
-/// INVALID_OPTION if that which is to decide on the front of the mesh cannot be known.
+/// INVALID_OPTION if the requested facing needs normals or a viewpoint that the input does not
+/// have.
 Problem
 checkFacing (const Input& input, const Options& options);
 

@@ -10,7 +10,7 @@
 namespace pcl::floater {
 /// INVALID_OPTION if an option is out of its range, the solver does not take the ordering, or the
 /// hole policy or a given loop does not fit the topology. INVALID_LOOP if the given loop has fewer
-/// than three points. SOLVER_UNAVAILABLE if the build is without the solver.
+/// than three points. SOLVER_UNAVAILABLE if the library is without the solver.
 Problem
 checkOptions (const Options& options);
 

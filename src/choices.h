@@ -49,17 +49,14 @@ constexpr Choices<Weighting, 4> WEIGHTING_CHOICES{
      {"inverse-distance", Weighting::INVERSE_DISTANCE},
      {"shape-preserving", Weighting::SHAPE_PRESERVING},
      {"mean-value", Weighting::MEAN_VALUE}}};
-constexpr Choices<Solver, 6> SOLVER_CHOICES{{{"umfpack", Solver::UMFPACK},
-                                             {"umfpack-unsymmetric", Solver::UMFPACK_UNSYMMETRIC},
+constexpr Choices<Solver, 4> SOLVER_CHOICES{{{"umfpack", Solver::UMFPACK},
                                              {"superlu", Solver::SUPERLU},
-                                             {"eigen-sparse-lu", Solver::EIGEN_SPARSE_LU},
                                              {"bicgstab-ilut", Solver::BICGSTAB_ILUT},
                                              {"gauss-seidel", Solver::GAUSS_SEIDEL}}};
-constexpr Choices<Ordering, 6> ORDERING_CHOICES{
+constexpr Choices<Ordering, 5> ORDERING_CHOICES{
     {{"automatic", Ordering::AUTOMATIC},
      {"amd", Ordering::AMD},
      {"metis", Ordering::METIS},
-     {"colamd", Ordering::COLAMD},
      {"reverse-cuthill-mckee", Ordering::REVERSE_CUTHILL_MCKEE},
      {"natural", Ordering::NATURAL}}};
 

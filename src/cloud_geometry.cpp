@@ -90,7 +90,7 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable
     removePoints (points, noise.scatter);
     report.statistics.working_points = points.size ();
     if (checkPoints (points))
-      return {}; // the caller tells
+      return {}; // the caller reports the problem
     std::optional<KdTree> tree;
     CsrLists of_rest =
         findNeighbors (points, settings, run, asksForDisc (options) ? nullptr : &tree);

@@ -15,7 +15,7 @@
 #include <functional>
 
 namespace pcl::floater {
-/// The mesh as it is, on the user's own points, whatever the stages think that they made.
+/// Examines the finished mesh on the input points, independently of earlier stages.
 MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request);

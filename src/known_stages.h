@@ -17,9 +17,8 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What reconstruct () finds out about the surroundings of each point of a surface, if that is
-/// known already. It has to be what reconstruct () would find itself; then the mesh is the same.
-/// The functions are called in the order of a run.
+/// Stage results that were computed before. They must equal what reconstruct () would compute; then
+/// the mesh is the same. The functions are called in the order of a run.
 class KnownStages
 {
 public:

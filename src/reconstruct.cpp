@@ -162,7 +162,7 @@ neighborTable (LocalPlanes& planes, KnownStages* known)
           }};
 }
 
-// A cloud of which nobody tells where it was seen from, or that is no scan.
+// Reconstructs a cloud whose viewpoint is unknown, or that is not a single scan.
 Problem
 reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request& request,
                         KnownStages* known, Result& result)
@@ -223,7 +223,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (known == nullptr)
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
   else if (noise.noisy_points == 0 && Parts (points.size (), limits.parts).count () > 1)
-    geometry.spacing = known->spacing (); // the parts know the rest
+    geometry.spacing = known->spacing (); // the parts hold all other arrays
   else {
     table.all ();
     geometry = known->geometry (std::move (planes), noise.noisy_points > 0);

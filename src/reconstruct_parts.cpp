@@ -22,8 +22,7 @@ struct PartsInWork
   SurfaceOfParts made;
 };
 
-// As long as this lives, positions and spacing of all points are not in memory: the parts know
-// them.
+// While this object exists, positions and spacings are freed; the parts hold them.
 class LeftToParts
 {
 public:

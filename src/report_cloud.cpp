@@ -10,7 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-// One point of so many that coincides with another is worth a warning; nothing else hangs on it.
+// Share of coinciding points above which a warning is given. Used for the warning only.
 constexpr std::size_t MANY_COINCIDE = 100;
 
 // Adds points to the outliers, and a warning.

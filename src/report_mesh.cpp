@@ -11,7 +11,7 @@
 
 namespace pcl::floater {
 namespace {
-// When to warn; nothing else hangs on these.
+// Thresholds for warnings. They do not change the mesh.
 constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary loop
 constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
 constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
@@ -62,8 +62,8 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
                         ": they may belong to a larger one, or be outliers");
 }
 
-// The user who chose how many holes stay, or which, gets what was asked for; and so does the one
-// who had long edges or crossing triangles cut off, which opens holes.
+// No warning if the user chose the holes, or asked to cut edges or crossings: open holes are
+// expected then.
 void
 warnOfHoles (const Points& points, const MeshExamination& found, const Options& options,
              Report& report)

@@ -33,10 +33,7 @@ struct ClosedHoles
 
 /// Chooses the loops that are kept open and fills the others. O(n) and what judgeLoops and
 /// fillHoles take.
-/// \param loops of the mesh, ascending by their smallest points
-/// \param components number of components of the mesh
-/// \param neighbors, normals of each point; those of points of loops, and of the points around, are
-///   read
+/// \param loops one `\param` in each line read
 /// \param unit length of one unit of the cloud in the unit of the positions
 ClosedHoles
 closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,

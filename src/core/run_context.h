@@ -53,8 +53,8 @@ public:
   /// Tells which method makes the mesh from here on, DISC or SURFACE (the default).
   void setMethod (Topology method) { is_disc_ = method == Topology::DISC; }
 
-  /// A stage begins. It takes over what is left of the run for it and for the stages that were
-  /// skipped before it. Does nothing if the stage is running already.
+  /// A stage begins. Its share of the progress includes the shares of skipped stages. Does nothing
+  /// if the stage is running already.
   /// \throws Cancelled
   void beginStage (Stage stage);
 
@@ -167,7 +167,7 @@ private:
 /// within loops the outermost one moves the fraction; all may be cancelled. A few ns per item.
 ///
 /// Threads that help the run's own thread may use it as well. They do not tell progress; they see
-/// that the run was cancelled, and unwind. To whoever watches tasks, each time it asks is one.
+/// that the run was cancelled, and unwind. Each poll also calls the task callback.
 class ProgressLoop
 {
 public:

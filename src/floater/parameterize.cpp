@@ -4,8 +4,6 @@
 
 #include "floater/domain.h"
 #include "floater/reachability.h"
-#include "floater/solvers/linear_system.h"
-#include "floater/solvers/solver.h"
 #include "floater/weights.h"
 
 #include <algorithm>
@@ -96,17 +94,16 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
     return result;
   }
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, settings.domain);
-  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable, run);
+  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable);
   neighbors = {};
   std::vector<double> ().swap (weights);
   result.unknowns = system.unknowns ();
   result.nonzeros = system.nonzeros ();
 
   run.beginStage (Stage::SOLVE);
-  Solution solution = solve (system, settings.solver, &positions, run);
+  Solution solution = solve (system, settings.solver, run);
   result.problem = describeOutcome (solution);
-  const std::vector<Eigen::Vector2d> solved = std::move (solution.uv);
-  solution.uv.clear ();
+  const Eigen::MatrixX2d solved = std::move (solution.uv);
   result.solution = std::move (solution);
   if (result.problem)
     return result;
@@ -116,7 +113,7 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   for (std::size_t i = 0; i < loop.size (); ++i)
     result.uv[loop[i]] = loop_uv[i];
   for (std::size_t i = 0; i < system.unknowns (); ++i)
-    result.uv[system.point_of_unknown[i]] = solved[i];
+    result.uv[system.point_of_unknown[i]] = solved.row (static_cast<Eigen::Index> (i));
   return result;
 }
 

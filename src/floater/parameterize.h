@@ -6,7 +6,7 @@
 #include "core/problem.h"
 #include "core/run_context.h"
 #include "floater/disc_limits.h"
-#include "floater/solvers/solution.h"
+#include "floater/solvers/solver.h"
 #include "local/stars.h"
 
 #include <pcl/surface/floater/options.h>

@@ -17,7 +17,7 @@ std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const RunContext& run);
 
-/// That of some points only; 0 for all others.
+/// localSpacing () of the points in `rows`; 0 for other points.
 /// \param neighbors of the points in `rows`
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,

@@ -69,9 +69,7 @@ struct MeshExamination
 /// O(n), on all threads, whose number does not matter to what is found. 0.2 microseconds of one
 /// thread per point. While it runs, 12 bytes per point if points and triangles are in an order in
 /// which those next to each other are near; 28 if the triangles are in random order, and up to 76
-/// if the points are.
-/// \param triangles corners as points of `points`
-/// \param spacing local spacing of each point
+/// one `\param` in each line
 MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
            const std::vector<float>& spacing, const RunContext& run,

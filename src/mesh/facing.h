@@ -67,9 +67,9 @@ struct FacingLimits
 /// What is known beyond the mesh.
 struct FacingHints
 {
-  std::optional<Eigen::Vector3d> sensor; ///< where the points were seen from, if it is told
-  bool is_one_view = false;  ///< all open components face one side already, that of an unknown
-                             ///< sensor or the other one
+  std::optional<Eigen::Vector3d> sensor; ///< position of the sensor, if known
+  bool is_one_view = false;  ///< all open components already have the same orientation: towards the
+                             ///< unknown sensor, or away from it
   bool faces_sensor = false; ///< all open components face the sensor already
   Facing wanted = Facing::AUTO;
   const std::vector<Eigen::Vector3f>* normals = nullptr; ///< of the points, to the front of the

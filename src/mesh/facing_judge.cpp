@@ -78,8 +78,8 @@ public:
                std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
         decide (o, FacingRule::SENSOR, sums.seen < 0.0,
                 0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
-      // The back sees at least as much of the outside as the mean normal is long: whatever light
-      // comes in through the lid of the boundary loops, falls on it.
+      // The back side is visible from at least |mean normal| of all directions: all light through
+      // the openings reaches it.
       else if (!is_outwards && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
         decide (o, FacingRule::SHEET, facesDown (sums.area_vector, limits_), 1.0);
       else

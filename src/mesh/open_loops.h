@@ -34,8 +34,8 @@ struct OpenLoopLimits
                               ///< points beyond is not empty. What is taken for a gap and deeper
                               ///< stays open by the automatic policy. Measured: fewer than 1 in 200
                               ///< generated gaps from 4 spacings on are deeper
-  double doubtful = 0.9;      ///< probability; decisions that are less sure are told to the user.
-                              ///< One in ten of them is wrong. A matter of taste
+  double doubtful = 0.9;      ///< probability; less certain decisions are listed in the report;
+                              ///< about one in ten of those is wrong. Chosen by hand
 };
 
 /// What is thought of a boundary loop.

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What the repair of folds knows of each point beforehand.
+/// Class of each point, decided before the repair.
 enum class RepairTarget : std::uint8_t
 {
   NOTHING,   ///< there is nothing to repair

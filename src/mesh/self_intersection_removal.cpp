@@ -163,7 +163,7 @@ private:
     return tryOrders (patch, limits_.rebuilt_orders, [&] (const std::vector<Index>& vertices) {
       run_.poll ();
       bool is_possible = true;
-      double change_of_cost = 0.0; // gainOf knows better
+      double change_of_cost = 0.0; // not used: gainOf () measures the change itself
       const auto change = [&] {
         is_possible = mover_.rebuild (vertices, change_of_cost) && is_possible;
       };

@@ -92,8 +92,8 @@ struct TriangleMesh
   /// boundary edge to the other. Empty if p is not a vertex. O(triangles around p).
   void fan (Index p, std::vector<Index>& fan_triangles) const;
 
-  /// True if an edge joins p, which must be a vertex, and q; also if around both of them triangles
-  /// are missing, so that nobody knows. O(triangles around p).
+  /// True if p (a vertex) and q share an edge. Also true if both are partial: the edge may be
+  /// outside this submesh. O(triangles around p).
   bool hasEdge (Index p, Index q) const;
 
   /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,

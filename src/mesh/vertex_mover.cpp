@@ -152,7 +152,8 @@ VertexMover::settleAt (Index v, Index t)
 }
 
 // True if the mesh has a triangle with these corners, the other way round: the fourth triangle of a
-// tetrahedron. Also if triangles around all corners are missing, so that nobody knows.
+// tetrahedron. Also true if all three corners are partial: the triangle may exist outside this
+// submesh.
 bool
 VertexMover::isTriangle (const Triangle& corners)
 {

@@ -16,9 +16,9 @@ struct PartLimits
   /// part takes some 200 MB while it is worked on.
   std::size_t points = std::size_t{1} << 19U;
 
-  /// Rings of points that are seen of a part, from where it ends or where triangles of several
-  /// parts are. More are looked at where that does not suffice. Judging a boundary loop takes 4,
-  /// and stitching moves boundaries by 2 at most, but in rare cases.
+  /// Width, in rings of points, of the rim that a part passes to the stitching. More are looked at
+  /// where that does not suffice. Judging a boundary loop takes 4, and stitching moves boundaries
+  /// by 2 at most, but in rare cases.
   std::size_t rings = 6;
 };
 

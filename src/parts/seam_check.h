@@ -41,9 +41,9 @@ struct PartsCheckSettings
 };
 
 /// Removes crossings of triangles that are not inner ones, examines the mesh (see checkMesh), and
-/// turns its components to face outwards (see faceOutwards). O(m log m) for m points in all zones,
-/// but where lines of sight through the whole mesh have to decide on its facing: then the mesh is
-/// put together for that. Inner triangles of two parts that cross each other stay as they are.
+/// turns its components to face outwards (see faceOutwards). O(m log m) for m points in all zones.
+/// If facing needs lines of sight, the whole mesh is assembled: O(n log n). Inner triangles of two
+/// parts that cross each other stay as they are.
 /// \param checks of all parts
 /// \param points their positions need not be in memory
 CheckedParts

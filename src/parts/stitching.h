@@ -32,8 +32,8 @@ struct Stitching
 
 /// Offers the candidates for which there is room in the meshes of all parts, chooses the loops that
 /// are kept open, and fills the others (see extendConsensus, manifoldPart and closeHoles). The
-/// result is that for the whole mesh, since it is not sought where triangles are missing. O(m log
-/// m) for m points in all rims.
+/// result is the same as for the whole mesh: loops are filled only where all triangles are known.
+/// O(m log m) for m points in all rims.
 /// \param rims of all parts; freed as soon as they have been read
 /// \param unit length of one unit of the cloud in the unit of the positions
 /// \return nothing if more of the parts has to be seen

@@ -26,8 +26,8 @@ struct Neighbor
   }
 };
 
-/// Is told where searches look. Of a tree of a part of a cloud, that tells whether the part was
-/// enough.
+/// Receives the ball that each search covered. In a tree of a block, this shows whether the block
+/// was large enough.
 class SearchWatch
 {
 public:
@@ -54,7 +54,7 @@ public:
   explicit KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run = 1,
                    PointOrder order = PointOrder::ANY);
 
-  /// Tells this watch of all searches from now on whose callers tell the tree; nullptr: none.
+  /// Reports every following call of looked () to this watch; nullptr: to none.
   void setWatch (SearchWatch* watch) { watch_ = watch; }
 
   /// To be called after searches around a point of the cloud: they looked into this ball.

@@ -64,7 +64,7 @@ struct NoiseProbes
   std::vector<float> unevenness; ///< residual in spacings at the flattest scale; below 0: unknown
 };
 
-/// So many points one is measured first: a cloud without noise there has none.
+/// Every 64th point is measured first. If none of these is noisy, the cloud has no noise.
 constexpr std::size_t NOISE_PROBES = 64;
 
 /// Whether a cloud has enough points to tell noise.

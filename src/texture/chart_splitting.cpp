@@ -5,7 +5,7 @@
 #include "texture/texture_method.h"
 
 #include "core/parallel.h"
-#include "floater/solvers/single_blas_thread.h"
+#include "core/single_blas_thread.h"
 
 #include <algorithm>
 #include <iterator>

@@ -4,7 +4,6 @@
 
 #include "core/geometry.h"
 #include "floater/domain.h"
-#include "floater/solvers/linear_system.h"
 #include "floater/solvers/solver.h"
 
 #include <Eigen/LU>
@@ -116,8 +115,8 @@ solveWeights (const ChartMesh& chart, const Weights& weights,
 {
   const std::vector<std::uint8_t> all (chart.positions.size (), 1);
   const LinearSystem system =
-      assembleSystem (weights.neighbors, weights.values, chart.loop, loop_uv, all, run);
-  const Solution solution = solve (system, {}, &chart.positions, run);
+      assembleSystem (weights.neighbors, weights.values, chart.loop, loop_uv, all);
+  const Solution solution = solve (system, {}, run);
   if (solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
     throw std::bad_alloc ();
   if (solution.outcome != Solution::Outcome::OK)
@@ -126,7 +125,7 @@ solveWeights (const ChartMesh& chart, const Weights& weights,
   for (std::size_t i = 0; i < chart.loop.size (); ++i)
     uv[chart.loop[i]] = loop_uv[i];
   for (std::size_t i = 0; i < system.unknowns (); ++i)
-    uv[system.point_of_unknown[i]] = solution.uv[i];
+    uv[system.point_of_unknown[i]] = solution.uv.row (static_cast<Eigen::Index> (i));
   return uv;
 }
 

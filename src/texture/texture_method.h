@@ -51,9 +51,9 @@ struct TextureLimits
   int halvings = 4;
 
   /// These, and the bounds below, were chosen by hand on two noisy scans, for few charts and little
-  /// time; they do not decide whether a layout is right.
-  /// It is cut in two as well if that would give more parts, or leave more than this share of the
-  /// triangles in one of them: then it is not its curvature that is wrong.
+  /// time; they do not decide whether a layout is right. A chart is cut in two if cutting by
+  /// deviation gives more than 8 parts, or one part with more than 90 % of the triangles: curvature
+  /// is then not the cause.
   std::size_t most_parts = 8;
   double largest_part = 0.9;
   double half = 0.6; ///< share of the triangles in the larger half, at most

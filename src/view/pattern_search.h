@@ -85,7 +85,7 @@ private:
   Eigen::Vector3d middle_;
   std::size_t left_; // evaluations of the cost
   Eigen::Quaterniond axes_ = Eigen::Quaterniond::Identity ();
-  Eigen::Quaterniond turn_{0.8, 0.2, 0.33, 0.46}; // by 74 degrees; nothing hangs on it
+  Eigen::Quaterniond turn_{0.8, 0.2, 0.33, 0.46}; // an arbitrary rotation, by 74 degrees
   Cost cost_;
 };
 

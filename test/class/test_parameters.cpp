@@ -106,8 +106,6 @@ TEST_F (FloaterClass, EveryChoiceMakesADiscAndIsKept)
       DISC_CHOICE (domain.curve, Domain::OWN_SHAPE),
       DISC_CHOICE (domain.loop_spacing, LoopSpacing::CENTRIPETAL),
       DISC_CHOICE (domain.loop_spacing, LoopSpacing::UNIFORM),
-      DISC_CHOICE (solver.method, Solver::UMFPACK_UNSYMMETRIC),
-      DISC_CHOICE (solver.method, Solver::EIGEN_SPARSE_LU),
       DISC_CHOICE (solver.method, Solver::BICGSTAB_ILUT),
       DISC_CHOICE (solver.tolerance, 1e-12),
       DISC_CHOICE (solver.max_iterations, 500),

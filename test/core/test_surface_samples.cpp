@@ -73,7 +73,7 @@ TEST (SurfaceSamples, DoubleTorusIsOnItsSurface)
     EXPECT_GT (std::hypot (std::abs (p.x ()) - 26.0 * std::sqrt (0.5), p.y ()), 5.0);
 }
 
-TEST (SurfaceSamples, FlawsAreWhatTheySay)
+TEST (SurfaceSamples, FlawedSamplesHaveTheirFlaw)
 {
   const KnownSurface clean = annulus (1);
   const KnownSurface far = withOutliers (clean, 10, 4.0, 2);

@@ -50,15 +50,13 @@ makeScan (int width)
 std::vector<Way>
 allWays (std::size_t points)
 {
-  Options disc = samples::discOptions (), iterative = disc, unsymmetric = disc, balls, surface,
-          view;
+  Options disc = samples::discOptions (), iterative = disc, ordered = disc, balls, surface, view;
   iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
   iterative.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
   iterative.disc.boundary.cluster_tolerance = 0.3;
-  // SuperLU itself ends the program when it finds no memory, and Eigen's sparse LU decomposition
-  // frees twice what it could not enlarge.
-  unsymmetric.disc.solver.method = Solver::UMFPACK_UNSYMMETRIC;
-  unsymmetric.disc.boundary.method = BoundaryMethod::CONSENSUS;
+  // SuperLU itself ends the program when it finds no memory.
+  ordered.disc.solver.ordering = Ordering::METIS;
+  ordered.disc.boundary.method = BoundaryMethod::CONSENSUS;
   balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
   balls.trimming.minimum_component_size = 5;
   surface.holes.policy = HolePolicy::CLOSE_ALL;
@@ -70,7 +68,7 @@ allWays (std::size_t points)
   std::vector<Way> ways{make ("disc", SurfaceKind::HEIGHT_FIELD, disc),
                         make ("hemisphere", SurfaceKind::HEMISPHERE, disc),
                         make ("iterative", SurfaceKind::HEIGHT_FIELD, iterative),
-                        make ("unsymmetric", SurfaceKind::HEIGHT_FIELD, unsymmetric),
+                        make ("ordered", SurfaceKind::HEIGHT_FIELD, ordered),
                         make ("surface", SurfaceKind::HEMISPHERE, surface),
                         make ("balls", SurfaceKind::TORUS, balls)};
   const auto width = static_cast<int> (std::sqrt (static_cast<double> (points)));

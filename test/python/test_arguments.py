@@ -76,7 +76,7 @@ def test_wrong_points(points, kind, text):
     (dict(strict="yes"), TypeError, "strict must be True or False, not 'yes'"),
     (dict(progress=1), TypeError, "progress must be a callable, not 1"),
     (dict(tolerance=1), ValueError, "tolerance must be above 0 and below 1"),
-    (dict(solver="umfpack", ordering="colamd"), ValueError, "COLAMD"),
+    (dict(solver="eigen-sparse-lu"), ValueError, "umfpack"),
     (dict(loop=[[0, 1, 2]]), ValueError, "not an array of the shape (1, 3)"),
     (dict(loop=[0.0, 1.0, 2.0]), TypeError, "loop must be a list of whole numbers, not of float64"),
     (dict(loop=[0, -1, 2]), ValueError, "loop has an index that is negative, or too large"),

@@ -57,7 +57,7 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {{"--strict=maybe"}, "maybe"},
       {{"--topology", "surface", "--loop", "loop.txt"}, "are for a disc"},
       {{"--topology", "surface", "--parameterization", "flat.ply"}, "are for a disc"},
-      {{"--ordering", "colamd"}, "does not take the ordering COLAMD"},
+      {{"--ordering", "colamd"}, "'colamd' is none of: automatic"},
       {{"--limit", "parts.pints=5000"}, "no NAME=VALUE of a limit"},
       {{"--limit", "parts.points"}, "'' is no value of parts.points"},
       {{"--limit", "parts.points=3"}, "'3' is no value of parts.points"},

@@ -59,7 +59,7 @@ TEST_F (CommandLineTest, MessagesNameWhatWasTyped)
        "--facing: 'outward' is none of: auto, outwards, up, viewpoint, normals; did you mean "
        "outwards?"},
       {{"--ordering", "AMD"},
-       "--ordering: 'AMD' is none of: automatic, amd, metis, colamd, reverse-cuthill-mckee, "
+       "--ordering: 'AMD' is none of: automatic, amd, metis, reverse-cuthill-mckee, "
        "natural; did you mean amd?"},
       {{"--holes", "close_all"},
        "--holes: 'close_all' is none of: auto, close-all, keep-largest, keep-count, by-size; did "

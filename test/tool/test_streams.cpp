@@ -94,7 +94,7 @@ TEST_F (StreamTest, WhatStreamsNeed)
       << wrong.err;
 }
 
-TEST_F (StreamTest, AFormatThatNoExtensionTells)
+TEST_F (StreamTest, FormatIsGivenByOption)
 {
   std::filesystem::rename (path ("in.pcd"), path ("cloud.dat"));
   expectFailure ({"cloud.dat", "out.ply"}, INPUT_FAILED,

@@ -194,7 +194,7 @@ TEST (Tables, TextAndEmptyColumns)
   EXPECT_THAT (twice.warnings, ElementsAre (HasSubstr ("two fields 't'")));
 }
 
-TEST (Tables, PointsThatAreNotFiniteAreKeptForTheOthersToKnow)
+TEST (Tables, NonFinitePointsAreKept)
 {
   Cloud cloud = parse ("1.5 2 -3\nnan 0 0\n4 5e-3 0.1\n1 inf 0\n");
   EXPECT_EQ (cloud.size (), 4U);

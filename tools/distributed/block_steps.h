@@ -10,8 +10,8 @@
 #include "request.h"
 
 namespace pcl::floater {
-/// The steps that are done for each block, in order. All blocks have to be through with one before
-/// the next begins; between the first two, chooseOutliersStep has to be run.
+/// The steps that are done for each block, in order. A step starts when the one before is complete
+/// for all blocks. Run chooseOutliersStep () between the first two.
 constexpr std::array<const char*, 4> BLOCK_STEPS{"neighbors", "planes", "stars", "triangles"};
 
 /// All that a step needs.

@@ -153,7 +153,7 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
 
-// Who works on blocks and parts, and what is told of it.
+// The workers, and where progress is printed.
 struct Workers
 {
   const Job& job;

@@ -225,7 +225,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
       Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   Result result = reconstruct (std::move (input), options, line.limits, stages);
   Report& report = result.report;
-  if (report.status == RunStatus::CANCELLED) // see stitchStep; nobody else does so
+  if (report.status == RunStatus::CANCELLED) // only stitchStep () cancels
     return EXIT_OK;
   RunFigures figures;
   figures.reconstruct_seconds = secondsSince (start);

@@ -16,7 +16,7 @@ namespace pcl::floater {
 /// Exit code if a file of the work folder cannot be used.
 constexpr int EXIT_WORK = 7;
 
-/// Step of the whole cloud that may be done before `join`, so that parts are finished as steps.
+/// Stitches all parts. After this step, each part can be finished by a step of its own.
 constexpr const char* STITCH = "stitch";
 
 /// What the user asked for.

@@ -14,7 +14,7 @@ constexpr std::size_t POOL_ALIGNMENT = 4096;
 constexpr std::size_t HUGE_PAGE = std::size_t{1} << 21U;
 
 /// As long as this lives, large arrays (see LARGE_ARRAY) are made in ranges of addresses if they
-/// fit there, and not in files of their own. So their sum is bounded, with all gaps between them.
+/// fit there, and not in files of their own. This bounds the memory of all arrays, gaps included.
 /// Memory of arrays that are freed stays in the pool for the next ones, until the pool ends. Arrays
 /// may outlive it; their memory goes when all of their range are freed. There may be one pool at a
 /// time, for all threads. Where the system has no such addresses, no array is in it.

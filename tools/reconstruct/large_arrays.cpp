@@ -119,8 +119,7 @@ mapScratch (std::uintptr_t begin, std::size_t bytes, const std::string& folder)
     error = errno;
   ::close (file);
 #ifdef MADV_NOHUGEPAGE
-  // Else one touch of what was dropped may bring back two megabytes: where few bytes of each page
-  // are needed, faster than anyone can make room.
+  // With huge pages, one access may read back 2 MB, faster than pages can be dropped.
   if (error == 0)
     ::madvise (pointerTo (begin), bytes, MADV_NOHUGEPAGE);
 #endif

@@ -35,9 +35,9 @@ constexpr double FASTEST_GROWTH = 100e9;
 constexpr std::chrono::duration<double> SHORTEST_SLEEP{0.00025};
 constexpr std::chrono::duration<double> LONGEST_SLEEP{0.005};
 
-// A watcher that gets no processor for some hundredths of a second, because the machine or the
-// host of a virtual one is busy, leaves time for some hundred megabytes. That as many as this are
-// kept out at once, each on a processor of its own, does not happen while a thread fills memory.
+// A watcher that gets no processor for some hundredths of a second, because the machine or the host
+// of a virtual one is busy, leaves time for some hundred megabytes. With four watchers on four
+// processors, at least one of them runs while memory fills.
 constexpr std::size_t MOST_WATCHERS = 4;
 
 // Processors on which this program may run, MOST_WATCHERS at most. None if that is unknown.

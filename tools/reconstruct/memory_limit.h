@@ -24,8 +24,7 @@ std::string
 formatSize (std::size_t bytes);
 
 /// Bytes of each point that have to stay in memory when a cloud is reconstructed by one process.
-/// Of 10 million points, 250 MB: below that, more time goes to pages that come back than to all
-/// else.
+/// 250 MB for 10 million points. With less, most of the time goes into reading pages back.
 constexpr double KEPT_PER_POINT = 25.0;
 
 /// Least limit, in bytes, below which a cloud of so many points can be kept.

@@ -1,71 +1,62 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/solvers/ordering.h"
+#include "floater/solvers/solver_parts.h"
 
-#include "floater/solvers/nested_dissection.h"
-
-#include <amd.h>
 #include <cholmod.h>
 
-#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <mutex>
 #include <new>
-#include <numeric>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
-void
-fail (const char* call, int status, bool is_out_of_memory)
+// The pattern of A + A^T without the diagonal.
+CsrLists
+symmetricPattern (const LinearSystem& system)
 {
-  if (is_out_of_memory)
-    throw std::bad_alloc ();
-  throw std::runtime_error (std::string (call) + ": status " + std::to_string (status));
+  const auto has = [&system] (std::size_t i, std::size_t column) {
+    return std::binary_search (system.columns.begin () + system.row_offsets[i],
+                               system.columns.begin () + system.row_offsets[i + 1],
+                               static_cast<int> (column));
+  };
+  return makeCsrLists (system.unknowns (), [&] (const auto& emit) {
+    for (std::size_t i = 0; i < system.unknowns (); ++i)
+      system.visitRow (i, [&] (std::size_t j, double) {
+        if (i == j)
+          return;
+        emit (i, static_cast<Index> (j));
+        if (!has (j, i))
+          emit (j, static_cast<Index> (i));
+      });
+  });
 }
 
-// Approximate minimum degree (Amestoy, Davis and Duff 1996).
-std::vector<int>
-orderByAmd (const LinearSystem& system)
+// Calls METIS with a state of rand () of its own.
+int
+callMetis (cholmod_sparse& pattern, int* order, cholmod_common& common)
 {
-  std::vector<int> order (system.unknowns ());
-  const int status =
-      amd_order (static_cast<int> (system.unknowns ()), system.row_offsets.data (),
-                 system.columns.data (), order.data (), nullptr, nullptr); // defaults, no figures
-  if (status != AMD_OK)
-    fail ("amd_order", status, status == AMD_OUT_OF_MEMORY);
-  return order;
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock (mutex);
+  std::array<char, 128> state{}; // as many bytes as rand () has in the beginning
+  char* const before = initstate (1, state.data (), state.size ());
+  constexpr int POSTORDER = 1;
+  const int done = cholmod_metis (&pattern, nullptr, 0, POSTORDER, order, &common);
+  setstate (before);
+  return done;
 }
 
-// The workspace of CHOLMOD. Errors are told by its status alone and never printed.
-class CholmodWorkspace
-{
-public:
-  CholmodWorkspace ()
-  {
-    cholmod_start (&common_);
-    common_.print = 0;
-  }
-  ~CholmodWorkspace () { cholmod_finish (&common_); }
-  CholmodWorkspace (const CholmodWorkspace&) = delete;
-  CholmodWorkspace& operator= (const CholmodWorkspace&) = delete;
-
-  cholmod_common* get () { return &common_; }
-  int status () const { return common_.status; }
-
-private:
-  cholmod_common common_{};
-};
-
-// Nested dissection by METIS (Karypis and Kumar 1998), then along the elimination tree.
+// Approximate minimum degree (Amestoy, Davis and Duff 1996), or nested dissection by METIS (Karypis
+// and Kumar 1998).
 std::vector<int>
-orderByMetis (const LinearSystem& system)
+orderByCholmod (const CsrLists& symmetric, Ordering ordering)
 {
-  const CsrLists symmetric = symmetricPattern (system);
   std::vector<int> offsets (symmetric.offsets.begin (), symmetric.offsets.end ());
   std::vector<int> rows (symmetric.ids.begin (), symmetric.ids.end ());
+  std::vector<int> order (symmetric.rows ());
   cholmod_sparse pattern{};
-  pattern.nrow = pattern.ncol = system.unknowns ();
+  pattern.nrow = pattern.ncol = order.size ();
   pattern.nzmax = rows.size ();
   pattern.p = offsets.data ();
   pattern.i = rows.data ();
@@ -74,11 +65,61 @@ orderByMetis (const LinearSystem& system)
   pattern.xtype = CHOLMOD_PATTERN;
   pattern.dtype = CHOLMOD_DOUBLE;
   pattern.packed = 1;
-  CholmodWorkspace workspace;
-  std::vector<int> order (system.unknowns ());
-  constexpr int POSTORDER = 1;
-  if (cholmod_metis (&pattern, nullptr, 0, POSTORDER, order.data (), workspace.get ()) == 0)
-    fail ("cholmod_metis", workspace.status (), workspace.status () == CHOLMOD_OUT_OF_MEMORY);
+  cholmod_common common{};
+  cholmod_start (&common);
+  common.print = 0;
+  const int done = ordering == Ordering::METIS
+                       ? callMetis (pattern, order.data (), common)
+                       : cholmod_amd (&pattern, nullptr, 0, order.data (), &common);
+  cholmod_finish (&common);
+  if (done == 0)
+    throw std::bad_alloc (); // the pattern is valid; METIS does not tell what it lacks
+  return order;
+}
+
+// Each component level by level, and in a level those of few neighbours first (Cuthill and McKee
+// 1969); the reverse of that (George 1971).
+std::vector<int>
+reverseCuthillMckee (const CsrLists& graph)
+{
+  std::vector<int> order;
+  std::vector<std::uint8_t> seen (graph.rows (), 0);
+  const auto neighbors = [&graph] (int v) { return graph.row (static_cast<std::size_t> (v)); };
+  const auto addFrom = [&] (int start) {
+    std::size_t levels = 0, level_end = order.size ();
+    seen[static_cast<std::size_t> (start)] = 1;
+    order.push_back (start);
+    for (std::size_t head = level_end; head < order.size (); ++head) {
+      if (head == level_end) {
+        ++levels;
+        level_end = order.size ();
+      }
+      const auto first = static_cast<std::ptrdiff_t> (order.size ());
+      for (const Index next : neighbors (order[head]))
+        if (std::exchange (seen[next], std::uint8_t{1}) == 0)
+          order.push_back (static_cast<int> (next));
+      std::stable_sort (order.begin () + first, order.end (), [&] (int a, int b) {
+        return neighbors (a).size () < neighbors (b).size ();
+      });
+    }
+    return levels;
+  };
+  for (std::size_t v = 0; v < graph.rows (); ++v) {
+    if (seen[v] != 0)
+      continue;
+    // It begins at a vertex that is nearly as far as possible from another (George and Liu 1979).
+    const std::size_t begin = order.size ();
+    std::size_t levels = addFrom (static_cast<int> (v));
+    for (std::size_t before = 0; before < levels;) {
+      before = levels;
+      const int last = order.back ();
+      for (std::size_t i = begin; i < order.size (); ++i)
+        seen[static_cast<std::size_t> (order[i])] = 0;
+      order.resize (begin);
+      levels = addFrom (last);
+    }
+  }
+  std::reverse (order.begin (), order.end ());
   return order;
 }
 
@@ -87,62 +128,29 @@ orderByMetis (const LinearSystem& system)
 std::vector<int>
 orderUnknowns (const LinearSystem& system, Ordering ordering)
 {
-  if (system.unknowns () == 0)
-    return {};
-  switch (ordering) {
-  case Ordering::NATURAL: {
-    std::vector<int> order (system.unknowns ());
-    std::iota (order.begin (), order.end (), 0);
-    return order;
-  }
-  case Ordering::REVERSE_CUTHILL_MCKEE:
-    return reverseCuthillMckee (system);
-  case Ordering::AMD:
-    return orderByAmd (system);
-  case Ordering::METIS:
-    return orderByMetis (system);
-  case Ordering::AUTOMATIC:
-  case Ordering::COLAMD:
-    break;
-  }
-  throw std::invalid_argument ("not a symmetric ordering");
+  const CsrLists symmetric = symmetricPattern (system);
+  return ordering == Ordering::REVERSE_CUTHILL_MCKEE ? reverseCuthillMckee (symmetric)
+                                                     : orderByCholmod (symmetric, ordering);
 }
 
 LinearSystem
 permuteSystem (const LinearSystem& system, const std::vector<int>& order)
 {
-  const std::size_t n = system.unknowns ();
-  std::vector<int> place (n);
-  for (std::size_t i = 0; i < n; ++i)
+  std::vector<int> place (order.size ());
+  for (std::size_t i = 0; i < order.size (); ++i)
     place[static_cast<std::size_t> (order[i])] = static_cast<int> (i);
-
   LinearSystem permuted;
-  permuted.unknown_of_point = system.unknown_of_point;
-  for (Index& unknown : permuted.unknown_of_point)
-    if (unknown != NONE)
-      unknown = static_cast<Index> (place[unknown]);
-  permuted.point_of_unknown.reserve (n);
-  permuted.row_offsets.reserve (n + 1);
   permuted.columns.reserve (system.nonzeros ());
   permuted.values.reserve (system.nonzeros ());
-  permuted.row_offsets.push_back (0);
+  permuted.rhs.resize (system.rhs.rows (), 2);
   std::vector<std::pair<int, double>> row;
-  for (const int from : order) {
-    const auto i = static_cast<std::size_t> (from);
+  for (std::size_t i = 0; i < order.size (); ++i) {
     row.clear ();
-    for (int entry = system.row_offsets[i]; entry < system.row_offsets[i + 1]; ++entry) {
-      const auto at = static_cast<std::size_t> (entry);
-      row.emplace_back (place[static_cast<std::size_t> (system.columns[at])], system.values[at]);
-    }
-    std::sort (row.begin (), row.end ());
-    for (const auto& [column, value] : row) {
-      permuted.columns.push_back (column);
-      permuted.values.push_back (value);
-    }
-    permuted.row_offsets.push_back (static_cast<int> (permuted.columns.size ()));
-    permuted.point_of_unknown.push_back (system.point_of_unknown[i]);
-    permuted.rhs_u.push_back (system.rhs_u[i]);
-    permuted.rhs_v.push_back (system.rhs_v[i]);
+    system.visitRow (static_cast<std::size_t> (order[i]), [&] (std::size_t column, double value) {
+      row.emplace_back (place[column], value);
+    });
+    permuted.addRow (row);
+    permuted.rhs.row (static_cast<Eigen::Index> (i)) = system.rhs.row (order[i]);
   }
   return permuted;
 }

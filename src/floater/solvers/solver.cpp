@@ -1,120 +1,163 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/solvers/solver.h"
+#include "floater/solvers/solver_parts.h"
 
-#include "floater/solvers/bicgstab_solver.h"
-#include "floater/solvers/eigen_sparse_lu_solver.h"
-#include "floater/solvers/gauss_seidel_solver.h"
-#include "floater/solvers/nested_dissection.h"
-#include "floater/solvers/ordering.h"
-#include "floater/solvers/umfpack_solver.h"
-#ifdef PCL_FLOATER_HAS_SUPERLU
-#include "floater/solvers/superlu_solver.h"
-#endif
-
-#include <string>
+#include <cmath>
+#include <limits>
+#include <sstream>
 
 namespace pcl::floater {
 namespace {
-// Above this number, nested dissection is faster than AMD. Its factors are smaller by a tenth (127k
-// unknowns, a closed shape with a hole) to a quarter (1M, a height field).
-constexpr std::size_t DISSECTION_UNKNOWNS = 100'000;
+// Above this number, METIS takes about as long as AMD, factorization included, and its factors are
+// smaller by a quarter to a third (discs of 300,000 points).
+constexpr std::size_t METIS_UNKNOWNS = 100'000;
 
-const char*
-solverName (Solver solver)
-{
-  switch (solver) {
-  case Solver::UMFPACK:
-    return "UMFPACK with its symmetric strategy";
-  case Solver::UMFPACK_UNSYMMETRIC:
-    return "UMFPACK with its unsymmetric strategy";
-  case Solver::SUPERLU:
-    return "SuperLU";
-  case Solver::EIGEN_SPARSE_LU:
-    return "Eigen's SparseLU";
-  case Solver::BICGSTAB_ILUT:
-    return "BiCGSTAB";
-  case Solver::GAUSS_SEIDEL:
-    return "Gauss-Seidel";
-  }
-  return "unknown";
-}
+// Pivots on the diagonal: a system counts as singular if its reciprocal condition is below this.
+// Floating unknowns leave a pivot of rounding errors that is seldom exactly 0 (up to 3e-14 with
+// 5000 unknowns). Unknowns that depend on the loop by the smallest of weights (SMALLEST_WEIGHT)
+// stay above.
+constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-12;
 
-// Whether the solver makes the ordering by itself, or needs none.
 bool
-ordersItself (Solver solver, Ordering ordering)
+isIterative (Solver solver)
 {
-  switch (ordering) {
-  case Ordering::AUTOMATIC:
-  case Ordering::COLAMD:
-  case Ordering::NATURAL:
-    return true;
-  case Ordering::AMD:
-    return solver == Solver::UMFPACK;
-  case Ordering::METIS:
-    return solver == Solver::UMFPACK || solver == Solver::UMFPACK_UNSYMMETRIC;
-  case Ordering::REVERSE_CUTHILL_MCKEE:
-    break;
-  }
-  return false;
+  return solver == Solver::BICGSTAB_ILUT || solver == Solver::GAUSS_SEIDEL;
 }
 
-Solution
-solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions& options,
-             const RunContext& run)
+// Sets the outcome by the pivots and the residual of solution.uv, which stays only if it is OK.
+void
+conclude (const LinearSystem& system, const SolverOptions& options, Solution& solution)
 {
-  switch (options.method) {
-  case Solver::UMFPACK:
-    return solveWithUmfpack (system, ordering, run);
-  case Solver::UMFPACK_UNSYMMETRIC:
-    return solveWithUmfpack (system, ordering, run, UmfpackStrategy::UNSYMMETRIC);
-  case Solver::SUPERLU:
-#ifdef PCL_FLOATER_HAS_SUPERLU
-    return solveWithSuperlu (system, ordering);
-#else
-    break; // checkSolver () has refused it
-#endif
-  case Solver::EIGEN_SPARSE_LU:
-    return solveWithEigenSparseLu (system, ordering, run);
-  case Solver::BICGSTAB_ILUT:
-    return solveWithBicgstab (system, options, run);
-  case Solver::GAUSS_SEIDEL:
-    return solveWithGaussSeidel (system, options.tolerance, options.max_iterations, run);
+  bool is_finite = true, is_within = true;
+  for (Eigen::Index side = 0; side < 2; ++side) {
+    const Residual residual = measureResidual (system, side, solution.uv.col (side));
+    const double norm = residual.rest.norm ();
+    solution.residual = std::max (solution.residual, residual.rest.cwiseAbs ().maxCoeff ());
+    if (norm != 0.0)
+      solution.relative_residual = std::max (solution.relative_residual, norm / residual.rhs);
+    is_finite = is_finite && std::isfinite (norm);
+    is_within = is_within && norm <= residual.target (options.tolerance);
   }
-  return {};
+  std::ostringstream message;
+  if (!isIterative (options.method) &&
+      !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
+    solution.outcome = Solution::Outcome::SINGULAR;
+    message << "factorization: a pivot consists of rounding errors only";
+  }
+  else if (!is_finite)
+    message << "the solution is not finite";
+  else if (isIterative (options.method) && !is_within) {
+    solution.outcome = Solution::Outcome::NOT_CONVERGED;
+    const std::size_t iterations = std::max (solution.iterations[0], solution.iterations[1]);
+    message << (options.method == Solver::BICGSTAB_ILUT ? "BiCGSTAB" : "Gauss-Seidel")
+            << " reached a relative residual of " << solution.relative_residual << " in "
+            << iterations << (iterations == 1 ? " iteration" : " iterations") << ", not "
+            << options.tolerance;
+  }
+  else {
+    solution.outcome = Solution::Outcome::OK;
+    return;
+  }
+  solution.message = message.str ();
+  solution.uv.resize (0, 2);
+}
+
+void
+solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions& options,
+             const RunContext& run, Solution& solution)
+{
+  if (options.method == Solver::BICGSTAB_ILUT)
+    solveWithBicgstab (system, options, run, solution);
+  else if (options.method == Solver::GAUSS_SEIDEL)
+    solveWithGaussSeidel (system, options, run, solution);
+#ifdef PCL_FLOATER_HAS_SUPERLU
+  else if (options.method == Solver::SUPERLU)
+    solveWithSuperlu (system, ordering, solution);
+#endif
+  else
+    solveWithUmfpack (system, ordering, run, solution);
+  if (solution.uv.rows () > 0)
+    conclude (system, options, solution);
 }
 
 } // namespace
 
-bool
-isAvailable (Solver solver)
-{
-#ifdef PCL_FLOATER_HAS_SUPERLU
-  static_cast<void> (solver);
-  return true;
-#else
-  return solver != Solver::SUPERLU;
-#endif
-}
-
 Problem
 checkSolver (Solver solver, Ordering ordering)
 {
-  const std::string name = solverName (solver);
-  if (ordering == Ordering::COLAMD && solver != Solver::UMFPACK_UNSYMMETRIC &&
-      solver != Solver::SUPERLU && solver != Solver::EIGEN_SPARSE_LU)
-    return {RunStatus::INVALID_OPTION, name + " does not take the ordering COLAMD, which orders "
-                                              "columns alone; choose another ordering"};
-  if (!isAvailable (solver))
+  if (solver == Solver::UMFPACK_UNSYMMETRIC || solver == Solver::EIGEN_SPARSE_LU)
     return {RunStatus::SOLVER_UNAVAILABLE,
-            "this build of pcl_floater does not have " + name +
-                "; choose another solver, or build pcl_floater where that library is installed"};
+            std::string (solver == Solver::EIGEN_SPARSE_LU ? "Eigen's SparseLU"
+                                                           : "UMFPACK's unsymmetric strategy") +
+                " is no longer part of pcl_floater; choose another solver, such as UMFPACK"};
+#ifndef PCL_FLOATER_HAS_SUPERLU
+  if (solver == Solver::SUPERLU)
+    return {RunStatus::SOLVER_UNAVAILABLE,
+            "this build of pcl_floater does not have SuperLU; choose another solver, or build "
+            "pcl_floater where that library is installed"};
+#endif
+  if (ordering == Ordering::COLAMD)
+    return {RunStatus::INVALID_OPTION, "the ordering COLAMD is no longer part of pcl_floater; "
+                                       "choose another ordering, such as AMD"};
   return {};
 }
 
+Residual
+measureResidual (const LinearSystem& system, Eigen::Index side,
+                 const Eigen::Ref<const Eigen::VectorXd>& solution)
+{
+  constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon ();
+  Residual residual{system.rhs.col (side), system.rhs.col (side).norm (), 0.0};
+  Eigen::VectorXd magnitude = residual.rest.cwiseAbs ();
+  for (std::size_t row = 0; row < system.unknowns (); ++row) {
+    const auto i = static_cast<Eigen::Index> (row);
+    system.visitRow (row, [&] (std::size_t column, double value) {
+      const double term = value * solution[static_cast<Eigen::Index> (column)];
+      residual.rest[i] -= term;
+      magnitude[i] += std::abs (term);
+    });
+  }
+  residual.rounding = ROUNDING * magnitude.norm ();
+  return residual;
+}
+
+std::size_t
+countFloatingUnknowns (const LinearSystem& system)
+{
+  // Largest rounding error of the sum of a row, relative to it. The smallest weight of a row is far
+  // larger (SMALLEST_WEIGHT).
+  constexpr double ROUNDING = 1e-13;
+  const std::size_t n = system.unknowns ();
+  std::vector<std::uint8_t> tied (n, 0);
+  std::vector<Index> queue;
+  for (std::size_t i = 0; i < n; ++i) {
+    double diagonal = 0.0, others = 0.0;
+    system.visitRow (
+        i, [&] (std::size_t j, double value) { (i == j ? diagonal : others) += std::abs (value); });
+    if (diagonal - others > ROUNDING * diagonal) {
+      tied[i] = 1;
+      queue.push_back (static_cast<Index> (i));
+    }
+  }
+  // Row j holds the unknowns that have j in their row.
+  const CsrLists leading_to = makeCsrLists (n, [&] (const auto& emit) {
+    for (std::size_t i = 0; i < n; ++i)
+      system.visitRow (i, [&] (std::size_t j, double value) {
+        if (value != 0.0)
+          emit (j, static_cast<Index> (i));
+      });
+  });
+  for (std::size_t head = 0; head < queue.size (); ++head)
+    for (const Index i : leading_to.row (queue[head]))
+      if (tied[i] == 0) {
+        tied[i] = 1;
+        queue.push_back (i);
+      }
+  return n - queue.size ();
+}
+
 Solution
-solve (const LinearSystem& system, const SolverOptions& options,
-       const std::vector<Eigen::Vector3d>* positions, const RunContext& run)
+solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run)
 {
   Solution solution;
   if (const Problem problem = checkSolver (options.method, options.ordering)) {
@@ -128,19 +171,29 @@ solve (const LinearSystem& system, const SolverOptions& options,
     solution.reciprocal_condition = 1.0;
     return solution;
   }
-  if (options.method == Solver::UMFPACK && options.ordering == Ordering::AUTOMATIC &&
-      positions != nullptr && system.unknowns () > DISSECTION_UNKNOWNS)
-    return solveWithUmfpack (system, dissectUnknowns (system, *positions, run), run);
-  if (ordersItself (options.method, options.ordering))
-    return solveAsItIs (system, options.ordering, options, run);
-
+  if (const std::size_t floating =
+          isIterative (options.method) ? countFloatingUnknowns (system) : 0) {
+    solution.outcome = Solution::Outcome::SINGULAR;
+    solution.message =
+        std::to_string (floating) + (floating == 1 ? " unknown does not depend on the boundary"
+                                                   : " unknowns do not depend on the boundary");
+    return solution;
+  }
+  Ordering ordering = options.ordering;
+  if (options.method == Solver::UMFPACK && ordering == Ordering::AUTOMATIC)
+    ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
+  if (ordering == Ordering::AUTOMATIC || ordering == Ordering::NATURAL ||
+      (options.method == Solver::UMFPACK && ordering == Ordering::AMD)) {
+    solveAsItIs (system, ordering, options, run, solution);
+    return solution;
+  }
   // Any solver can solve the reordered system as it comes.
-  const std::vector<int> order = orderUnknowns (system, options.ordering);
-  solution = solveAsItIs (permuteSystem (system, order), Ordering::NATURAL, options, run);
-  std::vector<Eigen::Vector2d> uv (solution.uv.size ());
-  for (std::size_t i = 0; i < uv.size (); ++i)
-    uv[static_cast<std::size_t> (order[i])] = solution.uv[i];
-  solution.uv = std::move (uv);
+  const std::vector<int> order = orderUnknowns (system, ordering);
+  solveAsItIs (permuteSystem (system, order), Ordering::NATURAL, options, run, solution);
+  const Eigen::MatrixX2d uv = std::move (solution.uv);
+  solution.uv.resize (uv.rows (), 2);
+  for (Eigen::Index i = 0; i < uv.rows (); ++i)
+    solution.uv.row (order[static_cast<std::size_t> (i)]) = uv.row (i);
   return solution;
 }
 

@@ -19,7 +19,7 @@ gridSystem (const TriangulatedGrid& grid, Weighting weighting,
             const std::vector<Eigen::Vector2d>& loop_uv)
 {
   return assembleSystem (grid.stars.neighbors, computeWeights (grid.stars, weighting, 1), grid.loop,
-                         loop_uv, std::vector<std::uint8_t> (grid.positions.size (), 1), 1);
+                         loop_uv, std::vector<std::uint8_t> (grid.positions.size (), 1));
 }
 
 /// The same with the loop in its place. Weights that reproduce linear functions then leave all
@@ -28,6 +28,19 @@ inline LinearSystem
 gridSystem (const TriangulatedGrid& grid, Weighting weighting = Weighting::MEAN_VALUE)
 {
   return gridSystem (grid, weighting, grid.loopInPlace ());
+}
+
+/// All entries of the matrix.
+inline Eigen::MatrixXd
+denseMatrix (const LinearSystem& system)
+{
+  const auto n = static_cast<Eigen::Index> (system.unknowns ());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero (n, n);
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    system.visitRow (i, [&] (std::size_t j, double value) {
+      dense (static_cast<Eigen::Index> (i), static_cast<Eigen::Index> (j)) = value;
+    });
+  return dense;
 }
 
 /// A random order of so many unknowns.

@@ -97,23 +97,21 @@ enum class Weighting
 enum class Solver
 {
   UMFPACK,             ///< direct; symmetric strategy
-  UMFPACK_UNSYMMETRIC, ///< direct; unsymmetric strategy
+  UMFPACK_UNSYMMETRIC, ///< deprecated, SOLVER_UNAVAILABLE: until version 2 only
   SUPERLU,             ///< direct; if built with SuperLU; ends the program if there is no memory
-  EIGEN_SPARSE_LU,     ///< direct; may end the program if there is no memory
+  EIGEN_SPARSE_LU,     ///< deprecated, SOLVER_UNAVAILABLE: until version 2 only
   BICGSTAB_ILUT,       ///< iterative, preconditioned by an incomplete LU factorization
   GAUSS_SEIDEL         ///< iterative; converges for small clouds only
 };
 
-/// Order of the unknowns. All but COLAMD permute rows and columns alike, and every solver takes
-/// them. COLAMD permutes columns only: UMFPACK_UNSYMMETRIC, SUPERLU and EIGEN_SPARSE_LU take it.
+/// Order of the unknowns, of rows and columns alike.
 enum class Ordering
 {
-  AUTOMATIC, ///< UMFPACK: AMD up to 100,000 unknowns, above that nested dissection by the positions
-             ///< of the points; SUPERLU: minimum degree; UMFPACK_UNSYMMETRIC and EIGEN_SPARSE_LU:
-             ///< COLAMD; iterative solvers: NATURAL
+  AUTOMATIC, ///< UMFPACK: AMD up to 100,000 unknowns, METIS above; SUPERLU: minimum degree;
+             ///< iterative solvers: NATURAL
   AMD,       ///< approximate minimum degree
   METIS,     ///< nested dissection by METIS
-  COLAMD,    ///< column approximate minimum degree
+  COLAMD,    ///< deprecated, INVALID_OPTION: until version 2 only
   REVERSE_CUTHILL_MCKEE, ///< small bandwidth
   NATURAL                ///< as the points are stored: along a space-filling curve
 };
@@ -131,9 +129,8 @@ enum class ViewUse
 /// a warning says so, and AUTO does.
 enum class Facing
 {
-  AUTO,      ///< by the first evidence that decides: normals of the input, if they are used; closed
-             ///< components face outwards; the sensor, if a single scan tells where it was; more is
-             ///< seen of one side from outside; up
+  AUTO,      ///< the first rule that decides: input normals, if used; outwards, if closed; towards
+             ///< the sensor of a single scan; the side that is more visible from outside; up
   OUTWARDS,  ///< away from the inside; of an open sheet, the side that bulges
   UP,        ///< towards +z; upright ones towards +y, or +x. Closed components face outwards
   VIEWPOINT, ///< towards the place of the sensor, which must be known. Closed components that it
@@ -178,8 +175,8 @@ struct HoleOptions
 {
   HolePolicy policy = HolePolicy::AUTO;   ///< which boundary loops stay open
   int kept_loops = 1;                     ///< KEEP_COUNT: loops that stay open, 0 or more
-  double largest_hole = 0.0;              ///< BY_SIZE: width of the widest hole to fill, above 0.
-                                          ///< Other policies do not read it, and take 0 as well
+  double largest_hole = 0.0;              ///< BY_SIZE: width of the widest hole to fill,
+                                          ///< above 0. Ignored by other policies.
   LengthUnit unit = LengthUnit::SPACINGS; ///< BY_SIZE: of largest_hole
 };
 

@@ -37,7 +37,7 @@ public:
   {
     NONE = -1,    ///< it cannot be connected: not selected, or with a NaN or infinite coordinate
     FREE = 0,     ///< it is in no triangle
-    FRINGE = 1,   ///< the mesh still grows there: no point of a finished mesh
+    FRINGE = 1,   ///< never returned: a finished mesh has no fringe
     BOUNDARY = 2, ///< it is on a boundary loop of the mesh
     COMPLETED = 3 ///< it is surrounded by triangles
   };

@@ -19,7 +19,7 @@ namespace pcl::floater {
 enum class RunStatus
 {
   NOT_RUN,         ///< reconstruct () has not been called
-  SUCCESS,         ///< a mesh was made; Report::warnings tells what is odd about it
+  SUCCESS,         ///< a mesh was made; see Report::warnings
   NO_INPUT,        ///< null or empty input cloud
   INVALID_OPTION,  ///< an option is out of its range or of no use, or the given viewpoint sees
                    ///< no triangle
@@ -33,7 +33,7 @@ enum class RunStatus
   NOT_A_DISC,      ///< disc: the surface has handles or several components, or is closed
   SINGULAR,        ///< disc: the linear system has no unique solution
   NOT_CONVERGED,   ///< disc: an iterative solver did not reach its tolerance
-  SOLVER_UNAVAILABLE, ///< the library was built without this solver
+  SOLVER_UNAVAILABLE, ///< the library is without this solver
   CANCELLED,          ///< Options::cancelled_callback returned true
   OUT_OF_MEMORY,      ///< an allocation failed, or a table outgrew its 32-bit indices
   INTERNAL_ERROR      ///< the mesh did not pass the final check; please report it
@@ -94,8 +94,8 @@ struct FacingDecision
   std::size_t triangles = 0;           ///< number of triangles
   std::uint32_t at = 0;                ///< cloud index of one of its points
   FacingRule rule = FacingRule::SHEET; ///< by which it was turned
-  double certainty = 0.0; ///< that the rule fits: 0.5 where another one does so as well, to 1. Of
-                          ///< NORMALS, the share of the area whose normals point to the front
+  double certainty = 0.0; ///< confidence in the rule: 0.5 (another rule fits as well) to 1. For
+                          ///< NORMALS: share of the area whose normals point to the front
 };
 
 /// What the final check found on the mesh. It uses nothing but triangles and positions.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/solvers/single_blas_thread.h"
+#include "core/single_blas_thread.h"
 
 #include <dlfcn.h>
 #include <sys/mman.h>
@@ -20,12 +20,6 @@ struct OpenBlas
   std::mutex mutex;
   int users = 0;
   int threads = 1; // before the first user
-
-  void change (int from, int to) const
-  {
-    if (set != nullptr && from != to)
-      set (to);
-  }
 };
 
 OpenBlas&
@@ -53,18 +47,18 @@ SingleBlasThread::SingleBlasThread ()
   if (blas.set != nullptr && !hasRoomForBuffer ())
     throw std::bad_alloc ();
   const std::lock_guard<std::mutex> lock (blas.mutex);
-  if (blas.users++ > 0)
+  if (blas.users++ > 0 || blas.get == nullptr || blas.set == nullptr)
     return;
-  blas.threads = blas.get != nullptr ? blas.get () : 1;
-  blas.change (blas.threads, 1);
+  blas.threads = blas.get ();
+  blas.set (1);
 }
 
 SingleBlasThread::~SingleBlasThread ()
 {
   OpenBlas& blas = openBlas ();
   const std::lock_guard<std::mutex> lock (blas.mutex);
-  if (--blas.users == 0)
-    blas.change (1, blas.threads);
+  if (--blas.users == 0 && blas.threads != 1)
+    blas.set (blas.threads);
 }
 
 } // namespace pcl::floater

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What solve () is made of: the solvers, the orderings, and what is measured.
+#pragma once
+
+#include "floater/solvers/solver.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace pcl::floater {
+// Each solver fills `uv` and the figures of the solution, or tells the outcome and the message.
+// solve () looks at the residual and the pivots. The direct ones get the rows as the columns of the
+// transpose, whose dominant diagonal keeps pivots on the diagonal. They make one factorization for
+// both right-hand sides, with one BLAS thread.
+
+/// \param ordering AMD, or NATURAL: as the unknowns come
+void
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,
+                  Solution& solution);
+
+/// If the factors do not fit into memory, that is an outcome; if SuperLU cannot get one of its small
+/// working arrays, it ends the process.
+/// \param ordering AUTOMATIC: minimum degree on A + A^T, or NATURAL
+void
+solveWithSuperlu (const LinearSystem& system, Ordering ordering, Solution& solution);
+
+/// BiCGSTAB with Eigen's IncompleteLUT: one incomplete factorization, then each coordinate by
+/// itself. The residual that BiCGSTAB updates drifts away from the true one. So the true one is
+/// measured when it stops, and it starts again on what is left until the tolerance is reached, the
+/// iterations of all rounds are used up, or a round does not halve the residual. Eigen counts fill
+/// in mean rows of the matrix, so ilut_fill is rounded up to a multiple of these.
+void
+solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run,
+                   Solution& solution);
+
+/// Sweeps over the rows in their order, in which each unknown becomes the weighted mean of its
+/// neighbours. A sweep shrinks the error by a factor of 1 - O(1/n) for n unknowns, so the number of
+/// sweeps grows with n.
+void
+solveWithGaussSeidel (const LinearSystem& system, const SolverOptions& options,
+                      const RunContext& run, Solution& solution);
+
+/// The residual of one coordinate, computed from the matrix itself.
+struct Residual
+{
+  Eigen::VectorXd rest;  ///< b - A u
+  double rhs = 0.0;      ///< |b|
+  double rounding = 0.0; ///< bound of the rounding error of |b - A u|: 4 eps | |A| |u| + |b| |
+
+  /// The norm at which an iteration is done: that of the tolerance, or as small as double precision
+  /// lets it be. Storing u with 16 digits alone gives a large system a relative one above 1e-15.
+  double target (double tolerance) const { return std::max (tolerance * rhs, rounding); }
+};
+
+/// O(entries).
+Residual
+measureResidual (const LinearSystem& system, Eigen::Index side,
+                 const Eigen::Ref<const Eigen::VectorXd>& solution);
+
+/// Counts the unknowns from which no path, from row to column, leads to a row in which the boundary
+/// takes part: one whose diagonal exceeds the sum of its other entries. With positive weights the
+/// system is singular if and only if there are such unknowns. An iterative solver would not notice;
+/// it stops at one of the many solutions. O(entries).
+/// \param system no diagonal is less than the sum of the row's other entries
+std::size_t
+countFloatingUnknowns (const LinearSystem& system);
+
+/// An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T:
+/// entry i is the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow the
+/// elimination tree. METIS draws from rand (), of which it gets a state of its own; another thread
+/// that draws meanwhile changes the order, so that only one thread is in METIS at a time.
+/// \param ordering AMD, METIS or REVERSE_CUTHILL_MCKEE
+/// \throws std::bad_alloc
+std::vector<int>
+orderUnknowns (const LinearSystem& system, Ordering ordering);
+
+/// The system with its rows and columns in another order: row i is row order[i] of the original,
+/// and columns are ascending again. Its points are left out. O(entries log (row length)).
+LinearSystem
+permuteSystem (const LinearSystem& system, const std::vector<int>& order);
+
+} // namespace pcl::floater

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/single_blas_thread.h"
+#include "floater/solvers/solver_parts.h"
+
+#include <slu_ddefs.h>
+
+#include <cmath>
+#include <limits>
+
+namespace pcl::floater {
+namespace {
+// A matrix of SuperLU, freed by the function for its kind. It is empty until it has a store.
+template <void (*release) (SuperMatrix*)>
+struct Owned
+{
+  Owned () = default;
+  Owned (const Owned&) = delete;
+  Owned& operator= (const Owned&) = delete;
+  ~Owned ()
+  {
+    if (matrix.Store != nullptr)
+      release (&matrix);
+  }
+  SuperMatrix matrix{};
+};
+
+struct Counters
+{
+  Counters () { StatInit (&stat); }
+  Counters (const Counters&) = delete;
+  Counters& operator= (const Counters&) = delete;
+  ~Counters () { StatFree (&stat); }
+  SuperLUStat_t stat{};
+};
+
+// min |U_kk| / max |U_kk|. SuperLU stores the diagonal blocks of U with L.
+double
+pivotRatio (const SuperMatrix& factor)
+{
+  const auto& store = *static_cast<const SCformat*> (factor.Store);
+  const auto* values = static_cast<const double*> (store.nzval);
+  double least = std::numeric_limits<double>::infinity (), largest = 0.0;
+  for (int column = 0; column < factor.ncol; ++column) {
+    const int first = store.sup_to_col[store.col_to_sup[column]];
+    const double pivot = std::abs (values[store.nzval_colptr[column] + (column - first)]);
+    least = std::min (least, pivot);
+    largest = std::max (largest, pivot);
+  }
+  return largest > 0.0 ? least / largest : 0.0;
+}
+
+} // namespace
+
+void
+solveWithSuperlu (const LinearSystem& system, Ordering ordering, Solution& solution)
+{
+  // SuperLU counts the entries that it reserves in an int without looking.
+  constexpr int FILL = 6; // question to sp_ienv
+  requireCountable (static_cast<std::size_t> (sp_ienv (FILL)) * system.nonzeros (),
+                    MOST_MATRIX_ENTRIES, "the factors of SuperLU",
+                    "use fewer points or another solver");
+  const SingleBlasThread single_blas_thread;
+  const auto n = static_cast<int> (system.unknowns ());
+  superlu_options_t control;
+  set_default_options (&control);
+  control.Equil = NO;
+  control.PrintStat = NO;
+  control.SymmetricMode = YES;
+  control.ColPerm = ordering == Ordering::NATURAL ? NATURAL : MMD_AT_PLUS_A;
+
+  // SuperLU only reads these arrays, though its pointers are not const.
+  Owned<Destroy_SuperMatrix_Store> rows, sides;
+  dCreate_CompRow_Matrix (&rows.matrix, n, n, static_cast<int> (system.nonzeros ()),
+                          const_cast<double*> (system.values.data ()),
+                          const_cast<int*> (system.columns.data ()),
+                          const_cast<int*> (system.row_offsets.data ()), SLU_NR, SLU_D, SLU_GE);
+  Eigen::MatrixX2d uv = system.rhs; // solved in place
+  dCreate_Dense_Matrix (&sides.matrix, n, 2, uv.data (), n, SLU_DN, SLU_D, SLU_GE);
+  Owned<Destroy_SuperNode_Matrix> lower;
+  Owned<Destroy_CompCol_Matrix> upper;
+  Counters counters;
+  std::vector<int> column_order (system.unknowns ()), row_order (system.unknowns ());
+  int info = 0;
+  dgssv (&control, &rows.matrix, column_order.data (), row_order.data (), &lower.matrix,
+         &upper.matrix, &sides.matrix, &counters.stat, &info);
+  if (info > n) { // there are no factors
+    lower.matrix.Store = upper.matrix.Store = nullptr;
+    solution.outcome = Solution::Outcome::OUT_OF_MEMORY;
+    solution.message = "factorization: SuperLU got only " + std::to_string (info - n) + " bytes";
+    return;
+  }
+  if (info < 0) {
+    solution.message = "SuperLU does not accept argument " + std::to_string (-info);
+    return;
+  }
+  mem_usage_t memory{};
+  dQuerySpace (&lower.matrix, &upper.matrix, &memory);
+  solution.peak_bytes = static_cast<std::size_t> (memory.total_needed);
+  solution.nnz_factors =
+      static_cast<std::size_t> (static_cast<const SCformat*> (lower.matrix.Store)->nnz) +
+      static_cast<std::size_t> (static_cast<const NCformat*> (upper.matrix.Store)->nnz) -
+      system.unknowns ();
+  solution.reciprocal_condition = info > 0 ? 0.0 : pivotRatio (lower.matrix);
+  solution.uv = std::move (uv);
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parallel.h"
+#include "core/single_blas_thread.h"
+#include "floater/solvers/solver_parts.h"
+
+#include <umfpack.h>
+
+#include <array>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+// Unknowns from which on the interface has 64-bit indices. That with 32 bits takes an eighth less
+// memory, and holds factors of up to 2 GB; there are about 1.2 kB of them per unknown.
+constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
+
+// UMFPACK's two integer types.
+struct IntInterface
+{
+  using Int = int;
+  static constexpr auto SYMBOLIC = &umfpack_di_symbolic;
+  static constexpr auto QSYMBOLIC = &umfpack_di_qsymbolic;
+  static constexpr auto NUMERIC = &umfpack_di_numeric;
+  static constexpr auto SOLVE = &umfpack_di_solve;
+  static constexpr auto FREE_SYMBOLIC = &umfpack_di_free_symbolic;
+  static constexpr auto FREE_NUMERIC = &umfpack_di_free_numeric;
+};
+
+struct LongInterface
+{
+  using Int = SuiteSparse_long;
+  static constexpr auto SYMBOLIC = &umfpack_dl_symbolic;
+  static constexpr auto QSYMBOLIC = &umfpack_dl_qsymbolic;
+  static constexpr auto NUMERIC = &umfpack_dl_numeric;
+  static constexpr auto SOLVE = &umfpack_dl_solve;
+  static constexpr auto FREE_SYMBOLIC = &umfpack_dl_free_symbolic;
+  static constexpr auto FREE_NUMERIC = &umfpack_dl_free_numeric;
+};
+
+// UMFPACK's handles are freed through a pointer to them.
+template <void (*release) (void**)>
+struct Release
+{
+  void operator() (void* handle) const { release (&handle); }
+};
+template <void (*release) (void**)>
+using Handle = std::unique_ptr<void, Release<release>>;
+
+using Control = std::array<double, UMFPACK_CONTROL>;
+using Info = std::array<double, UMFPACK_INFO>;
+
+// Records the reason if a call has failed.
+// \return true if it has not
+bool
+accept (const Info& info, const char* call, Solution& solution)
+{
+  const int code = static_cast<int> (info[UMFPACK_STATUS]);
+  if (code == UMFPACK_OK)
+    return true;
+  solution.message = std::string (call) + ": UMFPACK status " + std::to_string (code);
+  solution.outcome = code == UMFPACK_WARNING_singular_matrix ? Solution::Outcome::SINGULAR
+                     : code == UMFPACK_ERROR_out_of_memory   ? Solution::Outcome::OUT_OF_MEMORY
+                                                             : Solution::Outcome::FAILED;
+  return false;
+}
+
+template <typename Interface, typename Int = typename Interface::Int>
+void
+solveWithIndices (const LinearSystem& system, const Control& control, const RunContext& run,
+                  Solution& solution)
+{
+  Info info{};
+  Handle<Interface::FREE_NUMERIC> numeric;
+  { // the matrix is not needed afterwards: there is no refinement
+    const std::vector<Int> offsets (system.row_offsets.begin (), system.row_offsets.end ());
+    const std::vector<Int> columns (system.columns.begin (), system.columns.end ());
+    const auto n = static_cast<Int> (system.unknowns ());
+    void* handle = nullptr;
+    if (control[UMFPACK_FIXQ] > 0.0) {
+      std::vector<Int> order (system.unknowns ());
+      std::iota (order.begin (), order.end (), Int{0});
+      Interface::QSYMBOLIC (n, n, offsets.data (), columns.data (), system.values.data (),
+                            order.data (), &handle, control.data (), info.data ());
+    }
+    else
+      Interface::SYMBOLIC (n, n, offsets.data (), columns.data (), system.values.data (), &handle,
+                           control.data (), info.data ());
+    const Handle<Interface::FREE_SYMBOLIC> symbolic (std::exchange (handle, nullptr));
+    if (!accept (info, "symbolic analysis", solution))
+      return;
+    Interface::NUMERIC (offsets.data (), columns.data (), system.values.data (), symbolic.get (),
+                        &handle, control.data (), info.data ());
+    numeric.reset (handle);
+  }
+  // UMFPACK leaves -1 for figures that it did not compute.
+  const auto figure = [&info] (std::size_t entry) { return std::max (0.0, info[entry]); };
+  solution.peak_bytes =
+      static_cast<std::size_t> (figure (UMFPACK_PEAK_MEMORY) * figure (UMFPACK_SIZE_OF_UNIT));
+  solution.reciprocal_condition = figure (UMFPACK_RCOND);
+  if (!accept (info, "factorization", solution))
+    return;
+  solution.nnz_factors =
+      static_cast<std::size_t> (info[UMFPACK_LNZ] + info[UMFPACK_UNZ]) - system.unknowns ();
+
+  // The factors are only read, so both right-hand sides can be solved at the same time.
+  Eigen::MatrixX2d uv (system.rhs.rows (), 2);
+  std::array<Info, 2> of_side{};
+  parallelTasks (run, 2, [&] (std::size_t side) {
+    const auto at = static_cast<Eigen::Index> (side);
+    Interface::SOLVE (UMFPACK_At, nullptr, nullptr, nullptr, uv.col (at).data (),
+                      system.rhs.col (at).data (), numeric.get (), control.data (),
+                      of_side[side].data ());
+  });
+  if (accept (of_side[0], "solution", solution) && accept (of_side[1], "solution", solution))
+    solution.uv = std::move (uv);
+}
+
+} // namespace
+
+void
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,
+                  Solution& solution)
+{
+  const SingleBlasThread single_blas_thread;
+  Control control{};
+  umfpack_di_defaults (control.data ()); // the same for both integers
+  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
+  control[UMFPACK_IRSTEP] = 0.0; // pivots on the diagonal need no refinement
+  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
+  if (ordering == Ordering::NATURAL) {
+    control[UMFPACK_FIXQ] = 1.0;
+    // Without AMD's estimate, UMFPACK would allocate far too much memory in advance. With 0 it
+    // begins with the least memory it needs, and grows in steps.
+    control[UMFPACK_ALLOC_INIT] = 0.0;
+  }
+  const bool is_long = system.unknowns () > LONG_INDEX_UNKNOWNS;
+  if (!is_long)
+    solveWithIndices<IntInterface> (system, control, run, solution);
+  // UMFPACK reports running out of 32-bit indices as running out of memory.
+  if (is_long || solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
+    solveWithIndices<LongInterface> (system, control, run, solution);
+}
+
+} // namespace pcl::floater
