@@ -33,7 +33,8 @@ parsePng (const FileBytes& file)
       bytes, width, height, reinterpret_cast<const unsigned char*> (file.view ().data ()),
       file.view ().size (), LCT_RGB);
   if (error != 0)
-    throw ReadError (std::string ("it is no PNG file that can be read: ") + lodepng_error_text (error));
+    throw ReadError (std::string ("it is no PNG file that can be read: ") +
+                     lodepng_error_text (error));
   ColourImage image{width, height, std::vector<ColourImage::Pixel> (bytes.size () / 3)};
   std::memcpy (image.pixels.data (), bytes.data (), bytes.size ());
   return image;
