@@ -35,6 +35,8 @@ function (pcl_floater_in_batches target)
   get_target_property (sources ${target} SOURCES)
   foreach (source IN LISTS sources)
     get_filename_component (folder "${source}" DIRECTORY)
+    # Small folders of src are with the sources beside them.
+    string (REGEX REPLACE "^(options|report|input|pcl_class)$" "" folder "${folder}")
     string (MAKE_C_IDENTIFIER "in_${folder}" group)
     set_source_files_properties ("${source}" PROPERTIES UNITY_GROUP "${group}")
   endforeach ()

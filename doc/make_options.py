@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what the table of options (src/option_rows.h) says into doc/options.md and the stubs of the Python module.
+"""Writes what the table of options (src/options/option_rows.h) says into doc/options.md and the stubs of the Python module.
 
 Usage: make_options.py [--check] FOLDER
 FOLDER has the built package pcl_floater: build/dev/tools/python. With --check nothing is written, and the exit code is

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_geometry.h"
 
-#include "check_input.h"
+#include "input/check_input.h"
 #include "points/noise_projection.h"
 #include "points/outliers.h"
-#include "report_cloud.h"
+#include "report/report_cloud.h"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 
 #include "local/local_geometry.h"
 #include "mesh/facing.h"
+#include "options/request.h"
 #include "points/neighbors.h"
 #include "points/noise.h"
-#include "request.h"
 
 #include <pcl/surface/floater/report.h>
 

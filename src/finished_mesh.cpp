@@ -5,7 +5,7 @@
 #include "mesh/flips.h"
 #include "mesh/self_intersection_removal.h"
 #include "mesh/trimming.h"
-#include "report_mesh.h"
+#include "report/report_mesh.h"
 
 #include <utility>
 

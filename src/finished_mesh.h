@@ -7,8 +7,8 @@
 #include "local/local_geometry.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
+#include "options/request.h"
 #include "points/points.h"
-#include "request.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

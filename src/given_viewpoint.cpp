@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "given_viewpoint.h"
 
-#include "check_input.h"
 #include "cloud_geometry.h"
+#include "input/check_input.h"
 #include "view/area_evidence.h"
 #include "view/view_method.h"
 #include "view/viewpoint_search.h"

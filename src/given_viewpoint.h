@@ -3,8 +3,8 @@
 // Whether a viewpoint that the user gives may be wrong.
 #pragma once
 
+#include "options/request.h"
 #include "points/points.h"
-#include "request.h"
 #include "view/rays.h"
 
 #include <optional>

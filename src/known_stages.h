@@ -5,10 +5,10 @@
 
 #include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
+#include "options/request.h"
 #include "parts/parts_method.h"
 #include "points/noise.h"
 #include "points/points.h"
-#include "request.h"
 #include "view/area_evidence.h"
 
 #include <pcl/surface/floater/reconstruct.h>

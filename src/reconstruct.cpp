@@ -7,18 +7,18 @@
 
 #include "cloud_geometry.h"
 #include "finished_mesh.h"
+#include "input/working_set.h"
 #include "known_stages.h"
 #include "local/star_agreement.h"
+#include "options/published_method.h"
+#include "options/request.h"
+#include "options/unused_options.h"
 #include "problem_of_exception.h"
-#include "published_method.h"
 #include "reconstruct_parts.h"
 #include "reconstruct_view.h"
-#include "report_cloud.h"
-#include "report_mesh.h"
-#include "report_text.h"
-#include "request.h"
-#include "unused_options.h"
-#include "working_set.h"
+#include "report/report_cloud.h"
+#include "report/report_mesh.h"
+#include "report/report_text.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 // The entry of the core with other limits than the usual ones, for tests.
 #pragma once
 
-#include "stage_limits.h"
+#include "options/stage_limits.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

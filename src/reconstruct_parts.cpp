@@ -5,7 +5,7 @@
 #include "finished_mesh.h"
 #include "mesh/trimming.h"
 #include "parts/local_parts.h"
-#include "report_mesh.h"
+#include "report/report_mesh.h"
 
 #include <memory>
 #include <optional>

@@ -6,7 +6,7 @@
 #include "finished_mesh.h"
 #include "given_viewpoint.h"
 #include "mesh/mesh_spacing.h"
-#include "report_cloud.h"
+#include "report/report_cloud.h"
 
 #include <utility>
 

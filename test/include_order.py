@@ -8,7 +8,8 @@ import pathlib
 import re
 import sys
 
-ORDER = ["core", "points", "local", "mesh", "floater", "consensus", "parts", "view", "texture", "."]
+ORDER = ["core", "points", "local", "mesh", "floater", "consensus", "parts", "view", "texture", "options", "report", "input",
+         ".", "pcl_class"]
 # Parts of the floater folder; each includes only from those before it.
 WITHIN_FLOATER = ["floater/boundary", "floater/solvers", "floater"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
@@ -21,7 +22,7 @@ def rank(path):
     folder = str(pathlib.PurePosixPath(path).parent)
     top = folder.split("/")[0]
     if top not in ORDER:
-        sys.exit(f"src/{path}: the folder {top} has no place in the order {' '.join(ORDER[:-1])}")
+        sys.exit(f"src/{path}: the folder {top} has no place in the order {' '.join(ORDER)}")
     part = WITHIN_FLOATER.index(folder) if folder in WITHIN_FLOATER else 0
     return ORDER.index(top), part
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings on a mesh, in words that fit their numbers.
-#include "report_mesh.h"
+#include "report/report_mesh.h"
 
 #include "samples.h"
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings on options that have no effect.
-#include "unused_options.h"
+#include "options/unused_options.h"
 
-#include "option_rows.h"
+#include "options/option_rows.h"
 #include "samples.h"
 #include "surfaces.h"
 

@@ -7,7 +7,7 @@
 
 #include "store.h"
 
-#include "request.h"
+#include "options/request.h"
 
 namespace pcl::floater {
 /// The steps that are done for each block, in order. A step starts when the one before is complete

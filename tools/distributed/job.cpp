@@ -4,18 +4,18 @@
 
 #include "atomic_file.h"
 #include "format.h"
+#include "input/working_set.h"
 #include "memory_limit.h"
 #include "mesh_normals.h"
 #include "mesh_writer.h"
+#include "options/published_method.h"
 #include "precision.h"
 #include "prepared_input.h"
-#include "published_method.h"
 #include "report_json.h"
 #include "stored_mesh.h"
 #include "stored_stages.h"
 #include "summary.h"
 #include "tiles.h"
-#include "working_set.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "job.h"
 
-#include "check_options.h"
 #include "format.h"
 #include "option_kinds.h"
-#include "option_rows.h"
 #include "option_table.h"
+#include "options/check_options.h"
+#include "options/option_rows.h"
 #include "usage_message.h"
 
 #include <CLI/CLI.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stored_stages.h"
 
-#include "report_cloud.h"
+#include "report/report_cloud.h"
 #include "stored_cloud.h"
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of the Python module pcl_floater. The part in Python checks what arrays it
 // gets, and makes exceptions and meshes of what this one returns.
-#include "check_input.h"
-#include "check_options.h"
+#include "input/check_input.h"
 #include "keywords.h"
 #include "mesh_functions.h"
+#include "options/check_options.h"
+#include "options/published_method.h"
 #include "point_rows.h"
-#include "published_method.h"
 #include "report_json.h"
 #include "result_arrays.h"
 #include "watch.h"

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_line.h"
 
-#include "check_options.h"
 #include "memory_limit.h"
 #include "option_kinds.h"
-#include "option_rows.h"
 #include "option_table.h"
-#include "published_method.h"
+#include "options/check_options.h"
+#include "options/option_rows.h"
+#include "options/published_method.h"
 #include "texture_output.h"
 #include "usage_message.h"
 

@@ -3,12 +3,12 @@
 // The command line of pcl_floater_reconstruct.
 #pragma once
 
-#include "choices.h"
 #include "cloud_reader.h"
 #include "exit_codes.h"
 #include "mesh_writer.h"
+#include "options/choices.h"
+#include "options/stage_limits.h"
 #include "precision.h"
-#include "stage_limits.h"
 
 #include <pcl/surface/floater/options.h>
 

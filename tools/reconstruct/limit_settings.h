@@ -3,7 +3,7 @@
 // Limits of the stages by name, which tests and benchmarks vary: --limit NAME=VALUE.
 #pragma once
 
-#include "stage_limits.h"
+#include "options/stage_limits.h"
 
 #include <optional>
 #include <string>

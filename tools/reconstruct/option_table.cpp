@@ -5,7 +5,7 @@
 #include "limit_settings.h"
 #include "memory_limit.h"
 #include "option_kinds.h"
-#include "option_rows.h"
+#include "options/option_rows.h"
 
 #include <functional>
 

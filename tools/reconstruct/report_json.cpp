@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
-#include "option_rows.h"
+#include "options/option_rows.h"
 
 #include <nlohmann/json.hpp>
 

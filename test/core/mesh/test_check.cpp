@@ -5,7 +5,7 @@
 
 #include "mesh/known_meshes.h"
 #include "mesh/triangle_mesh.h"
-#include "report_mesh.h"
+#include "report/report_mesh.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the report says about an examined mesh.
 #include "mesh/known_meshes.h"
-#include "report_mesh.h"
+#include "report/report_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include "parts/parts_method.h"
 
 #include "mesh_oracle.h"
+#include "options/stage_limits.h"
 #include "part_samples.h"
 #include "reconstruct.h"
-#include "stage_limits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What decided on the front of each part of the mesh, and how sure that is.
-#include "report_mesh.h"
-#include "report_text.h"
+#include "report/report_mesh.h"
+#include "report/report_text.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "working_set.h"
+#include "input/working_set.h"
 
-#include "check_input.h"
-#include "check_options.h"
-#include "input_cleaning.h"
-#include "report_cloud.h"
+#include "input/check_input.h"
+#include "input/input_cleaning.h"
+#include "options/check_options.h"
+#include "report/report_cloud.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 // The method of TW 385 and nothing else: what goes beyond it is turned off.
 #pragma once
 
-#include "stage_limits.h"
+#include "options/stage_limits.h"
 
 #include <pcl/surface/floater/options.h>
 

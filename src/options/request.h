@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/run_context.h"
-#include "stage_limits.h"
+#include "options/stage_limits.h"
 
 #include <array>
 

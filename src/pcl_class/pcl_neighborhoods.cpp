@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pcl_neighborhoods.h"
+#include "pcl_class/pcl_neighborhoods.h"
 
 #include <pcl/features/impl/normal_3d.hpp>
 #include <pcl/features/normal_3d.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report_cloud.h"
+#include "report/report_cloud.h"
 
-#include "report_text.h"
+#include "report/report_text.h"
 
 #include <algorithm>
 #include <iterator>

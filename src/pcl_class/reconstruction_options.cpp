@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The setters and getters of options.
-#include "reconstruction_data.h"
+#include "pcl_class/reconstruction_data.h"
 
 #include <utility>
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "check_options.h"
+#include "options/check_options.h"
 
 #include "floater/solvers/solver.h"
-#include "option_rows.h"
+#include "options/option_rows.h"
 
 #include <cmath>
 #include <cstdio>

@@ -5,7 +5,7 @@
 // doc/options.md.
 #pragma once
 
-#include "choices.h"
+#include "options/choices.h"
 
 #include <pcl/surface/floater/options.h>
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/problem.h"
+#include "options/request.h"
 #include "points/points.h"
-#include "request.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

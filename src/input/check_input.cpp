@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "check_input.h"
+#include "input/check_input.h"
 
 #include "core/types.h"
-#include "request.h"
+#include "options/request.h"
 
 #include <algorithm>
 #include <functional>

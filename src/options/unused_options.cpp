@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "unused_options.h"
+#include "options/unused_options.h"
 
-#include "option_rows.h"
+#include "options/option_rows.h"
 
 #include <utility>
 
