@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -138,8 +139,12 @@ decodeDiscOptions (ByteSource& bytes, std::size_t points, Options& options)
   options.disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
   options.disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
   options.disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
-  options.disc.solver.method = decodeEnum (bytes, Solver::GAUSS_SEIDEL);
-  options.disc.solver.ordering = decodeEnum (bytes, Ordering::NATURAL);
+  constexpr std::array<Solver, 4> SOLVERS{Solver::UMFPACK, Solver::SUPERLU, Solver::BICGSTAB_ILUT,
+                                          Solver::GAUSS_SEIDEL};
+  constexpr std::array<Ordering, 5> ORDERINGS{Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS,
+                                              Ordering::REVERSE_CUTHILL_MCKEE, Ordering::NATURAL};
+  options.disc.solver.method = SOLVERS[bytes.below (SOLVERS.size ())];
+  options.disc.solver.ordering = ORDERINGS[bytes.below (ORDERINGS.size ())];
   options.disc.boundary.cluster_k = static_cast<int> (bytes.below (40));
   options.disc.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
   options.disc.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;

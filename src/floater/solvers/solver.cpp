@@ -8,8 +8,8 @@
 
 namespace pcl::floater {
 namespace {
-// Above this number, METIS takes about as long as AMD, factorization included, and its factors are
-// smaller by a quarter to a third (discs of 300,000 points).
+// Above this number, memory counts: METIS's factors are smaller than AMD's by a quarter to a third,
+// and solving takes as long, or up to 1.6 times as long (four discs of 300,000 points).
 constexpr std::size_t METIS_UNKNOWNS = 100'000;
 
 // Pivots on the diagonal: a system counts as singular if its reciprocal condition is below this.

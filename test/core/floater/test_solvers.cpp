@@ -133,7 +133,7 @@ TEST (Solvers, AgreeWithADenseFactorization)
   for (const int n : {1, 2, 10, 300}) {
     LinearSystem system = randomSystem (n, random);
     if (n == 10)
-      system.rhs.col (1).setZero ();
+      system.rhs.col (0).setZero ();
     const Eigen::MatrixX2d expected = denseMatrix (system).partialPivLu ().solve (system.rhs);
     for (const Solver solver : allSolvers ())
       for (const Ordering ordering : ALL_ORDERINGS) {
