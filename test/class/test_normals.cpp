@@ -94,50 +94,6 @@ TEST_F (FloaterClass, NormalsDecideWhichSideIsTheFront)
   EXPECT_NE (floater.getReport ().warnings.front ().find ("contradict"), std::string::npos);
 }
 
-// The planes of PCL, whose signs tell nothing, do not decide in the method of TW 385.
-TEST_F (FloaterClass, TheMethodOfTheReportFacesAsUsual)
-{
-  const Cloud::Ptr cloud = heightField (2000);
-  const auto triangles = [&cloud] (const DiscOptions& disc) {
-    pcl::FloaterReconstruction<pcl::PointXYZ> floater;
-    floater.setTopology (Topology::DISC);
-    floater.setDiscOptions (disc);
-    floater.setInputCloud (cloud);
-    Polygons polygons;
-    floater.reconstruct (polygons);
-    EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
-    EXPECT_EQ (floater.getReport ().facing_parts[static_cast<std::size_t> (FacingRule::NORMALS)],
-               0U);
-    return polygons.size ();
-  };
-  EXPECT_GT (triangles (DiscOptions::tw385 ()), 0U);
-  EXPECT_GT (triangles ({}), 0U);
-}
-
-TEST_F (FloaterClass, PointsWithoutNormalsCannotFaceByThem)
-{
-  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
-  floater.setFacing (Facing::NORMALS);
-  floater.setInputCloud (heightField ());
-  Polygons polygons;
-  floater.reconstruct (polygons);
-  EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
-  EXPECT_NE (floater.getMessage ().find ("no normals"), std::string::npos);
-  EXPECT_TRUE (polygons.empty ());
-}
-
-TEST_F (FloaterClass, PointsWithoutNormalsHaveNoneToUse)
-{
-  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
-  floater.setUseInputNormals (true);
-  floater.setInputCloud (heightField ());
-  Polygons polygons;
-  floater.reconstruct (polygons);
-  EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
-  EXPECT_NE (floater.getMessage ().find ("no normals"), std::string::npos);
-  EXPECT_TRUE (polygons.empty ());
-}
-
 // The neighbours and planes of PCL give the mesh that the core's own give, but for ties.
 TEST_F (FloaterClass, TheMethodOfTheReportTakesPclsOwnParts)
 {
