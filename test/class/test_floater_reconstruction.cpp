@@ -61,14 +61,6 @@ TEST_F (FloaterClass, MakesADiscOfAHeightField)
   EXPECT_EQ (statistics.unknowns, cloud->size () - floater.getBoundaryLoop ().size ());
 }
 
-TEST_F (FloaterClass, MakesADiscOfAHemisphere)
-{
-  Floater floater;
-  const Cloud::Ptr cloud = makeCloud<pcl::PointXYZ> (SurfaceKind::HEMISPHERE, 800);
-  floater.setInputCloud (cloud);
-  runDisc (floater, allOf (cloud->size ()));
-}
-
 TEST_F (FloaterClass, IsDropInThroughTheBaseClasses)
 {
   const Cloud::Ptr cloud = heightField ();
@@ -233,25 +225,6 @@ TEST_F (FloaterClass, RefusesNoInput)
   floater.setInputCloud (nullptr);
   expectFailure (floater, RunStatus::NO_INPUT);
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
-}
-
-TEST_F (FloaterClass, RefusesWhatIsNoDisc)
-{
-  Floater floater;
-  floater.setInputCloud (makeCloud<pcl::PointXYZ> (SurfaceKind::SPHERE, 500));
-  expectFailure (floater, RunStatus::NO_BOUNDARY);
-
-  const Cloud::Ptr line (new Cloud);
-  for (int i = 0; i < 50; ++i)
-    line->push_back (pcl::PointXYZ (static_cast<float> (i), 0.0F, 0.0F));
-  floater.setInputCloud (line);
-  expectFailure (floater, RunStatus::DEGENERATE);
-
-  line->resize (3);
-  expectFailure (floater, RunStatus::TOO_FEW_POINTS);
-  const Cloud::Ptr nothing (new Cloud (10, 10, pcl::PointXYZ (NOWHERE, NOWHERE, NOWHERE)));
-  floater.setInputCloud (nothing);
-  expectFailure (floater, RunStatus::TOO_FEW_POINTS);
 }
 
 TEST_F (FloaterClass, WarnsOfPointsApart)

@@ -15,27 +15,6 @@ namespace {
 using Mesher = pcl::FloaterMeshConstruction<pcl::PointXYZ>;
 using State = ReconstructionState::PointState;
 
-TEST_F (FloaterClass, MakesTrianglesWithoutACopyOfTheCloud)
-{
-  Floater floater;
-  floater.setInputCloud (heightField ());
-  const Triangles expected = runWell (floater);
-  Polygons polygons (5);
-  floater.reconstruct (polygons);
-  EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS);
-  EXPECT_EQ (trianglesOf (polygons), expected);
-
-  floater.setKSearch (5);
-  floater.reconstruct (polygons);
-  EXPECT_EQ (floater.getStatus (), RunStatus::INVALID_OPTION);
-  EXPECT_TRUE (polygons.empty ());
-  polygons.resize (5);
-  Floater without_cloud;
-  without_cloud.reconstruct (polygons);
-  EXPECT_EQ (without_cloud.getStatus (), RunStatus::NO_INPUT);
-  EXPECT_TRUE (polygons.empty ());
-}
-
 TEST_F (FloaterClass, IsDropInForMeshConstruction)
 {
   const Cloud::Ptr cloud = heightField ();
@@ -193,18 +172,6 @@ TEST_F (FloaterClass, TellsWhatEachPointIsInTheMesh)
   expectFailure (floater, RunStatus::INVALID_OPTION);
   EXPECT_TRUE (floater.getPartIDs ().empty ());
   EXPECT_TRUE (floater.getPointStates ().empty ());
-}
-
-// A closed surface has no boundary.
-TEST_F (FloaterClass, AllPointsOfAClosedMeshAreCompleted)
-{
-  const Cloud::Ptr cloud = makeCloud<pcl::PointXYZ> (SurfaceKind::SPHERE, 500);
-  pcl::FloaterReconstruction<pcl::PointXYZ> floater;
-  floater.setInputCloud (cloud);
-  runWell (floater);
-  ASSERT_TRUE (floater.getMeshCheck ().loops.empty ());
-  EXPECT_EQ (floater.getPointStates (), std::vector<int> (cloud->size (), State::COMPLETED));
-  EXPECT_EQ (floater.getPartIDs (), std::vector<int> (cloud->size (), 0));
 }
 
 } // namespace

@@ -63,31 +63,6 @@ TEST_F (FloaterClass, AsksTheUsersSearchMethod)
   EXPECT_EQ (counting->queries, indices->size () - 1);
 }
 
-// The mesh of balls is that of any search.
-TEST_F (FloaterClass, TakesBallsBySearchMethods)
-{
-  const Cloud::Ptr cloud = heightField ();
-  (*cloud)[123].x = std::numeric_limits<float>::quiet_NaN ();
-  for (const Neighborhood neighborhood : {Neighborhood::BALL, Neighborhood::BALL_DELAUNAY}) {
-    Floater floater;
-    floater.setInputCloud (cloud);
-    floater.setNeighborhood (neighborhood);
-    const Triangles expected = runWell (floater);
-    EXPECT_EQ (floater.getSearchMethod (), nullptr);
-    floater.setSearchMethod (Search::Ptr (new pcl::search::BruteForce<pcl::PointXYZ>));
-    EXPECT_EQ (runWell (floater), expected);
-    floater.setSearchMethod (nullptr);
-    floater.setBallRadius (4.0);
-    runWell (floater);
-    floater.setNeighborhood (Neighborhood::NEAREST_DELAUNAY);
-    const std::size_t nonzeros = floater.getStatistics ().nnz_matrix;
-    runWell (floater);
-    if (neighborhood == Neighborhood::BALL) {
-      EXPECT_GT (nonzeros, 2 * floater.getStatistics ().nnz_matrix);
-    }
-  }
-}
-
 class ThrowingSearch : public pcl::search::KdTree<pcl::PointXYZ>
 {
 public:

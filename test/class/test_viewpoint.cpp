@@ -92,23 +92,6 @@ TEST_F (ViewpointOfTheClass, AnOrganizedCloudHasTheSameMesh)
   }
 }
 
-// Points that are left out by indices are pixels without a point.
-TEST_F (ViewpointOfTheClass, IndicesOfAnOrganizedCloud)
-{
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud = frameFrom ({0.0, 0.0, 0.0});
-  cloud->height = 140;
-  cloud->width = 110;
-  const auto indices = pcl::make_shared<pcl::Indices> ();
-  for (std::size_t p = 0; p < cloud->size (); ++p)
-    if (p % 29 != 0)
-      indices->push_back (static_cast<pcl::index_t> (p));
-  floater_.setInputCloud (cloud);
-  floater_.setIndices (indices);
-  const Report& report = reconstruct ();
-  EXPECT_TRUE (report.is_view_by_pixels);
-  EXPECT_EQ (report.statistics.selected_points, indices->size ());
-}
-
 TEST_F (ViewpointOfTheClass, ASheetFacesTheSensorOfItsCloud)
 {
   // Points at random, so that their rays are not those of one view.
@@ -136,41 +119,6 @@ TEST_F (ViewpointOfTheClass, ASheetFacesTheSensorOfItsCloud)
       ASSERT_GT (z * height, 0.0F);
     }
   }
-}
-
-TEST_F (ViewpointOfTheClass, AViewPointIsTakenAsItIs)
-{
-  EXPECT_EQ (floater_.getViewUse (), ViewUse::AUTO);
-  floater_.setInputCloud (frameFrom ({3.0, -2.0, 5.0}));
-  floater_.setViewPoint (3.0, -2.0, 5.0);
-  EXPECT_EQ (floater_.getViewUse (), ViewUse::GIVEN);
-  EXPECT_EQ (floater_.getViewPoint (), (std::array<double, 3>{3.0, -2.0, 5.0}));
-  EXPECT_TRUE (reconstruct ().is_view);
-}
-
-TEST_F (ViewpointOfTheClass, ViewsCanBeTurnedOff)
-{
-  floater_.setViewUse (ViewUse::NEVER);
-  EXPECT_EQ (floater_.getViewUse (), ViewUse::NEVER);
-  EXPECT_FALSE (reconstruct ().is_view);
-}
-
-TEST_F (ViewpointOfTheClass, ADiscHasNone)
-{
-  floater_.setViewPoint (0.0, 0.0, 0.0);
-  floater_.setTopology (Topology::DISC);
-  pcl::PolygonMesh mesh;
-  floater_.reconstruct (mesh);
-  EXPECT_EQ (floater_.getStatus (), RunStatus::INVALID_OPTION);
-  EXPECT_TRUE (mesh.polygons.empty ());
-}
-
-TEST_F (ViewpointOfTheClass, ItMustBeFinite)
-{
-  floater_.setViewPoint (0.0, std::nan (""), 0.0);
-  pcl::PolygonMesh mesh;
-  floater_.reconstruct (mesh);
-  EXPECT_EQ (floater_.getStatus (), RunStatus::INVALID_OPTION);
 }
 
 } // namespace

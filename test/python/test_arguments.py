@@ -15,21 +15,16 @@ SQUARE = np.zeros((9, 3))
 @pytest.mark.parametrize("points, kind, text", [
     (np.zeros((5, 3), int), TypeError, "points must be an array of float32 or float64, not int64; "
                                        "numpy.asarray(points, float) converts it"),
-    (np.zeros((5, 3), np.float16), TypeError, "not float16"),
     (np.zeros((5, 3), np.longdouble), TypeError, "float128"),
     (np.zeros((5, 3), ">f4"), TypeError, "not >f4"),
-    (np.zeros((5, 3), complex), TypeError, "not complex128"),
     (None, TypeError, "not object"),
     ("scan.pcd", TypeError, "not <U8"),
     (np.zeros(5, [("x", "f4"), ("y", "f4"), ("z", "f4")]), TypeError,
      "points is an array with the fields x, y, z; use numpy.column_stack"),
     (np.ma.zeros((5, 3)), TypeError, "points is a masked array, whose mask would be lost"),
     (np.zeros((5, 4)), ValueError, r"points must have the shape (n, 3) or (rows, columns, 3), not (5, 4)"),
-    (np.zeros((3, 5)), ValueError, "not (3, 5)"),
     (np.zeros(3), ValueError, "not (3,)"),
-    (np.zeros((2, 3, 5)), ValueError, "not (2, 3, 5)"),
     (np.zeros((2, 2, 5, 3)), ValueError, "not (2, 2, 5, 3)"),
-    (np.zeros((2, 5, 3), int), TypeError, "not int64"),
     (1.5, ValueError, "not ()"),
 ])
 def test_wrong_points(points, kind, text):
@@ -45,43 +40,29 @@ def test_wrong_points(points, kind, text):
     (dict(normals=SQUARE, facing="up"), ValueError, "normals are given, but facing does not ask for them"),
     (dict(use_input_normals=True), ValueError, "use_input_normals=True needs normals"),
     (dict(facing="normals"), ValueError, "the points have no normals"),
-    (dict(facing="viewpoint", viewpoint="none"), ValueError, "no viewpoint is looked for"),
     (dict(sensor_origin=(1, 2)), ValueError, "sensor_origin must be three numbers, not (1, 2)"),
     (dict(sensor_origin=(1, 2, np.nan)), ValueError, "sensor_origin must have finite coordinates"),
     (dict(sensor_origin="here"), TypeError, "sensor_origin must be three numbers, not 'here'"),
-    (dict(sensor_origin=5), TypeError, "sensor_origin must be three numbers, not 5"),
     (dict(topology="ring"), ValueError, "topology must be one of 'auto', 'disc', 'surface', not 'ring'"),
     (dict(holes="close_all"), ValueError, "'close-all'"),
-    (dict(holes=None), TypeError, "holes must be one of"),
     (dict(viewpoint=None), TypeError, "'none' says that the cloud is no single scan"),
     (dict(viewpoint="here"), ValueError, "viewpoint must be 'auto', 'none' or three numbers, not 'here'"),
-    (dict(viewpoint=(1, 2, 3, 4)), ValueError, "viewpoint must be three numbers"),
-    (dict(viewpoint=(1, 2, "3")), TypeError, "viewpoint must be three numbers"),
     (dict(viewpoint=(1, 2, np.inf)), ValueError, "viewpoint must have finite coordinates"),
-    (dict(viewpoint=(0, 0, 9), topology="disc"), ValueError, "viewpoint is of no use for a disc"),
     (dict(neighbors=5), ValueError, "neighbors must be from 6 to 200"),
     (dict(neighbors=20.0), TypeError, "neighbors must be a whole number, not 20.0"),
     (dict(neighbors=True), TypeError, "neighbors must be a whole number, not True"),
-    (dict(neighbors="20"), TypeError, "neighbors must be a whole number, not '20'"),
     (dict(threads=2**31), ValueError, "threads must be a number of 32 bits"),
-    (dict(threads=-2**100), ValueError, "threads must be a number of 32 bits"),
-    (dict(threads=-1), ValueError, "threads must be 0 or more"),
-    (dict(max_edge="1"), TypeError, "max_edge must be a number, not '1'"),
     (dict(max_edge=False), TypeError, "max_edge must be a number, not False"),
-    (dict(max_edge=np.nan), ValueError, "max_edge must be 0 or more"),
     (dict(holes="by-size"), ValueError, "holes by size need"),
     (dict(holes="by-size", largest_hole=1, largest_hole_length=1), ValueError, "give one of them"),
     (dict(denoise=1), TypeError, "denoise must be True or False, not 1"),
-    (dict(denoise="on"), TypeError, "denoise must be True or False, not 'on'"),
     (dict(strict="yes"), TypeError, "strict must be True or False, not 'yes'"),
     (dict(progress=1), TypeError, "progress must be a callable, not 1"),
-    (dict(tolerance=1), ValueError, "tolerance must be above 0 and below 1"),
     (dict(solver="eigen-sparse-lu"), ValueError, "umfpack"),
     (dict(loop=[[0, 1, 2]]), ValueError, "not an array of the shape (1, 3)"),
     (dict(loop=[0.0, 1.0, 2.0]), TypeError, "loop must be a list of whole numbers, not of float64"),
     (dict(loop=[0, -1, 2]), ValueError, "loop has an index that is negative, or too large"),
     (dict(loop=[0, 1, 2**32]), ValueError, "loop has an index that is negative, or too large"),
-    (dict(loop=[0, 1, 2], topology="surface"), ValueError, "topology must be disc or auto"),
     (dict(thread=1), TypeError, "thread"),
 ])
 def test_wrong_arguments(arguments, kind, text):
@@ -146,12 +127,9 @@ def test_compiled_part_checks_what_it_gets():
 
 @pytest.mark.parametrize("points, arguments, status, text", [
     (np.zeros((0, 3)), {}, "NO_INPUT", "the input cloud is empty"),
-    (np.zeros((0, 3), np.float32), {}, "NO_INPUT", "the input cloud is empty"),
     (np.full((9, 3), np.nan), {}, "TOO_FEW_POINTS", ""),
-    (np.zeros((9, 3)), {}, "TOO_FEW_POINTS", ""),
     (np.outer(np.arange(9.0), [1, 1, 1]), {}, "DEGENERATE", ""),
     (np.zeros((9, 3)), dict(loop=[0, 1]), "INVALID_LOOP", "fewer than 3 points"),
-    (np.zeros((9, 3)), dict(loop=[]), "TOO_FEW_POINTS", ""),
 ])
 def test_failures(points, arguments, status, text):
     with pytest.raises(pcl_floater.FloaterError) as raised:
@@ -163,19 +141,6 @@ def test_failures(points, arguments, status, text):
     assert error.report["non_finite"] == np.flatnonzero(np.isnan(points[:, 0])).tolist()
     clone = pickle.loads(pickle.dumps(error))
     assert (str(clone), clone.status, clone.report) == (str(error), status, error.report)
-
-
-def test_closed_surface_is_no_disc(torus_points):
-    with pytest.raises(pcl_floater.FloaterError) as raised:
-        pcl_floater.reconstruct(torus_points, topology="disc")
-    assert raised.value.status in ("NO_BOUNDARY", "NOT_A_DISC", "UNREACHABLE")
-
-
-def test_wrong_viewpoint_fails_in_the_run(terrain_points):
-    line = np.stack([np.zeros(50), np.zeros(50), np.arange(50.0)], -1) + [[0.0, 0.0, 1.0]]
-    with pytest.raises(pcl_floater.FloaterError) as raised:
-        pcl_floater.reconstruct(line, viewpoint=(0, 0, -5))
-    assert raised.value.status in ("INVALID_OPTION", "DEGENERATE")
 
 
 def test_strict_refuses_warnings(terrain_points):

@@ -109,7 +109,7 @@ CASES = {
     "ilut_drop": (terrain, ILUT, dict(ilut_drop=0.5)),
     "strict": (terrain, dict(kept_loops=3), dict(strict=True)),
 }
-# Of which the documentation says that they change nothing; see below.
+# Of which the documentation says that they change nothing.
 WITHOUT_EFFECT = {"threads", "blocks", "progress"}
 
 
@@ -136,52 +136,7 @@ def test_all_arguments_are_tried():
     assert set(inspect.signature(pcl_floater.reconstruct).parameters) == {"points", *CASES, *WITHOUT_EFFECT}
 
 
-@pytest.mark.parametrize("arguments", [dict(threads=1), dict(threads=3), dict(blocks=7)])
-def test_threads_and_blocks_change_nothing(torus_points, arguments):
-    expected = pcl_floater.reconstruct(torus_points)
-    mesh = pcl_floater.reconstruct(torus_points, **arguments)
-    assert np.array_equal(mesh.triangles, expected.triangles)
-    (name, value), = arguments.items()
-    assert mesh.report["options"][name] == value
-
-
 def test_option_without_effect_is_told(terrain_points):
     assert pcl_floater.reconstruct(terrain_points).warnings == ()
     mesh = pcl_floater.reconstruct(terrain_points, domain="square")
     assert len(mesh.warnings) == 1 and "effect" in mesh.warnings[0]
-
-
-@pytest.mark.parametrize("solver", ["umfpack", "superlu", "bicgstab-ilut"])
-def test_solvers_agree(terrain_points, solver):
-    expected = pcl_floater.reconstruct(terrain_points, topology="disc")
-    try:
-        mesh = pcl_floater.reconstruct(terrain_points, topology="disc", solver=solver, tolerance=1e-13)
-    except pcl_floater.FloaterError as error:
-        assert (solver, error.status) == ("superlu", "SOLVER_UNAVAILABLE")  # built without it
-        return
-    assert np.allclose(mesh.parameters, expected.parameters, atol=1e-8)
-
-
-def test_facing_normals_turn_the_mesh(terrain_points):
-    def mean_height(mesh):
-        a, b, c = (mesh.points[mesh.triangles[:, corner]] for corner in range(3))
-        return np.cross(b - a, c - a)[:, 2].mean()
-    down = turned_normals(terrain_points)
-    assert mean_height(pcl_floater.reconstruct(terrain_points)) > 0
-    for arguments in (dict(), dict(facing="normals"), dict(use_input_normals=True)):
-        for dtype in (np.float32, np.float64):
-            mesh = pcl_floater.reconstruct(terrain_points, normals=down.astype(dtype), **arguments)
-            assert mean_height(mesh) < 0
-    unknown = down.copy()
-    unknown[::2] = np.nan
-    assert mean_height(pcl_floater.reconstruct(terrain_points, normals=unknown)) < 0
-
-
-def test_scan_faces_its_sensor():
-    points = scan()
-    mesh = pcl_floater.reconstruct(points, sensor_origin=(1, 2, 3))
-    assert mesh.report["viewpoint"]["place"] == [1, 2, 3]
-    a, b, c = (points[mesh.triangles[:, corner]] - [1, 2, 3] for corner in range(3))
-    assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0).all()
-    with_place = pcl_floater.reconstruct(points, viewpoint=(1, 2, 3))
-    assert np.array_equal(with_place.triangles, mesh.triangles)

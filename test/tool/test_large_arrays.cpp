@@ -433,18 +433,12 @@ expectBelowLimit (const std::filesystem::path& folder, bool has_pool)
   EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
 }
 
+/// The first arrays of the second run are in the pool, which is then found to be too small.
 TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
 {
   if (IS_SANITIZED)
     GTEST_SKIP () << "a sanitizer's own memory is resident, too";
   expectBelowLimit (folder_, false);
-}
-
-/// The first arrays are in the pool, which is then found to be too small.
-TEST_F (LargeArrays, ResidentSetWithPoolStaysBelowTheLimit)
-{
-  if (IS_SANITIZED)
-    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
   expectBelowLimit (folder_, true);
 }
 

@@ -71,12 +71,7 @@ TEST_F (MaxMemory, WhatIsRefused)
 {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--max-memory", "much"}, "'much' is not a size, such as 500M or 2G"},
-      {{"--max-memory", "-2G"}, "'-2G' is not a size"},
-      {{"--max-memory", "2GB"}, "'2GB' is not a size"},
-      {{"--max-memory", ""}, "'' is not a size"},
-      {{"--max-memory", "nan"}, "'nan' is not a size"},
       {{"--max-memory", "0"}, "'0' is too small; it must be "},
-      {{"--max-memory", "2"}, "'2' is too small; it must be "},
       {{"--max-memory", "1M"}, "'1M' is too small; it must be "},
       {{"--scratch", "."}, "--scratch is of no use without --max-memory"},
       {{"--max-memory", "2G", "--topology", "disc"}, "of a disc"},
@@ -88,13 +83,6 @@ TEST_F (MaxMemory, WhatIsRefused)
     arguments.insert (arguments.end (), options.begin (), options.end ());
     expectFailure (arguments, USAGE, cause);
   }
-}
-
-TEST_F (MaxMemory, TooSmallForTheCloud)
-{
-  makeLarge (300);
-  expectFailure ({"large.pcd", "out.ply", "--max-memory", "52M"}, USAGE,
-                 "--max-memory: 52M is too small for 90000 points; use ");
 }
 
 TEST_F (MaxMemory, ScratchFolderThatCannotBeUsed)

@@ -49,35 +49,19 @@ TEST_F (CommandLineTest, MessagesNameWhatWasTyped)
 {
   const std::vector<Mistake> mistakes{
       {{"--thread", "4"}, "there is no option --thread; did you mean --threads?"},
-      {{"--thread=4"}, "there is no option --thread; did you mean --threads?"},
-      {{"-threads", "4"}, "there is no option -threads; did you mean --threads?"},
       {{"--neighbours", "9"}, "there is no option --neighbours; did you mean --neighbors?"},
-      {{"--normal"}, "there is no option --normal; did you mean --normals?"},
-      {{"--reprot", "r.json"}, "there is no option --reprot; did you mean --report?"},
       {{"--frobnicate"}, "there is no option --frobnicate"},
       {{"--facing", "outward"},
        "--facing: 'outward' is none of: auto, outwards, up, viewpoint, normals; did you mean "
        "outwards?"},
-      {{"--ordering", "AMD"},
-       "--ordering: 'AMD' is none of: automatic, amd, metis, reverse-cuthill-mckee, "
-       "natural; did you mean amd?"},
       {{"--holes", "close_all"},
        "--holes: 'close_all' is none of: auto, close-all, keep-largest, keep-count, by-size; did "
        "you mean close-all?"},
-      {{"--input-format", "xml"},
-       "--input-format: 'xml' is none of: auto, pcd, ply, obj, stl, las, xyz, pts"},
       {{"-k", "20x"}, "-k: '20x' is not a whole number"},
-      {{"-k20x"}, "-k: '20x' is not a whole number"},
       {{"--neighbors", "20x"}, "--neighbors: '20x' is not a whole number"},
-      {{"--neighbors=20x"}, "--neighbors: '20x' is not a whole number"},
       {{"-k", "5"}, "-k must be from 6 to 200"},
-      {{"--neighbors", "5"}, "--neighbors must be from 6 to 200"},
-      {{"-j", "-1"}, "-j must be 0 or more"},
-      {{"--max-edge", "-1"}, "--max-edge must be 0 or more"},
       {{"--largest-hole-length", "-1"}, "--largest-hole-length must be 0 or more"},
       {{"-k"}, "-k needs a value, N"},
-      {{"--report"}, "--report needs a value, FILE"},
-      {{"--facing"}, "--facing needs a value, NAME"},
       {{"-k", "20", "--neighbors", "30"}, "--neighbors is given 2 times; give it once"},
       {{"--strict=maybe"}, "--strict takes no value, but has 'maybe'"},
       {{"third.ply"}, "'third.ply' is one file too many: there are one INPUT and one OUTPUT"},
@@ -99,9 +83,6 @@ TEST_F (CommandLineTest, MistypedOptionsComeFirst)
 {
   EXPECT_EQ (run ({"--hlep"}).err,
              "pcl_floater_reconstruct: there is no option --hlep; did you mean --help?\nTry "
-             "--help.\n");
-  EXPECT_EQ (run ({"--thread", "4", "in.pcd", "out.ply"}).err,
-             "pcl_floater_reconstruct: there is no option --thread; did you mean --threads?\nTry "
              "--help.\n");
   EXPECT_EQ (run ({"in.pcd"}).err, "pcl_floater_reconstruct: OUTPUT is required; the simplest "
                                    "command is pcl_floater_reconstruct scan.pcd mesh.ply\nTry "

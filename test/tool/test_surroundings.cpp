@@ -144,12 +144,6 @@ TEST_F (RunSurroundings, OptionsWithoutEffectAreWarnedOf)
   std::vector<std::string> strict = surface;
   strict.emplace_back ("--strict");
   EXPECT_EQ (run (strict).code, WARNINGS);
-  EXPECT_EQ (
-      run ({"in.pcd", "out.ply", "--holes", "keep-largest", "--kept-loops", "3", "--strict"}).code,
-      WARNINGS);
-  EXPECT_EQ (
-      run ({"in.pcd", "out.ply", "--topology", "disc", "--weights", "uniform", "--strict"}).code,
-      0);
 }
 
 } // namespace

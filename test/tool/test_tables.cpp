@@ -317,19 +317,5 @@ TEST_F (CommandLineTest, EveryKindOfTextMakesTheSameMesh)
   }
 }
 
-TEST_F (CommandLineTest, MapCoordinatesInTextKeepTheirDigits)
-{
-  const Sample map = makeSample (true);
-  std::ostringstream text;
-  text << std::setprecision (17);
-  for (const Eigen::Vector3d& p : map.points)
-    text << p.x () << ' ' << p.y () << ' ' << p.z () << '\n';
-  writeFile ("map.xyz", text.str ());
-  ASSERT_EQ (run ({"map.xyz", "map.vtk"}).code, 0);
-  const MeshContent mesh = readVtk (path ("map.vtk"));
-  EXPECT_TRUE (mesh.is_double);
-  EXPECT_EQ (mesh.points, map.points);
-}
-
 } // namespace
 } // namespace pcl::floater
