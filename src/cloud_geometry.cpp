@@ -13,8 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-// Cloud indices of the points that stand for those of a given loop: of equal points, one stands for
-// all. Ascending.
+// Points of a given loop, ascending. Equal points are represented by one of them.
 std::vector<Index>
 pointsOfLoop (const Points& points, std::vector<Index> loop)
 {
@@ -28,7 +27,7 @@ pointsOfLoop (const Points& points, std::vector<Index> loop)
   return loop;
 }
 
-// Points without those that the user's loop names.
+// The points that are not on the user's loop.
 std::vector<Index>
 exceptLoop (std::vector<Index> found, const Points& points, const std::vector<Index>& loop)
 {
@@ -45,7 +44,7 @@ exceptLoop (std::vector<Index> found, const Points& points, const std::vector<In
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search)
 {
-  // The solver of a disc takes so much memory that blocks save nothing.
+  // Blocks save no memory here: the solver of a disc needs far more.
   return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
 }
 
@@ -98,7 +97,7 @@ measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable
                              run, limits.planes);
     if (options.denoise)
       noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
-    noise.scatter.clear (); // all of it has been taken out
+    noise.scatter.clear (); // all scatter has been removed
   }
   return options.denoise ? noise : Noise{};
 }

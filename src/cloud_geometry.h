@@ -12,45 +12,45 @@
 #include <pcl/surface/floater/report.h>
 
 namespace pcl::floater {
-/// \param search of the caller; nullptr: a kd-tree of the core's
+/// \param search of the caller; nullptr: the kd-tree of the core
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search);
 
-/// Beyond TW 385: takes out points that lie off any surface, which would be woven in as spikes.
-/// Those that the user's loop names stay.
+/// Beyond TW 385: removes points that lie off any surface, which would become spikes. Points of the
+/// user's loop are kept.
 void
 removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
                 const Request& request, Report& report);
 
-/// The same of outliers that are known, ascending; neighbours are not renewed.
+/// Removes outliers that were found before, ascending; does not renew neighbours.
 void
 removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report);
 
-/// Measures noise and looks for scatter, which has no surface at any scale; it is taken out if that
-/// is asked for, but for points that the user's loop names.
-/// \param planes of the points; made anew where points are taken out
-/// \param neighbors those of the planes
-/// \return nothing noisy if noise is not to be projected away
-/// \param known  of every NOISE_PROBES-th point, if they have been measured before
+/// Measures noise and finds scatter: points without a surface at any scale. Removes scatter if that
+/// is requested, except points of the user's loop.
+/// \param planes of the points; renewed if points are removed
+/// \param neighbors from which the planes were made
+/// \param known of every NOISE_PROBES-th point, if measured before
+/// \return nothing noisy if denoising is off
 Noise
 measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable& neighbors,
                         const NeighborSettings& settings, const Request& request,
                         const NoiseProbes* known, Report& report);
 
-/// How the stars of the points are made.
+/// Settings for the stars of the points.
 StarSettings
 starSettings (const Request& request);
 
-/// Beyond TW 385: projects noisy points on the planes of the points around, by which they are
-/// connected. The mesh is triangles only, so the user's points stay where they are.
-/// \param neighbors of the points as they lie
+/// Beyond TW 385: projects noisy points on local planes, by which they are connected. The mesh has
+/// triangles only, so the user's points stay unchanged.
+/// \param neighbors of the unprojected points
 /// \return the geometry around each projected point
 LocalGeometry
 projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
               const NeighborSettings& settings, const Request& request);
 
-/// What tells which side of a component is its front, as the options ask for it. The normals are
-/// those of the points, which must outlive the hints.
+/// Evidence for the front of a component, as the options ask for it. Refers to the normals of the
+/// points, which must outlive the result.
 FacingHints
 facingHints (const Points& points, const Request& request);
 

@@ -11,9 +11,8 @@
 
 namespace pcl::floater {
 namespace {
-// Also looks for triangles that cross each other. Not for scans that are connected as their sensor
-// saw them: it would take a quarter of their time, and noise along the rays makes true surfaces
-// cross themselves, too.
+// Examines the mesh, and finds self-intersections. Skips them for views: the search would take a
+// quarter of the time, and noise along the rays makes true surfaces cross themselves.
 MeshExamination
 examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
                      const Request& request)
@@ -83,7 +82,8 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =
         trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
-    std::vector<Index> unused = std::move (found.unused); // but for those that are cut off now
+    std::vector<Index> unused = std::move (found.unused); // without points that trimming leaves
+                                                          // unused
     found = report.is_view ? examine (mesh, points, geometry, request)
                            : examineWithCrossing (mesh, points, geometry, request);
     found.unused = std::move (unused);

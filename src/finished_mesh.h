@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The end of every way: the mesh is checked, triangles that cross each other are moved apart, what
-// is asked for is cut off, and the rest is reported.
+// The end of each method: checks the mesh, removes self-intersections, trims, and reports.
 #pragma once
 
 #include "local/local_geometry.h"
@@ -20,14 +19,12 @@ MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request);
 
-/// Whether triangles that cross each other are moved apart. Not where points lie off the surface by
-/// noise, so that they were projected to connect them: the true triangles cross each other there,
-/// too.
+/// Whether self-intersections are removed. Not where noisy points were projected: the true
+/// triangles cross each other there.
 bool
 removesCrossings (const Points& points, const Options& options);
 
-/// Finds triangles that cross each other. Where there are any, changes the mesh and examines it
-/// again.
+/// Finds self-intersections. If there are any, changes the mesh and examines it again.
 /// \param complete called before neighbours and normals of the geometry are read; may be empty
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
@@ -35,14 +32,14 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
          const std::function<void ()>& complete = {});
 
 /// Makes the result of a mesh.
-/// \return INTERNAL_ERROR if it is no oriented manifold, DEGENERATE if it is empty, or
-/// nothing is left of it
+/// \return INTERNAL_ERROR unless it is an oriented manifold; DEGENERATE if no triangle is left
 Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
          const LocalGeometry& geometry, const Request& request, Result& result);
 
-/// The same of a mesh whose triangles are elsewhere; nothing is cut off.
-/// \param triangles number of them
+/// Checks and reports like useMesh (), for a mesh whose triangles are stored elsewhere. Trims
+/// nothing.
+/// \param triangles number of triangles
 Problem
 reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
                 const Points& points, const Request& request, Report& report);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a viewpoint that the user gives may be wrong.
+// Test of a viewpoint that the user gave.
 #pragma once
 
 #include "options/request.h"
@@ -10,11 +10,11 @@
 #include <optional>
 
 namespace pcl::floater {
-/// Another place from which the points look evenly spaced, if they do not as seen from the given
-/// one: then that is likely to be wrong. The origin of the sensor that the file tells is tried
-/// first, then a place is searched. Clouds that look even from nowhere, such as a scan that was
-/// thinned at random, tell nothing. 0.1 microseconds per point where the given place is right, as
-/// long as a search for the viewpoint otherwise.
+/// If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
+/// that one. The given one is then likely to be wrong. First the sensor origin in the file is
+/// tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
+/// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
+/// otherwise the time of a search.
 std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request);
 

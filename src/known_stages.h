@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of a run that were made before: by other processes, each for a block of the points.
+// Stage results that were computed before, by other processes, each for a block of the points.
 #pragma once
 
 #include "consensus/consensus_mesh.h"
@@ -24,17 +24,16 @@ class KnownStages
 public:
   virtual ~KnownStages () = default;
 
-  /// The points of takePoints, and what that told the report.
+  /// The points of takePoints (), which also fills the report.
   virtual Points points (Report& report) = 0;
 
   /// Points that lie off any surface, ascending.
   virtual std::vector<Index> outliers () = 0;
 
-  /// Of points without outliers: the neighbours, with those beside lines. Row i is that of
-  /// points[i].
+  /// Neighbours of points without outliers, far neighbours included. Row i belongs to points[i].
   virtual CsrLists neighborsOf (const std::vector<Index>& points) = 0;
 
-  /// Of all points without outliers: `neighbors`, with those beside lines. The rest is not read.
+  /// Planes of all points without outliers; only `neighbors`, far neighbours included, is read.
   virtual LocalPlanes planes () = 0;
 
   /// See takeAreaSamples.
@@ -44,27 +43,27 @@ public:
   virtual NoiseProbes noiseProbes () = 0;
 
   /// The geometry around each point.
-  /// \param with_stars whether their lists are read
+  /// \param with_stars whether the star lists are read
   virtual LocalGeometry geometry (LocalPlanes planes, bool with_stars) = 0;
 
-  /// The spacing of that geometry alone.
+  /// The spacing of geometry ().
   virtual std::vector<float> spacing () = 0;
 
-  /// The parts of a cloud that has several, as they are meshed where that geometry is known.
-  /// \param scatter points around which the cloud is flat at no scale, ascending
+  /// The parts of a large cloud, to be meshed where their geometry is stored.
+  /// \param scatter points around which the cloud is not flat at any scale, ascending
   virtual std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter,
                                            const PartsSettings& settings) = 0;
 
-  /// The candidates of these stars, of a cloud that is one part.
+  /// The candidates of the stars, for a cloud that is one part.
   virtual ProposedTriangles triangles () = 0;
 
-  /// Takes the mesh of a cloud that has several parts. The result has no triangles then.
-  /// \param mesh with cloud indices as corners of its seam
+  /// Takes the mesh of a cloud with several parts. The result then has no triangles.
+  /// \param mesh its seam has cloud indices as corners
   virtual void keepMesh (MeshOfParts mesh) = 0;
 };
 
-/// Reconstructs a surface of which these stages are known.
-/// \param input without points: what else is known of the cloud
+/// Reconstructs a surface from known stages.
+/// \param input without points; the rest as usual
 Result
 reconstruct (Input input, const Options& options, const Limits& limits, KnownStages& known);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole way of a cloud: points, neighbours, outliers, noise, the geometry around each point;
-// then a disc laid out in the plane, or a surface of any topology out of stars; then one check. One
-// scan whose viewpoint is known is connected as the sensor saw it, without neighbours.
+// The pipeline of a cloud: points, neighbours, outliers, noise, local geometry; then a disc laid
+// out in the plane, or a surface of any topology from stars; then one check. A scan whose viewpoint
+// is known is connected as its sensor saw it, without neighbours.
 #include "reconstruct.h"
 
 #include "cloud_geometry.h"
@@ -120,7 +120,7 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
-// \param geometry if stages are known: without neighbours and normals where these are not needed
+// \param geometry if stages are known: neighbours and normals only where needed
 Problem
 reconstructSurface (Points& points, LocalGeometry geometry, const Request& request,
                     KnownStages* known, Result& result)
@@ -148,7 +148,7 @@ reconstructSurface (Points& points, LocalGeometry geometry, const Request& reque
                   result);
 }
 
-// The neighbours of the planes. If stages are known, they are read when they are needed.
+// The neighbours of the planes; if stages are known, read on demand.
 NeighborTable
 neighborTable (LocalPlanes& planes, KnownStages* known)
 {
@@ -189,7 +189,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return problem;
   run.beginStage (Stage::STARS);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes; // of stages that are known: read when they are needed
+  LocalPlanes planes; // if stages are known: read on demand
   if (known == nullptr)
     planes =
         fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes);
@@ -213,7 +213,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   Noise noise = measureNoiseAndScatter (points, planes, table, settings, request,
                                         probes ? &*probes : nullptr, report);
   if (points.size () != with_scatter)
-    known = nullptr; // all that follows is of fewer points
+    known = nullptr; // the known stages do not fit fewer points
   if (Problem problem = checkPoints (points)) {
     problem.message = "without the " + counted (with_scatter - points.size (), "point", "points") +
                       " of no surface: " + problem.message + "; keep the scatter";
@@ -299,7 +299,7 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
   if (problem.status == RunStatus::CANCELLED) {
     Report cancelled;
     cancelled.statistics = result.report.statistics;
-    result.report = std::move (cancelled); // nothing that takes memory
+    result.report = std::move (cancelled); // must not allocate memory
   }
   result.report.status = problem.status;
   if (problem) {

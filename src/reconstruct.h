@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The entry of the core with other limits than the usual ones, for tests.
+// Entry point of the core with other limits than the default, for tests.
 #pragma once
 
 #include "options/stage_limits.h"
@@ -8,7 +8,7 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
-/// See the function of the same name that takes no limits.
+/// See the overload without limits.
 Result
 reconstruct (Input input, const Options& options, const Limits& limits);
 

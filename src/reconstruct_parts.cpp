@@ -14,7 +14,7 @@
 
 namespace pcl::floater {
 namespace {
-// The work on the parts where it is done, and what has been found of a surface there.
+// The parts, and the results of their surface so far.
 struct PartsInWork
 {
   const Parts& parts;
@@ -41,7 +41,7 @@ public:
   LeftToParts (LeftToParts&&) = delete;
   LeftToParts& operator= (LeftToParts&&) = delete;
 
-  // Brings all of them back.
+  // Restores positions and spacings.
   void takeBack ()
   {
     PointValues values = valuesOfAll (work_, points_.size ());
@@ -56,7 +56,7 @@ private:
   PartWork& work_;
 };
 
-// Uses a surface in parts as a whole, as where something is to be cut off.
+// Assembles the whole mesh from its parts, for example to trim it.
 Problem
 useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& geometry,
               const Request& request, Result& result)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The way of a single scan, which is connected as its sensor saw it.
+// Reconstruction of a single scan, which is connected as its sensor saw it.
 #pragma once
 
 #include "core/problem.h"
@@ -14,20 +14,20 @@
 #include <optional>
 
 namespace pcl::floater {
-/// The viewpoint that is given, or the origin of the sensor if the cloud was seen from there.
+/// The given viewpoint, or the origin of the sensor if the points are evenly spaced from there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
                 const Request& request);
 
-/// One scan, seen from a viewpoint.
-/// \return nothing if too many points are in no triangle of the view, and the viewpoint is not
-/// given
+/// Reconstructs one scan from a viewpoint.
+/// \return nothing if too many points are in no triangle of the view and the viewpoint was not
+///     given
 std::optional<Problem>
 reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
                  Result& result);
 
-/// The same from a viewpoint that is given or told by the file; a given one may be wrong, which a
-/// warning tells.
+/// Like reconstructView (), for a viewpoint from the user or the file. Warns if a given one may be
+/// wrong.
 std::optional<Problem>
 reconstructKnownView (const Points& points, const Viewpoint& viewpoint, const Request& request,
                       Result& result);

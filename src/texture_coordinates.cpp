@@ -18,7 +18,7 @@ computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
     Statistics times;
     RunMonitor monitor ({{}, options.progress_callback, options.cancelled_callback}, times);
     const RunContext run (options.threads, &monitor);
-    run.beginStage (Stage::CHECK); // the last stage takes all that is left of a run, here all
+    run.beginStage (Stage::CHECK); // the last stage takes the rest of the progress, here all of it
     problem = makeTextureCoordinates (positions, triangles, options, {}, run, result);
     if (!problem)
       monitor.finish ();

@@ -25,8 +25,8 @@ struct Sector
   }
 };
 
-// Sectors side by side share a corner. It is compared by its index, since rounding could make its
-// two directions different.
+// Adjacent sectors share a corner. It is compared by its index, since rounding could make its two
+// directions different.
 bool
 overlap (const Sector& a, const Sector& b)
 {
@@ -36,7 +36,7 @@ overlap (const Sector& a, const Sector& b)
          (b.first != a.last && a.contains (b.from)) || (b.last != a.first && a.contains (b.to));
 }
 
-// Takes candidates one by one if they fit to those taken before.
+// Accepts candidates one by one if they fit those accepted before.
 class ConsensusBuilder
 {
 public:
@@ -47,15 +47,14 @@ public:
   {
   }
 
-  // Records the sectors taken around these corners from now on, for candidates whose sectors are to
-  // be tested.
+  // Records sectors at these corners from now on, for later tests.
   void watch (const Triangle& corners)
   {
     for (Index p : corners)
       last_sector_[p] = NONE;
   }
 
-  // Takes a candidate if it fits. The sectors of one star do not overlap. So candidates of three
+  // Accepts a candidate if it fits. The sectors of one star do not overlap, so candidates of three
   // votes that are offered first need no test of sectors.
   bool offer (const SureTriangle& candidate)
   {
@@ -80,14 +79,14 @@ public:
     taken_.push_back (&candidate);
   }
 
-  // Takes a triangle that is oriented like the normals.
+  // Accepts a triangle that is oriented like the normals.
   void start (const Triangle& corners)
   {
     occupy (corners);
     orientation_.join (corners, 0);
   }
 
-  // The doubtful candidates taken, ordered by their first corners.
+  // The accepted doubtful candidates, ordered by their first corners.
   const std::vector<const Candidate*>& takenInOrder ()
   {
     std::stable_sort (taken_.begin (), taken_.end (), [] (const Candidate* a, const Candidate* b) {
@@ -102,11 +101,11 @@ public:
 private:
   static constexpr Index UNWATCHED = NONE - 1;
 
-  // The sector of a triangle taken at a watched corner.
+  // The sector of an accepted triangle at a watched corner.
   struct TakenSector
   {
     Index q, r;   // the other corners
-    Index before; // the sector taken before it at the same corner, or NONE
+    Index before; // the sector accepted before it at this corner, or NONE
   };
 
   void occupy (const Triangle& corners)
@@ -132,7 +131,7 @@ private:
     return sector;
   }
 
-  // True if a triangle overlaps one that is taken at one of its corners. These must be watched.
+  // True if a triangle overlaps an accepted one at one of its corners, which must be watched.
   bool overlapsTaken (const Triangle& corners) const
   {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -148,15 +147,14 @@ private:
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<Eigen::Vector3f>& normals_;
   Orientation orientation_;
-  std::vector<Index> last_sector_; // per point: the sector taken last, NONE, or UNWATCHED
+  std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
   std::vector<TakenSector> sectors_;
   std::vector<const Candidate*> taken_;
   std::vector<Triangle> seam_;
 };
 
-// Puts doubtful candidates in the order in which they are offered. Those of three votes come first,
-// by their class of normal agreement: the orientation then spreads along triangles that agree best,
-// as a spanning forest of least cost would, and classes are enough for that.
+// Sorts doubtful candidates. Those of three votes come first, by their class of normal agreement:
+// the orientation then spreads along triangles that agree best, like a minimum spanning forest.
 // \return number of candidates of three votes
 std::size_t
 putInOrder (std::vector<const Candidate*>& candidates)
@@ -180,7 +178,7 @@ append (const Triangle& corners, std::uint8_t votes, Consensus& consensus)
   consensus.votes.push_back (votes);
 }
 
-// Collects the sure and the doubtful triangles that were taken, ordered by their first corners.
+// Collects the accepted triangles, ordered by their first corners.
 void
 collect (ConsensusBuilder& builder, const CandidateLists& candidates, std::size_t sure_taken,
          Consensus& consensus, const RunContext& run)
@@ -211,8 +209,7 @@ collect (ConsensusBuilder& builder, const CandidateLists& candidates, std::size_
   consensus.seam.swap (builder.seam ());
 }
 
-// Tells which triangles have room beside a mesh: all their corners are on its boundary, or have no
-// triangle.
+// Finds free triangles beside a mesh: each corner is on its boundary or has no triangle.
 class Room
 {
 public:
@@ -238,7 +235,7 @@ private:
   std::vector<std::uint8_t> has_room_;
 };
 
-// Candidates for which there is room. Sure ones become doubtful here.
+// The free candidates. Sure ones become doubtful here.
 std::vector<Candidate>
 findOpen (const CandidateLists& candidates, const TriangleMesh& mesh, const RunContext& run)
 {

@@ -27,7 +27,7 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
                                consensus.normals, limits.open_loops, run),
                    components.count, keep_largest, 1.0);
 
-  // A ragged boundary has points beyond the triangles. They have gaps in their stars.
+  // Beyond a ragged boundary there are points with gaps in their stars.
   std::vector<Index> candidates;
   for (const Gap& gap : findGaps (geometry.stars, geometry.spacing, limits.gap_ratio, run))
     candidates.push_back (gap.point);

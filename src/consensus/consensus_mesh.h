@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Which triangles of stars become a mesh.
+/// Limits of the consensus mesh.
 struct ConsensusLimits
 {
   CandidateLimits candidates;
@@ -21,21 +21,20 @@ struct ConsensusLimits
                                     ///< wide rows of 8, and strips 12 spacings wide rows of 37
 };
 
-/// The manifold that stars agree on, before its holes are filled.
+/// The consensus manifold, before its holes are filled.
 struct ConsensusMesh
 {
   TriangleMesh mesh;
   std::vector<Eigen::Vector3f> normals; ///< those of the stars, oriented like the mesh
-  std::vector<Triangle> seam; ///< triangles of three votes for which there is room but which
-                              ///< contradict the orientation
+  std::vector<Triangle> seam; ///< free triangles of three votes that contradict the orientation
 };
 
-/// What stars propose for the mesh.
+/// Candidates and the normals that they were compared with.
 struct ProposedTriangles
 {
   CandidateLists candidates;
-  std::vector<Eigen::Vector3f> smoothed_normals; ///< with which triangles are compared: at a sharp
-                                                 ///< edge, these see both faces
+  std::vector<Eigen::Vector3f> smoothed_normals; ///< mean normals at sharp edges, where both faces
+                                                 ///< are visible from them
 };
 
 /// Smoothed normals, and the candidates by them. O(entries of the stars).
@@ -44,19 +43,19 @@ proposeTriangles (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
                   const Stars& stars, const std::vector<float>& spacing,
                   const CandidateLimits& limits, const RunContext& run);
 
-/// Finds candidate triangles, their consensus and its manifold part. Then offers the candidates
-/// again where there is room left. O(n + m log m) for m doubtful candidates.
+/// Finds candidates, their consensus and its manifold part; then offers the free candidates again.
+/// O(n + m log m) for m doubtful candidates.
 /// \param positions by which the stars were made
 /// \param neighbors of each point, nearest first
-/// \param stars     of all points; freed as soon as the candidates are found
+/// \param stars     of all points; freed when the candidates are found
 /// \param spacing   of each point (see localSpacing)
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run);
 
-/// The same of candidates that are known.
-/// \param normals those of the stars
+/// makeConsensusMesh () from known candidates.
+/// \param normals of the stars
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,

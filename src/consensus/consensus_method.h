@@ -49,16 +49,16 @@ struct Surface
   MeshFinish finish;
   std::size_t holes_filled = 0;
   std::vector<JudgedLoop> doubtful_loops; ///< in the order of their smallest points, see isDoubtful
-  std::vector<Triangle> orientation_seam; ///< where a surface that seems one-sided was cut open
-                                          ///< (see findOrientationSeam); else empty
+  std::vector<Triangle> orientation_seam; ///< where a one-sided surface was cut open (see
+                                          ///< findOrientationSeam); otherwise empty
 };
 
-/// Makes the consensus mesh, fills holes, inserts points that are left over, flips edges and
-/// repairs folds. Runs through the stages CONSENSUS, HOLES and FLIPS. Triangles and holes are
-/// chosen by the working positions, the mesh is finished by the positions themselves. O(n log n).
+/// Makes the consensus mesh, fills holes, inserts missing points, flips edges and repairs folds.
+/// Stages CONSENSUS, HOLES and FLIPS. Triangles and holes are chosen by the working positions; the
+/// mesh is finished by the input positions. O(n log n).
 /// \param geometry in: of the points; out: without stars, but with their normals, oriented like the
-///                 mesh
-/// \param proposed what the stars propose, if that is known; then only their normals are read
+///     mesh
+/// \param proposed known candidates; then only the normals of the stars are read
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
              const RunContext& run, std::optional<ProposedTriangles> proposed = std::nullopt);

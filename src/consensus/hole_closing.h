@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which boundary loops of a surface stay open, and the filling of the others.
+// Decides which boundary loops stay open, and fills the others.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -18,7 +18,7 @@ struct HoleClosingLimits
   CostLimits cost;
 };
 
-/// A boundary loop of the consensus mesh, kept open or filled, and what is thought of it.
+/// A boundary loop of the consensus mesh, and its judgement.
 struct JudgedLoop
 {
   BoundaryLoop loop;
@@ -31,9 +31,10 @@ struct ClosedHoles
   std::vector<JudgedLoop> doubtful; ///< in the order of their smallest points, see isDoubtful
 };
 
-/// Chooses the loops that are kept open and fills the others. O(n) and what judgeLoops and
-/// fillHoles take.
-/// \param loops one `\param` in each line read
+/// Decides which loops stay open and fills the others. O(n) plus judgeLoops () and fillHoles ().
+/// \param loops of the mesh, ascending by their smallest points
+/// \param components number of components of the mesh
+/// \param neighbors, normals of each point; read for points of loops and those around
 /// \param unit length of one unit of the cloud in the unit of the positions
 ClosedHoles
 closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,

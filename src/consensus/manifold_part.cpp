@@ -13,7 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-// Drops triangles until those around every point are one fan.
+// Removes triangles until every point has one fan.
 class FanPruner
 {
 public:
@@ -28,12 +28,11 @@ public:
     listAround (is_listed);
   }
 
-  // Leaves triangles out of the consensus. False if one at a partial point would have to be
-  // dropped.
+  // Prunes the consensus. Returns false if a triangle at a partial point would have to be removed.
   bool prune (const RunContext& run)
   {
-    // A triangle that is dropped at one point may split the fan of another one. That one is looked
-    // at again, in the same round if it comes later.
+    // Removing a triangle at one point may split the fan of another one, which is then tested
+    // again: in the same round if it comes later.
     std::set<Index> points = pointsToPrune (run);
     if (points.empty ())
       return true;
@@ -65,7 +64,7 @@ public:
   }
 
 private:
-  // Lists the triangles around some points; only these may have several fans before any is dropped.
+  // Lists the triangles around some points: the only ones that may have several fans at first.
   void listAround (const std::vector<std::uint8_t>& is_listed)
   {
     around_ = makeCsrLists (is_listed.size (), [&] (const auto& emit) {
@@ -110,7 +109,7 @@ private:
       to[i] = after (row[i], p, 2);
       for (std::size_t j = 0; j < i; ++j)
         if (from[j] == from[i] || to[j] == to[i])
-          return false; // two triangles run along one edge in the same direction
+          return false; // two triangles have the same directed edge
     }
     const auto find = [count] (const std::array<Index, MOST>& list, Index q) {
       return static_cast<std::size_t> (std::find (list.begin (), list.begin () + count, q) -
@@ -135,7 +134,7 @@ private:
     dropDoubleEdges (p);
     if (ring_.size () < 2)
       return;
-    // Fans by spreading the smallest label over shared edges; rings are short.
+    // Labels fans by spreading the smallest label over shared edges; rings are short.
     for (bool changed = true; changed;) {
       changed = false;
       for (Spoke& a : ring_)
@@ -161,9 +160,9 @@ private:
         drop (spoke.triangle);
   }
 
-  // Of triangles that run along an edge at p in the same direction, keeps the one of most votes.
-  // They occur at sharp edges and between sheets, where triangles that do not overlap in the
-  // tangent plane of one corner overlap in that of another.
+  // Of triangles with the same directed edge at p, keeps the one of most votes. They occur at sharp
+  // edges and between sheets: triangles may be disjoint in the tangent plane of one corner and
+  // overlap in that of another.
   void dropDoubleEdges (Index p)
   {
     for (std::size_t i = 0; i < ring_.size (); ++i)
@@ -219,14 +218,13 @@ private:
   const std::vector<std::uint8_t>& is_partial_;
   std::vector<std::uint8_t> kept_;
   bool is_extended_;
-  bool has_left_ = false; // the triangles that are there
+  bool has_left_ = false; // of the listed triangles
   CsrLists around_;
   std::vector<Spoke> ring_;
   std::vector<Index> dirty_;
 };
 
-// The triangles of a mesh but for small islands.
-// Takes islands out of the triangles. \return whether there are any
+// Removes islands from a mesh. Returns whether there are any.
 bool
 removeIslands (TriangleMesh& mesh, const NeighborsOf& neighbors_of, std::size_t smallest_island,
                const RunContext& run)

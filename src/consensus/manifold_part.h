@@ -10,13 +10,13 @@
 #include <optional>
 
 namespace pcl::floater {
-/// Keeps the fan of most votes around every point, and drops small islands. An island is an open
-/// component that has points of a larger component among the nearest neighbours of its own points:
-/// it lies in a hole of that one. What is left is an oriented manifold whose boundary loops pass
-/// through each point once at most. O(n).
+/// Keeps the fan of most votes around every point, and removes small islands. An island is an open
+/// component with points of a larger component among its nearest neighbours: it lies in a hole of
+/// that one. The result is an oriented manifold whose boundary loops pass each point at most once.
+/// O(n).
 /// \param neighbors       of each point
-/// \param smallest_island triangles; islands of fewer are dropped
-/// \throw std::logic_error if the result is no manifold, which would be a bug
+/// \param smallest_island smallest kept number of triangles of an island
+/// \throws std::logic_error if the result is no manifold, which would be a bug
 TriangleMesh
 manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
               const RunContext& run);
@@ -24,14 +24,13 @@ manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smalle
 /// The nearest neighbours of a point.
 using NeighborsOf = std::function<Row (Index point)>;
 
-/// The same for a part of a larger consensus. At partial points, triangles are missing, and all
-/// that there are stay. Components with such points, and those of partial points without a
-/// triangle, count as large.
+/// manifoldPart () for a submesh. At partial points triangles are missing, and none may be removed.
+/// Components with such points, and those of partial points without a triangle, count as large.
 /// \param points number of points
-/// \param neighbors_of asked of some points of small components only
+/// \param neighbors_of called for points of small components only
 /// \param is_partial of each point; empty: none is
-/// \return nothing if triangles that are missing would have to be known: a triangle at a partial
-///   point would be dropped
+/// \return nothing if the result depends on missing triangles: one at a partial point would be
+///     removed
 std::optional<TriangleMesh>
 manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighbors_of,
               std::size_t smallest_island, std::vector<std::uint8_t> is_partial,

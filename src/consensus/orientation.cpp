@@ -10,11 +10,11 @@
 
 namespace pcl::floater {
 namespace {
-// How candidates tie two sets of points, named by their representatives.
+// Votes of the candidates between two sets of points, named by their representatives.
 struct OrientationVote
 {
   Index a, b; // a < b
-  int weight; // votes of the candidates: positive for the same side, negative for opposite sides
+  int weight; // positive for the same side, negative for opposite sides
 };
 
 bool

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A common orientation of normals, found by the triangles that connect their points.
+// Consistent orientation of normals.
 #pragma once
 
 #include "consensus/candidates.h"
@@ -11,15 +11,15 @@
 
 namespace pcl::floater {
 /// Sets of points whose normals are oriented relative to each other. A triangle joins the sets of
-/// its corners: it shows which of their normals point to the same side. Amortized almost O(1) for
-/// each call, unless it says otherwise.
+/// its corners, by its orientation relative to each normal. Amortized almost O(1) for each call
+/// unless stated.
 class Orientation
 {
 public:
   /// \param points number of points; each is a set of its own
   explicit Orientation (std::size_t points) : sides_ (points) {}
 
-  /// Joins the sets of the corners of a triangle if it does not contradict the orientation.
+  /// Joins the sets of the corners of a triangle unless it contradicts their orientation.
   /// \param clockwise as in Candidate
   /// \return false if it does
   bool join (const Triangle& corners, std::uint8_t clockwise);
@@ -27,17 +27,17 @@ public:
   /// Joins the sets of two points whose normals point to the same side.
   void joinSameSide (Index p, Index q) { sides_.join (p, q, false); }
 
-  /// Joins the sets of points that candidates connect and that have no common orientation yet. All
-  /// candidates between two sets vote together, since a single triangle across a sharp edge or
-  /// between sheets may be wrong. Runs in rounds like those of Boruvka's spanning forest: every set
-  /// is joined to the one to which the most votes tie it, until no candidate connects two sets.
-  /// O(m log m) for m candidates in each round; O(log m) rounds.
+  /// Joins sets that are connected by candidates and have no common orientation yet. All candidates
+  /// between two sets vote together, since a single triangle across a sharp edge or between sheets
+  /// may be wrong. Rounds as in Boruvka's algorithm: every set is joined to the one with the most
+  /// votes, until no candidate connects two sets. O(m log m) for m candidates in each of O(log m)
+  /// rounds.
   void vote (const Candidate* const* first, const Candidate* const* last, const RunContext& run);
 
-  /// The corners, anti-clockwise seen from the front of the set that they belong to.
+  /// The corners, anti-clockwise seen from the front of their set.
   Triangle turned (Triangle corners, std::uint8_t clockwise);
 
-  /// Turns normals so that those of one set agree.
+  /// Orients the normals of each set consistently.
   void turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
 private:

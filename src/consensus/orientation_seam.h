@@ -8,12 +8,10 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Where a one-sided surface was cut open: the longest row of contradicting triangles that are
-/// connected by edges. On such a surface, an orientation that spreads all the way round contradicts
-/// itself along a whole row across the surface. A wrong triangle between two sheets stands alone.
-/// O(m log m) for m triangles.
-///
-/// Weakness: strips less than about 4 spacings wide have rows that are too short.
+/// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
+/// are connected by edges. An orientation that spreads round such a surface contradicts itself
+/// along a whole row across it; a wrong triangle between two sheets stands alone. Fails for strips
+/// less than about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
 /// \param contradicting see ConsensusMesh::seam
 /// \param shortest_seam triangles; see ConsensusLimits
 /// \return the triangles of the row, in the order of `contradicting`; empty if it is too short

@@ -28,19 +28,19 @@ struct CsrLists
 {
   std::vector<Index> offsets; ///< one more than there are rows; empty if there is no row
   std::vector<Index> ids;
-  std::vector<Index> wraps; ///< rows from which on offsets lack another 2^32; mostly none
+  std::vector<Index> wraps; ///< rows from which on offsets need another 2^32; mostly none
 
   std::size_t rows () const { return offsets.empty () ? 0 : offsets.size () - 1; }
 
-  /// Where a row begins; of the number of rows, where the last one ends.
+  /// Where a row begins. For the number of rows: where the last row ends.
   std::size_t begin (std::size_t r) const
   {
     return wraps.empty () ? offsets[r] : offsets[r] + lackingAt (r);
   }
   Row row (std::size_t r) const { return {ids.data () + begin (r), ids.data () + begin (r + 1)}; }
 
-  /// Finds the wraps of offsets that are right but for multiples of 2^32. For tables that may have
-  /// 2^32 entries or more, after their offsets were set. O(rows).
+  /// Finds the wraps of offsets that are correct modulo 2^32. Call it after setting the offsets of
+  /// a table that may have 2^32 entries or more. O(rows).
   void findWraps ()
   {
     wraps.clear ();
@@ -67,8 +67,8 @@ private:
   }
 };
 
-/// Lists by counting sort, O(rows + entries). `visit` is called twice. It has to call its argument
-/// `emit (row, id)` for each entry, both times in the same order; a row's entries keep that order.
+/// Makes lists by counting sort, O(rows + entries). `visit` is called twice. Both times it has to
+/// call its argument `emit (row, id)` for each entry, in the same order; each row keeps that order.
 /// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 template <typename Visit>
 CsrLists
@@ -85,14 +85,14 @@ makeCsrLists (std::size_t rows, Visit&& visit)
   for (std::size_t r = 2; r < lists.offsets.size (); ++r)
     lists.offsets[r] += lists.offsets[r - 1];
   lists.ids.resize (entries);
-  // offsets[row + 1] is where the row's next entry goes. At the end it is where the row ends.
+  // offsets[row + 1]: where the row's next entry goes; at the end, where the row ends.
   visit ([&] (std::size_t row, Index id) { lists.ids[lists.offsets[row + 1]++] = id; });
   lists.offsets.pop_back ();
   return lists;
 }
 
-/// Sets the offsets of rows whose lengths are given: offsets[r + 1] is the length of row r before,
-/// and the end of row r after the call. O(rows).
+/// Turns row lengths into offsets: offsets[r + 1] is the length of row r before the call, and its
+/// end after it. O(rows).
 inline void
 sumRowLengths (std::vector<Index>& offsets)
 {

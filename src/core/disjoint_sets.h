@@ -11,11 +11,11 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Disjoint sets of the elements 0 to size - 1. The smallest element of a set represents it, in
-/// whatever order the sets were joined. Amortized O(log size) for each call.
+/// Disjoint sets of the elements 0 to size - 1. The smallest element of a set represents it,
+/// whatever the order of joins. Amortized O(log size) for each call.
 ///
-/// Threads may use it at the same time as long as each one joins elements of a range of its own,
-/// and no element of the range is in one set with others: then it touches nothing else.
+/// Threads may use it concurrently if each one joins elements of a range of its own that share no
+/// set with elements outside.
 class DisjointSets
 {
 public:
@@ -33,7 +33,7 @@ public:
   }
 
   /// Joins the sets of two elements.
-  /// \return false if they are in one set already
+  /// \return false if they already were in one set
   bool join (Index a, Index b)
   {
     a = find (a);
@@ -42,15 +42,15 @@ public:
     return a != b;
   }
 
-  /// The number of each element's set, from 0 in the order of their smallest elements, NONE for
-  /// sets that are left out. The sets are used up. O(size).
-  /// \param is_numbered called with the smallest element of each set, ascending: false leaves it
-  ///   out
+  /// The number of each element's set, from 0 in the order of their smallest elements; NONE for
+  /// sets that are left out. Consumes the sets. O(size).
+  /// \param is_numbered called with the smallest element of each set, ascending; false leaves the
+  ///     set out
   template <typename IsNumbered>
   std::vector<Index> number (IsNumbered&& is_numbered) &&
   {
     Index sets = 0;
-    // Parents are smaller than their children, so that they have their numbers before these.
+    // Parents are smaller than their children, so they are numbered first.
     for (Index element = 0; element < parent_.size (); ++element)
       if (parent_[element] != element)
         parent_[element] = parent_[parent_[element]];
@@ -87,7 +87,7 @@ public:
       flipped = flipped != (flipped_[root] != 0);
       root = parent_[root];
     }
-    // Path compression: all elements on the way become children of the root.
+    // Path compression: all elements on the path become children of the root.
     bool sign = flipped;
     for (Index at = element; at != root;) {
       const Index up = parent_[at];
@@ -101,7 +101,7 @@ public:
   }
 
   /// Joins the sets of a and b so that their signs are equal, or opposite.
-  /// \return false if they are in one set already and their signs contradict
+  /// \return false if they already were in one set with contradicting signs
   bool join (Index a, Index b, bool opposite)
   {
     Place at_a = find (a), at_b = find (b);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exact decisions on points, by CGAL's predicates: rounding has no part in them. All coordinates
-// have to be finite.
+// Exact predicates on points, by CGAL. All coordinates must be finite.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +13,12 @@ namespace pcl::floater {
 bool
 isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
-/// The places of the vertices of the convex hull among the points, anti-clockwise, from the
-/// leftmost one on. Of points at the very same place the first is the vertex. O(n log n).
+/// Indices of the points on the convex hull, anti-clockwise from the leftmost one. Of equal points,
+/// the first is used. O(n log n).
 std::vector<std::size_t>
 convexHull (const std::vector<Eigen::Vector2d>& points);
 
-/// Whether no two edges of a closed polygon meet but at the corner that they share. O(n log n).
+/// Whether the edges of a closed polygon meet only at common corners. O(n log n).
 bool
 isSimplePolygon (const std::vector<Eigen::Vector2d>& corners);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads that wait for the next loop instead of being started for it.
+// A pool of threads for loops.
 #pragma once
 
 #include <condition_variable>
@@ -11,8 +11,8 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Threads that stay when their work is done. A run has dozens of loops, and a new thread takes as
-/// long as looking at some thousand points. May be used by several threads.
+/// Threads that are kept between loops: a run has dozens of loops, and starting a thread takes as
+/// long as reading some thousand points. Thread-safe.
 class HelperThreads
 {
 public:
@@ -20,7 +20,7 @@ public:
   struct Work
   {
     std::function<void ()> run;
-    std::function<void ()> ended; ///< called after it, when the thread can be had again
+    std::function<void ()> ended; ///< called after it, when the thread is free again
   };
 
   HelperThreads () = default;
@@ -30,8 +30,8 @@ public:
   HelperThreads (HelperThreads&&) = delete;
   HelperThreads& operator= (HelperThreads&&) = delete;
 
-  /// Gives work to a thread that waits, or to a new one: it never waits for other work, so that
-  /// work may wait for work that it starts.
+  /// Gives work to an idle thread or to a new one. It is never queued behind other work, so work
+  /// may wait for work that it starts.
   /// \throws std::exception if no thread can be started
   void start (Work work);
 
@@ -40,7 +40,7 @@ private:
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Work> begun_; // for which threads have been woken, or started
+  std::vector<Work> begun_; // for which threads were woken or started
   std::size_t waiting_ = 0; // threads without work
   bool is_ending_ = false;
   std::vector<std::thread> threads_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables whose entries are counted in 32 bits, and what becomes of larger ones.
+// Limits of tables with 32-bit indices.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 #include <string>
 
 namespace pcl::floater {
-/// A table would have more entries than its indices can count. The message says which one, and what
-/// to do. A run that meets it ends with RunStatus::OUT_OF_MEMORY.
+/// A table would exceed its index type. The message names the table and a remedy. The run ends with
+/// RunStatus::OUT_OF_MEMORY.
 class IndexLimitReached : public std::length_error
 {
 public:
   using std::length_error::length_error;
 };
 
-/// Largest number of entries of a matrix in the libraries whose indices are of type int.
+/// Largest number of matrix entries in libraries with indices of type int.
 constexpr std::size_t MOST_MATRIX_ENTRIES = std::numeric_limits<int>::max ();
 
-/// \param what to do, for the message
+/// \param what remedy, for the message
 /// \throws IndexLimitReached if there are more than `most` entries
 inline void
 requireCountable (std::size_t entries, std::size_t most, const char* table, const char* what)

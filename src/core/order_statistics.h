@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranks in lists without order, and lists put in order.
+// Ranks in unsorted lists, and sorting.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,9 @@ valueAtRank (std::vector<Value>& values, std::size_t rank)
   return *place;
 }
 
-/// The values that have `low` and `high` others before them. O(n); less than two calls of
-/// valueAtRank (), since the lower one is searched below the upper one.
+/// The values that have `low` and `high` others before them, low <= high. O(n); faster than two
+/// calls of valueAtRank (), since the lower one is searched below the upper one.
 /// \param[in,out] values more than `high`; their order changes
-/// \param low,high low <= high
 template <typename Value>
 std::pair<Value, Value>
 valuesAtRanks (std::vector<Value>& values, std::size_t low, std::size_t high)
@@ -36,7 +35,7 @@ valuesAtRanks (std::vector<Value>& values, std::size_t low, std::size_t high)
   return {*at_low, *at_high};
 }
 
-/// The upper one of the two in the middle where their number is even. O(n).
+/// The median; for an even number of values, the upper one of the middle two. O(n).
 /// \param[in,out] values at least one; their order changes
 template <typename Value>
 Value
@@ -45,7 +44,7 @@ median (std::vector<Value>& values)
   return valueAtRank (values, values.size () / 2);
 }
 
-/// The value above which a share of 1 - `share` lies. O(n).
+/// The value that a share of the values does not exceed. O(n).
 /// \param[in,out] values at least one; their order changes
 /// \param share 0 for the smallest, 1 for the largest
 template <typename Value>
@@ -56,7 +55,7 @@ quantile (std::vector<Value>& values, double share)
   return valueAtRank (values, std::min (rank, values.size () - 1));
 }
 
-/// Ascending, each value once. O(n log n).
+/// Sorts ascending and removes repeated values. O(n log n).
 template <typename Value>
 void
 sortUnique (std::vector<Value>& values)

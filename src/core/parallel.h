@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A parallel loop over ranges whose result cannot depend on the number of threads.
+// Parallel loops whose results do not depend on the number of threads.
 #pragma once
 
 #include "core/run_context.h"
@@ -16,16 +16,16 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Calls body (i) for every i below `count`, on the threads of the run and in any order. So body
-/// may write only to places that belong to i; then the result does not depend on the number of
-/// threads. The first exception that a body throws is rethrown here, and no more tasks are begun.
-/// Moves the fraction of the run that is done, and ends early if the run is cancelled.
+/// Calls body (i) for every i below `count`, on the threads of the run and in any order. The result
+/// does not depend on the number of threads if body writes only to entries that belong to i.
+/// Rethrows the first exception of a body, and begins no more tasks then. Reports progress, and
+/// ends early if the run is cancelled.
 template <typename Body>
 void
 parallelTasks (const RunContext& run, std::size_t count, Body&& body)
 {
   constexpr std::chrono::milliseconds BETWEEN_POLLS{50};
-  constexpr std::size_t FEW = 2; // tasks; the loops within them tell more of the progress
+  constexpr std::size_t FEW = 2; // tasks; their inner loops report progress better
   ProgressLoop progress (run, count > FEW ? count : 0);
   std::atomic<std::size_t> next{0};
   std::size_t running = 0;
@@ -56,7 +56,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
     --running;
     ended.notify_one ();
   };
-  HelperThreads own; // where there is no run to which they could belong
+  HelperThreads own; // used without a monitor, which has the shared ones
   HelperThreads& helpers = run.helpers () != nullptr ? *run.helpers () : own;
   const std::size_t wanted =
       std::min<std::size_t> (static_cast<std::size_t> (run.threads ()), count);
@@ -68,7 +68,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
     }
   }
   catch (const std::exception&) {
-    // No more threads could be started; those that run do all the work.
+    // No more threads could be started; the running ones do all the work.
   }
   guarded ([&] {
     for (std::size_t i = next++; i < count; i = next++) {
@@ -77,7 +77,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
       progress.reach (i);
     }
   });
-  // Only this thread asks whether to go on, also while it waits for the others.
+  // Only this thread polls for cancellation, also while it waits for the others.
   const auto have_all_ended = [&] {
     std::unique_lock<std::mutex> lock (mutex);
     return ended.wait_for (lock, BETWEEN_POLLS, [&running] { return running == 0; });
@@ -92,7 +92,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
 /// r * RANGE_LENGTH.
 constexpr std::size_t RANGE_LENGTH = 1024;
 
-/// Calls body (first, last) for consecutive ranges that cover 0 to count, as parallelTasks does.
+/// Calls body (first, last) for consecutive ranges that cover 0 to count, by parallelTasks ().
 template <typename Body>
 void
 parallelRanges (const RunContext& run, std::size_t count, Body&& body)

@@ -14,8 +14,8 @@ struct Plane
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ (); ///< unit vector of arbitrary sign
   double mean_square = 0.0;                           ///< of the distances to the plane
-  double aspect = 0.0; ///< middle eigenvalue of the covariance over the largest: 1 for a disc, 0
-                       ///< for points on one line, which determine no plane
+  double aspect = 0.0; ///< middle over largest eigenvalue of the covariance: 1 for a disc, 0 for
+                       ///< collinear points, which determine no plane
 
   /// Distance of a point to the plane, negative below it.
   double height (const Eigen::Vector3d& point) const { return normal.dot (point - centre); }
@@ -24,12 +24,11 @@ struct Plane
 struct Line
 {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX (); ///< unit vector of arbitrary sign
-  double mean_square =
-      0.0;             ///< of the distances to the line, in the direction in which they are larger
-  double aspect = 1.0; ///< see Plane
+  double mean_square = 0.0; ///< of the distances to the line, in the direction of larger ones
+  double aspect = 1.0;      ///< see Plane
 };
 
-/// Axes along which points spread least (first) to most (last), and how far: root mean squares.
+/// Axes of least (first) to largest (last) spread, and the spreads: root mean squares.
 struct PrincipalAxes
 {
   Eigen::Vector3d centre;
@@ -37,8 +36,8 @@ struct PrincipalAxes
   Eigen::Vector3d spread;
 };
 
-/// Sums for the plane that fits points best. The points should lie around the origin, within a few
-/// times their own extent.
+/// Accumulates sums for the least-squares plane. The points should lie around the origin, within a
+/// few times their own extent.
 class PlaneFit
 {
 public:
@@ -52,7 +51,7 @@ public:
   /// Sum of the weights.
   double weight () const { return weight_; }
 
-  /// Needs a positive weight. Points on a line or all in one place get one of the planes that hold
+  /// Needs a positive weight. For collinear or coinciding points: one of the planes that contain
   /// them.
   Plane plane () const
   {
@@ -71,7 +70,7 @@ public:
     return plane;
   }
 
-  /// The line that fits best. Needs a positive weight.
+  /// The least-squares line. Needs a positive weight.
   Line line () const
   {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -87,8 +86,7 @@ public:
     return line;
   }
 
-  /// Slower than plane (), and more exact where points lie nearly on a line. Needs a positive
-  /// weight.
+  /// Slower than plane (), but more accurate for nearly collinear points. Needs a positive weight.
   PrincipalAxes principalAxes () const
   {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (scatter ());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why a stage cannot go on.
+// Error of a stage.
 #pragma once
 
 #include <pcl/surface/floater/report.h>
@@ -8,8 +8,8 @@
 #include <string>
 
 namespace pcl::floater {
-/// Status and one sentence for the user; RunStatus::SUCCESS means that there is no problem. If an option is out of
-/// its range, the sentence begins with its name, which is also in \a option.
+/// Status and one sentence for the user; RunStatus::SUCCESS: no problem. If an option is out of
+/// range, the sentence begins with its name, which is also in \a option.
 struct Problem
 {
   RunStatus status = RunStatus::SUCCESS;

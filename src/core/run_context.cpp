@@ -36,7 +36,7 @@ RunMonitor::beginStage (Stage stage)
     callbacks_.stage (stage);
   const Shares& shares = is_disc_ ? OF_DISC : OF_SURFACE;
   const auto index = static_cast<std::size_t> (stage);
-  // With the stages before it that were skipped: their work is done in it.
+  // Shares of skipped stages belong to the next one.
   double share = 0.0, left = 0.0;
   for (std::size_t s = std::min (index, next_stage_); s < STAGES; ++s)
     (s <= index ? share : left) += shares[s];

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a stage is given of the run that it belongs to: threads, clock, progress, cancellation.
+// The run as a stage uses it: threads, clock, progress, cancellation.
 #pragma once
 
 #include "core/helper_threads.h"
@@ -15,34 +15,33 @@
 #include <thread>
 
 namespace pcl::floater {
-/// Unwinds a run that its caller has cancelled. It is no std::exception, so that no stage takes it
-/// for a failure of its own.
+/// Unwinds a cancelled run. Not a std::exception, so that no stage handles it as a failure.
 struct Cancelled
 {
 };
 
-/// Functions of the caller; each may be empty. All but the last are called by the thread that made
+/// Functions of the caller; each may be empty. All except `task` are called by the thread that made
 /// the monitor.
 struct Callbacks
 {
   std::function<void (Stage)> stage;     ///< a stage begins
-  std::function<void (double)> progress; ///< the fraction of the run that is done
+  std::function<void (double)> progress; ///< fraction of the run done
   std::function<bool ()> cancelled;      ///< whether the run is to be cancelled
-  std::function<void ()> task{};         ///< a thread is about to begin a task, or a part of one;
+  std::function<void ()> task{};         ///< a thread is about to begin a task, or a piece of one;
                                          ///< must not throw
 };
 
-/// Clock and callbacks of one run. Books wall time by stage, tells the caller how much of the run
-/// is done, and asks whether to go on: at the begin of each stage and, from the loops in it
-/// (ProgressLoop), up to 20 times a second.
+/// Clock and callbacks of one run. Measures wall time by stage, reports progress and polls for
+/// cancellation: at the begin of each stage and, from its loops (ProgressLoop), up to 20 times a
+/// second.
 ///
-/// The fraction that is done is estimated from the shares of the stages in typical runs. Within a
-/// stage, steps may be announced. A loop that follows such a step runs through it evenly; any other
-/// loop takes half of what is left of its stage.
+/// Progress is estimated from the shares of the stages in typical runs. Steps within a stage may be
+/// announced. The loop after a step moves evenly through it; any other loop takes half of the rest
+/// of its stage.
 class RunMonitor
 {
 public:
-  /// \param statistics where time is booked; must outlive the monitor
+  /// \param statistics receives the times; must outlive the monitor
   RunMonitor (Callbacks callbacks, Statistics& statistics);
   ~RunMonitor () { stopClock (); }
   RunMonitor (const RunMonitor&) = delete;
@@ -50,7 +49,7 @@ public:
   RunMonitor (RunMonitor&&) = delete;
   RunMonitor& operator= (RunMonitor&&) = delete;
 
-  /// Tells which method makes the mesh from here on, DISC or SURFACE (the default).
+  /// Sets the method that makes the mesh, DISC or SURFACE (the default).
   void setMethod (Topology method) { is_disc_ = method == Topology::DISC; }
 
   /// A stage begins. Its share of the progress includes the shares of skipped stages. Does nothing
@@ -58,22 +57,22 @@ public:
   /// \throws Cancelled
   void beginStage (Stage stage);
 
-  /// A step of the stage begins, which ends when the fraction `until` of the stage is done. One
-  /// loop is to run through it.
+  /// Begins a step of the stage, which ends at the fraction `until` of the stage. One loop is to
+  /// run through it.
   /// \throws Cancelled
   void beginStep (double until);
 
-  /// No stage is running from here on; time is booked to none.
+  /// Ends the stage; the following time is not counted.
   void stopClock ();
 
-  /// Asks whether to go on if the last time is long enough ago.
+  /// Polls for cancellation if the last poll is long enough ago.
   /// \throws Cancelled
   void pollNowAndThen ();
 
-  /// The run has ended well: tells that all of it is done.
+  /// Reports the end of a successful run: progress 1.
   void finish ();
 
-  /// A thread of the run is about to begin a task. May be called by any of them.
+  /// Announces a task. Thread-safe.
   void beginTask () const
   {
     if (callbacks_.task)
@@ -83,7 +82,7 @@ public:
   /// Threads for the loops of the run.
   HelperThreads& helpers () { return helpers_; }
 
-  /// Whether there are callbacks for what happens within stages.
+  /// Whether there are callbacks for events within stages.
   bool isWatched () const { return is_watched_; }
 
 private:
@@ -99,13 +98,13 @@ private:
   std::thread::id owner_ = std::this_thread::get_id ();
   bool is_watched_;
   std::atomic<bool> is_cancelled_{false};
-  Stage stage_ = Stage::COUNT; // that is running; COUNT: none
+  Stage stage_ = Stage::COUNT; // running stage; COUNT: none
   Clock::time_point stage_start_, last_poll_;
   bool is_disc_ = false;
-  std::size_t next_stage_ = 0; // after the one that is running
+  std::size_t next_stage_ = 0; // after the running one
   bool is_in_loop_ = false;
-  bool has_step_ = false; // announced, and no loop has run through it yet
-  double done_ = 0.0;     // fraction of the whole run, as all below
+  bool has_step_ = false; // announced, but no loop has run through it yet
+  double done_ = 0.0;     // fraction of the whole run, like all below
   double stage_begin_ = 0.0, stage_end_ = 0.0;
   double step_begin_ = 0.0, step_end_ = 0.0;
   HelperThreads helpers_;
@@ -121,7 +120,7 @@ public:
 
   int threads () const { return threads_; } ///< 1 or more
 
-  /// Threads that stay for the next loop; nullptr without a monitor.
+  /// Threads that are kept between loops; nullptr without a monitor.
   HelperThreads* helpers () const { return monitor_ != nullptr ? &monitor_->helpers () : nullptr; }
 
   /// The same run with another number of threads, 1 or more.
@@ -150,8 +149,8 @@ public:
     monitor_->pollNowAndThen ();
   }
 
-  /// The same run for a part of a stage that goes through stages of its own. These are not told to
-  /// the caller, and their time belongs to the stage that is running. They can be cancelled.
+  /// A context for stages within the running stage. They are not reported to the caller, and their
+  /// time belongs to the running stage. They can be cancelled.
   RunContext withinStage () const;
 
 private:
@@ -162,16 +161,16 @@ private:
   bool is_within_stage_ = false;
 };
 
-/// A loop that moves the fraction that is done, and may be cancelled. Make one before the loop;
-/// call next () once for each item, or reach () where it is known how far the loop is. Of loops
-/// within loops the outermost one moves the fraction; all may be cancelled. A few ns per item.
+/// A loop that reports progress and can be cancelled. Make one before the loop; call next () for
+/// each item, or reach () where progress is known otherwise. In nested loops only the outermost
+/// reports progress; all can be cancelled. A few ns per item.
 ///
-/// Threads that help the run's own thread may use it as well. They do not tell progress; they see
-/// that the run was cancelled, and unwind. Each poll also calls the task callback.
+/// Helper threads may use it as well. They report no progress; if the run is cancelled, they
+/// unwind. Each poll also calls the task callback.
 class ProgressLoop
 {
 public:
-  /// \param items how many there will be; 0: not known, the fraction does not move
+  /// \param items expected number; 0: unknown, no progress is reported
   explicit ProgressLoop (const RunContext& run, std::size_t items = 0);
   ~ProgressLoop ();
   ProgressLoop (const ProgressLoop&) = delete;
@@ -179,7 +178,7 @@ public:
   ProgressLoop (ProgressLoop&&) = delete;
   ProgressLoop& operator= (ProgressLoop&&) = delete;
 
-  /// One more item. Asks every 256th time; as many take no tenth of a second.
+  /// Counts one item. Polls at every 256th, which take less than a tenth of a second.
   /// \throws Cancelled
   void next ()
   {
@@ -187,17 +186,17 @@ public:
       reach (count_);
   }
 
-  /// So many items are done. For loops of few and large items.
+  /// Sets the number of items done. For loops of few and large items.
   /// \throws Cancelled
   void reach (std::size_t count);
 
 private:
   static constexpr std::size_t ITEMS_PER_POLL = 256;
 
-  RunMonitor* monitor_; // nullptr if nobody watches
+  RunMonitor* monitor_; // nullptr without callbacks
   std::size_t items_;
   std::size_t count_ = 0;
-  bool moves_ = false; // is the outermost loop of the run's own thread
+  bool moves_ = false; // the outermost loop of the run's own thread
 };
 
 } // namespace pcl::floater

@@ -29,7 +29,7 @@ openBlas ()
   return instance;
 }
 
-// OpenBLAS maps a work buffer when it is first used, and tries forever if there is no room for it.
+// OpenBLAS maps a work buffer at its first use, and retries forever if memory is short.
 bool
 hasRoomForBuffer ()
 {

@@ -4,16 +4,14 @@
 #pragma once
 
 namespace pcl::floater {
-/// Makes OpenBLAS use one thread while any instance exists, and its former number afterwards. More
-/// threads cost time on fronts as small as ours, and they change the last digits of the factors.
-/// OpenBLAS is looked up at run time; with any other BLAS this does nothing.
-///
-/// There is one number for the whole process, so all instances share it, whatever their threads:
-/// the first saves it, the last restores it.
+/// Makes OpenBLAS use one thread while any instance exists, and restores the former number
+/// afterwards. More threads are slower on our small fronts, and change the last digits of the
+/// factors. OpenBLAS is looked up at run time; with any other BLAS this does nothing. The number
+/// belongs to the process, so all instances share it: the first saves it, the last restores it.
 class SingleBlasThread
 {
 public:
-  /// \throws std::bad_alloc if OpenBLAS would find no room for its work buffer
+  /// \throws std::bad_alloc if there is no memory for the work buffer of OpenBLAS
   SingleBlasThread ();
   ~SingleBlasThread ();
   SingleBlasThread (const SingleBlasThread&) = delete;

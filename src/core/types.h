@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Index types.
 //
-// There are three index spaces. A `cloud_index` counts in the user's cloud, a `point` is a row of
-// the working set, and an `unknown` is a row of the linear system.
+// There are three index spaces. A `cloud_index` is an index into the user's cloud, a `point` is a
+// row of the working set, and an `unknown` is a row of the linear system.
 #pragma once
 
 #include <Eigen/Core>

@@ -8,9 +8,8 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
-/// INVALID_INDICES if there is not one cloud index for each position, or if one of them is not
-/// below the size of the cloud, or is given twice. O(n), and a bit per point where they do not
-/// ascend.
+/// INVALID_INDICES unless there is one cloud index for each position, each below the size of the
+/// cloud and given once. O(n); one bit per point if they are not ascending.
 Problem
 checkInput (const Input& input);
 

@@ -8,7 +8,7 @@
 
 namespace pcl::floater {
 namespace {
-// Takes the points out whose rows are flagged. \return their cloud indices, ascending
+// Removes the points whose rows are flagged. Returns their cloud indices, ascending.
 std::vector<Index>
 takeOut (Input& input, const std::vector<std::uint8_t>& is_taken)
 {
@@ -35,7 +35,7 @@ Problem
 cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limits,
             const RunContext& run, Report& report)
 {
-  constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are no outliers
+  constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are not outliers
   const GrossOutliers found = findGrossOutliers (input.positions, run, limits);
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};

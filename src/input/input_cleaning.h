@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is taken out of a cloud before there is a working set.
+// Cleaning of the input before the working set is made.
 #pragma once
 
 #include "core/problem.h"
@@ -10,9 +10,9 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
-/// Takes gross outliers out of the input and tells the report, if outliers are to be left out.
-/// Points that the user's loop names stay.
-/// \return DEGENERATE if a point stays that double precision cannot hold together with the others
+/// Removes and reports gross outliers, if outliers are to be left out. Points of the user's loop
+/// are kept.
+/// \return DEGENERATE if a remaining point is too far from the others for double precision
 Problem
 cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limits,
             const RunContext& run, Report& report);

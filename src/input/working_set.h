@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the input to the points that the stages work on.
+// From the input to the working set.
 #pragma once
 
 #include "core/problem.h"
@@ -10,8 +10,8 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
-/// The first step of a run: gross outliers are taken out of the input, and the rest becomes the
-/// working set. Arrays of the input are freed as soon as they have been read.
+/// First step of a run: removes gross outliers and makes the working set. Frees each array of the
+/// input after reading it.
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report);
 

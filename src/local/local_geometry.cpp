@@ -10,7 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-// Calls make (beyond) with what stars need to reach beyond the neighbours, or nullptr.
+// Calls make (beyond) with the data for stars beyond the neighbours, or nullptr.
 template <typename Make>
 Stars
 makeReaching (const LocalPlanes& planes, const StarSettings& settings, Make&& make)

@@ -12,47 +12,50 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What both methods know of the surface around each point.
+/// The surface around each point, as used by both methods.
 struct LocalGeometry
 {
   CsrLists neighbors;         ///< nearest first
-  std::vector<float> spacing; ///< of the working positions: see localSpacing, or REACH_AS_SPACING
-                              ///< of the reach of the star if that is more
-  std::vector<float> own_spacing; ///< of the positions themselves if these are others; else empty
-  Stars stars;                    ///< with the normals of the points
-  std::vector<Index> scatter;     ///< points around which the cloud is flat at no scale, ascending
+  std::vector<float> spacing; ///< of the working positions: localSpacing, or REACH_AS_SPACING times
+                              ///< the reach of the star if that is larger
+  std::vector<float> own_spacing; ///< of the positions, if they differ from the working positions;
+                                  ///< otherwise empty
+  Stars stars;                    ///< with unit normals
+  std::vector<Index> scatter;     ///< points around which the cloud is not flat at any scale,
+                                  ///< ascending
 
-  /// Spacing on the mesh, whose vertices are the positions themselves.
+  /// Spacing on the mesh, whose vertices are the input positions.
   const std::vector<float>& meshSpacing () const
   {
     return own_spacing.empty () ? spacing : own_spacing;
   }
 };
 
-/// What stars are made of.
+/// Input of the stars.
 struct LocalPlanes
 {
-  CsrLists neighbors;                   ///< nearest first; beyond them, those beside rows
+  CsrLists neighbors;                   ///< nearest first, then the far neighbours beside lines
   std::vector<float> spacing;           ///< of the working positions: see localSpacing
   std::vector<Eigen::Vector3f> normals; ///< of the tangent planes: unit length, of arbitrary sign
-  std::optional<KdTree> tree;           ///< of the working positions, if stars reach beyond
-  BesideLines beside;                   ///< the same
+  std::optional<KdTree> tree;           ///< of the working positions, if stars reach beyond the
+                                        ///< neighbours
+  BesideLines beside;                   ///< neighbours beside lines, in the same case
 };
 
 /// Tangent planes and spacing by the working positions of the points. O(n k).
 /// \param neighbors of each point, nearest first
-/// \param known     kd-tree of the working positions; none: one is built if it is needed
+/// \param known     kd-tree of the working positions; otherwise built if needed
 LocalPlanes
 fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
                 const StarSettings& settings, const RunContext& run,
                 const PlaneLimits& limits = {});
 
-/// The stars of some points only; see makeStarsOf.
+/// Stars of the given points; see makeStarsOf.
 Stars
 makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
              const StarSettings& settings, const RunContext& run);
 
-/// The spacing of LocalGeometry, of the spacing of the points and the reach of their stars.
+/// Raises the spacing of the points by the reach of their stars, as in LocalGeometry.
 void
 takeReachAsSpacing (const std::vector<float>& reach, std::vector<float>& spacing);
 

@@ -11,11 +11,11 @@
 
 namespace pcl::floater {
 namespace {
-// Relative to the lengths involved: below it, a cross product of neighbours reads as zero, so that
-// rounding on grids does not open a star or turn a straight line into a corner.
+// Relative tolerance: smaller cross products of neighbours count as zero, so that rounding on grids
+// does not open a star or turn a straight line into a corner.
 constexpr double COLLINEAR = 1e-9;
 
-// Neighbours of a point up to which they are sorted by counting.
+// Number of neighbours up to which counting sort is used.
 constexpr std::size_t MOST_COUNTED = 32;
 
 // Increases with the angle of v, from 0 to 4.
@@ -28,8 +28,8 @@ pseudoAngle (const Eigen::Vector2d& v)
   return v.y () < 0.0 ? 4.0 + t : t;
 }
 
-// True if a cross product is as good as zero by the lengths of its factors, or negative. Compared
-// by squares: roots take longer than all the rest.
+// True if a cross product, relative to the lengths of its factors, is nearly zero or negative.
+// Compares squares: roots would take longer than all the rest.
 bool
 isAtMostCollinear (double cross_product, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -43,7 +43,7 @@ sameDirection (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return a.dot (b) > 0.0 && isAtMostCollinear (std::abs (cross (a, b)), a, b);
 }
 
-// Half a turn or more from a to b, anti-clockwise. Neighbours in one direction do not come here.
+// Half a turn or more from a to b, anti-clockwise. The directions must differ.
 bool
 spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -51,8 +51,7 @@ spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 }
 
 // True if b lies strictly outside the segment from a to c, walking anti-clockwise around the
-// origin. Where the walk turns back, b is the tip of a spike, however thin: inverted, a very close
-// neighbour.
+// origin. Where the walk turns back, b is the tip of a spike: an inverted, very close neighbour.
 bool
 isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
@@ -68,10 +67,9 @@ isBefore (const PlanarNeighbor& a, const PlanarNeighbor& b)
   return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
 }
 
-// Sorts by the number of smaller angles. For few neighbours, to compare all pairs, without a
-// branch, takes less time than a sort that mispredicts many of its branches. In single precision,
-// which keeps the order, four at once. \return false if two angles are equal then: neither list is
-// sorted
+// Sorts by the number of smaller angles. For few neighbours, comparing all pairs without branches
+// is faster than a sort with many mispredicted branches. Uses single precision, four at once.
+// \return false if two angles are equal in single precision: neither list is then sorted
 bool
 sortByCounting (std::vector<PlanarNeighbor>& neighbors, std::vector<PlanarNeighbor>& unsorted)
 {
@@ -167,16 +165,15 @@ PlanarStar::openingAngle () const
 bool
 PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
 {
-  sortByAngle (neighbors, hull_); // which is filled next
+  sortByAngle (neighbors, hull_); // hull_ is scratch here
 
-  // Of several neighbours in one direction only the nearest can be in the star.
+  // In each direction, only the nearest neighbour can be in the star.
   keepNearest (neighbors);
-  // A closed star begins at its nearest neighbour, which is farthest when inverted and so a hull
-  // vertex.
+  // A closed star begins at its nearest neighbour: inverted, it is the farthest and a hull vertex.
   const bool open = beginAfterGap ();
 
-  // Graham scan in angular order. A closed star is scanned back to its first neighbour; the ends of
-  // an open one are hull vertices.
+  // Graham scan in angular order. A closed star is scanned to its first neighbour again; the ends
+  // of an open one are hull vertices.
   inverted_.clear ();
   neighbors.clear ();
   const std::size_t count = hull_.size ();
@@ -202,10 +199,10 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
 bool
 PlanarStar::order (std::vector<PlanarNeighbor>& neighbors)
 {
-  sortByAngle (neighbors, hull_); // which is filled next
+  sortByAngle (neighbors, hull_); // hull_ is scratch here
   keepNearest (neighbors);        // gaps are between directions
   const bool open = beginAfterGap ();
-  // Those in the first direction may lie at both ends of the list: at angles of 0 and 2 pi.
+  // The first direction may be at both ends of the list: at angles of 0 and 2 pi.
   const auto is_first = [this] (const PlanarNeighbor& neighbor) {
     return sameDirection (hull_.front ().offset, neighbor.offset);
   };

@@ -13,7 +13,7 @@ struct PlanarNeighbor
 {
   Eigen::Vector2d offset;
   Index point;
-  double angle = 0.0; ///< set by PlanarStar: grows with the angle of the offset, from 0 to 4
+  double angle = 0.0; ///< set by PlanarStar: monotonic in the angle of the offset, from 0 to 4
 };
 
 /// Turns neighbours into the Delaunay star of the origin, anti-clockwise. O(k log k).
@@ -25,20 +25,20 @@ struct PlanarNeighbor
 class PlanarStar
 {
 public:
-  /// \param neighbors in: any order, none on the origin; out: those of the star, in order
-  /// \return true if the star is open: from the last neighbour to the first it is half a turn or
-  ///         more, or there are fewer than three neighbours
+  /// \param neighbors in: any order, none on the origin; out: the star, in order
+  /// \return true if the star is open: half a turn or more from the last neighbour to the first, or
+  ///     fewer than three neighbours
   bool make (std::vector<PlanarNeighbor>& neighbors);
 
-  /// Puts all neighbours in anti-clockwise order; an open star begins after its gap. O(k log k).
+  /// Sorts all neighbours anti-clockwise; an open star begins after its gap. O(k log k).
   /// \return true if the star is open, as for make ()
   bool order (std::vector<PlanarNeighbor>& neighbors);
 
-  /// Widest sector, radians, without any of the neighbours given to make () or order ().
+  /// Widest sector, in radians, without neighbours, in the last call of make () or order ().
   double openingAngle () const;
 
 private:
-  // The nearest neighbour in each direction, in anti-clockwise order, into hull_.
+  // Copies the nearest neighbour in each direction, anti-clockwise, into hull_.
   void keepNearest (const std::vector<PlanarNeighbor>& sorted);
 
   // Rotates hull_ to begin after the gap, or at the nearest if there is none. Returns true if the

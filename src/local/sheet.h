@@ -8,16 +8,16 @@
 #include <cmath>
 
 namespace pcl::floater {
-/// Which neighbours are taken for points of another sheet. Chosen on the clouds of the first
-/// benchmark: wide enough for sharp edges of 90 degrees, and not certain for thin sheets.
+/// Thresholds that separate sheets. Chosen on the clouds of the first benchmark: wide enough for
+/// sharp edges of 90 degrees; unreliable for thin sheets.
 struct SheetLimits
 {
   double plane_sine = 0.75;   ///< of the angle, 49 degrees, between a tangent plane and a neighbour
   double normal_cosine = 0.3; ///< of the angle, 72 degrees, between normals
 };
 
-/// True if a neighbour at `offset` lies within the limits of both tangent planes, and the normals
-/// agree but for their signs.
+/// True if a neighbour at `offset` lies within the limits of both tangent planes, and the unsigned
+/// normals agree.
 inline bool
 onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
              const Eigen::Vector3d& offset, const SheetLimits& limits)

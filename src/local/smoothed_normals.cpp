@@ -9,8 +9,8 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t FIRST_RING = 8; // neighbours over which the mean is taken: the first ring
-constexpr double PERPENDICULAR = 0.1; // cosine below which its sign does not tell the side
+constexpr std::size_t FIRST_RING = 8; // neighbours in the mean: the first ring
+constexpr double PERPENDICULAR = 0.1; // cosine below which its sign is unreliable
 constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
 } // namespace
 
@@ -25,7 +25,7 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
     const Eigen::Vector3d other = normals[row[i]].cast<double> ();
     double same = normal.dot (other);
     if (std::abs (same) < PERPENDICULAR) {
-      // Two faces at a right angle: each bends away from the other's normal, or both towards it.
+      // Two faces at a right angle: either both bend towards the other's normal, or both away.
       const Eigen::Vector3d step = positions[row[i]] - positions[p];
       same = -step.dot (normal) * step.dot (other);
     }

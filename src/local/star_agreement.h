@@ -13,9 +13,9 @@ namespace pcl::floater {
 bool
 hasTriangle (const Stars& stars, Index p, Index q, Index r);
 
-/// Of each point: the share of the neighbours in its star that have it in theirs; 0 if it has none.
-/// On the Delaunay triangulation of a smooth, densely sampled surface it is 1, also on lattices,
-/// where triangles are ambiguous. O(entries of the stars).
+/// Share of the neighbours in each point's star that have the point in theirs; 0 without
+/// neighbours. It is 1 for the Delaunay triangulation of a smooth, densely sampled surface, also on
+/// ambiguous lattices. O(entries of the stars).
 std::vector<float>
 starAgreement (const Stars& stars, const RunContext& run);
 

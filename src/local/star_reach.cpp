@@ -13,10 +13,10 @@
 
 namespace pcl::floater {
 namespace {
-// Below one by more than the rounding of a circumcircle: points on it, as on grids, are not inside.
+// Allows for the rounding of a circumcircle: points on it, as on grids, are not inside.
 constexpr double INSIDE = 1.0 - 1e-9;
 
-// Unrolled into the plane: the direction of the projection, the length in space. As in the stars.
+// Unrolled into the plane: the direction of the projection, the length in space, as in the stars.
 Eigen::Vector2d
 unrolled (const TangentFrame& frame, const Eigen::Vector3d& offset)
 {
@@ -32,12 +32,12 @@ inSpace (const TangentFrame& frame, const Eigen::Vector2d& planar)
   return frame.x * planar.x () + frame.y * planar.y ();
 }
 
-// False if neighbours are surely not on a line: they spread too far to the sides of the direction
-// of the farthest. Much faster than a fit.
+// Fast test, much faster than a fit: false if neighbours spread too far to the sides of the
+// direction of the farthest for a line.
 bool
 mayBeLine (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& here, Row row)
 {
-  constexpr double WIDE = 0.3; // of the squares aside to those along; 0.05 is a line
+  constexpr double WIDE = 0.3; // sum of squares across over along; 0.05 is a line
   if (row.size () == 0)
     return false;
   const Eigen::Vector3d direction = (positions[row[row.size () - 1]] - here).normalized ();
@@ -67,8 +67,8 @@ middleOfGap (const std::vector<PlanarNeighbor>& star)
   return is_reflex ? Eigen::Vector2d (-sum.normalized ()) : Eigen::Vector2d (sum.normalized ());
 }
 
-// Whether a point lies on the side to which a search looks. Which points behind its plane a tree
-// passes depends on how it is divided, so they have to be refused; by more than rounding.
+// Whether a point lies on the side of a search. The tree may return points behind its plane, which
+// depends on its nodes: they are rejected, with a tolerance for rounding.
 bool
 isInFront (const Eigen::Vector3d& ahead, const Eigen::Vector3d& offset)
 {
@@ -76,7 +76,7 @@ isInFront (const Eigen::Vector3d& ahead, const Eigen::Vector3d& offset)
   return ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ();
 }
 
-// How far a search for some points within a radius has looked.
+// Radius that a search for `wanted` points within `radius` has covered.
 double
 reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double radius)
 {
@@ -147,7 +147,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
         return sqr_lateral > sqr_thickness &&
                sqr_lateral >= limits.line_sine * limits.line_sine * neighbor.sqr_distance;
       };
-      // On the side of the nearest one, then on the opposite side.
+      // First on the side of the nearest one, then on the opposite side.
       double smaller = 0.0;
       for (const bool is_first : {true, false}) {
         const double farthest = limits.farthest * static_cast<double> (spacing[p]);
@@ -187,11 +187,11 @@ appendRows (const CsrLists& added, CsrLists& lists)
 {
   if (added.ids.empty ())
     return;
-  std::size_t last = lists.ids.size ();         // one past the entries that are where they were
-  lists.ids.reserve (last + added.ids.size ()); // not twice as many
+  std::size_t last = lists.ids.size ();         // one past the entries not yet moved
+  lists.ids.reserve (last + added.ids.size ()); // reserve exactly
   lists.ids.resize (last + added.ids.size ());
-  // From the last row to the first: every entry moves backwards, together with those of the rows
-  // after it to which nothing is added.
+  // From the last row to the first: entries move backwards, in runs of rows to which nothing is
+  // added.
   for (std::size_t r = lists.rows (); r-- > 0;) {
     const std::size_t end = lists.begin (r + 1), end_of_more = added.begin (r + 1);
     lists.offsets[r + 1] = static_cast<Index> (end + end_of_more);
@@ -243,7 +243,7 @@ StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_dis
   if (sqr_distance < centre.sqr_searched ||
       std::find (added_.begin (), added_.end (), neighbor.point) != added_.end ())
     return false;
-  // The row may have neighbours beside a line, which are farther than the nearest.
+  // The row may contain neighbours beside a line, which are farther than the nearest.
   return std::find (centre.row.begin (), centre.row.end (), neighbor.point) == centre.row.end () &&
          onSameSheet (centre.frame.normal, normals_[neighbor.point].cast<double> (),
                       positions_[neighbor.point] - positions_[centre.point], sheets);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Neighbours beyond the nearest ones, where these do not surround a point.
+// Far neighbours, where the nearest ones do not surround a point.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -13,85 +13,84 @@
 #include <vector>
 
 namespace pcl::floater {
-/// How far stars reach beyond the nearest neighbours.
+/// Limits of far neighbours.
 struct ReachLimits
 {
   double farthest = 40.0;    ///< spacings. From the task: rows of points up to 30 times as far
                              ///< apart as the points in a row, and a third more for uneven rows
-  double most_cosine = 0.26; ///< of the angle, 75 degrees, between the middle of a gap and the
-                             ///< points that are looked for in it. Beside a row of points lie
-                             ///< those of the same row, by noise
-  double line_sine = 0.5;    ///< of the angle, 30 degrees, between a line of points and those
-                             ///< that are looked for beside it
-  double thicknesses = 4.0;  ///< standard deviations across a line; points nearer to it are its own
-  double gap_ratio = 1.8;    ///< a longer edge, in reaches of the end that has the larger one, is
-                             ///< a step across a hole. Measured on Delaunay triangulations: 999 of
-                             ///< 1000 edges are below 1.7 on jittered grids, Poisson disks, scan
-                             ///< lines and steps of density of 5 to 30; below 2.3 on uniformly
-                             ///< random points
-  /// Of points in circumcircles: normals turn by up to 37 degrees, and on an arc the offset leaves
+  double most_cosine = 0.26; ///< of the angle, 75 degrees, between the middle of a gap and points
+                             ///< accepted in it. Noise puts points of the same row beside it
+  double line_sine = 0.5;    ///< of the angle, 30 degrees, between a line of points and points
+                             ///< accepted beside it
+  double thicknesses = 4.0;  ///< standard deviations across a line; nearer points belong to it
+  double gap_ratio = 1.8;    ///< an edge longer than this, in the larger reach of its ends, crosses
+                             ///< a hole. Measured on Delaunay triangulations: 999 of 1000 edges are
+                             ///< below 1.7 on jittered grids, Poisson disks, scan lines and steps
+                             ///< of density of 5 to 30; below 2.3 on uniformly random points
+  /// For points in circumcircles: normals turn by up to 37 degrees, and on an arc the offset leaves
   /// the plane by half of that, less noise. With the limits of near neighbours, two of 24 clean
-  /// clouds took in another sheet; these values mended both, and are not certain.
+  /// clouds included another sheet; these values fixed both, and are not certain.
   SheetLimits circle_sheet{0.25, 0.8};
   std::size_t added = 8; ///< points at a time: about the first ring of an even sampling
-  int rounds = 8;        ///< in which points are added to one star. A limit of time
+  int rounds = 8;        ///< maximum number of rounds for one star, to limit the time
 };
 
-/// Of the reach of a star; counts as spacing where that is larger. It is about the circumradius of
-/// a triangle between two rows of points; on even samplings it stays below the spacing.
+/// Weight of a star's reach, used as spacing where larger than the spacing. It is about the
+/// circumradius of a triangle between two rows of points; on even samplings it stays below the
+/// spacing.
 constexpr float REACH_AS_SPACING = 0.5F;
 
-/// What lies beside the points whose nearest neighbours lie all on a line, as in scan lines.
+/// Neighbours beside the points whose nearest neighbours are collinear, as in scan lines.
 struct BesideLines
 {
   CsrLists neighbors;       ///< nearest on either side of the line; none for all other points
-  std::vector<float> reach; ///< of each point on a line: the smaller one of the distances to the
-                            ///< nearest points on opposite sides; 0 for all others
+  std::vector<float> reach; ///< for points on lines: the smaller distance to the nearest points on
+                            ///< opposite sides; 0 for all others
 };
 
-/// Whether the neighbours of any of these points lie all on a line. If not, nothing is beside
-/// lines.
+/// Whether the neighbours of any of these points are collinear. If not, there are no neighbours
+/// beside lines.
 bool
 isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
              const Rows& rows, double least_aspect, const RunContext& run);
 
-/// Looks for points beside lines. O(n k) and two searches for each point on a line.
+/// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
 /// \param spacing of the points in `rows` (see localSpacing)
-/// \param rows    points beside whose lines is looked; neighbours of others are not read
+/// \param rows    points to process; only their neighbours are read
 BesideLines
 findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                  const std::vector<float>& spacing, const KdTree& tree, const Rows& rows,
                  double least_aspect, const ReachLimits& limits, const RunContext& run);
 
-/// Adds lists to others, row by row. In place: O(entries).
+/// Appends lists to others, row by row, in place. O(entries).
 void
 appendRows (const CsrLists& added, CsrLists& lists);
 
-/// How far a star reaches in its plane to opposite sides: the largest, over its neighbours, of the
-/// smaller one of two lengths: that to the neighbour, and that from the centre backwards to the
-/// rim. On an even sampling that is the length of an edge, between scan lines their distance, and
-/// beside a hole the length of an edge on the side of the surface. O(m^2) for m neighbours.
+/// Reach of a star in its plane to opposite sides: the maximum over its neighbours of the smaller
+/// of two lengths: to the neighbour, and from the centre backwards to the border of the star. It is
+/// the edge length on an even sampling, the line distance between scan lines, and the edge length
+/// on the side of the surface beside a hole. O(m^2) for m neighbours.
 /// \param open see PlanarStar::make
-/// \return 0 if no neighbour has a part of the star on its opposite side
+/// \return 0 if the star has nothing opposite to any neighbour
 double
 reachOf (const std::vector<PlanarNeighbor>& star, bool open);
 
-/// Makes stars right where the nearest neighbours are too few for it. A star of the nearest
-/// neighbours is that of all points (on the same sheet) if no circumcircle of it leaves the ball
-/// that was searched. Else the points in that circle are looked for; and if the star is open, those
-/// in its gap.
+/// Completes stars where the nearest neighbours are too few. A star of the nearest neighbours
+/// equals the star of all points (on the same sheet) if all of its circumcircles lie in the ball
+/// that was searched. Otherwise the points in the circles are searched, and in the gap of an open
+/// star.
 class StarReach
 {
 public:
-  /// All arguments but the limits must outlive this.
+  /// All arguments except the limits must outlive this.
   StarReach (const std::vector<Eigen::Vector3d>& positions,
              const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
              const KdTree& tree, const SheetLimits& sheets, const ReachLimits& limits);
 
-  /// \param frame      of the plane in which the star lies
-  /// \param row        neighbours of p that were looked at
-  /// \param nearest    how many of these, from the first on, are the nearest of all points
-  /// \param candidates those of them from which the star was made; far neighbours are added
+  /// \param frame      of the plane of the star
+  /// \param row        neighbours of p
+  /// \param nearest    number of these, from the first on, that are the nearest of all points
+  /// \param candidates those in the triangulation; far neighbours are appended
   /// \param star       in: of the candidates; out: with far neighbours
   /// \return whether the star is open
   bool extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
@@ -106,7 +105,7 @@ private:
     Index point;
     const TangentFrame& frame;
     Row row;
-    double sqr_searched; // squared distance up to which all points are in the row
+    double sqr_searched; // all points within this squared distance are in the row
     double farthest;
   };
 

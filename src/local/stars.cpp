@@ -36,8 +36,8 @@ public:
                       beyond->limits);
   }
 
-  /// Makes the star of p; `normal` becomes that of the plane in which it lies. Returns true if the
-  /// star is open.
+  /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
+  /// open.
   bool make (Index p, Eigen::Vector3f& normal)
   {
     bool open = makeOfNeighbors (p, normal);
@@ -50,7 +50,7 @@ public:
     return open;
   }
 
-  /// The same with far neighbours that are known.
+  /// Makes the star of p with known far neighbours.
   bool make (Index p, const std::vector<Index>& far, Eigen::Vector3f& normal)
   {
     const bool open = makeOfNeighbors (p, normal);
@@ -65,13 +65,13 @@ public:
 
   const std::vector<PlanarNeighbor>& star () const { return star_.neighbors; }
 
-  /// Far neighbours that the last star has looked at.
+  /// Far neighbours of the last star.
   const std::vector<Index>& added () const { return reach_->added (); }
 
 private:
   struct Star
   {
-    std::vector<PlanarNeighbor> candidates; // of which it was made
+    std::vector<PlanarNeighbor> candidates; // input of the triangulation
     std::vector<PlanarNeighbor> neighbors;
   };
 
@@ -94,7 +94,7 @@ private:
         std::swap (star_, wider_);
         return false;
       }
-    return true; // that of the first tier, which has the fewest strays
+    return true; // the star of tier 1, which has the fewest points of other sheets
   }
 
   bool leavesPlanes (const Eigen::Vector3d& normal, Index q, const Eigen::Vector3d& offset) const
@@ -161,7 +161,7 @@ struct StarRange
 };
 
 namespace {
-// Leaves out far neighbours across holes. Returns whether there were any.
+// Removes far neighbours across holes. Returns whether there were any.
 bool
 leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& reach,
                 double gap_ratio, Index p, std::vector<Index>& far)
@@ -177,7 +177,7 @@ leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector
   return far.size () < count;
 }
 
-// Makes the stars of a range again where far neighbours are left out.
+// Makes the stars of a range again from which far neighbours were removed.
 void
 makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, double gap_ratio,
            const Rows& rows, std::size_t first, bool with_offsets, Stars& stars, StarRange& range)
@@ -213,8 +213,8 @@ makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, doub
   range.offsets.swap (renewed.offsets);
 }
 
-// The largest value among a point and its nearest neighbours. Within a noisy row of points, some
-// stars are narrow.
+// Maximum over each point and its nearest neighbours: in a noisy row of points, some stars are
+// narrow.
 std::vector<float>
 largestAround (const std::vector<float>& values, const CsrLists& neighbors, const RunContext& run)
 {
@@ -228,7 +228,7 @@ largestAround (const std::vector<float>& values, const CsrLists& neighbors, cons
   return largest;
 }
 
-// Lists of far neighbours, of those points that have any.
+// Packs the lists of far neighbours.
 CsrLists
 packFar (std::size_t points, const Rows& rows, const std::vector<StarRange>& ranges)
 {
@@ -310,7 +310,7 @@ resumeStars (Stars stars, const Rows& rows)
       range.far.emplace_back (i, std::vector<Index> (far.begin (), far.end ()));
   }
   for (std::size_t p = stars.neighbors.rows (); p > 0; --p)
-    stars.neighbors.offsets[p] -= stars.neighbors.offsets[p - 1]; // lengths again
+    stars.neighbors.offsets[p] -= stars.neighbors.offsets[p - 1]; // back to row lengths
   stars.neighbors.ids = {};
   stars.far_neighbors = {};
   made.stars = std::move (stars);
@@ -370,7 +370,7 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, neighbors, normals, settings, beyond);
     for (std::size_t i = first; i < last; ++i) {
-      run.beginTask (); // the centres may lie far apart, so that each touches other memory
+      run.beginTask (); // the centres may lie far apart, in different memory pages
       stars.open[i] = maker.make (centres[i], stars.normals[i]) ? 1 : 0;
       stars.neighbors.offsets[i + 1] = static_cast<Index> (maker.star ().size ());
       ranges[first / RANGE_LENGTH].append (maker.star (), settings.with_offsets);

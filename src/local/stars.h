@@ -12,10 +12,10 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Which of the neighbours are in a star.
+/// Neighbours that become part of a star.
 enum class StarKind
 {
-  DELAUNAY, ///< those of the centre in the Delaunay triangulation of its tangent plane
+  DELAUNAY, ///< neighbours of the centre in the Delaunay triangulation of its tangent plane
   ALL       ///< all, in anti-clockwise order; several may lie in one direction
 };
 
@@ -25,55 +25,55 @@ struct StarSettings
   StarKind kind = StarKind::DELAUNAY;
   bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
   ReachLimits reach{};
-  bool with_offsets = true; ///< keep the neighbours' places in the plane: 16 bytes per entry
+  bool with_offsets = true; ///< keep offsets_in_plane: 16 bytes per entry
   SheetLimits limits{};
 };
 
-/// What stars need to reach beyond the neighbours that are given.
+/// Data for stars that reach beyond the given neighbours.
 struct BeyondNeighbors
 {
   const KdTree& tree;                ///< of the positions
   const std::vector<float>& spacing; ///< see localSpacing
-  const BesideLines& beside;         ///< its neighbours are at the ends of the rows that are given
+  const BesideLines& beside;         ///< its neighbours are already at the ends of the given rows
   ReachLimits limits{};
 };
 
-/// Stars of the points in their tangent planes: neighbours joined to the centre. They are in
-/// anti-clockwise order seen along the normal. In an open star the sector from the last neighbour
-/// to the first has no triangle. Normals are unit vectors of arbitrary sign, so that stars of
-/// neighbours may run opposite ways round.
+/// Stars of the points in their tangent planes: the neighbours connected to the centre,
+/// anti-clockwise seen along the normal. In an open star there is no triangle from the last
+/// neighbour to the first. Normals are unit vectors of arbitrary sign, so stars of neighbours may
+/// have opposite orientations.
 struct Stars
 {
   CsrLists neighbors;
-  std::vector<Eigen::Vector2d> offsets_in_plane; ///< parallel to neighbors.ids: place in the plane
-                                                 ///< relative to the centre, length as in space
+  std::vector<Eigen::Vector2d> offsets_in_plane; ///< parallel to neighbors.ids: offset from the
+                                                 ///< centre in the plane, with the length in space
   std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
   std::vector<Eigen::Vector3f> normals;
-  CsrLists far_neighbors; ///< of each point: those that were looked at for its star; see makeStars
-  std::vector<float> reach; ///< the largest of a star and those around, see reachOf; empty if
-                            ///< none was to reach farther
+  CsrLists far_neighbors;   ///< of each point: far neighbours tested for its star; see makeStars
+  std::vector<float> reach; ///< maximum reach of a star and those around, see reachOf; empty if no
+                            ///< star was to reach farther
 };
 
-/// Stars of all points. With the sheet filter, a neighbour on another sheet of the surface is left
-/// out, in tiers:
-///  1. drop a neighbour whose direction leaves either point's plane by more than 49 degrees (sine
-///     0.75) or whose normal is more than 72 degrees away (cosine 0.3);
-///  2. where that opens the star, the same in the plane of the mean normal of the 8 nearest points,
-///     if that star is closed: on a sharp edge both faces are seen in it;
-///  3. else drop only neighbours that leave both planes;
-///  4. where that star is open too, take that of all neighbours if it is closed.
-/// A star that is open in all tiers is that of tier 1.
+/// Stars of all points. The sheet filter removes neighbours on another sheet of the surface, in
+/// tiers:
+/// - 1. remove a neighbour whose direction leaves either point's plane by more than 49 degrees
+///   (sine 0.75) or whose normal is more than 72 degrees away (cosine 0.3);
+/// - 2. if this opens the star, do so in the plane of the mean normal of the 8 nearest points, if
+///   that star is closed: on a sharp edge it contains both faces;
+/// - 3. otherwise remove only neighbours that leave both planes;
+/// - 4. if this star is open too, use all neighbours if their star is closed.
+/// If the star is open in all tiers, tier 1 is used.
 ///
-/// Stars may reach beyond the neighbours (see StarReach). Far neighbours to which the step is too
-/// long for the reach of both ends lie across a hole, and are left out again. O(n k log k).
-/// \param normals of each point; the stars' normals are these but for stars of tier 2
-/// \param beyond  nullptr: stars are made of the neighbours alone
+/// Stars may reach beyond the neighbours (see StarReach). Far neighbours across a hole, too far for
+/// the reach of both ends, are removed again. O(n k log k).
+/// \param normals of each point; stars of tier 2 replace theirs
+/// \param beyond  nullptr: only `neighbors` are used
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
            const RunContext& run, const BeyondNeighbors* beyond = nullptr);
 
-/// The lists of some stars, not yet packed.
+/// Lists of some stars, not yet packed.
 struct StarRange;
 struct StarsInMaking
 {
@@ -88,34 +88,32 @@ struct StarsInMaking
   std::vector<StarRange> ranges;
 };
 
-/// makeStars in steps, for stars of a part of a cloud: all arrays have a place for each of its
-/// points, of which those in `rows` are read and written. The first step looks at the points around
-/// with their normals, which must be in the part. Its reach is that of the star alone.
+/// First step of makeStars (), for a piece of a cloud. Arrays have an entry for each of its points;
+/// entries in `rows` are read and written. The normals of the points around are read and must be in
+/// the piece. The reach is that of each star alone.
 StarsInMaking
 beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
             const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond);
 
-/// The state after the first step of stars whose lists have been packed by endStars.
+/// The state after the first step, from stars that were packed by endStars ().
 StarsInMaking
 resumeStars (Stars stars, const Rows& rows);
 
-/// The second step: the reach becomes the largest around; then far neighbours across holes are left
-/// out.
+/// Second step: sets each reach to the maximum around, then removes far neighbours across holes.
 /// \param neighbors of the points in `rows` and of their far neighbours
-/// \param made      the first step; the reach also of those neighbours
+/// \param made      result of the first step; its reach also covers those neighbours
 void
 leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                      const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
                      const StarSettings& settings, double gap_ratio, StarsInMaking& made,
                      const RunContext& run);
 
-/// Packs the lists.
+/// Last step: packs the lists.
 Stars
 endStars (StarsInMaking made, const Rows& rows, const StarSettings& settings);
 
-/// Stars of some points only; those of the i-th of them are in row i. Far neighbours across a hole
-/// are not left out.
+/// Stars of the given points; row i belongs to centres[i]. Keeps far neighbours across holes.
 Stars
 makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,

@@ -10,7 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t ADDED = 2; // neighbours at a time, while all lie on a line
+constexpr std::size_t ADDED = 2; // neighbours added at a time, while all are collinear
 
 Eigen::Vector3d
 fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors,

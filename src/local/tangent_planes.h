@@ -10,25 +10,25 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What is taken for the sheet of a point. The first two values were chosen on the clouds of the
-/// first benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds
-/// there (test/benchmark/flaws.py tells what changes with them).
+/// Thresholds for the sheet of a point. The first two were chosen on the clouds of the first
+/// benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds there
+/// (test/benchmark/flaws.py shows the effect of changes).
 struct PlaneLimits
 {
-  std::size_t core_points = 8; ///< nearest neighbours through which the first plane is laid: about
-                               ///< the first ring of an even sampling, and a little more
-  double sheet_sine = 0.5;     ///< of the largest angle, 30 degrees, between the first plane and a
-                               ///< neighbour that the second one takes in
+  std::size_t core_points = 8; ///< nearest neighbours of the first plane: about the first ring of
+                               ///< an even sampling, and a little more
+  double sheet_sine = 0.5;     ///< of the angle, 30 degrees, between the first plane and a
+                               ///< neighbour of the second fit
   double least_aspect = 0.05;  ///< of the points of the first plane (see Plane::aspect); neighbours
-      ///< are added until it is reached. Points on a line with noise of one
-      ///< step stay below, a third of an evenly sampled disc is above
+                               ///< are added until it is reached. Points on a line with noise of
+                               ///< one step are below, a third of an evenly sampled disc is above
 };
 
-/// Unit normals, of arbitrary sign: those of the planes through the 8 nearest neighbours, refitted
-/// to those of all neighbours that lie near that plane. So a second sheet within reach does not
-/// tilt them. Where the 8 nearest lie nearly on a line, as in scan lines, more are taken. O(n k).
+/// Unit normals, of arbitrary sign: planes through the 8 nearest neighbours, refitted to all
+/// neighbours near that plane, so that a second sheet within reach does not tilt them. If the 8
+/// nearest are nearly collinear, as in scan lines, more are used. O(n k).
 /// \param neighbors of the points in `rows`, nearest first
-/// \param rows      points whose normals are wanted; those of others are zero
+/// \param rows      points to compute; others are zero
 std::vector<Eigen::Vector3f>
 fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                   const Rows& rows, const RunContext& run, const PlaneLimits& limits = {});

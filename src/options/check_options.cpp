@@ -16,7 +16,7 @@ refused (const char* option, const std::string& why)
   return {RunStatus::INVALID_OPTION, option + (" " + why), option};
 }
 
-// Keeps the first number that is out of its range.
+// Keeps the first number out of range.
 struct RangeCheck
 {
   Problem problem;
@@ -48,7 +48,7 @@ numberText (double number)
   return text;
 }
 
-// What the two methods take, and what a policy for holes needs.
+// What each method accepts, and what a hole policy needs.
 Problem
 checkTopology (const Options& options)
 {

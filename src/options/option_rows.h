@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of options: one row for each. From it come the checks of ranges, the warnings on options without
-// effect, the options of the tools and their help, the keyword arguments of Python, the options in reports, and
-// doc/options.md.
+// The table of options: one row for each. It drives the range checks, the warnings on options
+// without effect, the options of the tools and their help, the keyword arguments of Python, the
+// options in reports, and doc/options.md.
 #pragma once
 
 #include "options/choices.h"
@@ -25,14 +25,14 @@ constexpr const char* PARAMETERIZATION = "Parameterization of a disc";
 constexpr const char* SYSTEM = "Linear system of a disc";
 } // namespace option_group
 
-/// What has to be asked for, or has to be made, for an option to have an effect.
+/// What an option needs to have an effect.
 enum class UsedFor
 {
   ALL,
   KEEP_COUNT,
   BY_SIZE,
   STARS,        ///< not scans that are connected as their sensor saw them
-  NEIGHBORHOOD, ///< discs, or others but the k nearest
+  NEIGHBORHOOD, ///< discs, or neighbourhoods other than the k nearest
   NEAREST,      ///< neighbourhoods of k points
   BALLS,        ///< neighbourhoods in balls
   DISC,
@@ -47,15 +47,15 @@ enum class UsedFor
 /// A row of the table.
 struct OptionRow
 {
-  const char* name;     ///< of Python and of reports; the tool has it as --name, with - for _
-  const char* group;    ///< of the help
+  const char* name;     ///< in Python and in reports; as --name, with - for _, in the tool
+  const char* group;    ///< heading in the help
   const char* in_class; ///< its setter in pcl::FloaterReconstruction, or its field in DiscOptions
   UsedFor used_for;
   const char* text;        ///< what it does, for the help and the pages
   const char* letter = ""; ///< short name in the tool
 };
 
-/// The finite values that a number may have.
+/// Allowed range of a number.
 struct NumberRange
 {
   double least, most;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is asked for, and the run that does it.
+// Options and run of a reconstruction.
 #pragma once
 
 #include "core/run_context.h"

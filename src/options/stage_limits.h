@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All limits: values that decide what a mesh is. Each stage says what its own mean and where they
-// come from.
+// All limits: the parameters of the stages that are no options. Each stage documents its own, with
+// their origin.
 #pragma once
 
 #include "consensus/consensus_loop.h"

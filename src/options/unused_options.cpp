@@ -64,7 +64,7 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
       return "neighbours are searched in balls";
     if (use == UsedFor::BALLS && !in_balls)
       return "neighbours are not searched in balls";
-    // Surfaces are made of Delaunay stars.
+    // A surface uses Delaunay stars of either.
     if (use == UsedFor::NEIGHBORHOOD && report.topology == Topology::SURFACE &&
         options.neighbors.kind == Neighborhood::NEAREST)
       return "the mesh was not made as a disc";

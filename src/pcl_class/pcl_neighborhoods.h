@@ -8,9 +8,8 @@
 #include <memory>
 
 namespace pcl::floater {
-/// pcl::search::KdTree as a search method for the core, and normals by pcl::NormalEstimation. The
-/// core's own are faster and run on all threads; these are for the method of TW 385 as a user of
-/// PCL would put it together.
+/// pcl::search::KdTree as a search method for the core, and normals by pcl::NormalEstimation. Used
+/// for TW 385 as built from PCL. The core's own are faster and use all threads.
 class PclNeighborhoods
 {
 public:
@@ -22,8 +21,8 @@ public:
 
   NeighborSearch& search ();
 
-  /// For each point of the whole cloud: the normal of the plane through it and its k nearest; not a
-  /// number for points that are not selected or not finite.
+  /// For each point of the whole cloud: normal of the plane through it and its k nearest; NaN for
+  /// points that are not selected or not finite.
   std::vector<Eigen::Vector3f> normals (int k) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is behind the pointer of ReconstructionState.
+// Members of ReconstructionState (pimpl).
 #pragma once
 
 #include <pcl/surface/floater/reconstruction_state.h>
@@ -12,7 +12,7 @@ namespace pcl::floater {
 struct ReconstructionState::Data
 {
   Options options;
-  pcl::Indices prescribed_loop; // as given: may hold indices that the core's type cannot
+  pcl::Indices prescribed_loop; // as given: may exceed the index type of the core
   bool use_input_normals = false;
   bool compute_normals = false;
   bool computes_texture = false;

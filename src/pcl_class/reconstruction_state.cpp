@@ -37,7 +37,7 @@ componentsOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::s
     for (const std::uint32_t p : t)
       components[p] = 0;
   }
-  // The smallest element of a set represents it, and so has its number before the others.
+  // The smallest element represents a set, so it is numbered first.
   int count = 0;
   for (std::size_t p = 0; p < size; ++p)
     if (components[p] == 0) {
@@ -51,8 +51,8 @@ componentsOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::s
 std::vector<bool>
 boundaryOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t size)
 {
-  // Around a point, each triangle leads from one neighbour to the next. The steps of an open fan
-  // add up to the way from its first to its last neighbour, those of a closed one to 0.
+  // Each triangle at a point steps from one neighbour to the next. The steps of an open fan add up
+  // to last minus first neighbour, the steps of a closed one to 0.
   std::vector<std::uint32_t> way (size, 0);
   for (const std::array<std::uint32_t, 3>& t : triangles)
     for (std::size_t i = 0; i < 3; ++i)
@@ -63,9 +63,9 @@ boundaryOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::siz
   return is_boundary;
 }
 
-// The state of each point.
-// \param components as of componentsOf
-// \param is_selected of each point: it was to be reconstructed
+// State of each point.
+// \param components from componentsOf ()
+// \param is_selected of each point: was to be reconstructed
 std::vector<std::int8_t>
 statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
           const std::vector<int>& components, const std::vector<bool>& is_selected,
@@ -85,11 +85,11 @@ statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
   return states;
 }
 
-// The texture coordinates, as the second part of a run that asks for them.
+// The texture coordinates, as the second half of a run that asks for them.
 class TexturePart
 {
 public:
-  // Copies the positions, and makes the progress of the reconstruction that of the first part.
+  // Copies the positions, and scales the progress of the reconstruction to the first half.
   TexturePart (bool is_wanted, double largest_stretch, const Input& input, Options& options)
       : is_wanted_ (is_wanted)
   {
@@ -111,7 +111,7 @@ public:
     };
   }
 
-  // A failure is one of the run.
+  // Its failure becomes the failure of the run.
   TextureCoordinates compute (int threads, Result& result)
   {
     Report& report = result.report;
@@ -218,7 +218,7 @@ ReconstructionState::makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& 
   output.header = mesh.header;
   output.cloud = std::move (mesh.cloud);
   output.tex_polygons.push_back (std::move (mesh.polygons));
-  // One for each corner, in order: so PCL writes OBJ files, all versions of it.
+  // One for each corner, in order, so that all versions of PCL write correct OBJ files.
   output.tex_coordinates.emplace_back ();
   for (const std::array<std::uint32_t, 3>& corners : data_->texture.corners)
     for (const std::uint32_t corner : corners)
@@ -346,7 +346,7 @@ ReconstructionState::checkCloud (std::size_t size, const pcl::Indices& indices)
   }
   const std::string outside_the_cloud =
       " is outside the cloud of " + std::to_string (size) + (size == 1 ? " point" : " points");
-  // The conversion makes negative indices too large.
+  // Negative indices become too large by the conversion.
   const auto is_outside = [size] (pcl::index_t index) {
     return static_cast<std::size_t> (index) >= size;
   };
@@ -372,7 +372,7 @@ ReconstructionState::triangulatePoints (Input&& input)
   std::vector<bool> is_selected (input.cloud_size, false);
   for (const std::uint32_t p : input.cloud_index)
     is_selected[p] = true;
-  std::unique_ptr<PclNeighborhoods> by_pcl; // TW 385 as a user of PCL would put it together
+  std::unique_ptr<PclNeighborhoods> by_pcl; // TW 385 as built from PCL
   if (options.disc.as_published && input.search == nullptr) {
     by_pcl = std::make_unique<PclNeighborhoods> (input);
     input.search = &by_pcl->search ();
@@ -380,7 +380,7 @@ ReconstructionState::triangulatePoints (Input&& input)
       input.normals = by_pcl->normals (options.neighbors.k);
   }
   std::vector<Eigen::Vector3d>
-      positions; // of the whole cloud; reconstruct () takes those of the input
+      positions; // of the whole cloud; reconstruct () consumes those of the input
   if (data_->compute_normals) {
     positions.resize (input.cloud_size);
     for (std::size_t i = 0; i < input.positions.size (); ++i)
@@ -405,7 +405,7 @@ ReconstructionState::printOutcome (const std::string& class_name) const
 {
   const Report& report = data_->report;
   const char* const name = class_name.c_str ();
-  if (report.status == RunStatus::CANCELLED) // as asked for: no error
+  if (report.status == RunStatus::CANCELLED) // as requested: no error
     PCL_WARN ("[pcl::%s::performReconstruction] %s: %s\n", name, statusName (report.status),
               report.message.c_str ());
   else if (report.status != RunStatus::SUCCESS)

@@ -9,8 +9,8 @@
 
 namespace pcl::floater {
 namespace {
-// Radius of the ball around a point, given its nearest others. A ball that holds fewer of them is
-// widened to the farthest.
+// Radius of the ball around a point, given its nearest others. Widened to the farthest of them if
+// needed.
 double
 ballRadius (const std::vector<Neighbor>& nearest, double radius)
 {
@@ -18,7 +18,7 @@ ballRadius (const std::vector<Neighbor>& nearest, double radius)
   for (const Neighbor& neighbor : nearest)
     sum += std::sqrt (neighbor.sqr_distance);
   const double spacing = nearest.empty () ? 0.0 : sum / static_cast<double> (nearest.size ());
-  // The square of a square root may be less than what it was made of.
+  // Squaring a square root may round down.
   constexpr double ROUNDING = 1.0 + 1e-15;
   return nearest.empty ()
              ? 0.0
@@ -40,7 +40,7 @@ public:
     drop (p, found);
     found.resize (std::min (k, found.size ()));
   }
-  // No more than are taken: next to a jump in density the ball may hold the whole cloud.
+  // Bounded: beside a jump in density the ball may contain the whole cloud.
   void within (Index p, double radius, std::vector<Neighbor>& found) const
   {
     tree_.nearestIf (

@@ -8,21 +8,20 @@
 #include "points/rows.h"
 
 namespace pcl::floater {
-/// Neighbours of a point whose mean distance is its local spacing, and the fewest of a ball.
+/// Neighbours in the mean distance that is the local spacing; also the minimum in a ball.
 constexpr int SPACING_NEIGHBORS = 6;
-/// The most neighbours taken from a ball: next to a jump in density it may hold any number.
+/// Maximum number of neighbours in a ball: beside a jump in density it may contain any number.
 constexpr std::size_t MOST_IN_BALL = 200;
 
-/// All other points in a ball around each of some points, nearest first, ties by index. Row i of
-/// the result is that of rows[i]. The radius is `radius` times the mean distance of the point's
-/// SPACING_NEIGHBORS nearest. At least as many as these, and at most the MOST_IN_BALL nearest. O(n
-/// (log n + neighbours)).
+/// All other points in a ball around each point in `rows`, nearest first, ties by index. Row i
+/// belongs to rows[i]. The radius is `radius` times the mean distance to the SPACING_NEIGHBORS
+/// nearest. At least these, and at most the MOST_IN_BALL nearest. O(n (log n + neighbours)).
 /// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 CsrLists
 findBallNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, double radius,
                    const RunContext& run);
 
-/// The same by the caller's search structure, in one thread.
+/// findBallNeighbors () by the caller's search structure, in one thread.
 CsrLists
 searchBallNeighbors (CallerSearch& search, const Rows& rows, double radius, const RunContext& run);
 

@@ -45,7 +45,7 @@ CallerSearch::nearest (Index p, std::size_t k, std::vector<Neighbor>& found)
 void
 CallerSearch::within (Index p, double radius, std::vector<Neighbor>& found)
 {
-  // Searches of PCL compute in single precision: ask for a little more, then measure.
+  // Searches of PCL compute in single precision: search a little farther, then measure.
   constexpr double MORE = 1.0 + 1e-5;
   const double sqr_radius = radius * radius;
   const auto is_outside = [sqr_radius] (const Neighbor& neighbor) {

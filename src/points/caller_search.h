@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The caller's search structure, asked for points of the working set.
+// The caller's search structure, for points of the working set.
 #pragma once
 
 #include "points/kd_tree.h"
@@ -9,12 +9,12 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
-/// Translates between points and cloud indices, and trusts no answer more than needed: what is
-/// answered twice, or outside of the set, is ignored; distances are measured here. For one thread.
+/// Translates between points and cloud indices, and validates the answers: repeated and unknown
+/// indices are ignored, distances are measured here. For one thread.
 class CallerSearch
 {
 public:
-  /// Builds the search among the points of the set. O(n log n) and what the search takes.
+  /// Builds the search on the points of the set. O(n log n) plus the time of the search.
   CallerSearch (const Points& points, NeighborSearch& search);
 
   /// The k nearest other points, nearest first, ties by index; fewer if the search finds fewer.
@@ -29,7 +29,7 @@ private:
   const Points& points_;
   NeighborSearch& search_;
   std::vector<Index> point_of_;      // by cloud index
-  std::vector<Index> cloud_indices_; // scratch: the search's answer
+  std::vector<Index> cloud_indices_; // scratch: the answer of the search
 };
 
 } // namespace pcl::floater

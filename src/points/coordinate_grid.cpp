@@ -13,11 +13,11 @@
 namespace pcl::floater {
 namespace {
 constexpr std::size_t SAMPLED = 1U << 17;  // points
-constexpr std::size_t FIRST_OF = 128;      // of these, one in so many is looked at first
-constexpr std::size_t FEWEST_SAMPLED = 21; // points that tell anything
+constexpr std::size_t FIRST_OF = 128;      // one in this many of these is tested first
+constexpr std::size_t FEWEST_SAMPLED = 21; // fewest points for a result
 constexpr double COARSE = 0.1;             // spacings
 constexpr double FINER_THAN_RASTER = 0.4;  // spacings; the step of a raster is 0.5 and more
-constexpr double COINCIDENT_SHARE = 0.1;   // of the points
+constexpr double COINCIDENT_SHARE = 0.1;   // share of the points
 constexpr double ALIKE = 0.01;             // relative difference of steps that count as equal
 constexpr double REGULAR = 0.99;           // of the differences are multiples of the step
 
@@ -42,8 +42,8 @@ floatStep (double value)
          static_cast<double> (number);
 }
 
-// Points at equal distances along the curve: the same, whatever the order of the cloud.
-// \param one_of of those that are looked at, one in so many
+// Points at equal distances along the curve, which do not depend on the order of the cloud.
+// \param one_of takes one in this many
 std::vector<double>
 sortedCoordinates (const Points& points, int axis, std::size_t one_of, const RunContext& run)
 {
@@ -104,7 +104,7 @@ areAlike (double a, double b)
   return std::abs (a - b) <= ALIKE * b;
 }
 
-// Whether the step is that of 32-bit floats, and not that of a raster that happens to have it.
+// Whether the step comes from 32-bit floats, not from a raster that happens to have it.
 bool
 isFloatStep (const std::array<AxisGrid, 3>& grids, const AxisGrid& grid, double scale)
 {
@@ -129,7 +129,7 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
     return found;
   std::vector<float> spacings = spacing;
   const auto usual = static_cast<double> (median (spacings));
-  // Where some of the points have a smaller step along every axis, all of them have.
+  // If some points have a smaller step along every axis, no grid is coarse.
   bool may_be_coarse = false;
   for (int axis = 0; axis < 3 && !may_be_coarse; ++axis)
     may_be_coarse =

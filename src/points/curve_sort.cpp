@@ -12,12 +12,13 @@
 namespace pcl::floater {
 namespace {
 constexpr std::size_t PART = 16384;       // points, as a mean: some 700 kB
-constexpr std::size_t MOST_PARTS = 1024;  // each has the page in memory where it ends so far
-constexpr std::size_t SAMPLES = 32;       // of a part; so the largest is less than twice the mean
+constexpr std::size_t MOST_PARTS = 1024;  // each keeps one page in memory, where it ends so far
+constexpr std::size_t SAMPLES = 32;       // per part, so that the largest is less than twice the
+                                          // mean
 constexpr std::uint16_t NO_PART = 0xffff; // for positions that are not finite
 
-// Place of a position on the axes, in cells. One cell size for all: the curve is to follow
-// distance, not the shape of the box.
+// A position in units of cells. All axes have the same cell size: the curve follows distance, not
+// the shape of the box.
 Eigen::Array3d
 inCells (const Eigen::Vector3d& position)
 {
@@ -33,8 +34,7 @@ codeOf (const Eigen::Array3d& cell)
                        static_cast<std::uint32_t> (cell.z ())});
 }
 
-// Position on a curve through the 2^HILBERT_BITS cells a side into which a cell of the curve is
-// divided.
+// Position on a curve through a cell of the first curve, divided into 2^HILBERT_BITS cells a side.
 std::uint64_t
 codeInCell (const Eigen::Vector3d& position)
 {
@@ -50,7 +50,7 @@ struct Record
   {
   }
 
-  // Cells of the curve first, since their codes are known; ties are few.
+  // Cells first: their codes are already computed, and ties are few.
   bool operator<(const Record& other) const
   {
     if (code != other.code)
@@ -72,7 +72,7 @@ struct Record
   Index cloud_index = 0;
 };
 
-// A row out of each `stride`, at no regular distance: rows of a cloud may be the rows of a grid.
+// One row out of each `stride`, at irregular distances: rows of a cloud may be rows of a grid.
 std::size_t
 sampledRow (std::size_t sample, std::size_t stride)
 {
@@ -104,7 +104,7 @@ public:
 private:
   Eigen::Vector3d scaled (std::size_t row) const { return (positions_[row] - centre_) / scale_; }
 
-  // Equal positions get equal places between the borders, so that no border is between them.
+  // Equal positions have equal codes, so no border separates them.
   void chooseBorders ()
   {
     const std::size_t parts = std::clamp<std::size_t> (positions_.size () / PART, 1, MOST_PARTS);
@@ -136,7 +136,7 @@ private:
     return part_of;
   }
 
-  // Brings each position to its part. \return where each part ends
+  // Moves each position to its part. Returns where each part ends.
   std::vector<std::size_t> scatter (const std::vector<std::uint16_t>& part_of)
   {
     std::vector<std::size_t> next (borders_.size () + 2, 0); // the first is 0, see below
@@ -162,7 +162,7 @@ private:
 
   void sortParts (const std::vector<std::size_t>& ends)
   {
-    // Several parts in a task: an array that lies in a file is made less often.
+    // Several parts in a task: arrays in files are created less often.
     constexpr std::size_t MOST_TASKS = 256;
     const std::size_t in_task = (ends.size () + MOST_TASKS - 1) / MOST_TASKS;
     parallelTasks (run_, (ends.size () + in_task - 1) / in_task, [&] (std::size_t task) {
@@ -188,7 +188,7 @@ private:
   const Eigen::Vector3d centre_;
   const double scale_;
   const RunContext run_;
-  std::vector<Record> borders_; // with which all parts but the first begin, ascending
+  std::vector<Record> borders_; // first records of all parts except the first, ascending
   CurveOrder order_;
 };
 

@@ -36,7 +36,7 @@ medianPoint (const Positions& positions)
   return middle;
 }
 
-// Squares would overflow. The difference itself may: then it is infinite, and larger than all.
+// Not squared: squares would overflow. An infinite difference is larger than all others.
 double
 distanceFrom (const Eigen::Vector3d& centre, const Eigen::Vector3d& p)
 {
@@ -51,9 +51,9 @@ struct Bulk
   std::size_t points = 0;                                   // of the cloud, finite ones
 };
 
-// The radius grows over the points beyond it as long as there is no wide gap to the next. It begins
-// with the median: of all points that are not at the centre itself, since more than half may be
-// copies of one, such as (0, 0, 0) for pixels without depth.
+// Grows the radius over the points beyond it until there is a wide gap to the next. Starts with the
+// median of all points that are not at the centre itself: more than half may be copies of one, such
+// as (0, 0, 0) for pixels without depth.
 Bulk
 findBulk (const Positions& positions, double gap)
 {
@@ -91,7 +91,7 @@ isLess (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return std::lexicographical_compare (a.data (), a.data () + 3, b.data (), b.data () + 3);
 }
 
-// Of rows beyond the gap, those that have too few distinct points near them to be an object.
+// Keeps rows beyond the gap with too few distinct points near them for an object.
 std::vector<Index>
 keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> rows,
               const RunContext& run, const GrossOutlierLimits& limits)
@@ -99,7 +99,7 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   const auto isBefore = [&] (Index a, Index b) { return isLess (positions[a], positions[b]); };
   std::sort (rows.begin (), rows.end (), isBefore);
   Positions distinct;
-  std::vector<std::size_t> last; // of the rows of each distinct position, one past
+  std::vector<std::size_t> last; // one past the last row of each distinct position
   for (std::size_t i = 0; i < rows.size (); ++i) {
     if (i == 0 || isBefore (rows[i - 1], rows[i])) {
       distinct.emplace_back ((positions[rows[i]] - bulk.centre) / bulk.radius);
@@ -112,7 +112,7 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   parallelRanges (run, distinct.size (), [&] (std::size_t begin, std::size_t end) {
     std::vector<Neighbor> found;
     for (std::size_t i = begin; i < end; ++i) {
-      tree.nearest (distinct[i], limits.object, found); // itself among them
+      tree.nearest (distinct[i], limits.object, found); // includes the point itself
       is_isolated[i] = found.size () < limits.object || std::sqrt (found.back ().sqr_distance) >
                                                             limits.near * distinct[i].norm ()
                            ? 1
@@ -128,9 +128,8 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   return isolated;
 }
 
-// True if no point can be beyond the bulk, which is much faster to tell than where that is: along
-// the longest axis, less than half of the points lie in any interval as wide as the distances of a
-// half would be at most if one were.
+// Fast test that no point is beyond the bulk: along the longest axis, less than half of the points
+// lie in any interval as wide as the distances of a half could be otherwise.
 bool
 isAllBulk (const Positions& positions, double gap)
 {
@@ -173,8 +172,8 @@ findGrossOutliers (const Positions& positions, const RunContext& run,
   const Bulk bulk = findBulk (positions, limits.gap);
   if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
     return found;
-  // The bulk is a surface of at most so many points: their spacing is about the radius over their
-  // root. A frame of some size has 1 / epsilon steps across it.
+  // The bulk is a surface of at most this many points: their spacing is about the radius over their
+  // root. A frame has 1 / epsilon steps across it.
   const double spacing = bulk.radius / std::sqrt (static_cast<double> (bulk.points));
   const double largest_frame = spacing / (limits.steps * std::numeric_limits<double>::epsilon ());
   std::vector<Index> beyond;

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The curve is that of Skilling (2004), "Programming the Hilbert curve": from the highest bit down,
-// excess rotations are undone in all lower bits, and the rest is Gray-encoded. What has been done
-// to the lower bits is a permutation of the axes, some of which are inverted, and one more
-// inversion of all: one of few states. So the octants of a cell, from the largest down, are looked
-// up.
+// The curve of Skilling (2004), "Programming the Hilbert curve": from the highest bit down, excess
+// rotations are undone in all lower bits, and the rest is Gray-encoded. The transformation of the
+// lower bits is a permutation and inversion of axes, and one more inversion of all: one of few
+// states. So the octants of a cell are looked up, from the largest down.
 #include "points/hilbert_curve.h"
 
 #include <cstddef>
@@ -15,7 +14,7 @@ namespace pcl::floater {
 namespace {
 struct Orientation
 {
-  std::array<std::uint8_t, 3> axes{0, 1, 2};     // which axis of the cell has become axis i
+  std::array<std::uint8_t, 3> axes{0, 1, 2};     // axis of the cell that has become axis i
   std::array<std::uint8_t, 3> inverted{0, 0, 0}; // 1: its bits are inverted
   std::uint8_t parity = 0;                       // 1: all bits of the code are inverted
 

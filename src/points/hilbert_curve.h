@@ -9,8 +9,8 @@
 namespace pcl::floater {
 constexpr int HILBERT_BITS = 21; ///< of each coordinate
 
-/// Place of a cell on a Hilbert curve through the grid of 2^HILBERT_BITS cells a side.
-/// \param cell the coordinates, of HILBERT_BITS bits
+/// Position of a cell along a Hilbert curve through a grid of 2^HILBERT_BITS cells a side.
+/// \param cell coordinates, of HILBERT_BITS bits
 std::uint64_t
 hilbertCode (const std::array<std::uint32_t, 3>& cell);
 

@@ -11,7 +11,7 @@ namespace pcl::floater {
 namespace {
 constexpr Index LARGEST_LEAF = 12; // points in a leaf, at most
 constexpr Index LARGEST_LEAF_OF_CURVE =
-    20;                          // the same if the points keep their order; faster than 8 and 12
+    20;                          // for points that keep their order; faster than 8 and 12
 constexpr Index PARALLEL = 8192; // points from which on halves are built at the same time
 } // namespace
 
@@ -81,7 +81,7 @@ KdTree::build (Index first, Index last, const RunContext& run, PointOrder order,
     nodes[self].box = nodes[self + 1].box.merged (nodes[nodes[self].right].box);
 }
 
-// A node exactly as far as the worst neighbour is still visited: it may hold a point of the same
+// Nodes exactly as far as the worst neighbour are visited: they may contain a point of the same
 // distance and smaller index.
 template <typename Visit>
 void

@@ -37,17 +37,17 @@ public:
   virtual void looked (const Eigen::Vector3d& centre, double radius) = 0;
 };
 
-/// The order of points that a tree is made of.
+/// Order of the points that a tree is built from.
 enum class PointOrder
 {
   ANY,        ///< the tree sorts them: O(n log n)
-  ALONG_CURVE ///< most are near the one before, as in a working set. The tree leaves them so: O(n)
+  ALONG_CURVE ///< most are near their predecessor, as in a working set; kept in this order: O(n)
 };
 
-/// Tree of boxes with buckets of points at its leaves. It is a kd-tree, built by medians, or halves
-/// the points in their order. 46 bytes per point, the same for any number of threads. Queries are
-/// exact, ties in distance are broken by index, and any number of threads may query at once. The
-/// order of the points changes the time of queries, and not what they find.
+/// Tree of boxes with buckets of points at its leaves: a kd-tree by medians, or halves of the
+/// points in their given order. 46 bytes per point for any number of threads. Queries are exact,
+/// ties in distance are broken by index, and queries are thread-safe. The order of the points
+/// affects only their time.
 class KdTree
 {
 public:
@@ -57,14 +57,14 @@ public:
   /// Reports every following call of looked () to this watch; nullptr: to none.
   void setWatch (SearchWatch* watch) { watch_ = watch; }
 
-  /// To be called after searches around a point of the cloud: they looked into this ball.
+  /// Reports a ball to the watch; to be called after searches around a point of the cloud.
   void looked (const Eigen::Vector3d& centre, double radius) const
   {
     if (watch_ != nullptr)
       watch_->looked (centre, radius);
   }
 
-  /// The same after a search for the k nearest points.
+  /// Reports the ball of a search for the k nearest points.
   void lookedForNearest (const Eigen::Vector3d& centre, std::size_t k,
                          const std::vector<Neighbor>& found) const
   {
@@ -76,22 +76,21 @@ public:
   /// A radius beyond all points of a working set.
   static constexpr double EVERYWHERE = 1e100;
 
-  /// The k nearest points to `query`, nearest first; fewer if the tree holds fewer. The result is
-  /// overwritten. O(k + log n) on clouds of bounded density.
+  /// The k nearest points to `query`, nearest first; fewer if the tree has fewer. Overwrites the
+  /// result. O(k + log n) on clouds of bounded density.
   void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
 
   /// All points within `radius` of `query` (that distance included), nearest first.
   void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
 
-  /// All points within `radius` of `query` (that distance included), in no order.
-  /// \return false if there are more than `most`, and not all were found
+  /// All points within `radius` of `query` (that distance included), unordered.
+  /// \return false if there are more than `most`; then some are missing
   bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
                 std::vector<Index>& points) const;
 
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
-  /// nearest first. What lies behind the plane through `query` with the normal `ahead` need not
-  /// be looked at, and accept has to refuse it; zero: there is no such plane. The result is
-  /// overwritten.
+  /// nearest first. Points behind the plane through `query` with the normal `ahead` may be skipped,
+  /// and accept must reject them; a zero normal means no plane. Overwrites the result.
   template <typename Accept>
   void nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const;
@@ -100,7 +99,7 @@ private:
   struct Node
   {
     Eigen::AlignedBox3d box; // of the points below this node
-    Index first;             // of these points
+    Index first;             // first of these points
     Index last;              // one past
     Index right;             // the left child is the next node; NONE at a leaf
 
@@ -118,8 +117,8 @@ private:
     Eigen::Vector3d position;
     Index point;
   };
-  // The nearest points found so far, at most k within the reach. The list is as long as it may
-  // become until end () is called.
+  // The nearest points found so far, at most k within the reach. May hold more candidates until end
+  // () is called.
   class Nearest
   {
   public:

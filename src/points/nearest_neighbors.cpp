@@ -12,12 +12,12 @@
 
 namespace pcl::floater {
 namespace {
-// For the message that there are too many.
+// For error messages.
 constexpr const char* TABLE = "the table of neighbours";
 constexpr const char* REMEDY = "use fewer points or fewer neighbours";
 
-// Writes the k nearest points of one of them but for itself, and NONE for those that are missing.
-// Points whose squared distance to it underflows may push it out of the results.
+// Writes the k nearest points of `self` without itself, and NONE for missing ones. Points whose
+// squared distance underflows may push it out of the results.
 void
 writeRow (const std::vector<Neighbor>& found, Index self, std::size_t k, Index* row)
 {
@@ -70,7 +70,7 @@ searchBlock (BlockSearch& search, const Rows& rows, std::size_t begin, std::size
   });
 }
 
-// Lists of k neighbours, or of all others if there are fewer, still to be filled in.
+// Lists of k neighbours, or of all others if there are fewer; not yet filled.
 CsrLists
 emptyLists (std::size_t points, std::size_t rows, int k)
 {

@@ -10,29 +10,29 @@
 #include "points/rows.h"
 
 namespace pcl::floater {
-/// The k nearest other points of some points, nearest first, ties by index; fewer if there are no
-/// more. Row i of the result is that of rows[i]. Large clouds are cut into blocks with halos, each
-/// with a kd-tree of its own; whether a halo is wide enough is checked, and the block cut anew if
-/// it is not. So the result does not depend on the number of blocks. O(n log n).
+/// The k nearest other points of the points in `rows`, nearest first, ties by index; fewer if there
+/// are no more. Row i belongs to rows[i]. Large clouds are cut into blocks with halos, each with a
+/// kd-tree of its own. A block whose halo is too narrow is cut again, so the result does not depend
+/// on the number of blocks. O(n log n).
 /// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 CsrLists
 findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
                       std::size_t blocks, const RunContext& run);
 
-/// The same by a kd-tree of all positions.
+/// findNearestNeighbors () with a kd-tree of all positions.
 CsrLists
 findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
                       const KdTree& tree, const RunContext& run);
 
-/// The same for points that a block owns; the block is widened where that is needed.
+/// findNearestNeighbors () for the own points of a block; widens the block where needed.
 /// \param rows   points of the working set, ascending
-/// \param points of the whole working set
+/// \param points number of points of the whole working set
 CsrLists
 findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, int k,
                     const RunContext& run);
 
-/// The same by the caller's search structure, in one thread. What it answers twice, or outside of
-/// the working set, is ignored; it may answer fewer than k.
+/// findNearestNeighbors () by the caller's search structure, in one thread. Ignores repeated and
+/// unknown indices; the search may return fewer than k.
 CsrLists
 searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const RunContext& run);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Neighbours of all points, of which only those that are asked for need be in memory.
+// Neighbours of all points, in memory or fetched on demand.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -17,7 +17,7 @@ public:
   using Some = std::function<CsrLists (const std::vector<Index>& points)>;
   using All = std::function<const CsrLists&()>;
 
-  /// Of lists in memory, which must outlive this.
+  /// Uses lists in memory, which must outlive this.
   NeighborTable (const CsrLists& lists) // implicit
       : some_ ([&lists] (const std::vector<Index>& points) {
           CsrLists rows;
@@ -33,11 +33,11 @@ public:
   {
   }
 
-  /// Of lists that are fetched.
-  /// \param all fetches all of them, and keeps them
+  /// Fetches lists on demand.
+  /// \param all fetches and keeps all lists
   NeighborTable (Some some, All all) : some_ (std::move (some)), all_ (std::move (all)) {}
 
-  /// Row i is that of points[i].
+  /// Row i belongs to points[i].
   /// \param points ascending
   CsrLists some (const std::vector<Index>& points) const { return some_ (points); }
 

@@ -31,7 +31,7 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
   return findNearestNeighbors (positions, rows, settings.options.k, **tree, run);
 }
 
-// Numbers of points after some were removed.
+// New numbers of points after a removal.
 class Renumbering
 {
 public:
@@ -47,7 +47,7 @@ public:
     starts_.push_back (removed.size ());
   }
 
-  // NONE for those that were removed.
+  // NONE for removed points.
   Index after (Index p) const
   {
     const auto begin = removed_.begin ();
@@ -61,7 +61,7 @@ private:
   static constexpr unsigned SHIFT = 12;
 
   const std::vector<Index>& removed_;
-  std::vector<std::size_t> starts_; // of every 4096 points: those removed before
+  std::vector<std::size_t> starts_; // number of removed points before every 4096th point
 };
 
 } // namespace

@@ -17,20 +17,21 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t FEWEST = 10;    // of them, so that a residual says something
-constexpr std::size_t SPACING_OF = 6; // nearest points whose mean distance is the local spacing
-constexpr std::size_t CENTRES = 8;    // noise is measured at every such point
+constexpr std::size_t FEWEST = 10;    // points that a residual needs
+constexpr std::size_t SPACING_OF = 6; // nearest points in the mean distance that is the local
+                                      // spacing
+constexpr std::size_t CENTRES = 8;    // noise is measured at one in this many points
 constexpr std::size_t AROUND = 10;    // centres around a point
-constexpr std::size_t PROBES = NOISE_PROBES / CENTRES; // every such centre is measured first
-// Share of the centres. With fewer noisy ones, NoiseLimits::disturbed_share cannot be reached
-// unless noise triples where it is smoothed, and all neighbours there disagree.
+constexpr std::size_t PROBES = NOISE_PROBES / CENTRES; // one in this many centres is measured first
+// Minimum share of noisy centres. Below, NoiseLimits::disturbed_share cannot be reached unless
+// noise triples where it is smoothed, and all neighbours there disagree.
 constexpr double FEW = 0.01;
 constexpr float NO_SURFACE = std::numeric_limits<float>::max (); // points on lines at all scales
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// Root mean square distance to the quadric over the plane of the points, for the unknowns it takes.
+// Root mean square distance to the quadric over the plane of the points.
 double
 quadricResidual (const std::vector<Eigen::Vector3d>& offsets, const PrincipalAxes& axes)
 {
@@ -84,7 +85,8 @@ public:
     const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
     relative.fill (-1.0); // unknown
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
-      // What is noise at a smaller scale falls at this one. If there is none, nothing can.
+      // The relative residual of noise falls at this scale. Without any, there is nothing to
+      // compare.
       if (scale + 1 == SCALES && !is_unevenness_needed &&
           std::none_of (relative.begin (), relative.end (), isRough))
         break;
@@ -150,8 +152,8 @@ private:
         offsets_.emplace_back (positions_[neighbor.point] - positions_[p]);
   }
 
-  // If the heights fall in two groups, far apart and each thin, that lie one over the other, these
-  // are two sheets. Then only the points on that of the centre are kept.
+  // If the heights form two distant thin groups, one above the other, they are two sheets. Then
+  // keeps only the points on the sheet of the centre.
   // \return whether there are two
   bool keepOwnSheet (const PrincipalAxes& axes, double spacing)
   {
@@ -174,8 +176,8 @@ private:
         gap <
             std::max (heights_[below - 1] - heights_.front (), heights_.back () - heights_[below]))
       return false;
-    // Terraces lie side by side: their centres are farther apart than the points spread, but for
-    // the error of a centre of few.
+    // Terraces lie side by side: their centres are farther apart than their points spread, less the
+    // error of a mean of few points.
     const double middle = 0.5 * (heights_[below - 1] + heights_[below]);
     Eigen::Vector2d lower = Eigen::Vector2d::Zero (), upper = Eigen::Vector2d::Zero ();
     for (const Eigen::Vector3d& point : local_)
@@ -253,11 +255,11 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
   return result;
 }
 
-// What was measured at each centre.
+// Measurements at each centre.
 struct Places
 {
   std::vector<float> noise, unevenness;
-  bool are_noisy = true, are_scatter = true; // so many of them that it is no chance
+  bool are_noisy = true, are_scatter = true; // enough of them to exclude chance
 };
 
 // The samples at the larger scales, made when they are needed.
@@ -383,12 +385,12 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t p = first; p < last; ++p) {
-      // The nearest in space: the curve jumps, and so would the noise.
+      // The nearest in space: along the curve, the noise would jump.
       centres.nearest (positions[p], 1, found);
       const float here = around[found.front ().point / CENTRES];
       const double spacing = spacingOf (positions, static_cast<Index> (p), all_neighbors.row (p));
       if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
-        continue; // a caller's search may find no neighbours: then there is no spacing
+        continue; // a caller's search may find no neighbours: no spacing
       noise.at_point[p] = here;
       relative[p] = static_cast<float> (here / spacing);
     }

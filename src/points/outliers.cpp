@@ -13,10 +13,10 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t NEAREST_POINTS = 20; // nearest neighbours, however many there are
-constexpr std::size_t REACH_OF = 6;        // nearest neighbour whose distance is a point's reach
+constexpr std::size_t NEAREST_POINTS = 20; // nearest neighbours, also for balls
+constexpr std::size_t REACH_OF = 6;        // neighbour whose distance is a point's reach
 
-using Arc = std::pair<Index, Index>; // a point and one of its own
+using Arc = std::pair<Index, Index>; // a point and one that it counts as close
 
 double
 distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
@@ -24,7 +24,7 @@ distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
   return (positions[p] - positions[q]).norm ();
 }
 
-// Tells whether a point lies apart; scratch is reused from point to point.
+// Tests whether a point lies apart; scratch is reused from point to point.
 class ApartTest
 {
 public:
@@ -39,14 +39,15 @@ public:
     const Row row = neighbors_.first (p, NEAREST_POINTS);
     if (row.size () < 4)
       return false;
-    // The nearest ones may be of the same small cluster: the reach of the others tells what is far.
+    // The nearest ones may be of the same small cluster: the threshold uses the reach of the
+    // others.
     const std::size_t beyond = std::min (limits_.cluster, row.size () / 2);
     const double to_others = distance (positions_, p, row[beyond]);
     scratch_.clear ();
     for (std::size_t i = beyond; i < row.size (); ++i)
       scratch_.push_back (reach_[row[i]]);
     if (to_others <= limits_.off_plane * *std::min_element (scratch_.begin (), scratch_.end ()))
-      return false; // so are nearly all points, without a median
+      return false; // true for nearly all points, without a median
     const double usual = median (scratch_);
     if (to_others > limits_.far * usual)
       return true;
@@ -54,7 +55,7 @@ public:
   }
 
 private:
-  // The plane of the neighbours without the point, fitted again without those that stray from it.
+  // Fits the plane of the neighbours without the point, then again without strays.
   bool isOffPlane (Index p, Row row, double least_height)
   {
     double spread = std::numeric_limits<double>::infinity ();
@@ -83,8 +84,8 @@ private:
   std::vector<double> scratch_;
 };
 
-// Arcs to points that lie apart, from points that enough others count among their own. An outlier
-// may well be nearest to another outlier; but few points are nearest to that one.
+// Arcs to points that lie apart, from points that enough others count as close. An outlier may well
+// be nearest to another outlier, but few points are nearest to the latter.
 std::vector<Arc>
 arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
              const OutlierLimits& limits)
@@ -102,7 +103,7 @@ arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
   return arcs; // ascending by q
 }
 
-// Clears the flag of what can be reached from the surface along arcs.
+// Clears the flag of points that can be reached from the surface along arcs.
 void
 keepReached (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
 {
@@ -125,7 +126,7 @@ keepReached (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
   }
 }
 
-// Clears the flag of points that hang together in more than a handful.
+// Clears the flag of points in clusters larger than `largest_cluster`.
 void
 keepLargeClusters (const std::vector<Arc>& arcs, std::size_t largest_cluster,
                    std::vector<std::uint8_t>& apart)

@@ -19,7 +19,7 @@ bucketsOf (std::size_t points)
   return (points + BUCKET - 1) / BUCKET;
 }
 
-// Above one by more than the rounding of a sum of distances.
+// Exceeds one by more than the rounding of a sum of distances.
 constexpr double ENLARGED = 1.0 + 1e-9;
 
 Eigen::AlignedBox3d
@@ -161,7 +161,7 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls, double widt
     const bool has_own = group * GROUP < own.last && own.first < (group + 1) * GROUP;
     return has_own || isWanted (groups_[group], false);
   };
-  std::size_t run_first = 0, run_last = 0; // consecutive buckets that are wanted
+  std::size_t run_first = 0, run_last = 0; // range of requested buckets
   const auto appendBucket = [&] (std::size_t bucket) {
     if (bucket != run_last) {
       append (run_first, run_last, cut);
@@ -224,7 +224,7 @@ BlockSearch::left ()
   std::vector<Index> points;
   std::vector<Neighbor> found;
   for (const Ball& ball : missing_) {
-    tree ().nearest (ball.centre, 1, found); // the point itself: no other one is at its place
+    tree ().nearest (ball.centre, 1, found); // the point itself: positions are distinct
     points.push_back (block_.points[found.front ().point]);
   }
   std::sort (points.begin (), points.end ());

@@ -22,18 +22,16 @@ struct Ball
   double radius;
 };
 
-/// Some points of a cloud, the block's own, and points around them, its halo.
-///
-/// A block owns a range of the working set: consecutive points on the space-filling curve. So the
-/// order of points does not depend on how many blocks there are.
+/// Consecutive points of a cloud (own points), and points around them (halo). The order of the
+/// points does not depend on the number of blocks.
 struct PointBlock
 {
   std::vector<Eigen::Vector3d> positions; ///< own points and halo, in the order of the working set
-  std::vector<Index> points;              ///< in the working set, ascending
-  double halo = 0.0;       ///< every point is here that lies as near to an own point as that ...
-  std::vector<Ball> balls; ///< ... or in one of these
+  std::vector<Index> points;              ///< their indices in the working set, ascending
+  double halo = 0.0;       ///< every point within this distance of an own point is included
+  std::vector<Ball> balls; ///< so is every point in these balls
 
-  /// Place of a point of the working set that is here; else of the next one.
+  /// Index in the block of a point of the working set; if it is not included, of the next one.
   Index placeOf (Index point) const;
 };
 
@@ -53,14 +51,14 @@ public:
 
   /// O(n), 1 byte per point.
   /// \param positions of the working set; must outlive the cutter
-  /// \param blocks wanted; fewer if they had less than a bucket of points each
+  /// \param blocks requested number; reduced to at least a bucket of points in each
   BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
                const RunContext& run);
 
-  /// The same for positions and buckets that lie elsewhere: 0.012 bytes per point. If there are
-  /// more blocks than buckets, some blocks have no points; these cannot be cut.
+  /// For positions and buckets that are stored elsewhere: 0.012 bytes per point. If there are more
+  /// blocks than buckets, some blocks have no points; these cannot be cut.
   /// \param groups see makeGroups
-  /// \param read_buckets those of makeBuckets
+  /// \param read_buckets reads results of makeBuckets
   BlockCutter (std::size_t points, std::vector<Box> groups, std::size_t blocks,
                ReadBuckets read_buckets, Read read);
 
@@ -70,20 +68,20 @@ public:
 
   static constexpr std::size_t GROUP = 64; ///< buckets in a group
 
-  /// Groups: the boxes of GROUP consecutive buckets each, or of other boxes in a row. O(n).
+  /// Groups: the boxes of GROUP consecutive buckets or other boxes. O(n).
   static std::vector<Box> makeGroups (const std::vector<Box>& buckets);
 
   std::size_t blocks () const { return blocks_; }
 
-  /// First point of a block, or the number of points for the one behind the last.
+  /// First point of a block. For block == blocks: the number of points.
   static Index firstOf (std::size_t block, std::size_t blocks, std::size_t points);
 
-  /// Range of the working set that a block owns.
+  /// Range of the working set that is a block's own.
   Index first (std::size_t block) const { return firstOf (block, blocks_, points_); }
   Index last (std::size_t block) const { return first (block + 1); }
 
   /// A block with a halo of about 12 spacings, and all points in the balls. O(points of the block).
-  /// \param widths of such halos, for a wider one
+  /// \param widths factor for a wider halo
   PointBlock cut (std::size_t block, const std::vector<Ball>& balls, double widths = 1.0) const;
 
 private:
@@ -111,8 +109,8 @@ private:
   Read read_;
 };
 
-/// Searches among the points of a block that may leave it: then the block is cut anew, with the
-/// balls in which they looked, and the search goes on. So the results are those of the whole cloud.
+/// Searches among the points of a block. If searches leave the block, it is cut again with the
+/// balls that they covered, and they are repeated. The results equal those of the whole cloud.
 class BlockSearch : private SearchWatch
 {
 public:
@@ -126,26 +124,26 @@ public:
   BlockSearch (BlockSearch&&) = delete;
   BlockSearch& operator= (BlockSearch&&) = delete;
 
-  /// Both change where a search leaves the block. The tree is made when it is first asked for, by
-  /// one thread; until the block changes, any number of them may use it then.
+  /// Block and tree change when the block is widened. The first call of tree () makes it and is for
+  /// one thread; then any number of threads may use it.
   const PointBlock& block () const { return block_; }
   const KdTree& tree ();
 
-  /// The own points, as places in the block: from the first one to one behind the last.
+  /// Range of the own points, as indices in the block.
   Index ownFirst () const { return block_.placeOf (cutter_.first (index_)); }
   Index ownLast () const { return ownFirst () + (cutter_.last (index_) - cutter_.first (index_)); }
 
-  /// Is told of searches that are not among those of tree ().
+  /// Receives searches other than those of tree ().
   SearchWatch& watch () { return *this; }
 
-  /// Whether searches, since this was last asked, looked into balls that the block does not have.
-  /// They are noted for widen ().
+  /// Whether searches since the last call covered balls that leave the block. They are stored for
+  /// widen ().
   bool hasLeft ();
 
   /// The own points around which searches have left the block since it was cut, ascending.
   std::vector<Index> left ();
 
-  /// Cuts the block anew with these balls, and makes its tree.
+  /// Cuts the block again with these balls, and makes its tree.
   /// \return false if there are none
   bool widen ();
 
@@ -164,9 +162,9 @@ private:
   std::size_t asked_ = 0; // of them when hasLeft () was last asked
 };
 
-/// How many blocks a cloud is worth: one up to 262144 points, else of at most 131072 points each
-/// and the same number for every thread.
-/// \param wanted 0: choose
+/// Number of blocks for a cloud: one up to 262144 points, otherwise blocks of at most 131072
+/// points, the same number for every thread.
+/// \param wanted 0: automatic
 std::size_t
 chooseBlocks (std::size_t points, int wanted, const RunContext& run);
 

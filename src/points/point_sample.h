@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fewer points of a cloud, evenly spread, to look at it at a larger scale.
+// Evenly spread subsets of a cloud, for larger scales.
 #pragma once
 
 #include "points/kd_tree.h"
@@ -10,14 +10,13 @@
 #include <vector>
 
 namespace pcl::floater {
-/// The scales at which a cloud is looked at: every point, every fourth, every sixteenth. On a
-/// surface, spacings double from one to the next.
+/// Scales: every point, every fourth, every sixteenth. On a surface, spacings double from one to
+/// the next.
 constexpr std::size_t SCALES = 3;
 constexpr std::array<std::size_t, SCALES> STRIDES{1, 4, 16};
-constexpr std::size_t LOOKED_AT = 20; ///< points at each scale
+constexpr std::size_t LOOKED_AT = 20; ///< neighbours at each scale
 
-/// Every so many points one. They are in the order of a space-filling curve, so that these are
-/// evenly spread.
+/// Every n-th point along the space-filling curve, so the sample is evenly spread.
 class PointSample
 {
 public:
@@ -27,7 +26,7 @@ public:
   {
   }
 
-  /// Of a part of a cloud: its points that are in the sample of the whole cloud, ascending.
+  /// Sample of a piece of a cloud: its points that are in the sample of the whole cloud, ascending.
   PointSample (const std::vector<Eigen::Vector3d>& positions, std::vector<Index> points,
                const RunContext& run)
       : points_ (std::move (points)), tree_ (at (positions, points_), run)
@@ -37,7 +36,7 @@ public:
   /// See KdTree::setWatch.
   void setWatch (SearchWatch* watch) { tree_.setWatch (watch); }
 
-  /// The nearest points of the sample, by their indices among all points.
+  /// The nearest points of the sample, as indices among all points.
   void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
   {
     tree_.nearest (query, k, found);
@@ -69,7 +68,7 @@ private:
   }
 
   std::size_t stride_ = 1;
-  std::vector<Index> points_; // empty: every so many
+  std::vector<Index> points_; // empty: every n-th
   KdTree tree_;
 };
 

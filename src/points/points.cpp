@@ -13,8 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-// Equal points are neighbours in the order; the first of them, that of the smallest cloud index,
-// stands for the others.
+// Equal points are consecutive; the first, with the smallest cloud index, represents the others.
 void
 leaveDuplicatesOut (Points& points)
 {
@@ -33,9 +32,9 @@ leaveDuplicatesOut (Points& points)
   std::sort (points.duplicates.begin (), points.duplicates.end ());
 }
 
-// Whether the directions from a point to nearly all others are those of one line. Small objects far
-// apart are within rounding of a line, but this point sees that its own object is none. It is the
-// one in the middle of the order, so that it is in the largest of two.
+// Whether nearly all points, seen from one of them, lie in the directions of one line. Small
+// objects far apart are on a line within rounding, but not as seen from a point of one. The point
+// in the middle of the order is in the larger of two objects.
 bool
 isLineSeenFromWithin (const std::vector<Eigen::Vector3d>& positions)
 {
@@ -70,7 +69,7 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
     return points;
 
   points.centre = 0.5 * box.min () + 0.5 * box.max ();
-  // Both sides: the centre of a box as small as its digits may be rounded to one of its ends.
+  // Both sides: the centre of a tiny box may be rounded to one of its ends.
   const Eigen::Vector3d half_size =
       (box.max () - points.centre).cwiseMax (points.centre - box.min ());
   const double diagonal = 2.0 * half_size.stableNorm ();
@@ -85,8 +84,8 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
 std::vector<Eigen::Vector3f>
 normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points)
 {
-  // Those of a part of the cloud at a time, which stay in memory while they are looked up in any
-  // order: the others may lie in a mapped file.
+  // One piece of the cloud at a time, which stays in memory during random access: the others may be
+  // in a mapped file.
   constexpr std::size_t PART = std::size_t{1} << 22U; // 50 MB
   std::vector<Eigen::Vector3f> of_points (normals.empty () ? 0 : points.size ());
   for (std::size_t first = 0; first < normals.size (); first += PART)
@@ -94,7 +93,7 @@ normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& poin
       const Index cloud_index = points.cloud_index[p];
       if (cloud_index < first || cloud_index - first >= PART)
         continue;
-      // In double precision, where squares of floats neither overflow nor vanish.
+      // In double precision, squares of floats neither overflow nor underflow.
       const Eigen::Vector3d given = normals[cloud_index].cast<double> ();
       const double length = given.norm ();
       const bool is_normal = std::isfinite (length) && length > 0.0;

@@ -11,33 +11,34 @@
 #include <vector>
 
 namespace pcl::floater {
-/// The working set: finite, distinct points in the order of a space-filling curve, so that near
-/// points are near in memory. The order depends on the coordinates only, not on that of the cloud.
+/// The working set: finite, distinct points in the order of a space-filling curve, so near points
+/// are near in memory. The order depends only on the coordinates.
 struct Points
 {
   std::vector<Eigen::Vector3d> positions; ///< centred, scaled to a bounding box diagonal of 1
-  std::vector<Eigen::Vector3d> projected; ///< on local planes where noise is strong; else empty
-  std::vector<Index> cloud_index;         ///< of each point; of equal points the smallest
-  std::vector<Eigen::Vector3f> normals;   ///< that are given: unit length, of arbitrary sign, zero
-                                          ///< where there is none; empty if none is given
-  std::vector<Eigen::Vector3f> facing_normals;       ///< the same for those that point to the front
+  std::vector<Eigen::Vector3d> projected; ///< projections of noisy points on local planes; empty if
+                                          ///< noise is weak
+  std::vector<Index> cloud_index;         ///< of each point; the smallest of equal points
+  std::vector<Eigen::Vector3f> normals;   ///< given normals: unit length, arbitrary sign, zero
+                                          ///< where missing; empty if none are given
+  std::vector<Eigen::Vector3f> facing_normals;       ///< normals towards the front, as above
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
-  std::size_t lattice_width = 0; ///< of an organized cloud: points of a row; else 0
+  std::size_t lattice_width = 0; ///< organized cloud: points of a row; otherwise 0
   double diagonal =
       1.0; ///< of the bounding box of the positions; 1/2 to 1 after points were removed
   std::vector<Index> non_finite;                ///< cloud indices, ascending
   std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, the equal point that
-                                                ///< stands for it), ascending
+                                                ///< represents it), ascending
 
-  /// The position of a point, where `positions` are not in memory but elsewhere; else empty.
+  /// Reads the position of a point if `positions` are not in memory; otherwise empty.
   std::function<Eigen::Vector3d (Index point)> position_elsewhere = {};
 
   bool hasPositions () const { return !position_elsewhere; }
 
   std::size_t size () const { return hasPositions () ? positions.size () : cloud_index.size (); }
 
-  /// Positions by which points are connected. The mesh is on the positions themselves.
+  /// Positions by which points are connected. The mesh uses `positions`.
   const std::vector<Eigen::Vector3d>& workingPositions () const
   {
     return projected.empty () ? positions : projected;
@@ -51,30 +52,29 @@ struct Points
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
-/// (the smallest cloud index stands for all), and sorts along a Hilbert curve, which is fine enough
-/// for objects many orders of magnitude smaller than the box. O(n log n). Points are equal if they
-/// are so after scaling. Points nearer to each other than 1e-16 of the diagonal may be, and no
-/// later stage could tell them apart.
-/// \param positions any
+/// (the smallest cloud index represents them), and sorts along a Hilbert curve, fine enough for
+/// objects many orders of magnitude smaller than the box. O(n log n). Points are compared after
+/// scaling: points nearer than 1e-16 of the diagonal may become equal, and could not be resolved
+/// later.
 /// \param cloud_index of each position; distinct
 Points
 makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
             const RunContext& run);
 
-/// Normals that are given for each index of the whole cloud, or none, in the order of the points:
-/// unit length, or zero where there is none. O(n).
+/// Given normals of the points, from those of the whole cloud, if any: unit length, or zero where
+/// missing. O(n).
 std::vector<Eigen::Vector3f>
 normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points);
 
 /// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line. Small objects far
-/// apart do not: it is enough that a quarter of the points lie beside the line as seen from one of
-/// them.
+/// apart pass: it suffices that, seen from one of the points, a quarter of the others lie beside
+/// the line.
 Problem
 checkPoints (const Points& points);
 
-/// Takes points out; the others keep their order. Where that shrinks the bounding box, positions
-/// are scaled again, by a power of two: distances compare as before, to the last bit. Duplicates of
-/// a point that is taken out stay listed. For points that have not been projected. O(n).
+/// Removes points and keeps the order of the others. If the bounding box shrinks, positions are
+/// scaled again, by a power of two, which keeps all comparisons of distances. Duplicates of a
+/// removed point stay listed. Not for projected points. O(n).
 /// \param removed points, ascending
 /// \return their cloud indices, ascending
 std::vector<Index>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points that a stage is asked for.
+// Subsets of the points.
 #pragma once
 
 #include "core/types.h"
@@ -9,8 +9,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Points to work on, ascending: all, a range, or those that are listed. The list must outlive
-/// this.
+/// Points to work on, ascending: all, a range, or a list. The list must outlive this.
 class Rows
 {
 public:
@@ -24,7 +23,7 @@ public:
     return points_ ? points_[i] : first_ + static_cast<Index> (i);
   }
 
-  /// Place of the first one that is not below `point`.
+  /// Index of the first one that is not below `point`.
   std::size_t placeOf (Index point) const
   {
     return points_ ? static_cast<std::size_t> (std::lower_bound (points_, points_ + count_, point) -

@@ -8,31 +8,31 @@
 
 namespace pcl::floater {
 namespace {
-// Points that share a ball. More points need fewer balls, which have more points for each of them.
-// On a height field, this with the two below was the fastest of five choices: 16 or 24 points,
-// margins of 1.3 to 1.5, widths of 2 to 3. The slowest took a fifth more.
+// Points that share a ball. Larger groups need fewer balls, with more points in each. On a height
+// field, this and the next two were the fastest of five choices: 16 or 24 points, margins of 1.3 to
+// 1.5, widths of 2 to 3. The slowest took a fifth more.
 constexpr std::size_t GROUP = 24;
 
-// The ball has all points around each of the group that are nearer than so many times the distance
-// to the last neighbour of the point before the group.
+// Radius around each point of the group that the ball covers, relative to the distance of the last
+// neighbour of the point before the group.
 constexpr double MARGIN = 1.3;
 
-// A group ends where it is wider than this many such distances: the curve has jumped.
+// Largest width of a group, in such distances: beyond, the curve has jumped.
 constexpr double WIDEST = 2.5;
 
-// A ball may hold so many points for each neighbour: with the widths above, (WIDEST / 2 +
-// MARGIN)^2, or 7, on a plane of even density. With many more, the density varies so much that the
-// tree is better.
+// Maximum number of points in a ball for each neighbour. With the widths above it would be (WIDEST
+// / 2 + MARGIN)^2, or 7, on a plane of even density; with many more, the density varies and the
+// tree is faster.
 constexpr std::size_t MOST_POINTS = 32;
 
-// The last neighbour of most points is not farther than so many times that of the point before.
-// Else all that may be among the neighbours are sorted. 1.15 took as long.
+// Expected bound of the distance to the last neighbour, relative to the previous point. If it
+// fails, all points within reach are sorted. 1.15 took as long.
 constexpr double EXPECTED = 1.1;
 
-// Distances whose squares are too small to be precise. Coordinates are of the order of one.
+// Squares of shorter distances are imprecise. Coordinates are of the order of one.
 constexpr double SHORTEST = 1e-140;
 
-// Above one by more than the rounding of a sum of distances.
+// Exceeds one by more than the rounding of a sum of distances.
 constexpr double SAFELY = 1.0 + 1e-9;
 
 // Sorts by distance, then point: first by counting in this many classes of the squared distance,
@@ -66,13 +66,13 @@ sortInto (const std::vector<Neighbor>& some, std::size_t count, double sqr_reach
 
 } // namespace
 
-// Gathers the points around a group that begins at the point `first`. \return where it ends
+// Gathers the points around a group that begins at `first`. Returns its end.
 std::size_t
 SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t first)
 {
   radius_ = -1.0;
   const Eigen::Vector3d& begin = positions_[points[first]];
-  if (last_reach_ == KdTree::EVERYWHERE) // none was found yet
+  if (last_reach_ == KdTree::EVERYWHERE) // none found yet
     nearest (begin);
   if (!(last_reach_ > SHORTEST) || last_reach_ == KdTree::EVERYWHERE)
     return first + 1;
@@ -108,8 +108,8 @@ SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t firs
 void
 SequentialSearch::nearest (const Eigen::Vector3d& query)
 {
-  // All neighbours of the last query are as near as this. So are as many of the ball, if all points
-  // as near as this are in it. If not, there may be enough of them in a smaller ball.
+  // All neighbours of the last query are within this distance; so are as many points of the ball,
+  // if it covers this distance. If not, a smaller ball may still contain enough.
   const double reach = (last_reach_ + (query - last_).norm ()) * SAFELY;
   const double inside = radius_ / SAFELY - (query - centre_).norm () * SAFELY;
   if (!searchBall (query, std::min (reach, inside)))
@@ -127,12 +127,12 @@ SequentialSearch::searchBall (const Eigen::Vector3d& query, double reach)
     return false;
   const std::size_t count = ball_.size ();
   for (std::size_t i = 0; i < count; ++i) {
-    // As the tree adds them up: the order of neighbours depends on the last bit.
+    // The same sum as in the tree: the order of neighbours depends on the last bit.
     const double x = x_[i] - query.x (), y = y_[i] - query.y (), z = z_[i] - query.z ();
     sqr_distances_[i] = x * x + y * y + z * z;
   }
   near_.resize (count + 1);
-  // Mostly, the last of them is nearly as far as that of the query before.
+  // The last neighbour is mostly about as far as for the previous query.
   for (const double within : {std::min (reach, EXPECTED * last_reach_), reach}) {
     const double sqr_reach = within * within;
     std::size_t near = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nearest neighbours of many points in a row.
+// Nearest neighbours of consecutive points.
 #pragma once
 
 #include "points/kd_tree.h"
@@ -8,14 +8,13 @@
 #include <vector>
 
 namespace pcl::floater {
-/// The k nearest points to points of which most are near the one before, as along a space-filling
-/// curve. Finds the same as KdTree::nearest, in less than half of the time: some points in a row
-/// share what the tree has in a ball around all of them, and each knows by the one before how far
-/// its neighbours are at most.
+/// The k nearest points to points that mostly are near their predecessors, as along a space-filling
+/// curve. Same result as KdTree::nearest, in less than half of the time: consecutive points share
+/// the points of one ball, and the previous result bounds the distance of the next.
 class SequentialSearch
 {
 public:
-  /// \param tree, positions from which it was made; must outlive this
+  /// \param tree, positions the tree, and the positions it was made from; must outlive this
   SequentialSearch (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions,
                     std::size_t k)
       : tree_ (tree), positions_ (positions), k_ (k)
@@ -45,14 +44,15 @@ private:
   const std::vector<Eigen::Vector3d>& positions_;
   std::size_t k_;
   std::vector<Neighbor> found_;
-  Eigen::Vector3d last_ = Eigen::Vector3d::Zero (); // query, and the distance to its last neighbour
+  Eigen::Vector3d last_ = Eigen::Vector3d::Zero (); // last query, and the distance to its last
+                                                    // neighbour
   double last_reach_ = KdTree::EVERYWHERE;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero (); // of the ball
   double radius_ = -1.0;                              // of the ball; negative: there is none
   std::vector<Index> ball_;                           // points in the ball, and their coordinates
   std::vector<double> x_, y_, z_;
   std::vector<double> sqr_distances_; // of these to the query
-  std::vector<Neighbor> near_;        // those within reach, in no order
+  std::vector<Neighbor> near_;        // points within reach, unordered
 };
 
 } // namespace pcl::floater

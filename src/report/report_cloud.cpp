@@ -30,11 +30,12 @@ addOutliers (const std::vector<Index>& outliers, const std::string& what, Report
   report.statistics.outlier_points = report.outliers.size ();
 }
 
-// A place in the frame of the cloud, or the direction to a sensor far away.
+// Viewpoint in the frame of the cloud, or the direction to a far sensor.
 Eigen::Vector3d
 inCloud (const Points& points, const Viewpoint& viewpoint)
 {
-  constexpr double ROUNDING = 1e-14; // of the scale, as a place is moved to the box and back
+  constexpr double ROUNDING = 1e-14; // relative to the scale: error of moving a position to the box
+                                     // and back
   const Eigen::Vector3d place =
       viewpoint.is_far ? viewpoint.place
                        : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);

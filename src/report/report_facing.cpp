@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What decided on the front of each part of the mesh, and how sure that is.
+// Reports which rule decided the front of each part of the mesh, and with what confidence.
 #include "report/report_mesh.h"
 #include "report/report_text.h"
 
@@ -8,10 +8,11 @@
 
 namespace pcl::floater {
 namespace {
-// When to tell of a part; nothing else hangs on these.
-constexpr std::size_t TINY_OBJECT = 20; // the mesh has so many times as many triangles
-constexpr double SURE_FACING = 0.9;     // certainty; told to the user below
-constexpr double GUESSED_FACING = 0.6;  // certainty; a warning below
+// Thresholds for the report. They do not change the mesh.
+constexpr std::size_t TINY_OBJECT = 20; // a part is tiny if the mesh has this many times its
+                                        // triangles
+constexpr double SURE_FACING = 0.9;     // confidence; lower ones are reported
+constexpr double GUESSED_FACING = 0.6;  // confidence; a warning below
 
 // Some parts of the mesh.
 struct Pieces
@@ -35,7 +36,7 @@ struct Pieces
   }
 };
 
-// Why a part is a guess, by what was to decide.
+// Why a part is a guess, by the requested rule.
 const char*
 whyGuessed (Facing wanted)
 {

@@ -13,12 +13,12 @@ namespace pcl::floater {
 namespace {
 // Thresholds for warnings. They do not change the mesh.
 constexpr double LONG_STEP = 8.0;      // spacings: of an edge of the boundary loop
-constexpr double SMALL_HOLE = 6.0;     // spacings: a wider hole may well be one of the surface
-constexpr std::size_t FEW_POINTS = 50; // of a component, while ...
+constexpr double SMALL_HOLE = 6.0;     // spacings: wider holes may belong to the surface
+constexpr std::size_t FEW_POINTS = 50; // points of a small component, while ...
 constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
 
-// Far fewer points than the border of a disc as large as its component has, and not wide: 3.5 sqrt
-// (n) if that were round.
+// A loop with far fewer points than the border of a round disc of this size, 3.5 sqrt (n), and not
+// wide.
 bool
 isSmallHole (const LoopSummary& loop, std::size_t component_points)
 {
@@ -62,8 +62,7 @@ warnOfShape (const Points& points, const MeshExamination& found, Report& report)
                         ": they may belong to a larger one, or be outliers");
 }
 
-// No warning if the user chose the holes, or asked to cut edges or crossings: open holes are
-// expected then.
+// No warning if the user chose the holes, or asked to cut edges or crossings: holes are expected.
 void
 warnOfHoles (const Points& points, const MeshExamination& found, const Options& options,
              Report& report)
@@ -166,7 +165,7 @@ reportSystem (const Parameterization& parameterization, Statistics& statistics)
   statistics.factorization_bytes = solution.peak_bytes;
 }
 
-// The limits that cut all triangles off, each with what it was compared with.
+// The limits that cut off all triangles, each with the value that it was compared with.
 std::string
 whyNothingIsLeft (const Trimming& trimming, const TrimmingOptions& options)
 {

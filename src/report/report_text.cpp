@@ -9,7 +9,7 @@ std::string
 place (const Points& points, Index p)
 {
   std::ostringstream text;
-  text.precision (9); // tells all numbers of single precision apart
+  text.precision (9); // distinguishes all numbers in single precision
   const Eigen::Vector3d at = points.inCloud (p);
   text << "point " << points.cloud_index[p] << " (" << at.x () << ", " << at.y () << ", " << at.z ()
        << ")";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Phrases that messages to the user are made of.
+// Phrases for messages to the user.
 #pragma once
 
 #include "core/types.h"
@@ -9,7 +9,7 @@
 #include <string>
 
 namespace pcl::floater {
-/// "point 7 (1.5, 0, 2.25)": its cloud index and its place in the cloud.
+/// Cloud index and position: "point 7 (1.5, 0, 2.25)".
 std::string
 place (const Points& points, Index p);
 
@@ -21,7 +21,7 @@ rounded (double value);
 std::string
 counted (std::size_t count, const char* one, const char* several);
 
-/// " at ..." if there is but one thing, else ", one of them at ...".
+/// " at ..." for a single item, otherwise ", one of them at ...".
 std::string
 oneAt (std::size_t count, const std::string& place);
 

@@ -130,7 +130,7 @@ private:
   template <typename Work>
   bool guarded (const Work& work);
 
-  /// Makes the triangles, or none and a report that says why.
+  /// Makes the triangles; after a failure there are none, and the report has the reason.
   void triangulate (std::vector<pcl::Vertices>& polygons);
 };
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// The kind of surface that the points are taken for. It decides which method makes the mesh.
+/// The kind of surface. It decides which method makes the mesh.
 enum class Topology
 {
   AUTO,   ///< DISC if the boundary loop is given, else SURFACE
@@ -28,26 +28,26 @@ enum class Topology
 /// Which boundary loops of a surface stay open. A disc has one boundary loop and no holes.
 enum class HolePolicy
 {
-  AUTO,         ///< those that look like boundaries, not like gaps of the sampling
+  AUTO,         ///< boundaries stay open, gaps in the sampling are filled (both estimated)
   CLOSE_ALL,    ///< none: every component is closed
   KEEP_LARGEST, ///< the largest loop of every component, as its boundary
-  KEEP_COUNT,   ///< the HoleOptions::kept_loops likeliest boundaries of the whole surface
+  KEEP_COUNT,   ///< the HoleOptions::kept_loops most likely boundaries of the whole surface
   BY_SIZE       ///< those wider than HoleOptions::largest_hole
 };
 
-/// What a length is measured in.
+/// Unit of a length.
 enum class LengthUnit
 {
-  SPACINGS, ///< local spacings: mean distances of the points there to their 6 nearest
+  SPACINGS, ///< local spacings: mean distance of a point to its 6 nearest neighbours
   CLOUD     ///< units of the cloud
 };
 
-/// What becomes of scatter: points around which the cloud is flat at no scale, such as leaves and
-/// grass. It is not looked for in scans that are connected as their sensor saw them.
+/// How scatter is treated: points around which the cloud is not flat at any scale, such as leaves
+/// and grass. Scans that are connected as their sensor saw them are not searched for it.
 enum class ScatterPolicy
 {
-  KEEP, ///< it is connected like all other points, though that makes no meaningful surface
-  DROP  ///< it is left out of the mesh
+  KEEP, ///< connected like all other points; the surface there has no meaning
+  DROP  ///< left out of the mesh
 };
 
 /// How the boundary loop of a disc is found.
@@ -58,7 +58,7 @@ enum class BoundaryMethod
   TWO_SEGMENTS   ///< TW 385, section 3: largest cluster of boundary points, ordered in two segments
 };
 
-/// Which points a point is a convex combination of (TW 385, section 2.1 and Figure 1(b)).
+/// Neighbours of a point in its convex combination (TW 385, section 2.1 and Figure 1(b)).
 enum class Neighborhood
 {
   NEAREST_DELAUNAY, ///< the Delaunay star among the k nearest
@@ -76,7 +76,7 @@ enum class Domain
   OWN_SHAPE ///< convex hull of the loop, projected on its least-squares plane
 };
 
-/// How the points of the loop are spaced along that curve.
+/// Spacing of the points of the loop along the convex curve.
 enum class LoopSpacing
 {
   CHORD_LENGTH, ///< in proportion to the lengths of the loop's edges
@@ -119,26 +119,26 @@ enum class Ordering
 /// Whether a cloud of one scan is connected as its sensor saw it.
 enum class ViewUse
 {
-  AUTO,  ///< if the spacing of its rays tells from where: the sensor's origin is tried, and where
-         ///< noise is strong, the viewpoint is searched
+  AUTO,  ///< if its rays are evenly spaced from some viewpoint: the origin of the sensor is tried
+         ///< first; if noise is strong, the viewpoint is searched
   GIVEN, ///< yes, from ViewOptions::viewpoint; every point must be visible from there
   NEVER  ///< no
 };
 
-/// Which side of each component of the mesh is its front. Where what is asked for does not decide,
-/// a warning says so, and AUTO does.
+/// Which side of each component of the mesh is its front. Where the requested rule does not decide,
+/// a warning is given, and AUTO decides.
 enum class Facing
 {
   AUTO,      ///< the first rule that decides: input normals, if used; outwards, if closed; towards
              ///< the sensor of a single scan; the side that is more visible from outside; up
-  OUTWARDS,  ///< away from the inside; of an open sheet, the side that bulges
+  OUTWARDS,  ///< away from the inside; open sheets: the side to which they bulge
   UP,        ///< towards +z; upright ones towards +y, or +x. Closed components face outwards
-  VIEWPOINT, ///< towards the place of the sensor, which must be known. Closed components that it
-             ///< was not in face outwards
+  VIEWPOINT, ///< towards the position of the sensor, which must be known. Closed components face
+             ///< outwards unless the sensor was inside
   NORMALS    ///< where the normals of the input point to; they must be oriented
 };
 
-/// The stages of a run, in order. A method passes through some of them only.
+/// The stages of a run, in order. Each method uses some of them.
 enum class Stage
 {
   WORKING_SET, ///< finite, distinct points in the order of a space-filling curve
@@ -155,19 +155,19 @@ enum class Stage
   COUNT        ///< the number of stages
 };
 
-/// Short English name of a stage ("neighbors"), which is also its key in JSON reports.
+/// Short English name of a stage ("neighbors"), also its key in JSON reports.
 PCL_FLOATER_EXPORT const char*
 stageName (Stage stage);
 
 /// Neighbours of each point.
 struct NeighborOptions
 {
-  /// Points that a point of a disc is a convex combination of. A surface is made from Delaunay
-  /// stars in any case; there it matters only whether their points are the nearest or in a ball.
+  /// Disc: neighbours in the convex combination of a point. A surface always uses Delaunay stars;
+  /// only k nearest or ball matters there.
   Neighborhood kind = Neighborhood::NEAREST_DELAUNAY;
-  int k = 20;                ///< nearest neighbours of each point, 6 to 200; not for balls
-  double ball_radius = 2.25; ///< of a ball, in mean distances of its centre to the 6 nearest
-                             ///< points, 1 to 10
+  int k = 20;                ///< k nearest neighbours, 6 to 200; not used for balls
+  double ball_radius = 2.25; ///< radius in mean distances of the centre to its 6 nearest points, 1
+                             ///< to 10
 };
 
 /// Holes of a surface. A disc takes the policies AUTO and KEEP_LARGEST only.
@@ -180,20 +180,20 @@ struct HoleOptions
   LengthUnit unit = LengthUnit::SPACINGS; ///< BY_SIZE: of largest_hole
 };
 
-/// What is cut off the finished mesh. Where triangles are taken out there is a boundary, also of a
-/// disc; the mesh stays a manifold, so that at a point with several fans of triangles only the
-/// largest fan stays. By default, nothing is cut off.
+/// What is cut off the finished mesh; by default, nothing. Cuts leave boundaries, also in a disc.
+/// The mesh stays a manifold: at a point with several fans of triangles, only the largest fan is
+/// kept.
 struct TrimmingOptions
 {
-  double maximum_edge_length = 0.0; ///< no triangle has a longer edge; in units of the cloud, 0 or
-                                    ///< more; 0: no limit
-  double maximum_edge_ratio = 0.0;  ///< the same in local spacings, the mean of those of the two
-                                    ///< ends; 0 or more; 0: no limit
-  bool open_self_intersections = false; ///< triangles are taken out until no two cross each other
-  int minimum_component_size = 0;       ///< components of fewer points are taken out, 0 or more
+  double maximum_edge_length = 0.0; ///< longest edge allowed, in units of the cloud, 0 or more; 0:
+                                    ///< no limit
+  double maximum_edge_ratio = 0.0;  ///< longest edge allowed, in mean local spacings of its two
+                                    ///< ends, 0 or more; 0: no limit
+  bool open_self_intersections = false; ///< remove triangles until no two cross each other
+  int minimum_component_size = 0;       ///< remove components of fewer points, 0 or more
 };
 
-/// Scans, of which every point is visible from one place.
+/// Scans: every point is visible from one viewpoint.
 struct ViewOptions
 {
   ViewUse use = ViewUse::AUTO;       ///< whether the cloud is connected as its sensor saw it
@@ -221,7 +221,7 @@ struct DomainOptions
 {
   Domain curve = Domain::CIRCLE;                        ///< convex curve that the loop is laid on
   int polygon_sides = 6;                                ///< sides of Domain::POLYGON, 3 or more
-  LoopSpacing loop_spacing = LoopSpacing::CHORD_LENGTH; ///< how its points are spaced along it
+  LoopSpacing loop_spacing = LoopSpacing::CHORD_LENGTH; ///< spacing of the points along the curve
 };
 
 /// How the linear system of a disc is solved.
@@ -236,8 +236,7 @@ struct SolverOptions
                              ///< dropped, 0 to 1
 };
 
-/// What only a disc takes: its boundary loop, and the parameterization that lays it out in the
-/// plane.
+/// Options of discs only: the boundary loop, and the parameterization in the plane.
 struct DiscOptions
 {
   BoundaryOptions boundary;                    ///< the boundary loop, given or how it is found
@@ -245,41 +244,40 @@ struct DiscOptions
   Weighting weighting = Weighting::MEAN_VALUE; ///< of the neighbours of a point
   SolverOptions solver;                        ///< of the linear system
 
-  /// The method of TW 385 and nothing else. The surface is made as a disc, also for Topology::AUTO,
-  /// and what goes beyond the report is off, whatever the options of the run say: outliers, noise,
-  /// the filter of sheets, edge flips, the repair of folds and crossings, links to points that no
-  /// neighbour connects with the loop, the layout of collapsed regions, and the insertion of points
-  /// without a triangle. Not with Topology::SURFACE.
+  /// Exactly the method of TW 385. The surface is made as a disc, also for Topology::AUTO. All
+  /// extensions are off, whatever their options are: outliers, noise, the filter of sheets, edge
+  /// flips, the repair of folds and crossings, links to points that no neighbour connects with the
+  /// loop, the layout of collapsed regions, and the insertion of points without a triangle. Not
+  /// with Topology::SURFACE.
   bool as_published = false;
 
-  /// What TW 385 describes: boundary points by an opening angle of 160 degrees (section 3.1), their
+  /// The options of TW 385: boundary points by an opening angle of 160 degrees (section 3.1), their
   /// largest cluster (3.2), ordered in two segments (3.3), laid on a circle (2.1); mean value
-  /// weights in Delaunay neighbourhoods (4.1, equation (2)), the linear system by UMFPACK with the
-  /// ordering AMD (4.2); and as_published. Its 20 nearest neighbours (section 5) are the default of
-  /// NeighborOptions.
+  /// weights in Delaunay neighbourhoods (4.1, equation (2)), UMFPACK with the ordering AMD (4.2);
+  /// and as_published. Its 20 nearest neighbours (section 5) are the default of NeighborOptions.
   PCL_FLOATER_EXPORT static DiscOptions tw385 ();
 };
 
 /// All options of a run. The defaults need no tuning, and a run never changes them.
 struct Options
 {
-  Topology topology = Topology::AUTO; ///< what the points are taken for
-  NeighborOptions neighbors;          ///< of each point
+  Topology topology = Topology::AUTO; ///< kind of surface
+  NeighborOptions neighbors;          ///< neighbours of each point
   HoleOptions holes;                  ///< which boundary loops stay open
   TrimmingOptions trimming;           ///< what is cut off the finished mesh
   ViewOptions view;                   ///< not for discs
   Facing facing = Facing::AUTO;       ///< which side of the mesh is its front
-  DiscOptions disc;            ///< a surface that is made by another method does not read them
-  bool remove_outliers = true; ///< leave out points that lie off any surface
-  ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points of no surface, such as leaves
-  bool denoise = true;       ///< where noise is strong, connect the points as they lie when
-                             ///< projected on local planes; the vertices are not moved
+  DiscOptions disc;                   ///< options of the disc method; ignored by other methods
+  bool remove_outliers = true;        ///< leave out points that lie off any surface
+  ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points on no surface, such as leaves
+  bool denoise = true;       ///< where noise is strong, connect the points by their projections on
+                             ///< local planes; the vertices are not moved
   bool filter_sheets = true; ///< drop neighbours that lie on another sheet of the surface
   bool flip_edges = true;    ///< flip edges in space towards Delaunay, and repair folds
   bool remove_self_intersections = true; ///< change the mesh where its triangles cross each other;
-                                         ///< only with flip_edges, and not for scans that are
-                                         ///< connected as their sensor saw them, nor where noisy
-                                         ///< points were projected to connect them
+                                         ///< needs flip_edges. Not for scans that are connected as
+                                         ///< their sensor saw them, nor where noisy points were
+                                         ///< projected
   int blocks = 0;  ///< blocks in which the nearest neighbours are searched, 0 or more; 0: chosen by
                    ///< the number of points. Does not change the result
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
@@ -293,15 +291,15 @@ struct Options
   /// Called by the same thread as stage_callback.
   std::function<void (double)> progress_callback;
 
-  /// Asked as often as progress_callback is called, by the same thread. If it returns true, the run
-  /// ends with RunStatus::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
-  /// solvers, CGAL's triangulation and a search of the caller's are not interrupted; the run ends
-  /// when they return.
+  /// Polled as often as progress_callback, by the same thread. If it returns true, the run ends
+  /// with RunStatus::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
+  /// solvers, CGAL's triangulation and the caller's search are not interrupted; the run ends when
+  /// they return.
   std::function<bool ()> cancelled_callback;
 
-  /// Called before each piece of work, by the thread that does it: so by several at the same time,
-  /// and up to some ten thousand times a second. For a caller who watches what a run uses, such as
-  /// memory, and makes room for it. Must not throw, and should be quick.
+  /// Called before each piece of work, by the thread that does it: from several threads at once, up
+  /// to some ten thousand times a second. For callers that watch resources such as memory, and free
+  /// some. Must not throw, and should be quick.
   std::function<void ()> task_callback;
 };
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A search structure of the caller's. The core uses it in one thread at a time.
+/// A search structure of the caller. The core uses it in one thread at a time.
 class NeighborSearch
 {
 public:
@@ -25,8 +25,8 @@ public:
   virtual void build (const std::vector<std::uint32_t>& cloud_indices) = 0;
 
   /// Finds the k points nearest to a given one.
-  /// \param[out] cloud_indices in any order; the point itself may be among them; fewer than k only
-  /// if there are no more
+  /// \param[out] cloud_indices in any order; may include the point itself; fewer than k only if the
+  ///     cloud has no more
   virtual void nearest (std::uint32_t cloud_index, int k,
                         std::vector<std::uint32_t>& cloud_indices) = 0;
 
@@ -42,29 +42,28 @@ public:
   }
 };
 
-/// Points to reconstruct. Arrays that break what is said of them end with
-/// RunStatus::INVALID_INDICES.
+/// Points to reconstruct. Inconsistent arrays give RunStatus::INVALID_INDICES.
 struct Input
 {
   std::vector<Eigen::Vector3d> positions; ///< may hold non-finite coordinates and equal points
   std::vector<std::uint32_t> cloud_index; ///< one for each position; distinct
-  std::size_t cloud_size = 0;       ///< points of the whole cloud; every cloud index is smaller
-  NeighborSearch* search = nullptr; ///< nullptr: a kd-tree of the core's, in parallel
-  std::array<double, 3> sensor_origin{}; ///< of the sensor, if the cloud is one scan; see ViewUse.
-                                         ///< If it is not 0, the mesh faces it where it can
+  std::size_t cloud_size = 0;       ///< points of the whole cloud; all cloud indices are below it
+  NeighborSearch* search = nullptr; ///< nullptr: a parallel kd-tree of the core
+  std::array<double, 3> sensor_origin{}; ///< position of the sensor of a single scan; (0, 0, 0):
+                                         ///< unknown. See ViewUse. The mesh faces it where it can
 
   /// Empty, or one for each point of the whole cloud: normals of the tangent planes, of any length
-  /// and sign, in place of those that would be fitted. Where one is zero or not finite, the plane
-  /// is fitted.
+  /// and sign, used instead of fitted ones. The plane is fitted where a normal is zero or not
+  /// finite.
   std::vector<Eigen::Vector3f> normals{};
 
-  /// Empty, or one for each point of the whole cloud: normals of any length that point to the front
-  /// of the surface; read for Facing::AUTO and NORMALS. Where one is zero or not finite, it tells
-  /// nothing. They may be the same as `normals`.
+  /// Empty, or one for each point of the whole cloud: normals of any length towards the front of
+  /// the surface; read for Facing::AUTO and NORMALS. Ignored where zero or not finite. May be the
+  /// same as `normals`.
   std::vector<Eigen::Vector3f> facing_normals{};
 
-  /// Of an organized cloud, the number of points of a row: cloud index = row * lattice_width +
-  /// column. 0: not organized. A single scan takes less time with it, and has the same triangles.
+  /// Organized cloud: number of points of a row; cloud index = row * lattice_width + column. 0: not
+  /// organized. It makes single scans faster; their triangles are the same.
   std::size_t lattice_width = 0;
 };
 
@@ -82,12 +81,12 @@ struct Result
 /// view method triangulates the rays of a single scan. After the first two,
 /// points without a triangle are inserted, edges are flipped in space and folds are repaired.
 ///
-/// Every component of the mesh faces outwards: a closed one encloses a positive volume, but the
-/// wall of a hollow within another body faces into the hollow. A body with openings faces where
-/// more of it is seen from outside. A sheet or terrain faces up (+z; +y or +x where it is upright).
-/// A single scan whose sensor is known faces the sensor. Components that continue each other across
-/// a gap face alike. Oriented normals of the input go before all that, and Options::facing may ask
-/// for something else. Report::facing_decisions has those that are not sure.
+/// Every component of the mesh faces outwards: a closed one encloses a positive volume; the wall of
+/// a hollow in another body faces into the hollow. A body with openings faces the side that is more
+/// visible from outside. A sheet or terrain faces up (+z; +y or +x where it is upright). A single
+/// scan faces its sensor, if known. Components that continue each other across a gap face alike.
+/// Oriented input normals come before these rules; Options::facing may ask for others.
+/// Report::facing_decisions lists uncertain results.
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
 /// on the number of threads, on the number of blocks, or on the order of the points. A surface of
@@ -97,12 +96,11 @@ struct Result
 PCL_FLOATER_EXPORT Result
 reconstruct (Input input, const Options& options);
 
-/// The same for a whole cloud of points in double precision: for map coordinates, say, of which the
-/// 32 bits of PCL's point types keep only half a metre. The indices of the result count in
-/// `positions`. More than 2^32 - 1 points end with RunStatus::OUT_OF_MEMORY, no point with
-/// RunStatus::NO_INPUT.
-/// \param positions may hold non-finite coordinates and equal points. To save 24 bytes per point,
-/// std::move () them
+/// Reconstructs a whole cloud of points in double precision, such as map coordinates, which have a
+/// resolution of only half a metre in PCL's 32-bit point types. The result indexes `positions`.
+/// More than 2^32 - 1 points end with RunStatus::OUT_OF_MEMORY, no point with RunStatus::NO_INPUT.
+/// \param positions may hold non-finite coordinates and equal points. std::move () saves 24 bytes
+///     per point
 PCL_FLOATER_EXPORT Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options = {});
 

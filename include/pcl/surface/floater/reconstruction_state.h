@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What FloaterReconstruction keeps between calls, whatever the type of its points.
+// State of FloaterReconstruction that does not depend on the type of the points.
 #pragma once
 
 #include <pcl/surface/floater/options.h>
@@ -35,11 +35,11 @@ public:
    * pcl::GreedyProjectionTriangulation. */
   enum PointState
   {
-    NONE = -1,    ///< it cannot be connected: not selected, or with a NaN or infinite coordinate
-    FREE = 0,     ///< it is in no triangle
+    NONE = -1,    ///< not used: not selected, or with a NaN or infinite coordinate
+    FREE = 0,     ///< in no triangle
     FRINGE = 1,   ///< never returned: a finished mesh has no fringe
-    BOUNDARY = 2, ///< it is on a boundary loop of the mesh
-    COMPLETED = 3 ///< it is surrounded by triangles
+    BOUNDARY = 2, ///< on a boundary loop of the mesh
+    COMPLETED = 3 ///< surrounded by triangles
   };
 
   /** \brief The kind of surface that the points are taken for; default AUTO. With DISC, a run ends

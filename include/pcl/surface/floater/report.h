@@ -14,16 +14,15 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Outcome of a run. With every status but SUCCESS, the mesh is empty and a message names the
-/// cause.
+/// Outcome of a run. Unless it is SUCCESS, the mesh is empty and a message names the cause.
 enum class RunStatus
 {
   NOT_RUN,         ///< reconstruct () has not been called
   SUCCESS,         ///< a mesh was made; see Report::warnings
   NO_INPUT,        ///< null or empty input cloud
-  INVALID_OPTION,  ///< an option is out of its range or of no use, or the given viewpoint sees
-                   ///< no triangle
-  INVALID_INDICES, ///< an index is outside the cloud, or the arrays of Input do not fit together
+  INVALID_OPTION,  ///< an option is out of range or without use, or no triangle is visible from the
+                   ///< given viewpoint
+  INVALID_INDICES, ///< an index is outside the cloud, or the arrays of Input are inconsistent
   TOO_FEW_POINTS,  ///< fewer than 4 distinct finite points
   DEGENERATE,      ///< points on one line or in no triangle, or too far away for double precision;
                    ///< or every triangle was cut off (see TrimmingOptions)
@@ -33,7 +32,7 @@ enum class RunStatus
   NOT_A_DISC,      ///< disc: the surface has handles or several components, or is closed
   SINGULAR,        ///< disc: the linear system has no unique solution
   NOT_CONVERGED,   ///< disc: an iterative solver did not reach its tolerance
-  SOLVER_UNAVAILABLE, ///< the library is without this solver
+  SOLVER_UNAVAILABLE, ///< the library was built without this solver
   CANCELLED,          ///< Options::cancelled_callback returned true
   OUT_OF_MEMORY,      ///< an allocation failed, or a table outgrew its 32-bit indices
   INTERNAL_ERROR      ///< the mesh did not pass the final check; please report it
@@ -49,23 +48,23 @@ struct LoopSummary
   std::size_t points = 0;      ///< number of points
   double length = 0.0;         ///< sum of its edge lengths, in units of the cloud; finite
   double width = 0.0;          ///< largest distance between two of its points, same unit
-  double width_spacings = 0.0; ///< the same in local spacings
+  double width_spacings = 0.0; ///< width in local spacings
   std::uint32_t at = 0;        ///< smallest cloud index of its points
 };
 
-/// A decision of which the method was not sure: whether a boundary loop of the points that are
-/// connected at first is one of the surface, and stays open, or a gap of the sampling, and is
-/// filled. The hole policy may have decided otherwise than the probability says.
+/// An uncertain decision: whether a boundary loop of the first mesh is a boundary of the surface,
+/// and stays open, or a gap in the sampling, and is filled. The hole policy may overrule the
+/// probability.
 struct LoopDecision
 {
   std::size_t points = 0; ///< number of points
   double width = 0.0;     ///< largest distance between two of its points, in units of the cloud
-  double width_spacings = 0.0; ///< the same in local spacings
+  double width_spacings = 0.0; ///< width in local spacings
   std::uint32_t at = 0;        ///< smallest cloud index of its points
   bool stays_open = false;     ///< else it was filled
   double probability = 0.0;    ///< that it is a boundary of the surface, 0 to 1
-  bool is_too_deep = false;    ///< too deep to be filled: the sampling around does not tell how the
-                               ///< surface would go on
+  bool is_too_deep = false;    ///< too deep to be filled: the points around it do not determine the
+                               ///< surface inside
 };
 
 /// Why a part of the mesh faces as it does.
@@ -73,13 +72,13 @@ enum class FacingRule
 {
   CLOSED,  ///< it encloses a volume, and faces away from it
   HOLLOW,  ///< it is the wall of a hollow within another part, and faces into it
-  SENSOR,  ///< it was seen from the sensor, and faces it
-  BODY,    ///< one side is seen more from outside than the other one, and is the front
-  SHEET,   ///< both sides are seen alike: it faces up
+  SENSOR,  ///< the sensor saw it, and it faces the sensor
+  BODY,    ///< one side is more visible from outside, and is the front
+  SHEET,   ///< both sides are equally visible: it faces up
   NORMALS, ///< most of the normals of the input point to the front
-  UP,      ///< it faces up, as asked for
-  BULGE, ///< both sides are seen alike, but it faces outwards, as asked for: the front is the side
-         ///< to which it bulges out of its boundary
+  UP,      ///< it faces up, as requested
+  BULGE, ///< both sides are equally visible; OUTWARDS was requested: the front is the side to which
+         ///< it bulges
   COUNT  ///< the number of rules
 };
 
@@ -87,83 +86,84 @@ enum class FacingRule
 PCL_FLOATER_EXPORT const char*
 facingRuleName (FacingRule rule);
 
-/// A part of the mesh, one component or several that continue each other, whose front may be its
-/// back.
+/// A group of components with an uncertain front: one, or several that continue each other.
 struct FacingDecision
 {
   std::size_t triangles = 0;           ///< number of triangles
   std::uint32_t at = 0;                ///< cloud index of one of its points
-  FacingRule rule = FacingRule::SHEET; ///< by which it was turned
+  FacingRule rule = FacingRule::SHEET; ///< rule that turned it
   double certainty = 0.0; ///< confidence in the rule: 0.5 (another rule fits as well) to 1. For
                           ///< NORMALS: share of the area whose normals point to the front
 };
 
-/// What the final check found on the mesh. It uses nothing but triangles and positions.
+/// Result of the final check. It uses only triangles and positions.
 struct MeshCheck
 {
   bool done = false;                     ///< false if there was no mesh to check
   std::size_t nonmanifold_edges = 0;     ///< edges of three or more triangles; always 0
   std::size_t nonmanifold_vertices = 0;  ///< points with more than one fan of triangles; always 0
-  std::size_t orientation_conflicts = 0; ///< edges that both triangles traverse alike; always 0
+  std::size_t orientation_conflicts = 0; ///< edges that both triangles traverse in the same
+                                         ///< direction; always 0
   std::size_t components = 0;            ///< sets of triangles that are connected by edges
   std::int64_t euler_characteristic = 0; ///< vertices - edges + triangles
   std::int64_t genus = 0;                ///< handles, summed over the components
   std::size_t folds = 0;                 ///< edges whose triangles are folded by over 120 degrees
   std::size_t degenerate_triangles = 0;  ///< without area in the precision of the coordinates
-  std::size_t self_intersections = 0; ///< pairs of triangles that have more in common than corners:
-                                      ///< they cross, touch or overlap.
-                                      ///< Not looked for, and 0, if Report::is_view
+  std::size_t self_intersections = 0;    ///< pairs of triangles that share more than their common
+      ///< corners: they cross, touch or overlap. 0 without a search
+      ///< if Report::is_view
   std::vector<std::array<std::uint32_t, 2>>
-      self_intersections_at;                      ///< the first ten of them, each by
-                                                  ///< a point of either triangle
+      self_intersections_at;                      ///< the first ten of them, each by a point of
+                                                  ///< either triangle
   double longest_edge = 0.0;                      ///< in local spacings
   std::array<std::uint32_t, 2> longest_edge_at{}; ///< end points of that edge, as cloud indices
   std::vector<LoopSummary> loops;                 ///< longest first
 };
 
-/// Counts, times and figures of a run. Those of stages that were not reached are 0.
+/// Counts, times and figures of a run; 0 for stages that were not reached.
 struct Statistics
 {
   std::array<double, static_cast<std::size_t> (Stage::COUNT)> seconds{}; ///< wall time by stage
   double total_seconds = 0.0; ///< wall time of all stages
 
   std::size_t cloud_points = 0;      ///< points of the input cloud
-  std::size_t selected_points = 0;   ///< points that the indices select; else all
+  std::size_t selected_points = 0;   ///< points that the indices select; by default, all
   std::size_t non_finite_points = 0; ///< selected, but with a NaN or infinite coordinate
   std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
-  std::size_t working_points = 0;    ///< distinct finite points that are no outliers
+  std::size_t working_points = 0;    ///< distinct finite points without outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
-  std::size_t scatter_points = 0;    ///< points around which the cloud is flat at no scale, such as
-      ///< leaves. Not looked for in a view, in fewer than 320 points,
-      ///< and without denoising if scatter is kept
+  std::size_t scatter_points = 0;    ///< points around which the cloud is not flat at any scale,
+                                     ///< such as leaves. Not searched in a view, in fewer than 320
+                                     ///< points, and without denoising if scatter is kept
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
-                      ///< surface, in local spacings; below 0.15 it counts as 0. Not of a view
-  double noise_quantile_90 = 0.0;   ///< 90 % of the points have at most that noise
-  double largest_noise = 0.0;       ///< of all points
-  std::size_t projected_points = 0; ///< noisy points that were projected on the planes of the
-                                    ///< points around, to connect them
-  double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, along the axis
-                                ///< where it is widest, in local spacings; 0: none is seen
-  std::size_t trimmed_triangles = 0;  ///< triangles cut off as TrimmingOptions ask for
-  std::size_t opened_triangles = 0;   ///< those of them that crossed others
-  std::size_t trimmed_components = 0; ///< components among them that were too small
-  std::size_t trimmed_points = 0;     ///< points that are in no triangle any more for that reason
-  std::size_t view_steps = 0;   ///< of a scan: triangles between neighbouring rays that would lead
-                                ///< from one surface to another behind it, left out
-  std::size_t view_gaps = 0;    ///< of a scan: triangles left out where rays are missing
-  std::size_t holes_filled = 0; ///< boundary loops of a surface that were filled
-  std::size_t used_points = 0;  ///< points that are vertices of the mesh
-  std::size_t relinked_points = 0;     ///< points of a disc that had to be linked to the others
-  std::size_t boundary_candidates = 0; ///< points that look like boundary
+                      ///< surface, in local spacings; below 0.15 it counts as 0. Not for views
+  double noise_quantile_90 = 0.0;   ///< noise that 90 % of the points do not exceed
+  double largest_noise = 0.0;       ///< maximum over all points
+  std::size_t projected_points = 0; ///< noisy points that were projected on local planes, to
+                                    ///< connect them
+  double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, on the axis where
+                                ///< it is widest, in local spacings; 0: none found
+  std::size_t trimmed_triangles = 0;  ///< triangles cut off by TrimmingOptions
+  std::size_t opened_triangles = 0;   ///< trimmed triangles that crossed others
+  std::size_t trimmed_components = 0; ///< trimmed components that were too small
+  std::size_t trimmed_points = 0;     ///< points that lost all their triangles by trimming
+  std::size_t view_steps = 0;      ///< scan: triangles left out at depth steps, between one surface
+                                   ///< and another behind it
+  std::size_t view_gaps = 0;       ///< scan: triangles left out where rays are missing
+  std::size_t holes_filled = 0;    ///< boundary loops of a surface that were filled
+  std::size_t used_points = 0;     ///< points that are vertices of the mesh
+  std::size_t relinked_points = 0; ///< disc: points that had to be linked to the others
+  std::size_t boundary_candidates = 0; ///< boundary points, before the loop is found
   std::size_t loop_points = 0;         ///< points of the boundary loop
   std::size_t triangles = 0;           ///< triangles of the mesh
   std::size_t levels = 0; ///< depth to which collapsed regions of a disc were laid out again
   std::size_t flips = 0;  ///< edges flipped in space
-  std::size_t folds = 0;  ///< as MeshCheck::folds
+  std::size_t folds = 0;  ///< see MeshCheck::folds
   std::size_t self_intersections_found = 0;   ///< before any were removed
   std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them
   std::size_t self_intersection_moves = 0;    ///< points moved to other triangles to remove them
-  std::size_t self_intersection_rebuilds = 0; ///< patches of points taken out and put back for that
+  std::size_t self_intersection_rebuilds = 0; ///< point patches removed and reinserted to remove
+                                              ///< them
 
   std::size_t unknowns = 0;            ///< interior points m, rows of the system
   std::size_t nnz_matrix = 0;          ///< nnz (A)
@@ -171,44 +171,42 @@ struct Statistics
   double fill_in = 0.0;                ///< gamma = nnz (L + U) / nnz (A); TW 385, section 4.3
   double residual = 0.0;               ///< max |b - A u| over all rows and both coordinates
   double relative_residual = 0.0;      ///< measured |b - A u| / |b|, the larger of both coordinates
-  std::size_t iterations_u = 0;        ///< of an iterative solver for the first coordinate
-  std::size_t iterations_v = 0;        ///< of an iterative solver for the second coordinate
+  std::size_t iterations_u = 0;        ///< iterations for the first coordinate
+  std::size_t iterations_v = 0;        ///< iterations for the second coordinate
   double reciprocal_condition = 0.0;   ///< min |U_kk| / max |U_kk| of a direct solver
   std::size_t factorization_bytes = 0; ///< peak memory of the factorization; 0 if unknown
 };
 
-/// All about a run but the mesh itself. All indices are cloud indices.
+/// Everything about a run except the mesh. All indices are cloud indices.
 struct Report
 {
   RunStatus status = RunStatus::NOT_RUN; ///< outcome
   std::string message; ///< one sentence: the cause and what to do; empty after SUCCESS
   std::vector<std::string> warnings;  ///< oddities of cloud and mesh, one sentence each
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE
-  std::string topology_reason;        ///< why this method, in a few words
-  MeshCheck check;                    ///< the mesh, as examined at the end
-  /// Of a surface that is no view: boundary loops that may have been wrongly kept open or filled,
-  /// the least sure first. Empty if the method was sure of all.
+  std::string topology_reason;        ///< reason for this method, in a few words
+  MeshCheck check;                    ///< final check of the mesh
+  /// Surfaces except views: uncertain decisions on boundary loops, least certain first.
   std::vector<LoopDecision> loop_decisions;
-  /// Parts of the mesh whose front may be their back, the least sure first: those with a certainty
-  /// below 0.9. Empty if the method was sure of all.
+  /// Parts of the mesh whose confidence in the front is below 0.9, least certain first.
   std::vector<FacingDecision> facing_decisions;
-  double facing_certainty = 1.0; ///< least of FacingDecision::certainty of all parts of the mesh
-  /// Parts of the mesh by the rule that turned them; the index is a FacingRule.
+  double facing_certainty = 1.0; ///< smallest FacingDecision::certainty in the mesh
+  /// Number of parts by the rule that turned them; indexed by FacingRule.
   std::array<std::size_t, static_cast<std::size_t> (FacingRule::COUNT)> facing_parts{};
-  bool denoised = false; ///< the points were connected as they lie when projected on local planes
-  bool is_view = false;  ///< the points are one scan, and were connected as its sensor saw them
-  bool is_far_view = false;          ///< the sensor was so far away that its rays are parallel
-  bool is_view_by_pixels = false;    ///< the rows and columns of an organized cloud were of use
-  std::array<double, 3> viewpoint{}; ///< of the sensor; if it was far away, direction of its rays
+  bool denoised = false;             ///< points were connected by their projections on local planes
+  bool is_view = false;              ///< the points are one scan, connected as its sensor saw them
+  bool is_far_view = false;          ///< the sensor is so far away that its rays are parallel
+  bool is_view_by_pixels = false;    ///< the rows and columns of an organized cloud were used
+  std::array<double, 3> viewpoint{}; ///< of the sensor; for a far view, direction of its rays
   std::vector<std::uint32_t> loop;   ///< longest boundary loop, in order, each point once
-  /// Of a disc: position of each cloud point in the plane, NaN where it was not used. Triangles run
-  /// anti-clockwise there. Else empty.
+  /// Disc: position of each cloud point in the plane, NaN where unused; triangles are
+  /// anti-clockwise. Otherwise empty.
   std::vector<Eigen::Vector2d> parameters;
-  std::vector<std::uint32_t> unused;   ///< finite points, neither duplicates nor outliers, that are
-                                       ///< in no triangle, also where it was cut off; ascending
-  std::vector<std::uint32_t> scatter;  ///< points of no surface (see Statistics::scatter_points);
-                                       ///< left out of the mesh if that is asked for; ascending
-  std::vector<std::uint32_t> outliers; ///< points left out of the mesh as outliers; ascending
+  std::vector<std::uint32_t> unused;     ///< finite points in no triangle, except duplicates and
+                                         ///< outliers; includes points cut off; ascending
+  std::vector<std::uint32_t> scatter;    ///< points on no surface (see Statistics::scatter_points);
+                                         ///< left out of the mesh on request; ascending
+  std::vector<std::uint32_t> outliers;   ///< outliers, left out of the mesh; ascending
   std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate; ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),
                                                         ///< ascending

@@ -18,25 +18,25 @@ namespace pcl::floater {
 /// Options of computeTextureCoordinates (). The defaults need no tuning.
 struct TextureOptions
 {
-  /// Mean stretch above which a chart is cut further, where that helps; 1 or more. More gives fewer
-  /// and larger charts. The default is that of half a sphere.
+  /// Mean stretch above which a chart is cut further, where that helps; 1 or more. Larger values
+  /// give fewer and larger charts. The default is the stretch of half a sphere.
   double largest_stretch = 1.06;
 
-  /// Components that are discs are one chart each, however much that stretches them: this is the
-  /// parameterization of the disc. Other components are cut as always.
+  /// Each component that is a disc becomes one chart, whatever its stretch: the parameterization of
+  /// the disc. Other components are cut as usual.
   bool whole_discs = false;
 
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
 
-  /// Called with the fraction that is done, as in Options.
+  /// Called with the fraction done, as in Options.
   std::function<void (double)> progress_callback;
 
-  /// Asked whether to end, as in Options.
+  /// Polled for cancellation, as in Options.
   std::function<bool ()> cancelled_callback;
 };
 
-/// Texture coordinates and what they are worth, or why there are none. A chart is a part of the
-/// mesh that is laid out in one piece; an edge between two charts is a seam. A point on a seam has
+/// Texture coordinates and their quality, or why there are none. A chart is a piece of the mesh
+/// that is laid out without cuts; an edge between two charts is a seam. A point on a seam has
 /// several coordinates.
 struct TextureCoordinates
 {
@@ -46,16 +46,16 @@ struct TextureCoordinates
                                          ///< INTERNAL_ERROR
   std::string message; ///< one sentence: the cause and what to do; empty after SUCCESS
   std::vector<Eigen::Vector2f> coordinates; ///< u and v, 0 to 1; v goes up, as in OBJ files
-  std::vector<std::uint32_t> points;        ///< parallel to coordinates: the point of each
+  std::vector<std::uint32_t> points;        ///< parallel to coordinates: their points
   std::vector<std::array<std::uint32_t, 3>> corners; ///< parallel to the triangles: coordinates of
-                                                     ///< their corners; all run anti-clockwise
+                                                     ///< their corners; all anti-clockwise
   std::vector<std::uint32_t> charts;                 ///< parallel to the triangles: from 0 on
   std::vector<std::array<std::uint32_t, 2>> seams;   ///< edges between charts: two points each
 
   std::size_t chart_count = 0;  ///< number of charts
-  std::size_t flipped = 0;      ///< triangles that do not run anti-clockwise in the texture, by the
-                                ///< exact sign of their area. Always 0 unless the triangles are so
-                                ///< small beside the mesh that single precision cannot tell
+  std::size_t flipped = 0;      ///< triangles that are not anti-clockwise in the texture, by the
+                                ///< exact sign of their area. Always 0 unless triangles are too
+                                ///< small, relative to the mesh, for single precision
   double stretch = 1.0;         ///< of the whole texture, relative to lengths in it: root mean
                                 ///< square (L2 stretch of Sander et al. 2001); 1: none
   double largest_stretch = 1.0; ///< of the worst triangle (L-infinity stretch)
@@ -72,11 +72,12 @@ struct TextureCoordinates
 /// lower distortion in such a way that no triangle is flipped. Charts are scaled by their areas and
 /// stretch, and packed.
 ///
-/// Does not throw: a failure is a status and a message. The same for any number of threads. Takes
-/// about 5 microseconds per triangle with two cores, and 1 kB per triangle of the largest charts.
-/// \param positions of all points; those that are in no triangle get no coordinates
+/// Does not throw: a failure is a status and a message. The result does not depend on the number of
+/// threads. Takes about 5 microseconds per triangle with two cores, and 1 kB per triangle of the
+/// largest charts.
+/// \param positions of all points; points in no triangle get no coordinates
 /// \param triangles an oriented manifold, such as the result of a reconstruction; corners
-///                  anti-clockwise seen from the front
+///     anti-clockwise seen from the front
 PCL_FLOATER_EXPORT TextureCoordinates
 computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
                            const std::vector<std::array<std::uint32_t, 3>>& triangles,

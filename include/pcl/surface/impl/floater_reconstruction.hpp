@@ -19,7 +19,7 @@
 
 namespace pcl {
 namespace floater {
-/// Lets the core use a search method of PCL.
+/// Adapts a search method of PCL to the core.
 template <typename PointT>
 class SearchMethod : public NeighborSearch
 {
@@ -39,7 +39,7 @@ public:
   void nearest (std::uint32_t cloud_index, int k,
                 std::vector<std::uint32_t>& cloud_indices) override
   {
-    // By point, not by index: an index would count among the points given to build ().
+    // By point: an index would count among the points given to build ().
     copyFound (search_->nearestKSearch ((*cloud_)[cloud_index], k, found_, sqr_distances_),
                cloud_indices);
   }
@@ -68,9 +68,9 @@ private:
   std::vector<float> sqr_distances_;
 };
 
-/// Writes normals into the fields normal_x, normal_y and normal_z of a cloud, which are appended to
-/// its points if they have none of float.
-/// \param normals as many as the cloud has points
+/// Writes normals into the fields normal_x, normal_y and normal_z of a cloud. Appends these fields
+/// to its points if they have none of type float.
+/// \param normals one for each point of the cloud
 inline void
 writeNormals (const std::vector<Eigen::Vector3f>& normals, pcl::PCLPointCloud2& cloud)
 {
@@ -134,7 +134,7 @@ FloaterReconstruction<PointT>::guarded (const Work& work)
     printOutcome (getClassName ());
   }
   catch (const std::bad_alloc&) {
-    // No memory to print; the report tells the same.
+    // No memory to print; the report has the same message.
   }
   return getStatus () == floater::RunStatus::SUCCESS;
 }
@@ -228,7 +228,7 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
 {
   polygons.clear ();
   const std::size_t size = input_->size ();
-  // If memory runs out, PCLBase continues with fewer indices than there are points.
+  // If memory runs out, PCLBase continues with too few indices.
   if (fake_indices_ && indices_->size () != size)
     throw std::bad_alloc ();
   if (!checkCloud (size, *indices_))
