@@ -194,51 +194,6 @@ TEST_P (AnyTopology, IsTheSurface)
   expectUnlessStillWrong (one.name, [&one] { expectSurface (one); });
 }
 
-/// Triangles with new labels, each from its smallest corner on, in order.
-std::vector<Triangle>
-relabelled (std::vector<Triangle> triangles, const std::vector<Index>& label)
-{
-  for (Triangle& t : triangles) {
-    for (Index& p : t)
-      p = label[p];
-    std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
-  }
-  std::sort (triangles.begin (), triangles.end ());
-  return triangles;
-}
-
-TEST_P (AnyTopology, ThreadsAndOrderChangeNothing)
-{
-  const Case& one = GetParam ();
-  const KnownSurface surface = one.make ();
-  Options options = one.options;
-  options.threads = 1;
-  const Result expected = reconstruct (samples::asInput (surface.points), options);
-  options.threads = 2;
-  const Result again = reconstruct (samples::asInput (surface.points), options);
-  EXPECT_EQ (again.report.status, expected.report.status);
-  EXPECT_EQ (again.triangles, expected.triangles);
-  EXPECT_EQ (again.report.loop, expected.report.loop);
-
-  const std::vector<Index> order = samples::permutation (surface.points.size (), 17);
-  Positions permuted;
-  for (const Index p : order)
-    permuted.push_back (surface.points[p]);
-  const Result other = reconstruct (samples::asInput (permuted), options);
-  EXPECT_EQ (other.report.status, expected.report.status);
-  // Any of several equal points may stand for the others: take the first one.
-  std::map<std::array<double, 3>, Index> first;
-  std::vector<Index> plain, back (order.size ());
-  for (Index p = 0; p < surface.points.size (); ++p) {
-    const Eigen::Vector3d& at = surface.points[p];
-    plain.push_back (
-        first.emplace (std::array<double, 3>{at.x (), at.y (), at.z ()}, p).first->second);
-  }
-  for (Index p = 0; p < order.size (); ++p)
-    back[p] = plain[order[p]];
-  EXPECT_EQ (relabelled (other.triangles, back), relabelled (expected.triangles, plain));
-}
-
 // A surface without an orientation has no right mesh: it is refused, or cut with a warning.
 void
 expectRefusedOrCut (const KnownSurface& strip, Topology method)

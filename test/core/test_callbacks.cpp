@@ -3,9 +3,8 @@
 // Callbacks of a whole run: its progress, its cancellation, and what else a callback may do.
 #include <pcl/surface/floater/reconstruct.h>
 
+#include "points/point_samples.h"
 #include "poll_wait.h"
-#include "samples.h"
-#include "surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +19,7 @@ namespace {
 using samples::asInput;
 using samples::discOptions;
 using samples::Positions;
-
-Positions
-surface (SurfaceKind kind, std::size_t points)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  return generateSurface (spec);
-}
+using samples::surface;
 
 // A surface and options, which decide through which stages a run goes.
 struct Way
@@ -119,35 +110,6 @@ TEST (Progress, CallbacksComeFromTheCallingThreadAndChangeNothing)
   }
 }
 
-// Cancelled at the n-th question, for all n.
-TEST (Cancellation, EndsTheRunWhereverItIsAskedFor)
-{
-  for (Way& way : allWays ())
-    for (const int threads : {1, 3}) {
-      SCOPED_TRACE (way.name);
-      const Positions points = surface (way.kind, 500);
-      way.options.threads = threads;
-      int questions = 0;
-      way.options.cancelled_callback = [&] { return ++questions < 0; };
-      ASSERT_EQ (reconstruct (asInput (points), way.options).report.status, RunStatus::SUCCESS);
-      const int all = questions;
-      EXPECT_GE (all, 7);
-      for (int last = 1; last <= all; ++last) {
-        questions = 0;
-        way.options.cancelled_callback = [&] { return ++questions == last; };
-        const Result result = reconstruct (asInput (points), way.options);
-        if (questions < last)
-          continue; // the number of questions depends on time
-        EXPECT_EQ (result.report.status, RunStatus::CANCELLED);
-        EXPECT_NE (result.report.message, "");
-        EXPECT_TRUE (result.triangles.empty ());
-        EXPECT_TRUE (result.report.loop.empty ());
-        EXPECT_TRUE (result.report.parameters.empty ());
-        EXPECT_EQ (questions, last) << "asked again after the cancellation";
-      }
-    }
-}
-
 // Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. A
 // small cloud would be done before the next poll is due. So that first poll waits for that.
 bool
@@ -171,50 +133,26 @@ isCancelledWithin (Stage stage, const Positions& points, Options options)
   return result.report.status == RunStatus::CANCELLED && running == stage;
 }
 
-TEST (Cancellation, IsSeenWithinTheStagesOfASurface)
+TEST (Cancellation, IsSeenWithinStages)
 {
-  const Positions points = surface (SurfaceKind::CUT_OUT, 5000);
   Options options;
   options.topology = Topology::SURFACE;
   options.holes.policy = HolePolicy::CLOSE_ALL;
-  for (const int threads : {1, 2}) {
-    options.threads = threads;
-    for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::CONSENSUS,
-                              Stage::HOLES, Stage::FLIPS, Stage::CHECK})
-      EXPECT_TRUE (isCancelledWithin (stage, points, options)) << stageName (stage);
-  }
-}
-
-TEST (Cancellation, IsSeenWithinTheStagesOfADisc)
-{
-  const Positions points = surface (SurfaceKind::HEIGHT_FIELD, 5000);
-  Options options = discOptions ();
-  options.disc.solver.method = Solver::BICGSTAB_ILUT;
+  for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::CONSENSUS,
+                            Stage::HOLES, Stage::FLIPS, Stage::CHECK})
+    EXPECT_TRUE (isCancelledWithin (stage, surface (SurfaceKind::CUT_OUT, 5000), options))
+        << stageName (stage);
+  Options disc = discOptions ();
+  disc.disc.solver.method = Solver::BICGSTAB_ILUT;
   // All but DELAUNAY, which is a single call of CGAL.
-  for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::BOUNDARY,
-                            Stage::WEIGHTS, Stage::SOLVE, Stage::FLIPS, Stage::CHECK})
-    EXPECT_TRUE (isCancelledWithin (stage, points, options)) << stageName (stage);
-}
-
-TEST (Cancellation, IsSeenByEveryBoundaryMethod)
-{
-  const Positions points = surface (SurfaceKind::HEIGHT_FIELD, 5000);
-  Options options = discOptions ();
-  for (const BoundaryMethod method :
-       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
-    options.disc.boundary.method = method;
-    EXPECT_TRUE (isCancelledWithin (Stage::BOUNDARY, points, options))
-        << "method " << static_cast<int> (method);
-  }
-}
-
-TEST (Callbacks, ExceptionsEndTheRun)
-{
-  Options options;
-  options.cancelled_callback = [] () -> bool { throw std::runtime_error ("no answer"); };
-  const Result result = reconstruct (asInput (surface (SurfaceKind::TORUS, 2000)), options);
-  EXPECT_EQ (result.report.status, RunStatus::INTERNAL_ERROR);
-  EXPECT_NE (result.report.message.find ("no answer"), std::string::npos);
+  for (const Stage stage : {Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE})
+    for (const BoundaryMethod method :
+         {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
+      disc.disc.boundary.method = method;
+      disc.disc.boundary.cluster_tolerance = 0.2;
+      EXPECT_TRUE (isCancelledWithin (stage, surface (SurfaceKind::HEIGHT_FIELD, 5000), disc))
+          << stageName (stage) << ", method " << static_cast<int> (method);
+    }
 }
 
 TEST (Callbacks, WhateverTheyThrowStaysInside)

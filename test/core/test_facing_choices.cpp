@@ -125,22 +125,6 @@ TEST (FacingChoices, NormalsTurnAClosedBodyInwards)
   EXPECT_EQ (shareFacing (run (points, Facing::OUTWARDS, IN), points, OUT), 1.0);
 }
 
-TEST (FacingChoices, NormalsTurnASheetDown)
-{
-  const Positions points = sheet ([] (double r) { return 0.1 * std::sin (5.0 * r); });
-  EXPECT_EQ (shareFacing (run (points, Facing::AUTO), points, UP), 1.0);
-  for (const Topology topology : {Topology::SURFACE, Topology::DISC}) {
-    Options options;
-    options.topology = topology;
-    Input input = asInput (points);
-    // Of any length.
-    input.facing_normals.assign (points.size (), Eigen::Vector3f (0.0F, 0.0F, -7.0F));
-    const Result result = reconstruct (std::move (input), options);
-    EXPECT_EQ (shareFacing (result, points, DOWN), 1.0);
-  }
-  EXPECT_EQ (shareFacing (run (points, Facing::UP, DOWN), points, UP), 1.0);
-}
-
 TEST (FacingChoices, EveryComponentFacesByItsOwnNormals)
 {
   Positions bodies = sphere ();
@@ -361,24 +345,6 @@ TEST (FacingChoices, OfASingleScan)
   const Result up = view (Facing::UP, {});
   EXPECT_GT (partsBy (up, FacingRule::UP), 0U);
   EXPECT_EQ (partsBy (up, FacingRule::SENSOR), 0U);
-}
-
-TEST (FacingChoices, AreTheSameForAnyNumberOfThreads)
-{
-  const Positions points = sheet ([] (double r) { return 0.1 * std::cos (7.0 * r); });
-  for (const Facing facing : {Facing::OUTWARDS, Facing::UP, Facing::NORMALS}) {
-    Options options;
-    options.facing = facing;
-    Input input = asInput (points);
-    input.facing_normals.assign (points.size (),
-                                 Eigen::Vector3f::UnitX () + Eigen::Vector3f::UnitZ ());
-    options.threads = 1;
-    const Result one = reconstruct (input, options);
-    options.threads = 3;
-    const Result three = reconstruct (input, options);
-    EXPECT_EQ (one.triangles, three.triangles);
-    EXPECT_EQ (one.report.facing_certainty, three.report.facing_certainty);
-  }
 }
 
 } // namespace

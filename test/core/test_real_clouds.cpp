@@ -228,48 +228,6 @@ INSTANTIATE_TEST_SUITE_P (
                      Known{"bunny_holes", 1, 5, 0, 0, HolePolicy::KEEP_COUNT, 5}),
     [] (const testing::TestParamInfo<Known>& cloud) { return std::string (cloud.param.name); });
 
-// Boundary loops of the consensus mesh leave no point outside; they may cut ragged borders short.
-TEST (RealClouds, HaveTheirBoundaryOnALoopOfTheConsensus)
-{
-  for (const Case& cloud :
-       {Case{"snail", 1.0, 1.0}, Case{"tum_rabbit", 0.98, 0.98}, Case{"bunny", 0.65, 1.0}}) {
-    SCOPED_TRACE (cloud.name);
-    const std::string base = dataFolder () + "/" + cloud.name;
-    if (!std::ifstream (base + ".pcd"))
-      GTEST_SKIP () << missing (cloud.name);
-    Options options = samples::discOptions ();
-    options.disc.boundary.method = BoundaryMethod::CONSENSUS;
-    const Result result = reconstruct (samples::asInput (readPcd (base + ".pcd")), options);
-    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-    const std::vector<Index> truth = samples::topologyOf (readPly (base + ".gt.ply")).loops.at (0);
-    const std::set<Index> wanted (truth.begin (), truth.end ());
-    const std::set<Index> found (result.report.loop.begin (), result.report.loop.end ());
-    EXPECT_GE (shareOf (wanted, found), cloud.loop_recall);
-    EXPECT_GE (shareOf (found, wanted), cloud.edge_recall) << "of the loop on the true boundary";
-  }
-}
-
-TEST (RealClouds, AreTheSameInAnyNumberOfBlocksAndThreads)
-{
-  for (const char* name : {"bunny", "igea", "hill_lidar", "fertility_closed", "raw_slope_lidar"}) {
-    SCOPED_TRACE (name);
-    const std::string base = dataFolder () + "/" + name;
-    if (!std::ifstream (base + ".pcd"))
-      GTEST_SKIP () << missing (name);
-    const Positions cloud = readPcd (base + ".pcd");
-    Options options;
-    options.blocks = 1;
-    options.threads = 1;
-    const Result whole = reconstruct (samples::asInput (cloud), options);
-    ASSERT_EQ (whole.report.status, RunStatus::SUCCESS) << whole.report.message;
-    options.blocks = 64;
-    options.threads = 2;
-    const Result blocks = reconstruct (samples::asInput (cloud), options);
-    EXPECT_EQ (blocks.triangles, whole.triangles);
-    EXPECT_EQ (blocks.report.warnings, whole.report.warnings);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P (Discs, RealCloud,
                           testing::Values (Case{"snail", 0.99, 0.985}, Case{"lilium", 0.99, 0.99},
                                            Case{"tum_rabbit", 0.98, 0.95},

@@ -127,18 +127,5 @@ TEST (Rings, AreOneRing)
   }
 }
 
-TEST (Rings, AreTheSameInAnyNumberOfBlocksAndThreads)
-{
-  const Positions points = rings (1);
-  const Result expected = reconstruct (samples::asInput (points), {});
-  for (const int blocks : {1, 7})
-    for (const int threads : {1, 3}) {
-      Options options;
-      options.blocks = blocks;
-      options.threads = threads;
-      EXPECT_EQ (reconstruct (samples::asInput (points), options).triangles, expected.triangles);
-    }
-}
-
 } // namespace
 } // namespace pcl::floater

@@ -63,19 +63,6 @@ TEST (Orientation, TurnsNormalsToOneSide)
   }
 }
 
-TEST (Orientation, AContradictionChangesNothing)
-{
-  Orientation orientation (5);
-  EXPECT_TRUE (orientation.join ({0, 1, 2}, 0));
-  EXPECT_FALSE (orientation.join ({1, 2, 3}, 1)); // 1 and 2 on opposite sides
-  EXPECT_TRUE (orientation.join ({3, 4, 0}, 1));  // 3 opposite to 4 and 0
-  const std::vector<std::uint8_t> sides = sidesOf (orientation, 5);
-  EXPECT_EQ (sides[0], sides[1]);
-  EXPECT_EQ (sides[0], sides[2]);
-  EXPECT_NE (sides[0], sides[3]);
-  EXPECT_EQ (sides[0], sides[4]);
-}
-
 TEST (Orientation, TheMajorityOfVotesDecides)
 {
   // Two sets of points, 0 to 2 and 3 to 5, and candidates between them.

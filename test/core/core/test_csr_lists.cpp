@@ -14,25 +14,6 @@ asVector (Row row)
   return {row.begin (), row.end ()};
 }
 
-TEST (CsrLists, OfOneListForEachRow)
-{
-  const std::vector<std::pair<std::size_t, Index>> entries{{2, 7}, {0, 5}, {2, 3}, {4, 9},
-                                                           {2, 7}, {0, 1}, {2, 0}};
-  const CsrLists lists = makeCsrLists (6, [&] (const auto& emit) {
-    for (const auto& [row, id] : entries)
-      emit (row, id);
-  });
-  ASSERT_EQ (lists.rows (), 6U);
-  EXPECT_EQ (lists.ids.size (), entries.size ());
-  EXPECT_EQ (asVector (lists.row (0)), (std::vector<Index>{5, 1}));
-  EXPECT_EQ (asVector (lists.row (2)), (std::vector<Index>{7, 3, 7, 0}))
-      << "entries keep their order";
-  EXPECT_EQ (asVector (lists.row (4)), (std::vector<Index>{9}));
-  for (const std::size_t empty : {1U, 3U, 5U})
-    EXPECT_EQ (lists.row (empty).size (), 0U);
-  EXPECT_EQ (lists.row (2)[1], 3U);
-}
-
 TEST (CsrLists, WithoutEntriesAndWithoutRows)
 {
   const auto nothing = [] (const auto& /*emit*/) {};

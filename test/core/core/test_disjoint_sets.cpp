@@ -8,24 +8,6 @@
 
 namespace pcl::floater {
 namespace {
-TEST (DisjointSets, TheSmallestElementRepresentsASet)
-{
-  DisjointSets sets (8);
-  for (Index i = 0; i < 8; ++i)
-    EXPECT_EQ (sets.find (i), i);
-  EXPECT_TRUE (sets.join (7, 5));
-  EXPECT_TRUE (sets.join (3, 7));
-  EXPECT_TRUE (sets.join (6, 2));
-  EXPECT_FALSE (sets.join (5, 3)) << "7 has joined them";
-  EXPECT_FALSE (sets.join (4, 4));
-  for (const Index i : {3U, 5U, 7U})
-    EXPECT_EQ (sets.find (i), 3U);
-  EXPECT_TRUE (sets.join (2, 5));
-  for (const Index i : {2U, 3U, 5U, 6U, 7U})
-    EXPECT_EQ (sets.find (i), 2U);
-  EXPECT_EQ (sets.find (4), 4U);
-}
-
 TEST (DisjointSets, AreThoseOfRelabelling)
 {
   constexpr std::size_t SIZE = 60;
@@ -44,36 +26,6 @@ TEST (DisjointSets, AreThoseOfRelabelling)
         ASSERT_EQ (sets.find (i), label[i]);
     }
   }
-}
-
-TEST (SignedSets, SignsAddUpAlongTheWay)
-{
-  SignedSets sets (6);
-  EXPECT_TRUE (sets.join (0, 1, true));
-  EXPECT_TRUE (sets.join (1, 2, true));
-  EXPECT_TRUE (sets.join (2, 3, false));
-  const auto differ = [&sets] (Index a, Index b) {
-    EXPECT_EQ (sets.find (a).root, sets.find (b).root);
-    return sets.find (a).flipped != sets.find (b).flipped;
-  };
-  EXPECT_TRUE (differ (0, 1));
-  EXPECT_FALSE (differ (0, 2));
-  EXPECT_FALSE (differ (0, 3));
-  EXPECT_TRUE (differ (1, 3));
-  EXPECT_NE (sets.find (4).root, sets.find (0).root);
-  EXPECT_FALSE (sets.find (5).flipped) << "a set of one element";
-}
-
-TEST (SignedSets, AContradictionIsReturnedAndChangesNothing)
-{
-  SignedSets sets (3);
-  EXPECT_TRUE (sets.join (0, 1, false));
-  EXPECT_TRUE (sets.join (1, 2, true));
-  EXPECT_TRUE (sets.join (0, 2, true)) << "agrees with the first two";
-  EXPECT_FALSE (sets.join (0, 2, false));
-  EXPECT_TRUE (sets.join (2, 1, true)) << "a contradiction changes nothing";
-  EXPECT_TRUE (sets.join (1, 1, false));
-  EXPECT_FALSE (sets.join (1, 1, true));
 }
 
 TEST (SignedSets, AgreeWithAColouring)

@@ -172,31 +172,6 @@ TEST (RunMonitor, CallsBackOnItsOwnThreadOnly)
   EXPECT_TRUE (is_cancelled);
 }
 
-TEST (RunMonitor, TwoInOneThreadAreApart)
-{
-  Recorder outer;
-  const RunContext outer_run (1, &outer.monitor);
-  outer_run.beginStage (Stage::STARS);
-  const double outer_done = outer.done;
-  ProgressLoop outer_loop (outer_run, 2);
-  {
-    Recorder inner;
-    const RunContext inner_run (1, &inner.monitor);
-    inner_run.beginStage (Stage::WORKING_SET);
-    {
-      ProgressLoop inner_loop (inner_run, 2);
-      inner_loop.reach (1);
-      EXPECT_GT (inner.now (), 0.0) << "a loop of another run is no outer loop of it";
-    }
-    inner.is_cancelled = true;
-    EXPECT_THROW (inner.now (), Cancelled);
-  }
-  EXPECT_EQ (outer.now (), outer_done);
-  outer_loop.reach (1);
-  EXPECT_GT (outer.now (), outer_done);
-  EXPECT_EQ (outer.stages, (std::vector<Stage>{Stage::STARS}));
-}
-
 TEST (RunContext, WithinAStageNothingIsCalledBack)
 {
   Recorder recorder;

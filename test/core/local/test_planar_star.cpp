@@ -138,31 +138,6 @@ TEST (PlanarStar, NeighborhoodsAtABorderAreDelaunay)
   EXPECT_GT (open, 5000U);
 }
 
-TEST (PlanarStar, NeighborhoodsOfAnyScaleAreDelaunay)
-{
-  RandomStream random (3);
-  for (int sample = 0; sample < 3000 && !HasFailure (); ++sample) {
-    Neighbors neighbors (20);
-    for (Index i = 0; i < neighbors.size (); ++i) {
-      const double length = std::exp (10.0 * random.normal ()); // mostly 1e-9 to 1e9
-      const double angle = 2.0 * PI * random.uniform ();
-      neighbors[i] = {{length * std::cos (angle), length * std::sin (angle)}, i};
-    }
-    // Whether a far neighbour behind a much nearer one is in the star may depend on rounding. That
-    // the star is closed, and has the nearest neighbour, does not.
-    const Star star = make (neighbors);
-    EXPECT_EQ (star.open, byCgal (neighbors).open);
-    const auto nearest =
-        std::min_element (neighbors.begin (), neighbors.end (),
-                          [] (const PlanarNeighbor& a, const PlanarNeighbor& b) {
-                            return a.offset.squaredNorm () < b.offset.squaredNorm ();
-                          });
-    EXPECT_NE (std::find (star.points.begin (), star.points.end (), nearest->point),
-               star.points.end ());
-    EXPECT_GE (star.points.size (), star.open ? 2U : 3U);
-  }
-}
-
 // On a grid the corners of each cell lie on one circle, but for rounding after it was turned,
 // stretched and moved.
 TEST (PlanarStar, GridPointsAreSurroundedByTheirDirectNeighbors)

@@ -188,46 +188,6 @@ TEST (Stars, TheFilterLeavesASingleSheetAlone)
   EXPECT_EQ (filtered.open, plain.open);
 }
 
-TEST (Stars, ThreadsDoNotMatter)
-{
-  const Positions points = twoSheets (2.0);
-  const Stars expected = makeNeighborhoods (points, true, 1).geometry.stars;
-  for (const int threads : {0, 2, 3}) {
-    const Stars stars = makeNeighborhoods (points, true, threads).geometry.stars;
-    EXPECT_EQ (stars.neighbors.offsets, expected.neighbors.offsets);
-    EXPECT_EQ (stars.neighbors.ids, expected.neighbors.ids);
-    EXPECT_EQ (stars.offsets_in_plane, expected.offsets_in_plane);
-    EXPECT_EQ (stars.open, expected.open);
-    EXPECT_EQ (stars.normals, expected.normals);
-  }
-}
-
-TEST (Stars, RigidMotionTurnsThemOnly)
-{
-  Positions points = samples::disc (0.05, 7).positions;
-  for (Eigen::Vector3d& p : points)
-    p.z () = 0.3 * std::sin (3.0 * p.x ()) * std::cos (2.0 * p.y ());
-  const Eigen::Affine3d motion = Eigen::Translation3d (7, -3, 11) *
-                                 Eigen::AngleAxisd (1.1, Eigen::Vector3d (1, 2, 3).normalized ());
-  Positions moved;
-  for (const Eigen::Vector3d& p : points)
-    moved.push_back (motion * p);
-  // Cyclic neighbours by cloud index, whichever way the normal points.
-  const auto starsOf = [] (const Neighborhoods& made) {
-    std::vector<std::vector<Index>> stars (made.points.positions.size ());
-    for (std::size_t p = 0; p < stars.size (); ++p) {
-      std::vector<Index> star;
-      for (const Index q : made.geometry.stars.neighbors.row (p))
-        star.push_back (made.points.cloud_index[q]);
-      stars[made.points.cloud_index[p]] = samples::canonicalCycle (std::move (star));
-    }
-    return stars;
-  };
-  const auto expected = starsOf (makeNeighborhoods (points));
-  const auto found = starsOf (makeNeighborhoods (moved));
-  EXPECT_EQ (expected, found);
-}
-
 TEST (Stars, DegenerateNeighborhoods)
 {
   Positions line;

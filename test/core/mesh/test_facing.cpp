@@ -172,29 +172,6 @@ TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
   }
 }
 
-TEST (Facing, ComponentsAreTurnedOneByOne)
-{
-  const std::vector<Form> all = forms ();
-  Patch patch (all[0].shape, true, true, true);
-  const Patch sheet (all[5].shape, false, false);
-  const auto offset = static_cast<Index> (patch.positions.size ());
-  for (Triangle t : sheet.mesh.triangles) {
-    for (Index& p : t)
-      p += offset;
-    patch.mesh.triangles.push_back (t);
-  }
-  patch.positions.insert (patch.positions.end (), sheet.positions.begin (), sheet.positions.end ());
-  patch.positions.emplace_back (9.0, 9.0, 9.0); // no vertex
-  patch.mesh.connect (patch.positions.size (), 1);
-  TriangleMesh before = patch.mesh;
-  const bool torus_was_right =
-      shareFacing ({before.triangles[0]}, patch.positions, all[0].outside) == 1.0;
-  EXPECT_EQ (faceOutwards (patch.mesh, patch.positions, {}, {}, 1).turned,
-             torus_was_right ? 0U : 1U);
-  for (std::size_t t = sheet.mesh.triangles.size (); t < before.triangles.size (); ++t)
-    EXPECT_EQ (patch.mesh.triangles[t], before.triangles[t]);
-}
-
 TEST (Facing, AMeshOfNothingStaysNothing)
 {
   TriangleMesh mesh;
@@ -307,67 +284,6 @@ TEST (Facing, WhatOneViewHasShownIsTurnedTogether)
   }
 }
 
-// Both methods, on a half sphere of scattered points in two orders.
-TEST (Facing, IsHowEveryResultFaces)
-{
-  const samples::Sheet sheet = samples::disc (0.06, 3);
-  Positions points;
-  for (const Eigen::Vector3d& p : sheet.positions) {
-    const double angle = 0.5 * PI * p.norm ();
-    points.emplace_back (p.x () * std::sin (angle) / std::max (1e-9, p.norm ()),
-                         p.y () * std::sin (angle) / std::max (1e-9, p.norm ()), -std::cos (angle));
-  }
-  const auto outside = [] (const Eigen::Vector3d& p) { return p; };
-  for (const Topology method : {Topology::DISC, Topology::SURFACE})
-    for (const std::uint64_t seed : {1, 2, 3}) {
-      Positions permuted;
-      for (const Index p : samples::permutation (points.size (), seed))
-        permuted.push_back (points[p]);
-      Options options;
-      options.topology = method;
-      const Result result = reconstruct (samples::asInput (permuted), options);
-      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-      EXPECT_EQ (shareFacing (result.triangles, permuted, outside), 1.0);
-      if (method == Topology::SURFACE)
-        continue;
-      // Seen from outside, the parameterization is no mirror image.
-      Positions flat;
-      for (const Eigen::Vector2d& uv : result.report.parameters)
-        flat.emplace_back (uv.x (), uv.y (), 0.0);
-      EXPECT_GT (shareFacing (result.triangles, flat,
-                              [] (const Eigen::Vector3d&) { return Eigen::Vector3d::UnitZ (); }),
-                 0.95);
-    }
-}
-
-// A cloud that is too uneven for the view method.
-TEST (Facing, TheSensorOfACloudIsFacedByBothMethods)
-{
-  const samples::Sheet sheet = samples::disc (0.06, 3);
-  Positions points;
-  for (const Eigen::Vector3d& p : sheet.positions)
-    points.emplace_back (p.x () + 5.0, p.y () - 3.0, 0.1 * std::sin (5.0 * p.x ()));
-  for (const double height : {4.0, -4.0})
-    for (const Topology method : {Topology::DISC, Topology::SURFACE})
-      for (const ViewUse use : {ViewUse::AUTO, ViewUse::NEVER}) {
-        Options options;
-        options.topology = method;
-        options.view.use = use;
-        Input input = samples::asInput (points);
-        input.sensor_origin = {5.0, -3.0, height};
-        const Result result = reconstruct (std::move (input), options);
-        ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-        EXPECT_FALSE (result.report.is_view);
-        EXPECT_TRUE (result.report.facing_decisions.empty ());
-        const double front = use == ViewUse::NEVER ? 1.0 : height;
-        EXPECT_EQ (shareFacing (result.triangles, points,
-                                [front] (const Eigen::Vector3d&) {
-                                  return Eigen::Vector3d (0.0, 0.0, front);
-                                }),
-                   1.0);
-      }
-}
-
 // The report on a cap of a sphere. \param share of its area
 Report
 reportOfCap (double share)
@@ -381,29 +297,6 @@ reportOfCap (double share)
                          -std::cos (angle));
   }
   return reconstruct (samples::asInput (points), {}).report;
-}
-
-bool
-warnsOfAGuess (const Report& report)
-{
-  return std::any_of (report.warnings.begin (), report.warnings.end (), [] (const auto& warning) {
-    return warning.find ("is a guess") != std::string::npos;
-  });
-}
-
-TEST (Facing, AGuessIsWarnedOf)
-{
-  // Between a valley and a bowl. Of 80 shares, some lie where neither is likelier.
-  std::size_t warned = 0;
-  for (int i = 0; i < 80; ++i) {
-    const Report report = reportOfCap (0.22 + 0.001 * i);
-    ASSERT_EQ (warnsOfAGuess (report), report.facing_certainty < 0.6) << report.facing_certainty;
-    warned += warnsOfAGuess (report) ? 1 : 0;
-  }
-  EXPECT_GT (warned, 2U);
-  EXPECT_LT (warned, 60U);
-  EXPECT_FALSE (warnsOfAGuess (reportOfCap (0.1)));
-  EXPECT_FALSE (warnsOfAGuess (reportOfCap (0.6)));
 }
 
 TEST (Facing, TheReportTellsWhatIsNotSure)

@@ -5,6 +5,7 @@
 
 #include "floater/planar_delaunay.h"
 #include "mesh/fold_repair.h"
+#include "mesh/known_meshes.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -102,34 +103,6 @@ TEST (Finish, RepairIsSkippedAboveTheLargestShareOfFolds)
   }
 }
 
-TEST (Finish, LimitsOfTheRepairAreThoseGiven)
-{
-  MixedUpSheet sheet;
-  const std::vector<Eigen::Vector3d>& positions = sheet.made.points.positions;
-  FinishSettings settings;
-  settings.limits.repair.passes = 0;
-  settings.limits.repair.kicks = 0;
-  settings.limits.repair.points_per_kick = 1'000'000;
-  settings.limits.repair.rebuilt_orders = 0;
-  const MeshFinish finish = finishMesh (sheet.mesh, positions, sheet.made.geometry, settings, 1);
-  EXPECT_TRUE (finish.is_repairable);
-  EXPECT_GT (finish.folds, 0U);
-  EXPECT_EQ (finish.folds, finish.folds_after_flips);
-}
-
-TEST (Finish, PatchesAloneMendASheet)
-{
-  MixedUpSheet sheet;
-  const std::vector<Eigen::Vector3d>& positions = sheet.made.points.positions;
-  FinishSettings settings;
-  settings.limits.repair.passes = 0;
-  settings.limits.repair.kicks = 0;
-  settings.limits.repair.points_per_kick = 1'000'000;
-  const MeshFinish finish = finishMesh (sheet.mesh, positions, sheet.made.geometry, settings, 1);
-  EXPECT_GT (finish.folds_after_flips, 0U);
-  EXPECT_EQ (finish.folds, 0U);
-}
-
 TEST (Finish, ASurfaceFoldedAllOverIsNotRepairable)
 {
   // Points of a flat sheet, joined at random: no flips can put that in order.
@@ -152,19 +125,11 @@ TEST (Finish, ASurfaceFoldedAllOverIsNotRepairable)
 
 TEST (Finish, ATorusLaidOutAsADiscIsRefused)
 {
-  constexpr int AROUND = 60, ACROSS = 24;
+  constexpr Index AROUND = 60;
+  const samples::Positions positions = samples::torus (AROUND, 24).positions;
   Options options;
-  samples::Positions positions;
-  for (int u = 0; u < AROUND; ++u)
-    for (int v = 0; v < ACROSS; ++v) {
-      const double a = 2.0 * samples::PI * u / AROUND, b = 2.0 * samples::PI * v / ACROSS;
-      const double radius = 1.0 + 0.4 * std::cos (b);
-      positions.emplace_back (radius * std::cos (a), radius * std::sin (a), 0.4 * std::sin (b));
-    }
-  for (const int v : {0, 1, 2}) // around a square of 2 x 2 cells
-    options.disc.boundary.loop.push_back (static_cast<Index> (v));
-  for (const int place : {ACROSS + 2, 2 * ACROSS + 2, 2 * ACROSS + 1, 2 * ACROSS, ACROSS})
-    options.disc.boundary.loop.push_back (static_cast<Index> (place));
+  options.disc.boundary.loop = {0,          1,     2, AROUND + 2, 2 * AROUND + 2, 2 * AROUND + 1,
+                                2 * AROUND, AROUND}; // around a square of 2 x 2 cells
   options.topology = Topology::DISC;
   const Result result = reconstruct (samples::asInput (positions), options);
   EXPECT_EQ (result.report.status, RunStatus::NOT_A_DISC);

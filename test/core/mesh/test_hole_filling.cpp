@@ -74,23 +74,6 @@ TEST (PolygonFilling, UsesAllowedEdgesOnly)
   EXPECT_TRUE (filling.fill (square, cost, [] (Index, Index) { return false; }).empty ());
 }
 
-TEST (PolygonFilling, CanBeCancelled)
-{
-  Statistics statistics;
-  int questions = 0;
-  Callbacks callbacks;
-  callbacks.cancelled = [&questions] { return ++questions == 1; };
-  RunMonitor monitor (callbacks, statistics);
-  PolygonFilling filling (RunContext (1, &monitor));
-  const auto fill = [&] {
-    filling.fill (
-        samples::indices (100), [] (Index, Index, Index) { return 1.0; },
-        [] (Index, Index) { return true; });
-  };
-  EXPECT_THROW (fill (), Cancelled);
-  EXPECT_EQ (questions, 1);
-}
-
 // A flat ring of two rows of points, a circle of radius 1 and one of radius 1.2; its triangles, and
 // its loops with the inner one first.
 struct Ring

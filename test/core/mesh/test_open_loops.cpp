@@ -238,26 +238,6 @@ TEST (LoopEvidence, GrowthIsThatOfTheEdgesTowardsTheLoop)
   EXPECT_LT (sheet.evidence ()[0].growth, -0.1);
 }
 
-TEST (LoopEvidence, DoesNotDependOnScaleAndOrientation)
-{
-  TriangularSheet sheet (8, 2.5);
-  const LoopEvidence before = sheet.evidence ()[0];
-  for (Eigen::Vector3d& p : sheet.positions)
-    p *= 1024.0;
-  for (Triangle& t : sheet.mesh.triangles)
-    std::swap (t[1], t[2]);
-  ASSERT_TRUE (sheet.mesh.connect (sheet.positions.size (), 1));
-  std::reverse (sheet.loops[0].points.begin () + 1, sheet.loops[0].points.end ());
-  sheet.loops[0].length *= 1024.0;
-  const LoopEvidence after = sheet.evidence ()[0];
-  EXPECT_NEAR (after.compactness, before.compactness, 1e-12);
-  EXPECT_NEAR (after.depth, before.depth, 1e-12);
-  EXPECT_NEAR (after.irregularity, before.irregularity, 1e-6);
-  EXPECT_NEAR (after.growth, before.growth, 1e-12);
-  EXPECT_NEAR (after.turning, before.turning, 1e-12);
-  EXPECT_EQ (after.open_share, before.open_share);
-}
-
 TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
 {
   // Across the border of an even sheet, points whose normals are turned by 90 degrees.

@@ -291,19 +291,6 @@ TEST (SelfIntersections, FewTestsEndTheRemovalEarly)
   EXPECT_EQ (left_before, 0U);
 }
 
-TEST (SelfIntersections, TheTableKnowsWhatIsLeft)
-{
-  // Sheets through each other, which no flip and no move can part: what is told is what there is.
-  Swapped sheets (8, {});
-  for (std::size_t p = 0; p < 81; ++p)
-    sheets.mesh.positions[81 + p].z () += 0.4 * (sheets.mesh.positions[p].x () - 0.4);
-  EXPECT_GT (crossingOf (sheets.mesh).size (), 10U);
-  const Uncrossing done = sheets.remove ();
-  const Mesh after{sheets.mesh.positions, sheets.connected.triangles};
-  EXPECT_EQ (crossingOf (after).size (), done.pairs_left);
-  EXPECT_LE (done.pairs_left, crossingOf (sheets.mesh).size ());
-}
-
 TEST (SelfIntersections, AreInTheReportWithPlaces)
 {
   Swapped sheets (8, {40});

@@ -57,27 +57,6 @@ expectConsistent (const TriangleMesh& mesh)
   EXPECT_TRUE (samples::topologyOf (mesh.triangles).manifold);
 }
 
-TEST (TriangleMesh, MatesAreTheSameEdge)
-{
-  const TriangleMesh mesh = meshOf (gridTriangles (6), 36);
-  std::size_t boundary = 0;
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const MeshEdge e{t, side};
-      const MeshEdge m = mesh.mate (e);
-      EXPECT_EQ (m.triangle, mesh.neighbors[t][side]);
-      if (m.triangle == NONE) {
-        ++boundary;
-        continue;
-      }
-      EXPECT_EQ (mesh.from (m), mesh.to (e));
-      EXPECT_EQ (mesh.to (m), mesh.from (e));
-      EXPECT_EQ (mesh.mate (m).triangle, t);
-      EXPECT_EQ (mesh.mate (m).side, side);
-    }
-  EXPECT_EQ (boundary, 20U);
-}
-
 TEST (TriangleMesh, FansGoRoundTheirPoint)
 {
   const TriangleMesh mesh = meshOf (gridTriangles (6), 37); // point 36 is no vertex
@@ -127,25 +106,6 @@ TEST (TriangleMesh, FlipExchangesTheDiagonals)
   expectConsistent (mesh);
   EXPECT_TRUE (mesh.hasEdge (0, 3));
   EXPECT_FALSE (mesh.hasEdge (1, 2));
-}
-
-TEST (TriangleMesh, FlipTwiceGivesTheSameTriangles)
-{
-  TriangleMesh mesh = meshOf (gridTriangles (6), 36);
-  const std::set<Triangle> before = samples::unordered (mesh.triangles);
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const MeshEdge e{t, side};
-      const MeshEdge m = mesh.mate (e);
-      if (m.triangle == NONE || mesh.hasEdge (mesh.corner (e), mesh.corner (m)))
-        continue;
-      mesh.flip (e);
-      EXPECT_NE (samples::unordered (mesh.triangles), before);
-      expectConsistent (mesh);
-      mesh.flip ({t, 1}); // the new diagonal
-      EXPECT_EQ (samples::unordered (mesh.triangles), before);
-      expectConsistent (mesh);
-    }
 }
 
 TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)

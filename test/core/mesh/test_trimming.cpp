@@ -205,91 +205,9 @@ TEST (Trimming, SmallComponents)
 
 // ---- the whole way
 
-// Rolling terrain, without the points within a circle.
-Positions
-terrainWithHole (double radius)
-{
-  SurfaceSpec spec;
-  spec.points = 3000;
-  Positions cloud = generateSurface (spec);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : cloud)
-    box.extend (p);
-  const auto isInside = [&] (const Eigen::Vector3d& p) {
-    return (p - box.center ()).head<2> ().norm () < radius;
-  };
-  cloud.erase (std::remove_if (cloud.begin (), cloud.end (), isInside), cloud.end ());
-  return cloud;
-}
-
-TEST (Trimming, ABridgedHoleIsOpenedAgain)
-{
-  const Positions cloud = terrainWithHole (7.0);
-  for (const Topology topology : {Topology::SURFACE, Topology::DISC, Topology::AUTO}) {
-    Options options;
-    options.topology = topology;
-    if (topology != Topology::DISC) {
-      options.holes.policy = HolePolicy::BY_SIZE;
-      options.holes.largest_hole = 30.0;
-    }
-    const Result bridged = reconstruct (asInput (cloud), options);
-    ASSERT_EQ (bridged.report.status, RunStatus::SUCCESS) << bridged.report.message;
-    EXPECT_GT (bridged.report.check.longest_edge, 4.0);
-    EXPECT_EQ (bridged.report.check.loops.size (), 1U);
-    EXPECT_EQ (bridged.report.statistics.trimmed_triangles, 0U);
-    for (const bool by_ratio : {false, true}) {
-      (by_ratio ? options.trimming.maximum_edge_ratio : options.trimming.maximum_edge_length) = 4.0;
-      const Result result = reconstruct (asInput (cloud), options);
-      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-      const Report& report = result.report;
-      EXPECT_LE (by_ratio ? report.check.longest_edge : longestEdgeOf (cloud, result.triangles),
-                 4.0);
-      EXPECT_EQ (result.triangles.size () + report.statistics.trimmed_triangles,
-                 bridged.triangles.size ());
-      EXPECT_GT (report.statistics.trimmed_triangles, 20U);
-      const samples::Topology found = samples::topologyOf (result.triangles);
-      EXPECT_TRUE (found.manifold);
-      EXPECT_EQ (found.components, 1U);
-      EXPECT_EQ (found.loops.size (), 2U);
-      EXPECT_EQ (report.check.loops.size (), 2U);
-      EXPECT_EQ (report.loop.size (), report.check.loops.front ().points);
-      EXPECT_EQ (report.statistics.loop_points, report.loop.size ());
-      EXPECT_EQ (found.vertices, report.statistics.used_points);
-      for (const std::string& warning : report.warnings)
-        EXPECT_EQ (warning.find ("open"), std::string::npos) << warning;
-    }
-  }
-}
-
-TEST (Trimming, SmallComponentsOfACloud)
-{
-  SurfaceSpec spec;
-  spec.kind = SurfaceKind::TORUS;
-  spec.points = 2000;
-  Positions cloud = generateSurface (spec);
-  spec.kind = SurfaceKind::SPHERE;
-  spec.points = 100;
-  for (const Eigen::Vector3d& p : generateSurface (spec))
-    cloud.emplace_back (p + Eigen::Vector3d (60, 0, 0));
-  Options options;
-  options.trimming.minimum_component_size = 100;
-  EXPECT_EQ (reconstruct (asInput (cloud), options).report.check.components, 2U);
-  options.trimming.minimum_component_size = 101;
-  const Result result = reconstruct (asInput (cloud), options);
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  const Report& report = result.report;
-  EXPECT_EQ (report.check.components, 1U);
-  EXPECT_EQ (report.statistics.trimmed_components, 1U);
-  EXPECT_EQ (report.statistics.trimmed_points, 100U);
-  EXPECT_EQ (report.statistics.used_points, 2000U);
-  ASSERT_EQ (report.unused.size (), 100U);
-  EXPECT_EQ (report.unused.front (), 2000U);
-  EXPECT_TRUE (report.warnings.empty ()) << report.warnings.front ();
-}
-
 TEST (Trimming, NothingLeftIsAFailure)
 {
-  const Positions cloud = terrainWithHole (7.0);
+  const Positions cloud = samples::disc (0.1, 1).positions;
   for (const TrimmingOptions& trimming : {longestEdge (1e-3), smallestComponent (1 << 20)}) {
     Options options;
     options.trimming = trimming;

@@ -4,24 +4,11 @@
 #pragma once
 
 #include "local/local_geometry.h"
-#include "points/neighbors.h"
-#include "points/points.h"
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <vector>
 
 namespace pcl::floater::samples {
-inline Positions
-surface (SurfaceKind kind, std::size_t points, double noise = 0.0)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  spec.noise = noise;
-  return generateSurface (spec);
-}
-
 struct Prepared
 {
   Points points;

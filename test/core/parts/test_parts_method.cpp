@@ -101,16 +101,6 @@ TEST_P (SurfaceInParts, NoiseDoesNotTearPartsApart)
   expectSameShape (reconstructInParts (positions, 700), reconstructInParts (positions, WHOLE));
 }
 
-TEST_P (SurfaceInParts, SameForAnyNumberOfThreads)
-{
-  const Positions positions = surface (GetParam (), 4000, 0.2);
-  const Result one = reconstructInParts (positions, 500, 1);
-  for (const int threads : {2, 5}) {
-    const Result several = reconstructInParts (positions, 500, threads);
-    EXPECT_TRUE (one.triangles == several.triangles);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P (Surfaces, SurfaceInParts,
                           testing::Values (SurfaceKind::HEIGHT_FIELD, SurfaceKind::CUT_OUT,
                                            SurfaceKind::HEMISPHERE, SurfaceKind::SPHERE,
@@ -154,24 +144,6 @@ TEST (PartsMethod, PointsOfNoTriangleAreTold)
   const Result parts = reconstructInParts (positions, 500);
   ASSERT_EQ (parts.report.status, whole.report.status);
   EXPECT_EQ (parts.report.statistics.used_points, whole.report.statistics.used_points);
-}
-
-TEST (PartsMethod, CanBeCancelled)
-{
-  const Positions positions = surface (SurfaceKind::HEIGHT_FIELD, 6000);
-  Input input;
-  input.positions = positions;
-  input.cloud_index = samples::indices (positions.size ());
-  input.cloud_size = positions.size ();
-  Options options;
-  bool has_begun = false;
-  options.stage_callback = [&] (Stage stage) { has_begun = has_begun || stage == Stage::FLIPS; };
-  options.cancelled_callback = [&] { return has_begun; };
-  Limits limits;
-  limits.parts.points = 600;
-  const Result result = reconstruct (std::move (input), options, limits);
-  EXPECT_EQ (result.report.status, RunStatus::CANCELLED);
-  EXPECT_TRUE (result.triangles.empty ());
 }
 
 } // namespace

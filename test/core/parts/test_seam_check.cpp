@@ -195,16 +195,6 @@ TEST_P (CheckOfParts, NormalsOfAllPartsDecide)
   expectFaced (made, triangles, prepared, hints);
 }
 
-TEST_P (CheckOfParts, DoesNotDependOnThreads)
-{
-  make (1);
-  const std::vector<Triangle> one = triangles;
-  const std::size_t pairs = made.checked.crossing.found;
-  make (5);
-  EXPECT_EQ (triangles, one);
-  EXPECT_EQ (made.checked.crossing.found, pairs);
-}
-
 INSTANTIATE_TEST_SUITE_P (Surfaces, CheckOfParts, testing::ValuesIn (partsCases ()),
                           [] (const testing::TestParamInfo<PartsCase>& one) {
                             return one.param.name;

@@ -43,7 +43,8 @@ workingPoints (const Positions& positions)
   return makePoints (positions, indices (positions.size ()), 1);
 }
 
-/// A search of the caller that tries all points.
+/// A search of the caller that tries all points. It answers with the point itself among the neighbours and,
+/// within a radius, with one that is too far away.
 class BruteForceSearch : public NeighborSearch
 {
 public:
@@ -71,8 +72,20 @@ public:
     std::sort (cloud_indices.begin (), cloud_indices.end ());
   }
 
+  bool within (std::uint32_t cloud_index, double radius,
+               std::vector<std::uint32_t>& cloud_indices) override
+  {
+    cloud_indices.clear ();
+    for (const Index q : chosen)
+      if ((cloud_[q] - cloud_[cloud_index]).norm () <= radius)
+        cloud_indices.push_back (q);
+    cloud_indices.push_back (chosen[(cloud_index + 17) % chosen.size ()]);
+    return knows_radii;
+  }
+
   std::vector<std::uint32_t> chosen;
   int answers_each = 1;
+  bool knows_radii = false;
 
 private:
   Positions cloud_;

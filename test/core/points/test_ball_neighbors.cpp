@@ -4,7 +4,6 @@
 #include "points/ball_neighbors.h"
 
 #include "local/planar_star.h"
-#include "points/kd_tree.h"
 #include "points/point_samples.h"
 #include "random_stream.h"
 
@@ -50,45 +49,6 @@ ballBySearchingAll (const Points& points, Index p, double radius)
   return ball;
 }
 
-// A search of the caller's. It answers with the point itself among the neighbours and, within a
-// radius, with one that is too far away.
-class CloudSearch : public NeighborSearch
-{
-public:
-  CloudSearch (const std::vector<Eigen::Vector3d>& positions, bool knows_radii)
-      : positions_ (positions), tree_ (positions), knows_radii_ (knows_radii)
-  {
-  }
-  void build (const std::vector<std::uint32_t>& /*cloud_indices*/) override {}
-  void nearest (std::uint32_t cloud_index, int k, std::vector<std::uint32_t>& answer) override
-  {
-    tree_.nearest (positions_[cloud_index], static_cast<std::size_t> (k), found_);
-    hand (answer);
-  }
-  bool within (std::uint32_t cloud_index, double radius,
-               std::vector<std::uint32_t>& answer) override
-  {
-    if (!knows_radii_)
-      return false;
-    tree_.within (positions_[cloud_index], radius, found_);
-    hand (answer);
-    answer.push_back ((cloud_index + 17) % static_cast<std::uint32_t> (positions_.size ()));
-    return true;
-  }
-
-private:
-  void hand (std::vector<std::uint32_t>& answer) const
-  {
-    answer.clear ();
-    for (const Neighbor& neighbor : found_)
-      answer.push_back (neighbor.point);
-  }
-  const std::vector<Eigen::Vector3d>& positions_;
-  KdTree tree_;
-  bool knows_radii_;
-  std::vector<Neighbor> found_;
-};
-
 CsrLists
 findBalls (const Points& points, double radius, const RunContext& run = 1)
 {
@@ -116,7 +76,8 @@ TEST (BallNeighbors, AreTheSameByTheCallersSearch)
   const Points points = workingPoints (positions);
   const CsrLists own = findBalls (points, 3.0);
   for (const bool knows_radii : {true, false}) {
-    CloudSearch search (positions, knows_radii);
+    samples::BruteForceSearch search (positions);
+    search.knows_radii = knows_radii;
     CallerSearch caller (points, search);
     const CsrLists balls = searchBallNeighbors (caller, Rows::all (points.size ()), 3.0, 2);
     EXPECT_EQ (balls.offsets, own.offsets);
@@ -143,36 +104,6 @@ TEST (BallNeighbors, AreNeitherFewNorTooMany)
   const CsrLists few = findBalls (workingPoints (plane (4, 4)), 2.5);
   for (Index p = 0; p < 4; ++p)
     EXPECT_EQ (few.row (p).size (), 3U);
-}
-
-// Next to a jump in density a ball holds the whole crowd: its nearest points are taken, ties by
-// index, and half of the crowd lies on a grid for such ties.
-TEST (BallNeighbors, AtAJumpInDensityAreTheNearest)
-{
-  constexpr std::size_t MOST = 200, CROWD = 2000;
-  RandomStream random (6);
-  std::vector<Eigen::Vector3d> positions;
-  for (std::size_t i = 0; i < CROWD; ++i)
-    positions.emplace_back (
-        i % 2 == 0 ? Eigen::Vector3d (random.uniform (), random.uniform (), 0.0)
-                   : Eigen::Vector3d (0.1 * random.below (11), 0.1 * random.below (11), 1e-3));
-  for (int i = 0; i < 30; ++i)
-    positions.emplace_back (20.0 * random.uniform () - 10.0, 20.0 * random.uniform () - 10.0, 0.0);
-  const Points points = workingPoints (positions);
-  const CsrLists balls = findBalls (points, 10.0);
-  std::size_t full = 0;
-  for (Index p = 0; p < points.size (); ++p) {
-    std::vector<std::pair<double, Index>> all;
-    for (Index q = 0; q < points.size (); ++q)
-      if (q != p)
-        all.emplace_back ((points.positions[q] - points.positions[p]).squaredNorm (), q);
-    std::sort (all.begin (), all.end ());
-    const Row row = balls.row (p);
-    for (std::size_t i = 0; i < row.size (); ++i)
-      ASSERT_EQ (row[i], all[i].second);
-    full += row.size () == MOST ? 1 : 0;
-  }
-  EXPECT_GT (full, points.size () / 2);
 }
 
 TEST (PlanarStarOfAll, GoesRoundAndBeginsAfterTheGap)

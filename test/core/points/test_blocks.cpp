@@ -129,15 +129,6 @@ TEST (BlockCutter, PutsEveryPointOfHaloAndBallsIn)
   }
 }
 
-TEST (BlockCutter, HalosOfAnEvenSurfaceAreWideEnoughAtOnce)
-{
-  const Points points = workingPoints (surface (SurfaceKind::TORUS, 20000));
-  EXPECT_EQ (countPointsBeyondTheHalo (points, 8), 0U);
-  const BlockCutter cutter (points.positions, 8, 1);
-  for (std::size_t i = 0; i < cutter.blocks (); ++i)
-    EXPECT_LT (cutter.cut (i, {}).positions.size (), 12000U);
-}
-
 // So the test of equal neighbours runs through blocks that are cut again.
 TEST (BlockCutter, HalosOfUnevenCloudsAreTooNarrow)
 {
@@ -165,37 +156,6 @@ TEST (Blocks, FindTheNeighborsOfTheWhole)
         const CsrLists found = neighborsIn (blocks, points, threads);
         EXPECT_EQ (found.offsets, whole.offsets);
         EXPECT_EQ (found.ids, whole.ids);
-      }
-  }
-}
-
-TEST (Blocks, GiveTheSameMeshHoweverManyThereAre)
-{
-  Positions with_outliers = surface (SurfaceKind::HEIGHT_FIELD, 4000);
-  with_outliers.emplace_back (0.0, 0.0, 40.0);
-  with_outliers.emplace_back (9.0, 9.0, -60.0);
-  const std::vector<Positions> clouds{surface (SurfaceKind::TORUS, 4000),
-                                      surface (SurfaceKind::FOLDED_SHEET, 4000),
-                                      surface (SurfaceKind::CUT_OUT, 4000),
-                                      surface (SurfaceKind::SPHERE, 3000, 0.3),
-                                      with_outliers,
-                                      abruptlySparse ()};
-  for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud) {
-    Options options;
-    options.topology = Topology::SURFACE;
-    options.blocks = 1;
-    const Result whole = reconstruct (samples::asInput (clouds[cloud]), options);
-    ASSERT_EQ (whole.report.status, RunStatus::SUCCESS) << whole.report.message;
-    EXPECT_EQ (whole.report.denoised, cloud == 3);
-    EXPECT_EQ (whole.report.outliers.size (), cloud == 4 ? 2U : 0U);
-    for (const int blocks : {2, 5, 64})
-      for (const int threads : {1, 2}) {
-        options.blocks = blocks;
-        options.threads = threads;
-        const Result result = reconstruct (samples::asInput (clouds[cloud]), options);
-        EXPECT_EQ (result.triangles, whole.triangles) << "cloud " << cloud;
-        EXPECT_EQ (result.report.warnings, whole.report.warnings);
-        EXPECT_EQ (result.report.outliers, whole.report.outliers);
       }
   }
 }

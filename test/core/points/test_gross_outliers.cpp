@@ -96,29 +96,6 @@ TEST (GrossOutliers, MoreThanHalfMayBeCopiesOfOne)
   EXPECT_TRUE (found.unbearable.empty ());
 }
 
-TEST (GrossOutliers, DependOnPositionsOnly)
-{
-  const Positions cloud =
-      surface (SurfaceKind::SPHERE, 1000) +
-      Positions{{1e6, 0, 0}, {0, 0, 1e30}, {NAN, 0, 0}, {0, INFINITY, 0}, {1e6, 0, 0}};
-  const IndexList order = samples::permutation (cloud.size (), 1);
-  for (const double scale : {1e-200, 1e-3, 1.0, 1e200}) {
-    Positions moved;
-    for (const Index i : order)
-      moved.push_back (scale * cloud[i]);
-    for (const int threads : {1, 2}) {
-      GrossOutliers found = findGrossOutliers (moved, threads);
-      for (IndexList* rows : {&found.isolated, &found.unbearable}) {
-        for (Index& row : *rows)
-          row = order[row];
-        std::sort (rows->begin (), rows->end ());
-      }
-      EXPECT_EQ (found.isolated, (IndexList{1000, 1004})) << scale;
-      EXPECT_EQ (found.unbearable, (IndexList{1001})) << scale;
-    }
-  }
-}
-
 TEST (GrossOutliers, NoneInFewOrEqualPoints)
 {
   for (const Positions& cloud :
@@ -191,20 +168,6 @@ TEST (GrossOutliers, AreNoQuarterOfTheCloud)
   const Result result = reconstruct (asInput (cloud), {});
   EXPECT_EQ (result.report.status, RunStatus::DEGENERATE);
   EXPECT_NE (result.report.message.find ("double precision"), std::string::npos);
-}
-
-TEST (GrossOutliers, ObjectsFarApartAreBothReconstructed)
-{
-  const Positions cloud =
-      surface (SurfaceKind::TORUS, 2000) + placed (surface (SurfaceKind::TORUS, 2500), {4e8, 0, 0});
-  const Result result = reconstruct (asInput (cloud), {});
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  const samples::Topology topology = samples::topologyOf (result.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.components, 2U);
-  EXPECT_EQ (topology.vertices, 4500U);
-  EXPECT_EQ (topology.euler, 0);
-  EXPECT_TRUE (topology.loops.empty ());
 }
 
 } // namespace

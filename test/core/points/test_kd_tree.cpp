@@ -91,14 +91,6 @@ TEST (KdTree, RandomPoints)
   compare (samples::randomPoints (3000, 1), 150, 2);
 }
 
-// Enough points for several threads.
-TEST (KdTree, BuiltBySeveralThreads)
-{
-  const Positions points = samples::randomPoints (40000, 12);
-  for (const PointOrder order : {PointOrder::ANY, PointOrder::ALONG_CURVE})
-    compareTree (KdTree (points, 3, order), points, 6, 13);
-}
-
 TEST (KdTree, AnySmallNumberOfPoints)
 {
   for (std::size_t count = 1; count <= 50; ++count)

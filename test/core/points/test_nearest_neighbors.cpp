@@ -14,7 +14,6 @@ using samples::BruteForceSearch;
 using samples::indices;
 using samples::Positions;
 
-// Brute force, answering in the order of the cloud, with the query among the answers.
 // The k nearest of all points, by the core's own tree.
 CsrLists
 byTree (const Points& points, int k, const RunContext& run = 1)
@@ -35,24 +34,6 @@ expectEqual (const CsrLists& a, const CsrLists& b)
 {
   EXPECT_EQ (a.offsets, b.offsets);
   EXPECT_EQ (a.ids, b.ids);
-}
-
-TEST (NearestNeighbors, OwnTreeIsBruteForce)
-{
-  const Positions cloud = samples::randomPoints (400, 1);
-  const Points points = makePoints (cloud, indices (cloud.size ()), 1);
-  const CsrLists neighbors = byTree (points, 20);
-  ASSERT_EQ (neighbors.rows (), cloud.size ());
-  for (std::size_t p = 0; p < cloud.size (); ++p) {
-    std::vector<std::pair<double, Index>> all;
-    for (Index q = 0; q < cloud.size (); ++q)
-      if (q != p)
-        all.emplace_back ((points.positions[q] - points.positions[p]).squaredNorm (), q);
-    std::sort (all.begin (), all.end ());
-    ASSERT_EQ (neighbors.row (p).size (), 20U);
-    for (std::size_t i = 0; i < 20; ++i)
-      ASSERT_EQ (neighbors.row (p)[i], all[i].second);
-  }
 }
 
 TEST (NearestNeighbors, CallersSearchIsBuiltAmongTheWorkingPoints)
@@ -102,15 +83,6 @@ TEST (NearestNeighbors, AnswersOutsideTheWorkingSetAreIgnored)
     others.erase (others.begin () + static_cast<std::ptrdiff_t> (p));
     EXPECT_EQ (row, others);
   }
-}
-
-TEST (NearestNeighbors, ThreadsDoNotMatter)
-{
-  const Positions cloud = samples::randomPoints (5000, 5);
-  const Points points = makePoints (cloud, indices (cloud.size ()), 1);
-  const CsrLists expected = byTree (points, 20);
-  for (const int threads : {0, 2, 5})
-    expectEqual (byTree (points, 20, threads), expected);
 }
 
 // Rows for some of the points are the same as those for all, whichever way they are searched.

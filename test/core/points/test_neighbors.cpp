@@ -13,7 +13,6 @@ using samples::BruteForceSearch;
 using samples::Positions;
 using samples::workingPoints;
 
-// Answers by brute force, among the points that it was built with.
 // Chooses each point with the same probability, and all points of the cloud from `first_sure` on.
 std::vector<Index>
 chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)

@@ -73,25 +73,6 @@ TEST (Noise, IsStrongWhereStarsOfNoisyPointsDisagree)
   EXPECT_FALSE (isStrong (noise, agreeing, limits));
 }
 
-TEST (Noise, CurvatureAndEdgesAreNone)
-{
-  EXPECT_EQ (Cloud (surface (SurfaceKind::SPHERE, 2000, 0.0)).noise ().noisy_points, 0U);
-  Positions cube; // 25 points a side
-  for (int x = 0; x <= 24; ++x)
-    for (int y = 0; y <= 24; ++y)
-      for (int z = 0; z <= 24; ++z)
-        if (x % 24 == 0 || y % 24 == 0 || z % 24 == 0)
-          cube.emplace_back (x, y, z);
-  // Some points near its edges look noisy; the mesh is right.
-  EXPECT_LT (Cloud (cube).noisyShare (), 0.6);
-  const Result result = reconstruct (samples::asInput (cube), {});
-  const samples::Topology topology = samples::topologyOf (result.triangles);
-  EXPECT_EQ (topology.euler, 2);
-  EXPECT_TRUE (topology.manifold && topology.loops.empty ());
-  EXPECT_EQ (topology.vertices, cube.size ());
-  EXPECT_EQ (result.report.check.folds, 0U);
-}
-
 // A slope whose heights are rounded to whole steps, 2.5 spacings apart: flat terraces.
 Positions
 terraces ()
@@ -136,21 +117,6 @@ TEST (Noise, ThinSheetsAreNone)
           sheets.emplace_back (x + 0.5 * random.uniform (), y + 0.5 * random.uniform (), z);
     EXPECT_FALSE (reconstruct (samples::asInput (sheets), {}).report.denoised);
   }
-}
-
-TEST (Noise, DependsOnNothingElse)
-{
-  Positions positions = surface (SurfaceKind::TORUS, 5000, 0.3);
-  const Noise noise = Cloud (positions).noise ();
-  EXPECT_EQ (Cloud (positions).noise (3).at_point, noise.at_point);
-  EXPECT_EQ (Cloud (positions, 60).noise ().at_point, noise.at_point); // it takes the 20 nearest
-  std::reverse (positions.begin (), positions.end ());
-  EXPECT_EQ (Cloud (positions).noise ().at_point, noise.at_point);
-  const Eigen::AngleAxisd turn (1.0, Eigen::Vector3d (1.0, 2.0, 3.0).normalized ());
-  for (Eigen::Vector3d& p : positions)
-    p = 1e6 * (turn * p) + Eigen::Vector3d (1e5, 0.0, -1e6);
-  // Other points are sampled.
-  EXPECT_NEAR (Cloud (positions).noise ().median, noise.median, 0.05 * noise.median);
 }
 
 TEST (Noise, PointsWithoutNeighboursAreNotNoisy)
@@ -206,17 +172,6 @@ TEST (Projection, TakesMostOfTheNoiseOut)
   EXPECT_LT (offSphere (cloud.projected (), cloud.points),
              0.5 * offSphere (cloud.points.positions, cloud.points));
   EXPECT_EQ (cloud.projected (3), cloud.projected (1));
-}
-
-TEST (Projection, PointsThatAreNotNoisyStay)
-{
-  const Cloud cloud (surface (SurfaceKind::TORUS, 2000, 0.3));
-  Noise noise = cloud.noise ();
-  noise.at_point[7] = 0.0F;
-  const Positions projected =
-      projectNoisyPoints (cloud.points.positions, cloud.neighbors, noise, {}, 1);
-  EXPECT_EQ (projected[7], cloud.points.positions[7]);
-  EXPECT_NE (projected, cloud.points.positions);
 }
 
 TEST (Projection, AnotherSheetDoesNotPull)
@@ -288,31 +243,6 @@ TEST (Scatter, SurfacesHaveNoneHoweverNoisy)
   }
 }
 
-TEST (Scatter, AWireIsScatterAndATreeOnTheGroundIsFound)
-{
-  // A wire, far above a plane; and a tree on it.
-  Positions positions = samples::randomPoints (6000, 1);
-  RandomStream random (2);
-  for (std::size_t i = 0; i < positions.size (); ++i) {
-    Eigen::Vector3d& p = positions[i];
-    if (i < 1000)
-      p = {0.001 * static_cast<double> (i), 0.5, 0.5};
-    else if (i < 2500)
-      p = Eigen::Vector3d (0.7, 0.2, 0.1) + 0.1 * (p - Eigen::Vector3d (0.5, 0.5, 0.5));
-    else
-      p.z () = 0.0;
-  }
-  const Cloud cloud (positions);
-  std::array<double, 3> share{};
-  for (const Index p : cloud.noise ().scatter) {
-    const Index index = cloud.points.cloud_index[p];
-    share[index < 1000 ? 0 : index < 2500 ? 1 : 2] += 1.0;
-  }
-  EXPECT_GT (share[0] / 1000.0, 0.9);
-  EXPECT_GT (share[1] / 1500.0, 0.8);
-  EXPECT_LT (share[2] / 3500.0, 0.02);
-}
-
 TEST (Scatter, IsKeptOrDroppedAndTold)
 {
   Positions positions = surface (SurfaceKind::SPHERE, 6000, 0.0);
@@ -351,32 +281,6 @@ TEST (Scatter, IsKeptOrDroppedAndTold)
     EXPECT_NE (none.report.message.find ("400 points of no surface"), std::string::npos);
   }
   EXPECT_GT (empty, 0U);
-}
-
-TEST (Noise, SurfaceOfNoisyPoints)
-{
-  Options options;
-  options.topology = Topology::SURFACE;
-  const Positions torus = surface (SurfaceKind::TORUS, 4000, 0.5);
-  const Result plain = [&] {
-    Options without = options;
-    without.denoise = false;
-    return reconstruct (samples::asInput (torus), without);
-  }();
-  EXPECT_FALSE (plain.report.denoised);
-  EXPECT_EQ (plain.report.statistics.projected_points, 0U);
-  const Result result = reconstruct (samples::asInput (torus), options);
-  EXPECT_TRUE (result.report.denoised);
-  EXPECT_GT (result.report.statistics.noise, 0.28);
-  EXPECT_GT (result.report.statistics.projected_points, 3000U);
-  EXPECT_FALSE (result.report.warnings.empty ());
-  const samples::Topology topology = samples::topologyOf (result.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.vertices, torus.size ());
-  EXPECT_EQ (topology.euler, 0);
-  EXPECT_TRUE (topology.loops.empty ());
-  EXPECT_FALSE (reconstruct (samples::asInput (surface (SurfaceKind::TORUS, 1000, 0.05)), options)
-                    .report.denoised);
 }
 
 } // namespace

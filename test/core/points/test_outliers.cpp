@@ -148,27 +148,6 @@ TEST (Outliers, SmallComponentsStay)
     }
 }
 
-TEST (Outliers, DoNotDependOnOrderAndPosition)
-{
-  Positions points = surface (SurfaceKind::TORUS, 4000, 0.1);
-  RandomStream random (4);
-  for (int i = 0; i < 20; ++i)
-    points.emplace_back (40.0 * (random.uniform () - 0.5), 40.0 * (random.uniform () - 0.5),
-                         60.0 * (random.uniform () - 0.5));
-  const std::vector<Index> outliers = outliersOf (points);
-  EXPECT_GT (outliers.size (), 10U);
-  const std::vector<Index> order = samples::permutation (points.size (), 6);
-  const Eigen::AngleAxisd turn (2.0, Eigen::Vector3d (3.0, 1.0, 2.0).normalized ());
-  Positions moved;
-  for (const Index p : order)
-    moved.emplace_back (1e-3 * (turn * points[p]) + Eigen::Vector3d (5.0, 0.0, 1.0));
-  std::vector<Index> found = outliersOf (moved);
-  for (Index& p : found)
-    p = order[p];
-  std::sort (found.begin (), found.end ());
-  EXPECT_EQ (found, outliers);
-}
-
 TEST (Outliers, DegenerateClouds)
 {
   EXPECT_TRUE (findOutliers ({}, {}, 1).empty ());

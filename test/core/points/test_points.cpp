@@ -74,57 +74,6 @@ TEST (Points, LeadsBackToTheCloud)
   }
 }
 
-TEST (Points, ConsecutivePointsAreNear)
-{
-  Positions cube;
-  for (int x = 0; x < 16; ++x)
-    for (int y = 0; y < 16; ++y)
-      for (int z = 0; z < 16; ++z)
-        cube.emplace_back (x, y, z);
-  const Points points = make (cube);
-  double sum = 0.0;
-  for (std::size_t p = 1; p < points.positions.size (); ++p)
-    sum += points.scale * (points.positions[p] - points.positions[p - 1]).norm ();
-  // The mean step is 1 on a Hilbert curve through this grid, and 1.6 in Morton order.
-  EXPECT_LT (sum / static_cast<double> (cube.size () - 1), 1.35);
-}
-
-TEST (Points, ConsecutivePointsAreNearInASmallObjectToo)
-{
-  // The grid again, in one cell of the curve through the whole box.
-  Positions cloud;
-  for (int x = 0; x < 16; ++x)
-    for (int y = 0; y < 16; ++y)
-      for (int z = 0; z < 16; ++z)
-        cloud.emplace_back (1e-9 * x, 1e-9 * y, 1e-9 * z);
-  cloud.emplace_back (0.7, 0.9, 0.8);
-  const Points points = make (cloud);
-  ASSERT_EQ (points.size (), cloud.size ());
-  double sum = 0.0;
-  for (std::size_t p = 1; p < points.size (); ++p)
-    sum += std::min (16.0,
-                     1e9 * points.scale * (points.positions[p] - points.positions[p - 1]).norm ());
-  EXPECT_LT (sum / 4096.0, 1.5);
-}
-
-TEST (Points, OrderDependsOnPositionsOnly)
-{
-  Positions cloud = samples::randomPoints (5000, 2);
-  for (std::size_t i = 0; i < 500; ++i) // many in one cell of the curve
-    cloud.push_back (cloud[0] + 1e-9 * cloud[i]);
-  const Points expected = make (cloud);
-  const std::vector<Index> order = samples::permutation (cloud.size (), 3);
-  Positions permuted;
-  for (const Index i : order)
-    permuted.push_back (cloud[i]);
-  for (const int threads : {1, 2, 0}) {
-    const Points points = make (permuted, threads);
-    EXPECT_EQ (points.positions, expected.positions);
-    for (std::size_t p = 0; p < points.positions.size (); ++p)
-      ASSERT_EQ (order[points.cloud_index[p]], expected.cloud_index[p]);
-  }
-}
-
 TEST (Points, TheSmallestIndexStandsForDuplicates)
 {
   Positions cloud = samples::randomPoints (100, 4);
@@ -189,40 +138,6 @@ TEST (Points, NegativeZeroIsZero)
   EXPECT_EQ (points.positions.size (), 2U);
   const std::vector<std::array<Index, 2>> expected = {{2, 0}};
   EXPECT_EQ (points.duplicates, expected);
-}
-
-TEST (Points, AnyMagnitude)
-{
-  const Positions unit = samples::randomPoints (300, 6);
-  const Points expected = make (unit);
-  for (const double factor : {1e-300, 1e-30, 1e-3, 1e30, 1e300}) {
-    Positions scaled = unit;
-    for (Eigen::Vector3d& p : scaled)
-      p *= factor;
-    const Points points = make (scaled);
-    expectPartition (points, unit.size ());
-    expectWorkable (points);
-    ASSERT_EQ (points.cloud_index, expected.cloud_index) << factor;
-    for (std::size_t p = 0; p < points.positions.size (); ++p)
-      EXPECT_LT ((points.positions[p] - expected.positions[p]).norm (), 1e-12);
-  }
-}
-
-TEST (Points, MapCoordinatesKeepTheirDigits)
-{
-  // Centimetres on a grid far from the origin, exact in double precision.
-  Positions cloud;
-  for (int x = 0; x < 20; ++x)
-    for (int y = 0; y < 20; ++y)
-      cloud.emplace_back (4194304.0 + x / 128.0, 5767168.0 + y / 128.0, 512.0);
-  const Points points = make (cloud);
-  ASSERT_EQ (points.positions.size (), cloud.size ());
-  expectWorkable (points);
-  for (std::size_t p = 0; p < points.positions.size (); ++p) {
-    const Eigen::Vector3d expected = (cloud[points.cloud_index[p]] - cloud[0]) / points.scale;
-    const Eigen::Vector3d corner = (cloud[0] - points.centre) / points.scale;
-    EXPECT_LT ((points.positions[p] - corner - expected).norm (), 1e-15);
-  }
 }
 
 TEST (Points, PointsThatScalingCannotTellApartAreOne)
@@ -393,22 +308,6 @@ TEST (RemovePoints, ScalesByAPowerOfTwo)
       ASSERT_EQ ((points.positions[p] - points.positions[q]).squaredNorm (),
                  factor * factor * offset.squaredNorm ());
     }
-}
-
-TEST (RemovePoints, LeavesTheScaleWhereTheBoxStays)
-{
-  const Points before = make (withFarPoints ());
-  Points points = before;
-  EXPECT_TRUE (removePoints (points, {}).empty ());
-  EXPECT_EQ (points.positions, before.positions);
-  EXPECT_EQ (points.scale, before.scale);
-  std::vector<Index> inner;
-  for (Index p = 0; p < points.size (); ++p)
-    if (points.cloud_index[p] == 17 || points.cloud_index[p] == 18)
-      inner.push_back (p);
-  EXPECT_EQ (removePoints (points, inner).size (), 2U);
-  EXPECT_EQ (points.scale, before.scale);
-  EXPECT_NEAR (points.diagonal, 1.0, 1e-12);
 }
 
 TEST (RemovePoints, DownToOnePlace)

@@ -88,14 +88,6 @@ TEST (TextureCoordinates, PlaneIsOneChartWithoutStretch)
   EXPECT_EQ (texture.coordinates.size (), mesh.positions.size ());
 }
 
-TEST (TextureCoordinates, OneTriangle)
-{
-  const Mesh mesh{{{0, 0, 0}, {2, 0, 1}, {0, 1, 0}}, {{0, 1, 2}}};
-  const TextureCoordinates texture = textureOf (mesh);
-  EXPECT_EQ (texture.chart_count, 1U);
-  EXPECT_NEAR (texture.stretch, 1.0, 1e-5);
-}
-
 TEST (TextureCoordinates, SphereIsTwoCharts)
 {
   const TextureCoordinates texture = textureOf (sphere (12), {}, true);
@@ -164,24 +156,6 @@ TEST (TextureCoordinates, PointsWithoutTriangleHaveNone)
   EXPECT_EQ (none.stretch, 1.0);
 }
 
-// Scale and place change nothing; sizes of triangles may differ by far.
-TEST (TextureCoordinates, ScaleAndPlace)
-{
-  const Mesh mesh = sphere (8);
-  const TextureCoordinates texture = textureOf (mesh);
-  for (const double scale : {1e-6, 1e6}) {
-    Mesh other = mesh;
-    for (Eigen::Vector3d& p : other.positions)
-      p = scale * p + Eigen::Vector3d (100.0 * scale, 0.0, 0.0);
-    EXPECT_EQ (textureOf (other).chart_count, texture.chart_count);
-  }
-  Mesh both = sphere (6);
-  Mesh small = sphere (6);
-  for (Eigen::Vector3d& p : small.positions)
-    p *= 1e-3;
-  textureOf (samples::beside (both, small));
-}
-
 // A disc that would be cut, in one piece.
 TEST (TextureCoordinates, WholeDiscs)
 {
@@ -195,21 +169,6 @@ TEST (TextureCoordinates, WholeDiscs)
   // What is no disc is cut as always.
   const Mesh ring = samples::torus (30, 12);
   EXPECT_EQ (textureOf (ring, options).coordinates, textureOf (ring).coordinates);
-}
-
-TEST (TextureCoordinates, LessStretchByMoreCharts)
-{
-  const Mesh mesh = sphere (16, 2.0);
-  std::size_t charts = 0;
-  for (const double limit : {1.5, 1.06, 1.0005}) {
-    TextureOptions options;
-    options.largest_stretch = limit;
-    const TextureCoordinates texture = textureOf (mesh, options);
-    EXPECT_LT (texture.stretch, limit);
-    EXPECT_GE (texture.chart_count, charts);
-    charts = texture.chart_count;
-  }
-  EXPECT_GT (charts, 6U);
 }
 
 // Bodies, shells, terrain, torn sheets: open and closed, of one and of many components.
@@ -255,26 +214,6 @@ TEST (TextureCoordinates, NoiseDoesNotDecideCharts)
       EXPECT_LE (texture.chart_count, 2U + textureOf (mesh).chart_count);
       EXPECT_LT (texture.stretch, 1.0 + 0.5 * noise);
     }
-}
-
-TEST (TextureCoordinates, SameForAnyNumberOfThreads)
-{
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const Mesh mesh =
-        meshOf (facing_cases::makeFacingCase (facing_cases::Family::WINGED_BODY, seed));
-    TextureOptions options;
-    options.threads = 1;
-    const TextureCoordinates one = textureOf (mesh, options);
-    for (const int threads : {2, 5}) {
-      options.threads = threads;
-      const TextureCoordinates more = textureOf (mesh, options);
-      EXPECT_EQ (more.coordinates, one.coordinates);
-      EXPECT_EQ (more.corners, one.corners);
-      EXPECT_EQ (more.charts, one.charts);
-      EXPECT_EQ (more.seams, one.seams);
-      EXPECT_EQ (more.stretch, one.stretch);
-    }
-  }
 }
 
 TEST (TextureCoordinates, BadInputIsRefused)

@@ -82,23 +82,6 @@ TEST (ViewMethod, TheMeshFacesTheSensor)
   }
 }
 
-TEST (ViewMethod, TheSensorOriginIsTried)
-{
-  const Scan scan = samples::scanScene (Raster::CAMERA, {0.003, 0.0}, 4);
-  Input input;
-  input.positions = scan.points;
-  input.cloud_index = samples::indices (scan.points.size ());
-  input.cloud_size = scan.points.size ();
-  input.sensor_origin = {scan.viewpoint.x (), scan.viewpoint.y (), scan.viewpoint.z ()};
-  const Result known = reconstruct (input, {});
-  EXPECT_TRUE (known.report.is_view);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR (known.report.viewpoint[axis], input.sensor_origin[axis], 1e-9);
-  Options never;
-  never.view.use = ViewUse::NEVER;
-  EXPECT_FALSE (reconstruct (input, never).report.is_view);
-}
-
 TEST (ViewMethod, TheViewpointIsSearchedWhereNoiseIsStrong)
 {
   for (const Raster raster : {Raster::CAMERA, Raster::SPHERE}) {
@@ -146,19 +129,6 @@ TEST (ViewMethod, AScannerLowOnTheGroundIsFound)
     const Eigen::Vector3d found (result.report.viewpoint.data ());
     EXPECT_LT ((found - scan.viewpoint).norm (), 0.01) << seed;
   }
-}
-
-TEST (ViewMethod, TheResultDoesNotDependOnThreads)
-{
-  const Scan scan = samples::scanScene (Raster::CAMERA, {0.01, 0.0}, 7);
-  Options options;
-  options.threads = 1;
-  const Result one = reconstruct (scan.points, options);
-  options.threads = 3;
-  const Result three = reconstruct (scan.points, options);
-  EXPECT_TRUE (one.report.is_view);
-  EXPECT_EQ (one.triangles, three.triangles);
-  EXPECT_EQ (one.report.viewpoint, three.report.viewpoint);
 }
 
 // A flat raster with a square of missing rays.

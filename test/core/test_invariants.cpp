@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What must not matter to a result, for every method: threads and blocks, the order of the points, a power of
+// two, a motion; and cancellation at any moment. A mesh has several ranges of points, so that threads share it.
+#include "reconstruct.h"
+
+#include "mesh/known_meshes.h"
+#include "samples.h"
+#include "scan_samples.h"
+#include "surfaces.h"
+
+#include <pcl/surface/floater/texture_coordinates.h>
+#include <pcl/surface/floater/vertex_normals.h>
+
+#include <gtest/gtest.h>
+
+namespace pcl::floater {
+namespace {
+using samples::Positions;
+
+/// A method and a cloud. The points have no ties in their coordinates, and none is there twice, so that
+/// rounding and order decide nothing.
+struct Invariant
+{
+  const char* name;
+  std::function<Positions (bool is_large)> points;
+  Options options{};
+  Limits limits{};
+  bool has_normals = false;   ///< for facing
+  double moved_share = 0.005; ///< of triangles that a motion may change
+};
+
+void
+PrintTo (const Invariant& one, std::ostream* out)
+{
+  *out << one.name;
+}
+
+std::function<Positions (bool)>
+noisy (SurfaceKind kind, double noise, std::size_t large, bool with_outliers = false)
+{
+  return [=] (bool is_large) {
+    SurfaceSpec spec;
+    spec.kind = kind;
+    spec.points = is_large ? large : 600;
+    spec.noise = noise;
+    spec.seed = 5;
+    Positions points = generateSurface (spec);
+    for (int i = 0; with_outliers && i < 5; ++i)
+      points.emplace_back (31.3 * i * i, 200.1 - 7.7 * i, 90.3 + 11.1 * i);
+    return points;
+  };
+}
+
+Positions
+frame (bool is_large)
+{
+  const samples::Scan scan = samples::scanScene (samples::Raster::CAMERA, {0.01, 0.0}, 7);
+  Positions points;
+  for (std::size_t p = 0; p < scan.points.size (); p += is_large ? 1 : 8)
+    points.push_back (scan.points[p]);
+  return points;
+}
+
+std::vector<Invariant>
+invariants ()
+{
+  std::vector<Invariant> all{{"consensus", noisy (SurfaceKind::TORUS, 0.0, 40000, true)},
+                             {"holes", noisy (SurfaceKind::CUT_OUT, 0.1, 5000)},
+                             {"denoised", noisy (SurfaceKind::SPHERE, 0.3, 3000)},
+                             {"normals", noisy (SurfaceKind::HEMISPHERE, 0.0, 5000)},
+                             {"trimmed", noisy (SurfaceKind::FOLDED_SHEET, 0.1, 5000)},
+                             {"balls", noisy (SurfaceKind::TORUS, 0.0, 5000)},
+                             {"parts", noisy (SurfaceKind::CUT_OUT, 0.2, 4000, true)},
+                             {"parts_closed", noisy (SurfaceKind::TORUS, 0.0, 4000)},
+                             {"view", frame},
+                             {"disc", noisy (SurfaceKind::FINGER, 0.0, 20000)},
+                             {"disc_consensus_loop", noisy (SurfaceKind::HEMISPHERE, 0.0, 3000)},
+                             {"disc_two_segments", noisy (SurfaceKind::HEIGHT_FIELD, 0.0, 3000)},
+                             {"disc_iterative", noisy (SurfaceKind::HEIGHT_FIELD, 0.0, 3000)},
+                             {"tw385", noisy (SurfaceKind::HEIGHT_FIELD, 0.0, 20000)}};
+  for (Invariant& one : all) {
+    const std::string name = one.name;
+    Options& options = one.options;
+    if (name.rfind ("disc", 0) == 0)
+      options = samples::discOptions ();
+    one.has_normals = name == "normals";
+    if (name == "holes" || name == "denoised") // hole fillings and noise are sampled anew
+      one.moved_share = 0.05;
+    if (name == "view") // the place that is found decides diagonals
+      one.moved_share = 0.5;
+    if (name == "holes")
+      options.holes.policy = HolePolicy::CLOSE_ALL;
+    if (name == "trimmed") {
+      options.trimming.maximum_edge_ratio = 2.0;
+      options.trimming.open_self_intersections = true;
+    }
+    if (name == "balls")
+      options.neighbors.kind = Neighborhood::BALL_DELAUNAY;
+    if (name.rfind ("parts", 0) == 0)
+      one.limits.parts.points = 500;
+    if (name == "disc_consensus_loop")
+      options.disc.boundary.method = BoundaryMethod::CONSENSUS;
+    if (name == "disc_two_segments")
+      options.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
+    if (name == "disc_iterative")
+      options.disc.solver.method = Solver::BICGSTAB_ILUT;
+    if (name == "tw385")
+      options.disc = DiscOptions::tw385 ();
+    if (name == "tw385" || name == "disc_two_segments")
+      options.disc.boundary.cluster_tolerance = 0.2;
+  }
+  return all;
+}
+
+class Invariants : public testing::TestWithParam<Invariant>
+{
+protected:
+  Result run (const Positions& points, const Options& options) const
+  {
+    Input input = samples::asInput (points);
+    if (GetParam ().has_normals)
+      for (const Eigen::Vector3d& p : points)
+        input.facing_normals.push_back ((-p.stableNormalized ()).cast<float> ());
+    return reconstruct (std::move (input), options, GetParam ().limits);
+  }
+  Result run (const Positions& points) const { return run (points, GetParam ().options); }
+};
+
+// Everything in it that is not a time.
+void
+expectSame (const Result& result, const Result& expected)
+{
+  const Report &a = result.report, &b = expected.report;
+  ASSERT_EQ (a.status, b.status) << a.message;
+  EXPECT_EQ (a.message, b.message);
+  EXPECT_TRUE (result.triangles == expected.triangles);
+  EXPECT_EQ (a.loop, b.loop);
+  EXPECT_EQ (a.parameters.empty (), b.parameters.empty ());
+  EXPECT_TRUE (a.parameters == b.parameters);
+  EXPECT_EQ (a.outliers, b.outliers);
+  EXPECT_EQ (a.unused, b.unused);
+  EXPECT_EQ (a.scatter, b.scatter);
+  EXPECT_EQ (a.viewpoint, b.viewpoint);
+  EXPECT_EQ (a.facing_certainty, b.facing_certainty);
+  EXPECT_EQ (a.facing_parts, b.facing_parts);
+  EXPECT_EQ (a.warnings, b.warnings);
+  EXPECT_EQ (a.check.longest_edge, b.check.longest_edge);
+  EXPECT_EQ (a.check.folds, b.check.folds);
+  EXPECT_EQ (a.check.self_intersections, b.check.self_intersections);
+}
+
+TEST_P (Invariants, ThreadsAndBlocksChangeNothing)
+{
+  const Positions points = GetParam ().points (true);
+  Options options = GetParam ().options;
+  options.threads = 1;
+  options.blocks = 1;
+  const Result expected = run (points, options);
+  ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
+  EXPECT_EQ (expected.report.is_view, std::string (GetParam ().name) == "view");
+  for (const int threads : {2, 5}) {
+    SCOPED_TRACE (threads);
+    options.threads = threads;
+    options.blocks = 11 * threads;
+    expectSame (run (points, options), expected);
+  }
+}
+
+// Triangles from their smallest corners on, in any order.
+std::set<Triangle>
+relabelled (const std::vector<Triangle>& triangles, const std::vector<Index>& label)
+{
+  std::set<Triangle> set;
+  for (Triangle t : triangles) {
+    for (Index& p : t)
+      p = label[p];
+    std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
+    set.insert (t);
+  }
+  return set;
+}
+
+TEST_P (Invariants, OrderAndPowersOfTwoChangeNothing)
+{
+  const Positions points = GetParam ().points (false);
+  const std::vector<Index> same = samples::indices (points.size ());
+  const Result expected = run (points);
+  ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
+  const std::vector<Index> order = samples::permutation (points.size (), 17);
+  Positions permuted;
+  for (const Index p : order)
+    permuted.push_back (points[p]);
+  const Result again = run (permuted);
+  EXPECT_EQ (relabelled (again.triangles, order), relabelled (expected.triangles, same));
+  for (std::size_t p = 0; p < again.report.parameters.size (); ++p)
+    EXPECT_EQ (again.report.parameters[p], expected.report.parameters[order[p]]);
+  for (const double scale : {0x1p-900, 0x1p3, 0x1p900}) {
+    Positions scaled;
+    for (const Eigen::Vector3d& p : points)
+      scaled.emplace_back (scale * p);
+    EXPECT_EQ (run (scaled).triangles, expected.triangles) << scale;
+  }
+}
+
+// A motion rounds the coordinates, and turns the axes that the order of the points and the front of an open
+// surface follow. So the mesh is the same but for edges whose flip is a tie within rounding.
+TEST_P (Invariants, MotionChangesFewTriangles)
+{
+  const Positions points = GetParam ().points (true);
+  const Result expected = run (points);
+  const std::set<Triangle> before = samples::unordered (expected.triangles);
+  const Eigen::Affine3d turn (Eigen::AngleAxisd (1.1, Eigen::Vector3d (1, -2, 3).normalized ()));
+  for (const Eigen::Affine3d& motion :
+       {Eigen::Affine3d (Eigen::Translation3d (1e4, -3e3, 70) * turn),
+        Eigen::Affine3d (turn * Eigen::Scaling (1e-7))}) {
+    Positions moved;
+    for (const Eigen::Vector3d& p : points)
+      moved.push_back (motion * p);
+    const Result result = run (moved);
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    EXPECT_EQ (result.report.check.euler_characteristic,
+               expected.report.check.euler_characteristic);
+    EXPECT_EQ (result.report.check.loops.size (), expected.report.check.loops.size ());
+    double other = 0.0;
+    for (const Triangle& t : samples::unordered (result.triangles))
+      other += before.count (t) == 0 ? 1.0 : 0.0;
+    EXPECT_LE (other, GetParam ().moved_share * static_cast<double> (before.size ()));
+  }
+}
+
+TEST_P (Invariants, CancellationEndsARunWhereverItIsAskedFor)
+{
+  const Positions points = GetParam ().points (false);
+  Options options = GetParam ().options;
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    int questions = 0;
+    options.cancelled_callback = [&] { return ++questions < 0; };
+    ASSERT_EQ (run (points, options).report.status, RunStatus::SUCCESS);
+    const int all = questions;
+    EXPECT_GE (all, 5);
+    for (int last = 1; last <= all; ++last) {
+      questions = 0;
+      options.cancelled_callback = [&] { return ++questions == last; };
+      const Result result = run (points, options);
+      if (questions < last)
+        continue; // the number of questions depends on time
+      EXPECT_EQ (result.report.status, RunStatus::CANCELLED);
+      EXPECT_NE (result.report.message, "");
+      EXPECT_TRUE (result.triangles.empty ());
+      EXPECT_TRUE (result.report.loop.empty ());
+      EXPECT_TRUE (result.report.parameters.empty ());
+      EXPECT_EQ (questions, last) << "asked again after the cancellation";
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P (Methods, Invariants, testing::ValuesIn (invariants ()),
+                          [] (const auto& one) { return std::string (one.param.name); });
+
+TEST (Invariants, OfNormalsAndTexture)
+{
+  samples::Mesh mesh = samples::torus (90, 40);
+  RandomStream random (7);
+  for (Eigen::Vector3d& p : mesh.positions)
+    p += 0.01 * Eigen::Vector3d (random.uniform (), random.uniform (), random.uniform ());
+  TextureOptions options;
+  options.threads = 1;
+  const TextureCoordinates one =
+      computeTextureCoordinates (mesh.positions, mesh.triangles, options);
+  ASSERT_EQ (one.status, RunStatus::SUCCESS);
+  options.threads = 3;
+  const TextureCoordinates three =
+      computeTextureCoordinates (mesh.positions, mesh.triangles, options);
+  EXPECT_TRUE (one.coordinates == three.coordinates);
+  EXPECT_EQ (one.corners, three.corners);
+  const std::vector<Eigen::Vector3f> normals = vertexNormals (mesh.positions, mesh.triangles, 1);
+  EXPECT_EQ (vertexNormals (mesh.positions, mesh.triangles, 7), normals);
+  std::reverse (mesh.triangles.begin (), mesh.triangles.end ());
+  EXPECT_EQ (vertexNormals (mesh.positions, mesh.triangles, 2), normals);
+}
+
+} // namespace
+} // namespace pcl::floater
