@@ -105,9 +105,7 @@ TEST (UnusedOptions, WithoutTheOptionThatTakesThem)
                         {[] (Options& o) { o.holes.policy = HolePolicy::KEEP_COUNT; },
                          [] (Options& o) { o.holes.kept_loops = 2; }, Topology::SURFACE},
                         {[] (Options& o) { o.holes.policy = HolePolicy::BY_SIZE; },
-                         [] (Options& o) { o.holes.largest_hole = 2.0; }, Topology::SURFACE},
-                        {[] (Options& o) { o.holes.policy = HolePolicy::BY_SIZE; },
-                         [] (Options& o) { o.holes.unit = LengthUnit::CLOUD; }, Topology::SURFACE}};
+                         [] (Options& o) { o.holes.largest_hole = 2.0; }, Topology::SURFACE}};
   for (const Pair& pair : pairs) {
     Options options;
     pair.is_taken (options);
