@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <mutex>
 #include <set>
-#include <stdexcept>
 #include <thread>
 
 namespace pcl::floater {

@@ -259,7 +259,7 @@ TEST_P (Invariants, CancellationEndsARunWhereverItIsAskedFor)
 INSTANTIATE_TEST_SUITE_P (Methods, Invariants, testing::ValuesIn (invariants ()),
                           [] (const auto& one) { return std::string (one.param.name); });
 
-TEST (Invariants, OfNormalsAndTexture)
+TEST (Invariants, ThreadsDoNotChangeNormalsAndTexture)
 {
   samples::Mesh mesh = samples::torus (90, 40);
   RandomStream random (7);
@@ -275,10 +275,8 @@ TEST (Invariants, OfNormalsAndTexture)
       computeTextureCoordinates (mesh.positions, mesh.triangles, options);
   EXPECT_TRUE (one.coordinates == three.coordinates);
   EXPECT_EQ (one.corners, three.corners);
-  const std::vector<Eigen::Vector3f> normals = vertexNormals (mesh.positions, mesh.triangles, 1);
-  EXPECT_EQ (vertexNormals (mesh.positions, mesh.triangles, 7), normals);
-  std::reverse (mesh.triangles.begin (), mesh.triangles.end ());
-  EXPECT_EQ (vertexNormals (mesh.positions, mesh.triangles, 2), normals);
+  EXPECT_EQ (vertexNormals (mesh.positions, mesh.triangles, 1),
+             vertexNormals (mesh.positions, mesh.triangles, 7));
 }
 
 } // namespace

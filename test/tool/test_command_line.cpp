@@ -4,8 +4,6 @@
 #include "command_line_test.h"
 #include "mesh_files.h"
 
-#include <cmath>
-
 namespace pcl::floater {
 namespace {
 TEST_F (CommandLineTest, HelpAndVersion)

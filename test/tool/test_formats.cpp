@@ -303,6 +303,13 @@ TEST_F (Formats, ShortDecimalsOfObjAreFloats)
   writeWith (5'500'000.0); // of so many digits a float keeps the first ones only
   ASSERT_EQ (run ({"in.obj", "out.ply"}).code, 0);
   EXPECT_TRUE (readPly (path ("out.ply")).is_double);
+  Sample tenths = makeSample (false); // which are doubles where a file says so
+  tenths.is_double = true;
+  for (Eigen::Vector3d& p : tenths.points)
+    p = (10.0 * p).array ().round () / 10.0;
+  writePcd (path ("tenths.pcd"), tenths, PcdKind::BINARY);
+  ASSERT_EQ (run ({"tenths.pcd", "out.ply"}).code, 0);
+  EXPECT_TRUE (readPly (path ("out.ply")).is_double);
 }
 
 TEST_F (Formats, PrecisionIsThatAskedFor)

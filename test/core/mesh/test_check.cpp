@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <random>
 #include <sstream>
 #include <string>

@@ -5,7 +5,6 @@
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersections.h"
 #include "samples.h"
-#include "surfaces.h"
 
 #include <gtest/gtest.h>
 

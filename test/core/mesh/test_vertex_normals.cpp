@@ -3,14 +3,12 @@
 #include <pcl/surface/floater/vertex_normals.h>
 
 #include "mesh/known_meshes.h"
-#include "random_stream.h"
 
 #include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
