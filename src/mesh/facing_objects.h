@@ -22,7 +22,7 @@ struct FacingSums
   double from_above = 0.0;           ///< unsigned area seen along z; doubled
   double along = 0.0, told = 0.0;    ///< area times cosine to the input normals, signed and
                                      ///< unsigned, of components with agreeing normals; doubled
-  double contradictory = 0.0;        ///< as told, of components with contradictory normals
+  double contradictory = 0.0;        ///< unsigned, of components with contradictory normals
   std::size_t triangles = 0;
   Index at = NONE;
   bool is_closed = true;
