@@ -33,7 +33,7 @@ struct Stitching
 /// Offers the free candidates of all parts, decides which loops stay open, and fills the others
 /// (see extendConsensus, manifoldPart and closeHoles). The result is the same as for the whole
 /// mesh: loops are filled only where all triangles are known. O(m log m) for m points in all rims.
-/// \param rims of all parts; freed after reading
+/// \param joined rims of all parts; freed after reading
 /// \param unit length of one unit of the cloud in the unit of the positions
 /// \return nothing if wider rims are needed
 std::optional<Stitching>

@@ -64,7 +64,7 @@ struct TextureLimits
 };
 
 /// Cuts a mesh into charts and lays them out, on all threads of the run.
-/// \param triangles an oriented manifold; may have any number of components
+/// \param mesh an oriented manifold; may have any number of components
 /// \param smooth      positions without noise (smoothNoise)
 /// \param whole_discs components that are discs are not cut, whatever their stretch
 /// \param largest_stretch mean stretch above which a chart is cut (see TextureOptions)

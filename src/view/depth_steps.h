@@ -19,7 +19,7 @@ struct StepLimits
                       ///< behind the other by more than the width of the edge
   double noise = 2.0; ///< a step exceeds this many times the noise (see findDepthSteps). 1 % of
                       ///< Gaussian noise does, but in isolated edges
-  double sharp_noise = 4.0; ///< as noise, below the slope, where nearly all edges are: five
+  double sharp_noise = 4.0; ///< `noise` for edges below the slope, nearly all edges: five
                             ///< standard deviations of Gaussian noise, one edge of a million
   double continued = 2.0; ///< an edge is on one surface if an extrapolation from one of its ends is
                           ///< as steep, up to this factor. At a crease the edge is shorter than the
