@@ -52,9 +52,9 @@ markDeepPoints (const TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv
   return deep;
 }
 
-// Marks the triangles that can be reached from the boundary without crossing an edge between two
-// deep points. What is left is enclosed by deep points, whatever lies in it. Since no such edge is
-// crossed, none of them joins two points of a region's loop on the outside.
+// Marks the triangles that are connected with the boundary without crossing an edge between two
+// deep points. The rest is enclosed by deep points. Since no such edge is crossed, none of them
+// joins two points of a region's loop on the outside.
 std::vector<std::uint8_t>
 reachFromBoundary (const TriangleMesh& mesh, const std::vector<std::uint8_t>& deep,
                    const RunContext& run)
@@ -84,7 +84,7 @@ reachFromBoundary (const TriangleMesh& mesh, const std::vector<std::uint8_t>& de
   return reached;
 }
 
-// The triangles that are connected with `start` by edges and not taken yet. They become taken.
+// Takes and returns the untaken triangles that are connected with `start` by edges.
 std::vector<Index>
 collectTriangles (const TriangleMesh& mesh, Index start, std::vector<std::uint8_t>& taken,
                   const RunContext& run)
@@ -110,9 +110,8 @@ contains (const std::vector<Index>& sorted, Index element)
   return std::binary_search (sorted.begin (), sorted.end (), element);
 }
 
-// The boundary loop of a region, from its smallest point on. The triangles of the region are
-// connected by edges, and so are those of the rest of the disc, so the edges between the two are
-// one simple cycle.
+// The boundary loop of a region, from its smallest point on. Region and rest are both connected by
+// edges, so the edges between them are one simple cycle.
 // \param triangles of the region, ascending
 // \return empty if there is no such cycle, since the mesh is no disc
 std::vector<Index>
@@ -137,8 +136,8 @@ orderLoop (const TriangleMesh& mesh, const std::vector<Index>& triangles)
   return loop;
 }
 
-// The points with parameters but without a triangle, sorted by their parameters. Each of them
-// coincides with a vertex, or it lies beyond the loop.
+// Points with parameters but without a triangle, sorted by their parameters. Each coincides with a
+// vertex, or lies beyond the loop.
 class LostPoints
 {
 public:
@@ -153,7 +152,7 @@ public:
     taken_.assign (points_.size (), 0);
   }
 
-  // Appends the points that coincide with vertex v and have not been appended to any list.
+  // Appends the points that coincide with vertex v and are in no list yet.
   void takeAt (Index v, std::vector<Index>& list)
   {
     auto at = std::lower_bound (

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Regions in which a parameterization has shrunk so far that double precision is about to run out.
+// Regions of a parameterization that are too small for double precision.
 #pragma once
 
 #include "core/run_context.h"
@@ -10,12 +10,12 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A disc of triangles that is too small in the plane, and all points that lie in it.
+/// A disc of triangles that is too small in the plane, with all its points.
 struct CollapsedRegion
 {
   std::vector<Index> triangles; ///< ascending
-  std::vector<Index> loop;      ///< boundary points in order, the region on the left; these are
-                                ///< still placed well
+  std::vector<Index> loop;      ///< boundary points in order, the region on the left; their
+                                ///< parameters are accurate
   std::vector<Index> interior;  ///< ascending; points of the region that are not on its loop, and
                                 ///< points without a triangle that coincide with one of its points
 };
@@ -24,9 +24,9 @@ struct CollapsedRegion
 /// DiscLimits::collapsed_scale.
 ///
 /// Each region is one disc with a simple boundary loop and shares no point with the boundary of the
-/// mesh. No edge outside of a region joins two points of its loop, so that the region can be
-/// triangulated anew without regard to the rest. Regions share no triangle, edge or interior point.
-/// One pass over the triangles where there is no such region, otherwise O(n log n).
+/// mesh. No outer edge joins two points of its loop, so the region can be triangulated
+/// independently. Regions share no triangle, edge or interior point. One pass over the triangles
+/// without such regions, otherwise O(n log n).
 /// \param mesh      triangulation of the parameters, a disc (see triangulatePlane ())
 /// \param uv        per point
 /// \param positions per point

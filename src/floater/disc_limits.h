@@ -6,29 +6,28 @@
 #include <cstddef>
 
 namespace pcl::floater {
-/// Thresholds that decide what the mesh of a disc is, or whether there is one.
+/// Thresholds for the mesh of a disc.
 struct DiscLimits
 {
-  /// Share of all points, from 0 to 1: if fewer are connected with the boundary loop, the cloud is
-  /// taken for several components (UNREACHABLE). The loop's component then holds less than the
+  /// Smallest share of all points connected with the boundary loop; below, the cloud counts as
+  /// several components (UNREACHABLE). Not derived from data, and not certain.
   /// others together. Not derived from data, and not certain.
   double least_reached_share = 0.5;
 
-  /// Links that a point gets at most if it is not connected with the loop. With a single link a
-  /// lone point would fall on the point that it is linked to, and with two on the line between
-  /// them; three is the least number that places it freely in the plane.
+  /// Maximum number of links of a point that is not connected with the loop. With one link a lone
+  /// point would coincide with its neighbour, and with two lie on the line between them; three is
+  /// the least number that places it freely in the plane.
   std::size_t links_per_point = 3;
 
   /// Scale of the parameterization (length in the plane over length in space) relative to that of
-  /// the loop. A triangle with a smaller scale has collapsed. Neighbours among a million points are
-  /// about 1e-3 apart on the circle, and parameters are accurate to about 1e-13, so at this depth
-  /// places are still good to 1e-4 of their distance. No real cloud with a clean disc has such a
+  /// the loop, below which a triangle has collapsed. Neighbours among a million points are about
+  /// 1e-3 apart on the circle, and parameters are accurate to about 1e-13, so at this depth
+  /// positions are accurate to 1e-4 of their distance. No real cloud with a clean disc has such a
   /// region; 1e-3 made one real cloud (nefertiti) worse.
   double collapsed_scale = 1e-6;
 
-  /// Share of all edges, from 0 to 1: if more are folded after the flips, the surface is no disc.
-  /// On 24 clouds, discs had up to 0.01 and closed surfaces that were laid out as discs 0.04 or
-  /// more; the value lies between.
+  /// Share of all edges: if more are folded after the flips, the surface is no disc. On 24 clouds,
+  /// discs had up to 0.01 and closed surfaces that were laid out as discs 0.04 or more.
   double largest_fold_share = 0.03;
 };
 

@@ -10,8 +10,9 @@
 
 namespace pcl::floater {
 namespace {
-// Two steps g and h on a curve of curvature c turn left by an area of c g h / 2. Rounding may turn
-// them right unless that area is well above the distance of doubles near 1, which is 2e-16. With
+// Two steps g and h on a curve of curvature c turn left by an area of c g h / 2. To survive
+// rounding, it must be well above the distance of doubles near 1, which is 2e-16. With these two
+// values it is 8e-15 or more.
 // these two values it is 8e-15 or more.
 constexpr double SHORTEST_STEP = 4e-6;
 constexpr double SIDE_CURVATURE = 1e-3;
@@ -41,8 +42,8 @@ placeOnCurve (const std::vector<double>& chords, std::size_t first, std::size_t 
   return fractions;
 }
 
-// As many places in the loop as there are corners, ascending from 0, each as near as possible to
-// its share of the loop's length.
+// Indices in the loop of the corners, ascending from 0, each as near as possible to its share of
+// the loop's length.
 std::vector<std::size_t>
 cornerPoints (const std::vector<double>& chords, std::size_t corners)
 {
@@ -55,7 +56,7 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
   for (std::size_t corner = 1; corner < corners; ++corner) {
     const double wanted = total * static_cast<double> (corner) / static_cast<double> (corners);
     const std::size_t last =
-        chords.size () - (corners - corner); // so that each later corner gets a point, too
+        chords.size () - (corners - corner); // leaves a point for each later corner
     while (i < last && (i <= points.back () || length + 0.5 * chords[i] < wanted))
       length += chords[i++];
     points.push_back (i);
@@ -73,10 +74,9 @@ layOnCircle (const std::vector<double>& chords)
   return uv;
 }
 
-// Puts the corners at the places given, and the points between two corners on the side between
-// them.
-// \param corner_points places of the corners in the loop, ascending; the first one is 0
-// \param places        of the corners in the plane, anti-clockwise
+// Lays the corners at given positions, and the points between two corners on the side between them.
+// \param corner_points indices of the corners in the loop, ascending; the first one is 0
+// \param places        positions of the corners in the plane, anti-clockwise
 std::vector<Eigen::Vector2d>
 layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_points,
             const std::vector<Eigen::Vector2d>& places)
@@ -110,7 +110,7 @@ layOnRegularPolygon (const std::vector<double>& chords, std::size_t corners)
   return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 
-// \return empty if the loop has no shape of its own, or one that is not convex after rounding
+// \return empty if the loop has no own shape, or one that is not convex after rounding
 std::vector<Eigen::Vector2d>
 layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
                std::vector<double> chords)

@@ -15,17 +15,17 @@ namespace pcl::floater {
 /// square roots of these, or equal (LoopSpacing). The first point of the loop is at angle 0 of the
 /// circle, or at the left end of the bottom side of a regular polygon.
 ///
-/// Each corner of a regular polygon gets the loop point that is nearest to it along the loop, and
-/// no two corners the same, so that no corner is cut off. A loop with fewer points than the polygon
-/// has corners gets a polygon with as many corners as it has points. OWN_SHAPE has the corners of
-/// the loop's own convex hull (see own_shape.h). A loop that has no such shape, because it lies on
-/// a line or winds around itself, is laid on the circle.
+/// Each corner of a regular polygon gets the loop point that is nearest along the loop, a different
+/// one for each, so that no corner is cut off. A loop with fewer points than corners gets a polygon
+/// with fewer corners. OWN_SHAPE has the corners of the loop's own convex hull (see own_shape.h). A
+/// loop without such a shape, because it lies on a line or winds around itself, is laid on the
+/// circle.
 ///
 /// The result is strictly convex, in floating point too, for loops of up to a million points. For
 /// this, the sides of polygons bulge with a thousandth of the circle's curvature (by 2.5e-4 in the
 /// middle of a square's side), and steps are widened to 4e-6, or to half of the mean step of their
-/// side if that is less. On a straight side, an interior point whose neighbours all lie on that
-/// side would fall on it. O(loop), OWN_SHAPE O(loop log loop).
+/// side if that is less. On a straight side, an interior point whose neighbours are all on it would
+/// fall on it. O(loop), OWN_SHAPE O(loop log loop).
 /// \param positions per point
 /// \param loop      points in order, at least 3
 /// \return parameters, parallel to the loop

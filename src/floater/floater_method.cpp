@@ -32,7 +32,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   const std::vector<Index>& loop = disc.boundary.loop;
 
-  // Section 2.1: the weights may be for all neighbours. Only the boundary needed Delaunay stars.
+  // Section 2.1: the weights may be for all neighbours; the boundary needed Delaunay stars.
   run.beginStage (Stage::WEIGHTS);
   StarSettings star_settings = settings.stars;
   if (settings.neighborhood == Neighborhood::NEAREST ||
@@ -43,7 +43,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
-  // Normals are still needed when the stars are gone.
+  // The normals are needed longer than the stars.
   std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
   disc.parameterization = parameterize (positions, geometry.neighbors, std::move (geometry.stars),
                                         loop, settings.parameterization, run, settings.limits);
@@ -53,19 +53,19 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   if (disc.problem)
     return disc;
 
-  // Section 2: the Delaunay triangulation of the parameters; its triangles are those in space.
+  // Section 2: the triangles of the parameters are the triangles in space.
   run.beginStage (Stage::DELAUNAY);
   const std::vector<Eigen::Vector2d>& uv = disc.parameterization.uv;
   disc.mesh = triangulatePlane (uv, loop);
 
-  // Beyond TW 385: what is too deep for double precision is laid out again, level by level.
+  // Beyond TW 385: collapsed regions are laid out again, level by level.
   if (!settings.as_published)
     disc.levels = layOutCollapsedRegions (disc.mesh, uv, positions, geometry.neighbors,
                                           geometry.stars.normals, loop, star_settings,
                                           settings.parameterization, run, settings.limits);
 
-  // Beyond TW 385: points without a triangle, as those that coincide in the plane, are inserted,
-  // and edges are flipped in space.
+  // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
+  // edges are flipped in space.
   run.beginStage (Stage::FLIPS);
   disc.finish = finishMesh (disc.mesh, points.positions, geometry,
                             {settings.flip_edges, settings.limits.largest_fold_share,

@@ -12,7 +12,7 @@ namespace pcl::floater {
 struct DiscSettings
 {
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
-  StarSettings stars; ///< of stars that are made anew
+  StarSettings stars; ///< for new stars
   ParameterizationSettings parameterization;
   bool flip_edges = true;    ///< flip edges in space at the end, and repair folds
   bool as_published = false; ///< nothing beyond TW 385
@@ -21,7 +21,7 @@ struct DiscSettings
   FacingHints facing{};
 };
 
-/// The mesh of a disc and how it came about, or why there is none.
+/// The mesh of a disc, or why there is none.
 struct Disc
 {
   Boundary boundary;
@@ -32,10 +32,10 @@ struct Disc
   Problem problem;
 };
 
-/// Makes the mesh of a disc from its boundary loop on (TW 385, sections 2 and 4). What goes beyond
-/// TW 385: regions too deep for double precision are laid out again, edges are flipped in space,
-/// and folds are repaired. Runs through the stages WEIGHTS, SOLVE, DELAUNAY and FLIPS.
-/// \param geometry its stars, which need their offsets, are consumed, but for the normals
+/// Makes the mesh of a disc from its boundary loop (TW 385, sections 2 and 4). Beyond TW 385:
+/// collapsed regions are laid out again, edges are flipped in space, and folds are repaired. Stages
+/// WEIGHTS, SOLVE, DELAUNAY and FLIPS.
+/// \param geometry its stars, which need their offsets, are consumed, except their normals
 /// \param boundary checked (see checkBoundary ()), without a problem
 /// \return with the problem of the parameterization, or NOT_A_DISC if too many edges are folded
 Disc

@@ -50,8 +50,8 @@ project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   return outline;
 }
 
-// As many vertices of the hull as possible that have the same order along the loop and along the
-// hull. Both are cycles; they are cut at the hull's vertex that comes first in the loop.
+// As many hull vertices as possible with the same order along loop and hull. Both are cycles, cut
+// at the hull's vertex that comes first in the loop.
 std::vector<std::size_t>
 inLoopOrder (std::vector<std::size_t> hull)
 {
@@ -77,7 +77,7 @@ inLoopOrder (std::vector<std::size_t> hull)
   return ordered;
 }
 
-// Least length of the first step on a side that the loop divides into so many steps.
+// Least length of the first of `steps` steps on a side.
 double
 firstStep (double side, std::size_t steps, const SideLimits& limits)
 {
@@ -85,8 +85,8 @@ firstStep (double side, std::size_t steps, const SideLimits& limits)
                     : std::min (limits.shortest_step, 0.5 * side / static_cast<double> (steps));
 }
 
-// Whether b can be a corner between the corners a and c, with so many steps of the loop between
-// them.
+// Whether b can be a corner between the corners a and c, given the numbers of steps of the loop
+// between them.
 bool
 isFit (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
        std::size_t steps_before, std::size_t steps_after, const SideLimits& limits)
@@ -94,13 +94,12 @@ isFit (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d
   constexpr double SMALLEST_AREA = 1e-14; // twice the area of a turn; 50 times its rounding error
   const Eigen::Vector2d before = b - a, after = c - b;
   const double turn = std::atan2 (cross (before, after), before.dot (after));
-  // At each end of a side, the bulge takes half of its curvature times the side's length from the
-  // turn.
+  // At each end of a side, the bulge reduces the turn by half of its curvature times the side's
+  // length.
   const double taken = 0.5 * limits.curvature * (before.norm () + after.norm ());
   const double area = (turn - taken) * firstStep (before.norm (), steps_before, limits) *
                       firstStep (after.norm (), steps_after, limits);
-  // With too many points on it, the steps of a side that bulges so little would not turn left after
-  // rounding.
+  // Too many steps on a side with so little bulge would not turn left after rounding.
   const auto crowded = [&limits] (double side, std::size_t steps) {
     const double step = firstStep (side, steps, limits);
     return steps > 1 && 0.5 * limits.curvature * step * step < 0.5 * SMALLEST_AREA;
@@ -121,7 +120,7 @@ findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<I
   const auto steps = [&loop] (std::size_t from, std::size_t to) {
     return to > from ? to - from : to + loop.size () - from;
   };
-  // Drops corners that are not fit, seen between the corners that are left, until all are fit.
+  // Repeatedly drops corners that do not fit between the remaining ones.
   for (bool changed = true; changed && corners.size () >= FEWEST;) {
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < corners.size (); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parameterization (TW 385, section 4): from stars and boundary loop to parameters.
+// The parameterization (TW 385, section 4): parameters from stars and boundary loop.
 #pragma once
 
 #include "core/problem.h"
@@ -19,7 +19,7 @@ struct ParameterizationSettings
   Weighting weighting = Weighting::MEAN_VALUE;
   DomainOptions domain;
   SolverOptions solver;
-  bool link_points = true; ///< link points to others so that all are connected with the loop
+  bool link_points = true; ///< link isolated points so that all are connected with the loop
 };
 
 /// Parameters of the points in the plane.
@@ -28,7 +28,7 @@ struct Parameterization
   std::vector<Eigen::Vector2d> uv; ///< per point; NaN if it is not connected with the loop; empty
                                    ///< if there is a problem
   std::size_t relinked = 0;    ///< points that had to be linked to points connected with the loop
-  std::size_t unreachable = 0; ///< points that are not connected with the loop
+  std::size_t unreachable = 0; ///< points not connected with the loop
   std::size_t unknowns = 0;    ///< rows of the linear system
   std::size_t nonzeros = 0;    ///< entries of its matrix
   Solution solution;           ///< figures of the solver; the solution itself is in uv

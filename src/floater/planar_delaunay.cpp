@@ -28,15 +28,15 @@ toPoint (const Eigen::Vector2d& place)
   return {place.x (), place.y ()};
 }
 
-// Marks the points that are not strictly inside of the loop, but for the loop's own. Rounding may
+// Marks the points that are not strictly inside of the loop, except the loop's own. Rounding may
 // put a point beyond the edge between two loop points.
 std::vector<std::uint8_t>
 outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
 {
   const std::size_t h = loop.size ();
-  // Within the circle around the origin that touches the nearest edge there is nothing to check.
+  // Points within the circle around the origin that touches the nearest edge need no test.
   double sqr_safe = std::numeric_limits<double>::infinity ();
-  std::vector<std::pair<double, std::size_t>> corners; // direction, place in the loop; ascending
+  std::vector<std::pair<double, std::size_t>> corners; // direction, index in the loop; ascending
   for (std::size_t i = 0; i < h; ++i) {
     const Eigen::Vector2d& a = uv[loop[i]];
     const Eigen::Vector2d edge = uv[loop[(i + 1) % h]] - a;
@@ -50,8 +50,7 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   for (Index p = 0; p < uv.size (); ++p) {
     if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
       continue;
-    // The edges at the corners next to p's direction, and one more on each side because of
-    // rounding.
+    // The edges beside p's direction, and one more on each side because of rounding.
     const auto after = static_cast<std::size_t> (
         std::upper_bound (corners.begin (), corners.end (),
                           std::make_pair (std::atan2 (uv[p].y (), uv[p].x ()), h)) -
@@ -67,9 +66,9 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   return outside;
 }
 
-// Numbers the faces inside of the loop. A triangle behind an edge of the hull that is no edge of
-// the loop is outside, and so on inwards.
-// \return how many
+// Numbers the faces inside of the loop. Outside are faces at hull edges that are not loop edges,
+// and so on inwards.
+// \return number of faces
 Index
 numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
 {
@@ -105,7 +104,7 @@ numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t poi
   return count;
 }
 
-// The faces that have a number, as a mesh.
+// Makes a mesh of the numbered faces.
 TriangleMesh
 makeMesh (const Delaunay& delaunay, Index count, std::size_t points)
 {
@@ -142,7 +141,7 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
       sites.emplace_back (toPoint (uv[p]), p);
   Delaunay delaunay;
   delaunay.insert (sites.begin (), sites.end ());
-  // Where points coincide, CGAL keeps the index of any of them; a loop point must be the vertex.
+  // Of coinciding points, CGAL keeps any index; a loop point must be the vertex.
   if (delaunay.number_of_vertices () < sites.size ())
     for (Index p : loop) {
       Delaunay::Locate_type type{};

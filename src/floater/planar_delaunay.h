@@ -10,24 +10,24 @@
 namespace pcl::floater {
 /// The Delaunay triangulation of points in the plane, by CGAL with exact predicates. Its boundary
 /// is the loop: slivers between the loop and the convex hull, which rounding leaves where the loop
-/// is nearly straight, are removed. Of points at the very same place only one is a vertex, a loop
-/// point if there is one. The others stay without a triangle, and so do points that rounding has
-/// put on or beyond the loop. O(n log n).
-/// \param uv   per point; points whose parameters are not finite are left out
+/// is nearly straight, are removed. Of coinciding points only one is a vertex, a loop point if
+/// there is one. The others, and points on or beyond the loop by rounding, have no triangle. O(n
+/// log n).
+/// \param uv   per point; non-finite ones are left out
 /// \param loop points of a strictly convex polygon around the origin, anti-clockwise
 /// \return triangles anti-clockwise in the plane; none if all points lie on one line
 TriangleMesh
 triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop);
 
-/// The Delaunay triangulation of points in the plane up to their convex hull. Of points at the very
-/// same place only one is a vertex. O(n log n).
-/// \param uv per point; points whose places are not finite are left out
+/// The Delaunay triangulation of points in the plane up to their convex hull. Of coinciding points
+/// only one is a vertex. O(n log n).
+/// \param uv per point; non-finite ones are left out
 /// \return triangles anti-clockwise in the plane; none if all points lie on one line
 TriangleMesh
 triangulateHull (const std::vector<Eigen::Vector2d>& uv);
 
-/// Whether d lies within the circle through a, b and c, which are anti-clockwise; exact. Of four
-/// points on one circle, it decides as the triangulations above do.
+/// Whether d lies within the circle through a, b and c, which are anti-clockwise; exact. For four
+/// points on one circle, consistent with the triangulations above.
 bool
 isInCircle (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
             const Eigen::Vector2d& d);

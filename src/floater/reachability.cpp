@@ -39,8 +39,7 @@ search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
   }
 }
 
-// Appends the links of point p to the nearest points that have been reached. Ties go to the smaller
-// point.
+// Links point p to the nearest reached points. Ties go to the smaller point.
 void
 linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
            const std::vector<Eigen::Vector3d>& positions,
@@ -81,13 +80,13 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
   if (queue.size () == positions.size ())
     return result;
 
-  // Most entries are between two points that have been reached, and are not needed.
+  // Most entries are between two reached points, and are not needed.
   const CsrLists nearest_of = reverse (
       nearest, [&] (std::size_t p, Index q) { return reachable[p] == 0 || reachable[q] == 0; });
   std::vector<std::uint8_t> waiting (positions.size (), 0); // listed for linking
   std::vector<Index> round;
   for (std::size_t head = 0; head < queue.size ();) {
-    // Points that have not been reached, next to a point that was reached since the last round.
+    // Unreached points next to a point that was reached since the last round.
     round.clear ();
     for (; head < queue.size (); ++head)
       for (const Row row : {nearest.row (queue[head]), nearest_of.row (queue[head])})

@@ -41,7 +41,7 @@ fillsLoop (const TriangleMesh& mesh, const std::vector<Index>& loop)
   return edges == loop.size ();
 }
 
-// Parameterizes regions one by one, and collects the triangles that are not replaced any more.
+// Parameterizes regions one by one, and collects final triangles.
 class Recursion
 {
 public:
@@ -58,7 +58,7 @@ public:
 
   // Cuts the regions out of a mesh, and keeps its other triangles. A region that cannot be
   // parameterized stays in the mesh.
-  // \param points of the whole cloud that the mesh's own numbers mean; nullptr: they are the same
+  // \param points of the whole cloud for the numbers of the mesh; nullptr: the same
   // \param level  of the mesh
   void cut (std::vector<Triangle> triangles, const std::vector<Index>* points,
             const std::vector<CollapsedRegion>& regions, std::size_t level)
@@ -82,7 +82,7 @@ public:
     }
   }
 
-  // Cuts the regions out of the subproblems, too, until none is left.
+  // Also cuts the regions out of the subproblems, until none is left.
   // \return levels
   std::size_t solveAll ()
   {
@@ -116,8 +116,7 @@ private:
     return subproblem;
   }
 
-  // The nearest neighbours among the subproblem's own points: points beyond its loop do not take
-  // part.
+  // The nearest neighbours among the subproblem's own points, without points beyond its loop.
   CsrLists neighborsWithin (const Subproblem& subproblem)
   {
     for (std::size_t i = 0; i < subproblem.points.size (); ++i)
@@ -162,7 +161,7 @@ private:
   ParameterizationSettings settings_;
   RunContext run_;
   DiscLimits limits_;
-  std::vector<Index> number_; // of each point in the subproblem that is being made; NONE: not in it
+  std::vector<Index> number_; // of each point in the current subproblem; NONE: not in it
   std::vector<Subproblem> waiting_;
   std::vector<Triangle> triangles_;
 };

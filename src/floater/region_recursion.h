@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Depth beyond double precision: collapsed regions are laid out again, each on a circle of its own.
+// Collapsed regions are laid out again, each on a circle of its own.
 #pragma once
 
 #include "floater/collapsed_regions.h"
@@ -11,13 +11,12 @@
 namespace pcl::floater {
 /// On a tube of length L and radius R parameters shrink like exp (-L / R). From an L / R of about
 /// 35 on, points coincide in the plane. Here the loop of every collapsed region is laid on a circle
-/// of its own, the points of the region are parameterized and triangulated alone, and the region's
-/// triangles are replaced. The same is then done for the regions that have collapsed within these,
-/// until there are none. One level covers an L / R of about 14. A region that cannot be
-/// parameterized stays as it was. This goes beyond TW 385.
+/// of its own, the region is parameterized and triangulated alone, and its triangles are replaced.
+/// Regions that collapse within these follow recursively. One level covers an L / R of about 14. A
+/// region that cannot be parameterized stays. This goes beyond TW 385.
 ///
-/// The mesh stays a disc with the same boundary. One pass over it where nothing has collapsed;
-/// otherwise each level costs as much as a reconstruction of the points in it.
+/// The mesh stays a disc with the same boundary. One pass over it if nothing has collapsed;
+/// otherwise each level costs as much as a reconstruction of its points.
 /// \param mesh          triangulation of the parameters (see triangulatePlane ())
 /// \param uv            per point
 /// \param positions     per point

@@ -12,16 +12,16 @@
 
 namespace pcl::floater {
 namespace {
-// tan (alpha / 2) of a sector of half a turn, or nearly. There the centre lies on the segment
-// between two neighbours, and their weights exceed all others without limit. Any large value
-// reproduces the centre up to an error of its reciprocal; a much larger one would decouple these
-// two neighbours from the rest.
+// tan (alpha / 2) of a sector of half a turn, or nearly: the centre lies on the segment between two
+// neighbours, and their weights exceed all others without limit. Any large value reproduces the
+// centre up to an error of its reciprocal; a much larger one would decouple these two neighbours
+// from the rest.
 constexpr double LARGEST_TANGENT = 1e8;
 
-// Sine or half tangent below which two neighbours lie in one direction, or in opposite directions.
+// Sine or half tangent below which directions count as equal or opposite.
 constexpr double SAME_DIRECTION = 1e-9;
 
-// One star in contiguous memory, whose capacity is kept from star to star.
+// One star in contiguous memory, which is reused.
 struct LocalStar
 {
   std::vector<Eigen::Vector2d> directions; // unit vectors
@@ -58,9 +58,8 @@ struct LocalStar
   }
 };
 
-// Equation (3) without its loss of digits: tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin,
-// each where nothing cancels. The sine is an absolute value since in sectors next to 0 or pi it may
-// be rounded to the wrong sign.
+// Equation (3) without cancellation: tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin. The sine
+// is an absolute value, since rounding may give it the wrong sign in sectors next to 0 or pi.
 double
 halfTangent (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -78,9 +77,9 @@ inverseDistance (const LocalStar& star, double* weights)
     weights[i] = 1.0 / star.lengths[i];
 }
 
-// Gives each of several neighbours in one direction the mean of their weights. Only their sum is
-// needed to reproduce the centre. Left alone, rounding would give it to some of them and cut off
-// the others.
+// Gives each of several neighbours in one direction the mean of their weights. Only their sum
+// matters to reproduce the centre; rounding would give it to some of them and disconnect the
+// others.
 void
 shareInDirections (const LocalStar& star, double* weights)
 {
@@ -145,9 +144,8 @@ shapePreserving (const LocalStar& star, double* weights)
     return sine > 0.0 ||
            (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);
   };
-  // The opposite edge ends this many neighbours after i, but never at the next neighbour. If that
-  // one is exactly opposite, the triangle with the neighbour after it gives the same coordinates
-  // and has an area.
+  // Offset of the end of the opposite edge from i, never the next neighbour. If that one is exactly
+  // opposite, the triangle with the neighbour after it gives the same coordinates and has an area.
   std::size_t steps = 2;
   for (std::size_t i = 0; i < count; ++i) {
     steps = std::max<std::size_t> (steps, 3) - 1;
@@ -155,8 +153,8 @@ shapePreserving (const LocalStar& star, double* weights)
       ++steps;
     const std::size_t last = (i + steps) % count;
     const std::size_t first = last == 0 ? count - 1 : last - 1;
-    // If an end of the edge is exactly opposite, both ends may lie in one direction, so that the
-    // triangle has no area.
+    // If an end of the edge is exactly opposite, both ends may lie in one direction: a triangle
+    // without area.
     const std::size_t across = isOpposite (star, i, last) ? last : first;
     if (across != i && isOpposite (star, i, across)) {
       const double whole = star.lengths[i] + star.lengths[across];
@@ -169,7 +167,7 @@ shapePreserving (const LocalStar& star, double* weights)
     const double at_last = std::max (0.0, star.area (i, first));
     const double sum = at_i + at_first + at_last;
     if (!(sum > 0.0))
-      continue; // no area: all three lie on one line through the centre
+      continue; // no area: all three are on one line through the centre
     weights[i] += at_i / sum;
     weights[first] += at_first / sum;
     weights[last] += at_last / sum;

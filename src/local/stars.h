@@ -56,12 +56,12 @@ struct Stars
 
 /// Stars of all points. The sheet filter removes neighbours on another sheet of the surface, in
 /// tiers:
-/// - 1. remove a neighbour whose direction leaves either point's plane by more than 49 degrees
+/// 1. remove a neighbour whose direction leaves either point's plane by more than 49 degrees
 ///   (sine 0.75) or whose normal is more than 72 degrees away (cosine 0.3);
-/// - 2. if this opens the star, do so in the plane of the mean normal of the 8 nearest points, if
+/// 2. if this opens the star, do so in the plane of the mean normal of the 8 nearest points, if
 ///   that star is closed: on a sharp edge it contains both faces;
-/// - 3. otherwise remove only neighbours that leave both planes;
-/// - 4. if this star is open too, use all neighbours if their star is closed.
+/// 3. otherwise remove only neighbours that leave both planes;
+/// 4. if this star is open too, use all neighbours if their star is closed.
 /// If the star is open in all tiers, tier 1 is used.
 ///
 /// Stars may reach beyond the neighbours (see StarReach). Far neighbours across a hole, too far for

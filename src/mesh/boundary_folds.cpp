@@ -20,7 +20,7 @@ public:
   {
   }
 
-  // Takes the triangles out that end a fold, if there are such. Returns how many.
+  // Removes the triangles that end a fold, if there are any. Returns their number.
   std::size_t open (MeshEdge fold)
   {
     const MeshEdge other = mesh_.mate (fold);
@@ -38,8 +38,8 @@ public:
   std::vector<std::uint8_t> takenTriangles () && { return std::move (peel_).takenTriangles (); }
 
 private:
-  // Offers the triangle of a folded edge, or, if it is not at the boundary, a triangle beside it,
-  // and then that one.
+  // Offers the triangle of a folded edge, or, if it is not at the boundary, a triangle beside it
+  // first.
   void offerAround (MeshEdge fold)
   {
     for (const std::uint8_t side : otherSides (fold)) {
@@ -50,7 +50,7 @@ private:
         continue;
       }
       const MeshEdge beside = mesh_.mate (e);
-      if (beside.triangle == NONE) // where a part of a mesh ends
+      if (beside.triangle == NONE) // border of a submesh
         continue;
       for (const std::uint8_t outer : otherSides (beside)) {
         const MeshEdge first{beside.triangle, outer};
@@ -85,7 +85,7 @@ private:
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;
   BoundaryPeel peel_;
-  std::vector<MeshEdge> best_; // boundary edges of triangles, in the order in which they are taken
+  std::vector<MeshEdge> best_; // boundary edges of triangles, in the order of removal
   double least_area_ = 0.0;
 };
 

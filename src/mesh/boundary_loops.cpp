@@ -8,7 +8,7 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t WIDTH_POINTS = 256; // at most, for the width: it takes their square
+constexpr std::size_t WIDTH_POINTS = 256; // maximum for the width: its time is quadratic
 
 double
 widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& positions)

@@ -16,12 +16,12 @@ struct BoundaryLoop
   double length = 0.0;       ///< sum of its edges, in the unit of the positions
   double width = 0.0;        ///< largest distance between two of its points, same unit
   double spacing = 0.0;      ///< mean local spacing of its points, same unit
-  bool keep_open = false;    ///< as a boundary of the surface
+  bool keep_open = false;    ///< it is a boundary of the surface
 };
 
 /// Sets length, width and spacing from the points. The width of a loop of up to 256 points is
-/// exact. A longer one is measured between at most 256 of its points, at equal steps along the
-/// loop, and is too short by at most two of these steps. O(points).
+/// exact. For a longer one, at most 256 points at equal steps along the loop are used: the width is
+/// too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
 void
 measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,

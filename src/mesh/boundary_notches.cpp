@@ -15,7 +15,7 @@ namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
-// Of the angle opposite to an edge; 1 if points coincide.
+// Cosine of the angle opposite to an edge; 1 if points coincide.
 double
 cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
 {
@@ -26,7 +26,7 @@ cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
   return product > 0.0 ? a.dot (b) / product : 1.0;
 }
 
-// A cosine below which are the usual share of all corners.
+// Cosine that a share of all corners does not exceed.
 double
 usualCosine (std::vector<double> corners, double share)
 {
@@ -44,7 +44,7 @@ public:
   {
   }
 
-  /// Number of triangles to take out, with cosines below the limit.
+  /// Removes notches with cosines below the limit. Returns the number of triangles.
   std::size_t run (std::vector<double> corners, const NotchLimits& limits)
   {
     if (peel_.edges ().empty ())
@@ -95,7 +95,7 @@ sampleCorners (const TriangleMesh& mesh, const Positions& positions, std::size_t
 {
   const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / triangles);
   std::vector<double> cosines;
-  ProgressLoop progress (run); // each triangle may bring pages into memory
+  ProgressLoop progress (run); // each triangle may load memory pages
   for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
     progress.next ();
     for (std::uint8_t side = 0; side < 3; ++side)

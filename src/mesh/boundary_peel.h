@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that may be taken from the boundary of a mesh, one after the other.
+// Removal of triangles from the boundary of a mesh, one by one.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -9,10 +9,11 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Notes which triangles are to be taken from the boundary of a mesh; the mesh stays as it is.
-/// A triangle may be taken if it has one boundary edge, and its other corner is inside. So every
-/// point keeps a triangle, the mesh stays a manifold, and neither the number of components nor of
-/// boundary loops changes, nor the genus. Of a part of a mesh, edges between partial points are not
+/// Marks triangles to be removed from the boundary; the mesh itself stays unchanged. A triangle may
+/// be removed if it has one boundary edge, and its other corner is inside. So every point keeps a
+/// triangle, the mesh stays a manifold, and the numbers of components and boundary loops and the
+/// genus stay. In a submesh, edges between partial points are not boundary edges; partial points
+/// count as boundary.
 /// at the boundary, and partial points count as if they were.
 class BoundaryPeel
 {
@@ -42,26 +43,26 @@ public:
 
   bool isTaken (Index triangle) const { return is_taken_[triangle] != 0; }
 
-  /// Whether nothing is left across an edge.
+  /// Whether no triangle is left across an edge.
   bool isBoundary (MeshEdge e) const
   {
     const Index other = mesh_.neighbors[e.triangle][e.side];
     return other == NONE ? !isEndOfPart (e) : isTaken (other);
   }
 
-  /// \param e a boundary edge of what is left
+  /// \param e a boundary edge of the remaining mesh
   bool mayTake (MeshEdge e) const
   {
     return !isTaken (e.triangle) && is_at_boundary_[mesh_.corner (e)] == 0;
   }
 
-  /// Takes the triangle of an edge for which mayTake () holds.
+  /// Removes the triangle of an edge for which mayTake () holds.
   void take (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 1; }
 
-  /// Puts back the triangle that was taken last.
+  /// Restores the triangle that was removed last.
   void putBack (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 0; }
 
-  /// Of each triangle: 1 if it is taken. For removeTriangles.
+  /// Of each triangle: 1 if it is removed. For removeTriangles.
   std::vector<std::uint8_t> takenTriangles () && { return std::move (is_taken_); }
 
 private:

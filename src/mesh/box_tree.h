@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tree of boxes, to find those that overlap.
+// Bounding volume hierarchy: finds overlapping boxes.
 #pragma once
 
 #include "core/parallel.h"
@@ -14,10 +14,9 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Boxes in leaves of LEAF_SIZE, which lie in nodes of FAN nodes each. Those next to each other in
-/// the order in which they are given should be near in space. 28 bytes per box; they are rounded
-/// outwards to single precision, so that a few more may seem to overlap. Const functions may be
-/// called by several threads.
+/// Boxes in leaves of LEAF_SIZE, in nodes of FAN nodes each. Consecutive boxes should be near in
+/// space. 28 bytes per box. Boxes are rounded outwards to single precision, so a few more may seem
+/// to overlap. Const functions are thread-safe.
 class BoxTree
 {
 public:
@@ -44,12 +43,12 @@ public:
 
   std::size_t leaves () const { return leaves_.size (); }
 
-  /// Calls visit (i, j) for all boxes i of some leaves and j that overlap or touch, i < j. All
-  /// leaves together give each pair once.
+  /// Calls visit (i, j) for all boxes i of a range of leaves and j that overlap or touch, i < j.
+  /// All leaves together give each pair once.
   template <typename Visit>
   void forOverlaps (std::size_t first, std::size_t last, Visit&& visit) const
   {
-    constexpr std::size_t GROUP = 8; // leaves next to each other, which have much the same near
+    constexpr std::size_t GROUP = 8; // consecutive leaves, with mostly the same near boxes
     std::vector<std::size_t> near;
     for (std::size_t begin = first; begin < last; begin += GROUP) {
       const std::size_t end = std::min (last, begin + GROUP);
@@ -65,7 +64,7 @@ public:
     }
   }
 
-  /// Calls visit (j) for all boxes j that overlap or touch a box of any place, ascending.
+  /// Calls visit (j) for all boxes j that overlap or touch a given box, ascending.
   template <typename Visit>
   void forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
   {
@@ -78,8 +77,8 @@ public:
     });
   }
 
-  /// Calls visit (j) for all boxes j that a ray meets, in no order of distance, until it returns
-  /// true. O(log n) for boxes that hardly overlap.
+  /// Calls visit (j) for all boxes j that a ray meets, unsorted, until it returns true. O(log n)
+  /// for boxes that hardly overlap.
   /// \param direction not zero, any length
   template <typename Visit>
   void forAlongRay (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -96,7 +95,7 @@ public:
               });
   }
 
-  /// Replaces box i. Nodes around it only grow: after many changes far apart, searches are slower.
+  /// Replaces box i. Nodes around it only grow: many distant changes make searches slower.
   void set (std::size_t i, const Eigen::AlignedBox3d& exact)
   {
     const Box box = roundOutwards (exact);
@@ -123,7 +122,7 @@ private:
       }
     }
 
-    // Without branches: which of the six decides is different each time.
+    // Without branches: which comparison decides is unpredictable.
     bool overlaps (const Box& b) const
     {
       return (static_cast<int> (low[0] <= b.high[0]) & static_cast<int> (b.low[0] <= high[0]) &
@@ -137,7 +136,7 @@ private:
   {
     Ray (const Eigen::Vector3d& from, const Eigen::Vector3d& direction) : origin (from)
     {
-      constexpr double NOT_ZERO = 1e-300; // so that no infinity is multiplied by zero
+      constexpr double NOT_ZERO = 1e-300; // avoids infinity times zero
       for (int axis = 0; axis < 3; ++axis) {
         const double d = direction[axis];
         inverse[axis] = 1.0 / (std::abs (d) < NOT_ZERO ? NOT_ZERO : d);
@@ -161,7 +160,7 @@ private:
     Eigen::Vector3d origin, inverse;
   };
 
-  // Some boxes, coordinate by coordinate, so that one box is compared with all of them at once.
+  // Boxes as a structure of arrays, so that one box is compared with all at once.
   struct Leaf
   {
     using Row = std::array<float, LEAF_SIZE>;
@@ -231,7 +230,7 @@ private:
     }
   }
 
-  // Calls visit for the leaves that overlap a box, from some leaf on.
+  // Calls visit for the leaves from `first` on that overlap a box.
   template <typename Visit>
   void forLeaves (const Box& box, std::size_t first, Visit&& visit) const
   {
@@ -243,8 +242,8 @@ private:
               first);
   }
 
-  // Calls visit for the leaves from some leaf on whose boxes and those around them are met, in
-  // ascending order, until it returns true.
+  // Calls visit for the leaves from `first` on whose nodes all satisfy is_met, ascending, until it
+  // returns true.
   template <typename IsMet, typename Visit>
   void forNodes (IsMet&& is_met, Visit&& visit, std::size_t first = 0) const
   {
@@ -252,14 +251,14 @@ private:
     {
       std::size_t level, index;
     };
-    constexpr std::size_t DEPTH = 32; // more levels than boxes that fit any memory have
+    constexpr std::size_t DEPTH = 32; // exceeds the levels of any tree in memory
     std::array<Node, DEPTH * FAN> stack;
     std::size_t left = 0;
     for (std::size_t i = levels_.back ().size (); i-- > 0;)
       stack[left++] = {levels_.size () - 1, i};
     while (left > 0) {
       const Node node = stack[--left];
-      // All leaves below it are before the first one, or it is elsewhere.
+      // All its leaves are before the first one, or it is not met.
       if (((node.index + 1) << (LOG_FAN * node.level)) <= first ||
           !is_met (levels_[node.level][node.index]))
         continue;
@@ -302,7 +301,7 @@ private:
   static_assert (std::size_t{1} << LOG_FAN == FAN, "the logarithm of the fan");
 
   std::vector<Leaf> leaves_;
-  std::vector<std::vector<Box>> levels_; // boxes around the leaves, and around these, upwards
+  std::vector<std::vector<Box>> levels_; // boxes of the leaves, then of the nodes above
 };
 
 } // namespace pcl::floater

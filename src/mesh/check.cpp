@@ -45,8 +45,8 @@ countComponentsByEdges (const std::vector<Triangle>& triangles, std::size_t poin
   return count;
 }
 
-// Numbers the components by vertices. They are those by edges unless a vertex has several fans.
-// \return the component of each point, NONE if it is not used
+// Numbers the components by vertices. They equal those by edges unless a vertex has several fans.
+// \return the component of each point, NONE if it is unused
 std::vector<Index>
 numberComponents (DisjointSets sets, ExaminedParts& parts)
 {
@@ -75,7 +75,7 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
 {
   const ExaminedMesh mesh{triangles, points.positions, spacing, points.diagonal};
   ExaminedParts parts;
-  DisjointSets sets (points.size ()); // of points that are connected by edges
+  DisjointSets sets (points.size ()); // of points, joined along edges
   {
     const TriangleRanges ranges (triangles, points.size (), run);
     parts.around = lookAround (mesh, ranges, limits, &sets, run);

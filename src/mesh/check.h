@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Examines a finished mesh, whatever method made it.
+// Examination of a finished mesh of any method.
 #pragma once
 
 #include "mesh/boundary_loops.h"
@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What the examination counts as odd. None of it changes a mesh.
+/// Thresholds of the examination. They do not change a mesh.
 struct CheckLimits
 {
   double long_edge = 6.0;    ///< mean local spacings of its two ends; longer edges inside the
@@ -23,24 +23,24 @@ struct CheckLimits
                              ///< A triangle is degenerate if its height is below both limits
 };
 
-/// What triangles form, with the places of what is odd about them. A place is the smallest point
-/// where it was found, NONE if there is none.
+/// Figures of a mesh, and positions of its flaws: the smallest point of a flaw, NONE if there is
+/// none.
 struct MeshExamination
 {
   MeshCheck check;                 ///< lengths in units of the cloud, indices of the cloud
   std::vector<BoundaryLoop> loops; ///< parallel to check.loops: longest first
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
-  Index broken_at = NONE;             ///< not manifold, or two triangles with opposite orientations
+  Index broken_at = NONE;             ///< non-manifold, or two triangles with opposite orientations
   Index fold_at = NONE;               ///< start of a folded edge
   Index degenerate_at = NONE;         ///< corner of a degenerate triangle
-  std::vector<CrossingPair> crossing; ///< triangles that cross each other; see checkCrossing
+  std::vector<CrossingPair> crossing; ///< triangles that cross; see checkCrossing
   Index crossing_at = NONE;           ///< corner of such a triangle
   std::size_t long_edges = 0;         ///< longer than CheckLimits::long_edge, not on a boundary
-  double longest_inside = 0.0;        ///< the longest of these, in local spacings
+  double longest_inside = 0.0;        ///< longest edge inside, in local spacings
   std::pair<Index, Index> longest_inside_at{}; ///< its two ends
-  std::size_t smallest_component = 0;          ///< vertices of it
-  std::size_t largest_component = 0;           ///< vertices of it
+  std::size_t smallest_component = 0;          ///< number of vertices
+  std::size_t largest_component = 0;           ///< number of vertices
   Index smallest_component_at = NONE;
 
   bool isManifold () const
@@ -49,35 +49,35 @@ struct MeshExamination
            check.orientation_conflicts == 0;
   }
 
-  /// True for one component with one boundary loop and no handle. Only for a manifold.
+  /// True for one component with one boundary loop and no handle. Requires a manifold.
   bool isDisc () const
   {
     return check.components == 1 && loops.size () == 1 && check.euler_characteristic == 1;
   }
 };
 
-/// Examines triangles by nothing but their corners, the positions and the local spacings. Any input
-/// is allowed. A triangle that names a point twice, or one that does not exist, counts as one
-/// non-manifold edge and as degenerate, and is otherwise ignored. Two triangles on the same three
-/// points, back to back, make their corners non-manifold.
+/// Examines triangles only by their corners, the positions and the local spacings. Any input is
+/// allowed. A triangle with a repeated or invalid corner counts as one non-manifold edge and as
+/// degenerate, and is otherwise ignored. Two triangles on the same three points, back to back, make
+/// their corners non-manifold.
 ///
-/// The genus and the loops mean something only if isManifold (). Components are connected by edges.
-/// BoundaryLoop::component and component_points count components that share a vertex as one. A fold
-/// is an edge whose two triangles are more than 120 degrees apart (isFold). Loops are measured by
-/// measureLoop ().
+/// Genus and loops are meaningful only if isManifold (). Components are connected by edges, but
+/// BoundaryLoop::component and component_points count components that share a vertex as one. Folds:
+/// see isFold. Loops: see measureLoop ().
 ///
-/// O(n), on all threads, whose number does not matter to what is found. 0.2 microseconds of one
-/// thread per point. While it runs, 12 bytes per point if points and triangles are in an order in
-/// which those next to each other are near; 28 if the triangles are in random order, and up to 76
-/// one `\param` in each line
+/// O(n), on all threads; the result does not depend on their number. 0.2 microseconds of one thread
+/// per point. Temporarily 12 bytes per point if consecutive points and triangles are near each
+/// other, 28 if the triangles are in random order, up to 76 if the points are.
+/// \param triangles corners as indices of `points`
+/// \param spacing local spacing of each point
 MeshExamination
 checkMesh (const std::vector<Triangle>& triangles, const Points& points,
            const std::vector<float>& spacing, const RunContext& run,
            const CheckLimits& limits = {});
 
-/// Adds the pairs of triangles that cross each other, and their places, to what checkMesh () found;
-/// nothing if the mesh is no manifold. See findSelfIntersections. The decisions are exact for the
-/// positions of the points, which are those of the cloud up to rounding in double precision.
+/// Adds the self-intersections and their positions to the result of checkMesh (); nothing if the
+/// mesh is no manifold. See findSelfIntersections. Exact for the scaled positions, which equal
+/// those of the cloud up to rounding in double precision.
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
                MeshExamination& found);

@@ -32,7 +32,7 @@ struct BoundaryEdges
   std::size_t components = 0;              // that have any
 };
 
-// Directions are averaged with those of the edges before and after, since borders are ragged.
+// Averages directions with those of the edges before and after, since borders are ragged.
 // \param ends of each edge
 void
 smoothDirections (std::vector<OpenEdge>& edges, const std::vector<std::array<Index, 2>>& ends,
@@ -91,7 +91,7 @@ findBoundaryEdges (const TriangleMesh& mesh, const MeshComponents& components,
   return boundary;
 }
 
-// How well one edge is continued by another: positive if their fronts are on the same side.
+// How well one edge continues another: positive if their fronts are on the same side.
 double
 agreement (const OpenEdge& one, const OpenEdge& other, const Eigen::Vector3d& across, double cosine)
 {
@@ -101,7 +101,7 @@ agreement (const OpenEdge& one, const OpenEdge& other, const Eigen::Vector3d& ac
 
 struct Vote
 {
-  Index other = NONE; // NONE: no other component continues this edge
+  Index other = NONE; // NONE: not continued by another component
   double weight = 0.0;
 };
 

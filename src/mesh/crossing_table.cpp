@@ -8,7 +8,7 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t TESTS_PER_EXACT = 9; // that take as long as what it takes longer
+constexpr std::size_t TESTS_PER_EXACT = 9; // simple tests in the additional time of an exact test
 
 bool
 contains (const std::vector<Index>& ascending, Index t)
@@ -25,7 +25,7 @@ inverseOf (const std::vector<Index>& order)
   return place;
 }
 
-// A pair of two changed triangles counts at the smaller one.
+// A pair of two changed triangles is counted at the smaller one.
 long
 countPairs (Index t, const std::vector<Index>& partners, const std::vector<Index>& changed)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which triangles of a mesh cross which, kept up to date while the mesh changes.
+// Crossing pairs of a mesh, updated while the mesh changes.
 #pragma once
 
 #include "mesh/box_tree.h"
@@ -11,20 +11,20 @@
 #include <vector>
 
 namespace pcl::floater {
-/// The crossing pairs of a mesh. A search changes the mesh, asks what that does to the pairs around
-/// the triangles that changed, and either accepts the change or undoes it in the mesh and here. The
-/// mesh must keep its number of triangles.
+/// The crossing pairs of a mesh. A search changes the mesh, asks for the effect on the pairs around
+/// the changed triangles, and then accepts the change, or undoes it in the mesh and here. The
+/// number of triangles must stay.
 class CrossingTable
 {
 public:
-  /// \param pairs all that the mesh has (see findSelfIntersections)
+  /// \param pairs all pairs of the mesh (see findSelfIntersections)
   CrossingTable (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<CrossingPair>& pairs, const RunContext& run);
 
   std::size_t pairs () const { return pairs_; }
 
-  /// Pairs of triangles whose boxes overlap that were tested since the table was made, with weights
-  /// for the time that a test takes.
+  /// Number of pairs with overlapping boxes that were tested so far, weighted by the time of a
+  /// test.
   std::size_t tests () const { return tests_; }
 
   /// Triangles that cross others, ascending.
@@ -32,26 +32,26 @@ public:
 
   bool isCrossing (Index t) const { return partners_.count (t) != 0; }
 
-  /// Triangles that cross one; none if nullptr.
+  /// Triangles that cross one; nullptr: none.
   const std::vector<Index>* partnersOf (Index t) const
   {
     const auto known = partners_.find (t);
     return known == partners_.end () ? nullptr : &known->second;
   }
 
-  /// Pairs with one of these triangles.
+  /// Number of pairs with one of these triangles.
   /// \param triangles ascending
   long pairsOf (const std::vector<Index>& triangles) const;
 
-  /// Pairs that a change has added, less those that it has removed. If as many as `limit` or more,
-  /// any number from `limit` on.
-  /// \param changed triangles that are not as they were, ascending; followed by accept or reject
+  /// Number of pairs added by a change, minus those removed. Exact below `limit`; otherwise any
+  /// number from `limit` on.
+  /// \param changed triangles, ascending; followed by accept or reject
   long tryChange (const std::vector<Index>& changed, long limit);
 
-  /// Keeps the change that was tried last.
+  /// Keeps the last change.
   void accept (const std::vector<Index>& changed);
 
-  /// After the change that was tried last has been undone in the mesh.
+  /// Call it after the last change was undone in the mesh.
   void reject (const std::vector<Index>& changed) { renewBoxes (changed); }
 
 private:
@@ -60,7 +60,7 @@ private:
 
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;
-  std::vector<Index> order_, place_; // triangles in the tree, and where each of them is there
+  std::vector<Index> order_, place_; // triangles in the tree, and the inverse
   BoxTree tree_;
   std::unordered_map<Index, std::vector<Index>> partners_; // of the triangles that cross others
   std::size_t pairs_;

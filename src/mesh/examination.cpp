@@ -10,8 +10,8 @@
 
 namespace pcl::floater {
 namespace {
-// Boundary edges in cycles. Where the mesh is no manifold, a walk ends at a point that no edge
-// leaves.
+// Connects boundary edges to cycles. Where the mesh is no manifold, a walk ends at a point without
+// an outgoing edge.
 std::vector<BoundaryLoop>
 walkLoops (const std::vector<BoundaryEdge>& edges)
 {
@@ -42,7 +42,7 @@ summaryOf (const BoundaryLoop& loop, const Points& points)
 {
   LoopSummary summary;
   summary.points = loop.points.size ();
-  // A sum of edges may exceed what a double holds where no coordinate does.
+  // The sum may overflow although all coordinates are finite.
   summary.length = std::min (points.scale * loop.length, std::numeric_limits<double>::max ());
   summary.width = points.scale * loop.width;
   summary.width_spacings = loop.spacing > 0.0 ? loop.width / loop.spacing : 0.0;
@@ -52,7 +52,7 @@ summaryOf (const BoundaryLoop& loop, const Points& points)
   return summary;
 }
 
-// Longest first, those of equal length by their place.
+// Longest first; equal lengths by their smallest points.
 void
 sortLoops (MeshExamination& found)
 {

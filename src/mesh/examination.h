@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an examination tells, of all that was found around the points of a mesh.
+// Assembles an examination from its pieces.
 #pragma once
 
 #include "mesh/surroundings.h"
@@ -9,21 +9,20 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What was found of a mesh, point by point.
+/// Results of an examination, point by point.
 struct ExaminedParts
 {
-  Surroundings around;                       ///< of all of its points
+  Surroundings around;                       ///< of all points
   std::size_t triangles = 0;                 ///< proper ones
   std::size_t components = 0;                ///< connected by edges
   std::vector<std::size_t> component_points; ///< vertices of each component, connected by vertices
-  std::vector<Index> component_first;        ///< the smallest one of each
+  std::vector<Index> component_first;        ///< smallest vertex of each component
 };
 
-/// The examination, but for triangles that cross each other: with the boundary loops and the genus.
-/// O(boundary log boundary)
-/// \param parts     its boundary edges are those of `mesh`, all else is of points
+/// The examination without crossing pairs: adds boundary loops and genus. O(boundary log boundary)
+/// \param parts     its boundary edges have points of `mesh`; all else is of all points
 /// \param mesh      has at least the points of the boundary
-/// \param pointOf   the point that is a point of `mesh`
+/// \param pointOf   the point behind a point of `mesh`
 /// \param component of each point of `mesh`
 MeshExamination
 makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,

@@ -8,7 +8,7 @@
 
 namespace pcl::floater {
 namespace {
-// A mesh that is there as a whole.
+// A mesh in memory.
 class WholeMesh : public FacedMesh
 {
 public:

@@ -23,8 +23,8 @@ facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
   return normal.x () < 0.0;
 }
 
-// How sure a decision is whose evidence is this many times as large as that against it, 1 or more.
-// A factor of two makes 0.9.
+// Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of
+// two gives 0.9.
 double
 certaintyOf (double factor)
 {
@@ -32,7 +32,7 @@ certaintyOf (double factor)
   return cube / (1.0 + cube);
 }
 
-// Decides on one object after the other.
+// Decides the front of each object.
 class FacingJudge
 {
 public:
@@ -93,14 +93,14 @@ public:
   bool isTurned (Index object) const { return is_turned_[object] != 0; }
 
 private:
-  // Whether the place of a sensor is to decide, if the mesh was seen from there.
+  // Whether the sensor decides, if the mesh was seen from there.
   bool mayFaceSensor () const
   {
     return hints_.sensor && !hints_.faces_sensor &&
            (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS);
   }
 
-  // A closed component has the sensor on one side of all of it only if the sensor is within it.
+  // A closed component has one side towards the sensor only if the sensor is within it.
   bool isTowardsOneSide (const FacingSums& sums) const
   {
     return !sums.is_closed || std::abs (sums.seen) > limits_.within_share * sums.in_sight;
@@ -126,7 +126,7 @@ private:
               0.5 + 0.5 * std::abs (sums.area_vector.z ()) / sums.from_above);
   }
 
-  // An open object that is to face outwards, however little it is a body.
+  // Orients an open object outwards, even if it hardly is a body.
   void decideOutwards (Index o, double body, double chance)
   {
     if (std::abs (body) >= 2.0 * chance) { // two standard deviations: chance in one case of twenty
@@ -160,7 +160,7 @@ private:
                        limits_.fewest_lines, limits_.lines);
   }
 
-  // Lines through these objects, towards the front of the object.
+  // Lines of sight through these objects, towards their fronts.
   std::vector<SightLine> linesThrough (const std::vector<Index>& objects) const
   {
     std::vector<std::optional<SightLineSampler>> samplers (judged_.size ());
@@ -183,7 +183,7 @@ private:
     return lines;
   }
 
-  // Whether nothing hides most of the mesh from the sensor.
+  // Whether most of the mesh is visible from the sensor.
   bool isSeenFrom (const Eigen::Vector3d& sensor)
   {
     double area = 0.0;
@@ -215,7 +215,7 @@ private:
     return *rays_;
   }
 
-  // How many lines of each object are free towards either side.
+  // Number of free lines of each object on either side.
   struct Free
   {
     std::size_t lines = 0, front = 0, back = 0;
@@ -240,7 +240,7 @@ private:
     return free;
   }
 
-  // Each by itself: nothing else hides it.
+  // Judges each object by itself: only itself blocks its lines.
   void judgeOpen (const std::vector<Index>& open)
   {
     if (open.empty ())
@@ -272,7 +272,7 @@ private:
     }
   }
 
-  // Whether the rules for bodies decided, which do not know yet what lies in what.
+  // Whether the rules for bodies decided, before nesting is known.
   bool mayBeHollow (Index o) const
   {
     return is_body_[o] != 0 &&
@@ -290,10 +290,10 @@ private:
     return inner.area < outer.area && box.contains (inner.box);
   }
 
-  // Bodies that may lie within other bodies. Where one does, it is the wall of a hollow, unless its
-  // front is seen from outside and its back is not, or hardly: then it is a body of its own, seen
-  // through the windows of the other one. Of the wall of a hollow, the windows show the back; its
-  // front is seen at their edges only.
+  // Judges bodies that may lie within other bodies. A nested one is the wall of a hollow, unless
+  // its front is visible from outside and its back is hardly: then it is a separate body, visible
+  // through windows of the other one. Through windows, the back of a wall is visible, and its front
+  // only at their edges.
   void judgeNested ()
   {
     std::vector<Index> bodies, inner;
@@ -324,8 +324,8 @@ private:
     }
   }
 
-  // In how many of these objects an object lies: rays from it cross their surfaces an odd number of
-  // times. By majority, since objects may have windows.
+  // Number of these objects that contain an object: rays from it cross their surfaces an odd number
+  // of times. By majority, since objects may have windows.
   std::size_t countAround (Index o, const std::vector<Index>& around)
   {
     if (around.empty ())
@@ -353,11 +353,11 @@ private:
   const FacingHints& hints_;
   const FacingLimits& limits_;
   const RunContext& run_;
-  std::optional<TriangleRays> rays_; // made when they are needed
+  std::optional<TriangleRays> rays_; // made on demand
   std::vector<FacingObject> judged_;
   std::vector<std::uint8_t> is_turned_; // of each object
-  std::vector<std::uint8_t> is_body_;   // of each object: others may lie in it
-  std::vector<double> bulges_;          // of each object, made when they are needed
+  std::vector<std::uint8_t> is_body_;   // of each object: may contain others
+  std::vector<double> bulges_;          // of each object, made on demand
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decides which components of a mesh are turned round.
+// Decides which components of a mesh are flipped.
 #pragma once
 
 #include "mesh/facing.h"
@@ -9,8 +9,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A mesh whose facing is judged. It is asked for its triangles only where sums over its components
-/// do not decide, but lines of sight.
+/// A mesh to be oriented. Its triangles are requested only if lines of sight are needed.
 class FacedMesh
 {
 public:
@@ -22,13 +21,13 @@ public:
   virtual std::vector<BoundarySegment> boundary () = 0;
 };
 
-/// The hints without what cannot be done: no viewpoint is known that a mesh could face.
+/// The hints without a facing that needs an unknown viewpoint.
 FacingHints
 usableHints (const FacingHints& hints, MeshFacing& facing);
 
 /// See faceOutwards.
 /// \param together see findTogether
-/// \return of each component: 1 if it is to be turned round
+/// \return of each component: 1 if it is to be flipped
 std::vector<std::uint8_t>
 judgeFacing (FacedMesh& mesh, const std::vector<FacingSums>& components,
              std::vector<Continuation> together, const FacingHints& hints,

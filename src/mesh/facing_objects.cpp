@@ -10,8 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-// Triangles that are summed by one task. The sums of tasks are added in their order, so that
-// threads do not matter.
+// Triangles per task. Sums of tasks are added in order: the result does not depend on threads.
 constexpr std::size_t SUMMED = 65536;
 
 // The sums of each component over consecutive triangles.
@@ -41,7 +40,7 @@ public:
 
   void addTo (std::vector<ComponentSum>& sums) &&
   {
-    const auto parts = std::move (parts_); // their memory is given back here
+    const auto parts = std::move (parts_); // frees their memory
     for (const auto& [component, part] : parts)
       sums[component].add (part);
   }
@@ -146,7 +145,7 @@ findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     return {};
   if (!hints.is_one_view && !hints.faces_sensor)
     return findContinuations (mesh, found, positions, limits.continuations, run);
-  std::vector<Continuation> all; // an open one with all others
+  std::vector<Continuation> all; // each open component with all others
   Index first = NONE;
   for (Index c = 0; c < found.count; ++c)
     if (!sums[c].is_closed && first == NONE)
@@ -163,7 +162,7 @@ joinContinuations (std::vector<Continuation> continuations, const std::vector<Fa
   std::stable_sort (
       continuations.begin (), continuations.end (),
       [] (const Continuation& a, const Continuation& b) { return a.support > b.support; });
-  // Of each representative: 1 or -1 where the normals point, 0 if no component of its set has any.
+  // Of each representative: 1 or -1 by the normals of its set, 0 without normals.
   std::vector<int> told;
   told.reserve (sums.size ());
   for (const FacingSums& sum : sums)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Components of a mesh that are turned together, and their sums.
+// Components of a mesh that are oriented together, and their sums.
 #pragma once
 
 #include "core/disjoint_sets.h"
@@ -17,12 +17,12 @@ struct FacingSums
 {
   Eigen::Vector3d area_vector = Eigen::Vector3d::Zero (); ///< doubled, as the area
   double area = 0.0;
-  double volume = 0.0;               ///< six times that which a closed one encloses
+  double volume = 0.0;               ///< six times the volume enclosed by a closed one
   double seen = 0.0, in_sight = 0.0; ///< from the sensor: signed and unsigned solid angle, doubled
-  double from_above = 0.0;           ///< area as seen along z, whichever side is up; doubled
-  double along = 0.0, told = 0.0;    ///< area times cosine to the normals of the input, signed and
-                                     ///< unsigned, of components on which these agree; doubled
-  double contradictory = 0.0;        ///< the same, unsigned, where they do not
+  double from_above = 0.0;           ///< unsigned area seen along z; doubled
+  double along = 0.0, told = 0.0;    ///< area times cosine to the input normals, signed and
+                                     ///< unsigned, of components with agreeing normals; doubled
+  double contradictory = 0.0;        ///< unsigned, of components with contradictory normals
   std::size_t triangles = 0;
   Index at = NONE;
   bool is_closed = true;
@@ -48,12 +48,12 @@ struct FacingSums
   double meanNormal () const { return area > 0.0 ? area_vector.norm () / area : 0.0; }
 };
 
-/// The sums of a component, or of some of its triangles. Volumes are measured from an origin near
-/// to them, for precision.
+/// The sums of a component, or of some of its triangles. Volumes are relative to a near origin, for
+/// precision.
 struct ComponentSum
 {
   FacingSums sum;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero (); ///< of no meaning without triangles
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero (); ///< undefined without triangles
 
   void add (const ComponentSum& other)
   {
@@ -66,7 +66,7 @@ struct ComponentSum
   }
 };
 
-/// Components by the objects that they make up.
+/// Objects and their components.
 struct FacingObjects
 {
   std::vector<Index> of_component;
@@ -88,7 +88,7 @@ areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-/// An edge of the boundary, with the surface on its left.
+/// A boundary edge, with the surface on its left.
 struct BoundarySegment
 {
   Index component;
@@ -99,13 +99,13 @@ std::vector<BoundarySegment>
 boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   const MeshComponents& found);
 
-/// The sums over the triangles of each component, by the sensor and the normals of the hints. O(n),
-/// on all threads. They do not depend on the number of threads.
+/// Sums over the triangles of each component, by the sensor and the normals of the hints. O(n), on
+/// all threads; the result does not depend on their number.
 std::vector<ComponentSum>
 sumTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const MeshComponents& found, const FacingHints& hints, const RunContext& run);
 
-/// The same of whole components: where normals contradict each other, they tell nothing.
+/// Sums of whole components; contradictory normals are moved to `contradictory`.
 std::vector<FacingSums>
 judgeNormals (const std::vector<ComponentSum>& components, const FacingLimits& limits);
 
@@ -115,14 +115,14 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
                const RunContext& run);
 
-/// Components that are to be turned together, if nothing contradicts.
+/// Components to be oriented together, unless something contradicts.
 std::vector<Continuation>
 findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const MeshComponents& found, const std::vector<FacingSums>& sums,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
 
-/// Joins components that continue each other, the strongest continuations first. Those that
-/// contradict them, or the normals of the input, are left out.
+/// Joins components that continue each other, the strongest continuations first. Skips those that
+/// contradict stronger ones or the input normals.
 /// \param sums of the components
 void
 joinContinuations (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums,
@@ -133,8 +133,8 @@ FacingObjects
 makeObjects (const std::vector<FacingSums>& components, SignedSets sets);
 
 /// How far each object bulges out of its boundary to its front: the volume between it and the
-/// middle of its boundary, signed over unsigned, from -1 to 1: 1 of a dome that faces outwards,
-/// about 0 of a wave. 0 of a flat one. O(n).
+/// middle of its boundary, signed over unsigned, from -1 to 1: 1 for a dome that faces outwards,
+/// about 0 for a wave, 0 for a flat one. O(n).
 /// \param component of each triangle
 /// \param flatness see FacingLimits
 std::vector<double>

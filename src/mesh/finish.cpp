@@ -10,7 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-// Fraction of the stage's time at which these steps end. Measured on clean clouds.
+// Fractions of the stage's time at the end of these steps. Measured on clean clouds.
 constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
 } // namespace
 
@@ -33,7 +33,7 @@ repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& 
   finish.is_repairable = !settings.flip_edges ||
                          static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
-    // Flips have turned some triangles, so that some normals may have the wrong sign.
+    // Flips have turned some triangles; normals may have the wrong sign now.
     orientNormals (mesh, positions, normals, run);
     moveVertices (mesh, neighbors.all (), scatter, cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();

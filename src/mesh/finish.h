@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last changes of a mesh, whatever method made it: insertion, flips, repair, orientation.
+// Final changes of a mesh of any method: insertion, flips, repair, orientation.
 #pragma once
 
 #include "local/local_geometry.h"
@@ -28,57 +28,53 @@ struct FinishSettings
 {
   bool flip_edges = true; ///< flip edges and repair folds
 
-  /// Share of all edges. If more are folded after the flips, the mesh cannot be repaired, and the
-  /// repair is skipped.
+  /// Share of all edges. If more are folded after the flips, the repair is skipped as hopeless.
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
   FacingHints facing = {};
   bool insert_points = true;  ///< insert points that have no triangle
-  bool open_boundary = false; ///< take out what only fills notches of the boundary, or folds it
+  bool open_boundary = false; ///< remove triangles that fill notches of the boundary, or fold it
 };
 
-/// What finishMesh has done.
+/// Result of finishMesh.
 struct MeshFinish
 {
   std::size_t flips = 0;
   std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
-  std::size_t folds = 0;             ///< folded edges that are left
-  bool is_repairable = true;         ///< false: more than FinishSettings::largest_fold_share of all
-  MeshFacing facing;                 ///< which components were turned round, and why
+  std::size_t folds = 0;             ///< remaining folded edges
+  bool is_repairable = true;         ///< false: more folds than FinishSettings::largest_fold_share
+  MeshFacing facing;                 ///< which components were flipped, and why
 };
 
-/// What is known of the points of a mesh, or of a part of one.
+/// Data on the points of a mesh or submesh.
 struct RepairInput
 {
   const std::vector<Eigen::Vector3d>& positions; ///< the vertices lie on them
-  NeighborTable neighbors;                       ///< all are read only where there is something
-                                                 ///< to insert or to repair
+  NeighborTable neighbors;                       ///< fully read only if there is something to
+                                                 ///< insert or to repair
   const std::vector<float>& spacing;
   const std::vector<Index>& scatter;     ///< see LocalGeometry
-  std::vector<Eigen::Vector3f>& normals; ///< are turned to the side of the mesh
+  std::vector<Eigen::Vector3f>& normals; ///< get the side of the mesh
 };
 
-/// The first part of finishMesh: inserts points, flips edges, repairs folds. Of a part of a mesh,
-/// fixed triangles stay.
+/// First step of finishMesh (): inserts points, flips edges, repairs folds. In a submesh, fixed
+/// triangles stay.
 MeshFinish
 repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
             const RunContext& run);
 
-/// Takes out what only fills notches of the boundary, or folds it.
+/// Removes triangles that fill notches of the boundary, or fold it.
 /// \param corners see openNotches
-/// \param[in,out] finish of repairMesh
+/// \param[in,out] finish result of repairMesh ()
 void
 openBoundary (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               std::vector<double> corners, const NotchLimits& limits, const RunContext& run,
               MeshFinish& finish);
 
-/// Inserts points that have no triangle, flips edges, repairs the folds that are left, opens
-/// notches and folds of the boundary, and turns every component to face outwards. O(n log n) at
-/// worst.
-///
+/// Inserts missing points, flips edges, repairs the remaining folds, opens notches and folds of the
+/// boundary, and orients every component outwards. O(n log n) at worst.
 /// \param positions of the points; the vertices lie on them
-/// \param geometry  the normals of vertices are turned to the side of the mesh as it was before
-///                  faceOutwards
+/// \param geometry  normals of vertices get the side of the mesh before faceOutwards ()
 MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run);

@@ -50,11 +50,11 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
     across[side] = normalAcross (mesh, cost, {t, side});
     added -= cost.plain ().ofEdge (whole.unit_normal, across[side]);
   }
-  // All terms from here on are 0 or more.
+  // All following terms are 0 or more.
   const std::array<Triangle, 3> corners{{{p, b, c}, {p, c, a}, {p, a, b}}};
   std::array<Eigen::Vector3d, 3> part;
   for (std::uint8_t side = 0; side < 3; ++side) {
-    // Not cached: nearly all splits that are looked at are never made.
+    // Not cached: nearly all of these splits are never made.
     const TriangleCost::Value value = cost.once (p, corners[side][1], corners[side][2]);
     part[side] = value.unit_normal;
     added += value.cost;
@@ -132,7 +132,7 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
 }
 
 namespace {
-// Flips the edges that `is_chosen` names, and others after them.
+// Flips the edges chosen by `is_chosen`, and others as a consequence.
 template <typename IsChosen>
 std::size_t
 flipChosen (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run,
@@ -172,7 +172,7 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
     flips += flipChosen (block.mesh, cost.countedFrom (block.first), run.withThreads (1), isAny);
     blocks.putBack (block, b, mesh);
   });
-  // Free triangles have changed, but they are the same ones.
+  // The free triangles have changed, but not which ones are free.
   return flips + flipChosen (mesh, cost, run,
                              [&] (Index t, Index u) { return is_free[t] == 0 || is_free[u] == 0; });
 }

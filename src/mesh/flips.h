@@ -10,8 +10,8 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Gives every normal the sign for which most of the area around its point faces along it. Normals
-/// of points without triangles stay as they are. O(n), on all threads.
+/// Orients every normal towards the front of most of the area around its point. Normals of points
+/// without triangles stay. O(n), on all threads.
 void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                std::vector<Eigen::Vector3f>& normals, const RunContext& run);
@@ -25,14 +25,14 @@ normalAcross (const TriangleMesh& mesh, CachedCost& cost, MeshEdge e)
                        : cost (mesh.triangles[other]).unit_normal;
 }
 
-/// Cost that the split of triangle t at point p would add, with that of the edges. If it is above
-/// the limit, the result may be any value above the limit.
+/// Cost that the split of triangle t at point p would add, edges included. If it exceeds the limit,
+/// any value above the limit may be returned.
 double
 splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double limit);
 
 /// Flips edges from a stack, and those around each flipped edge, until no flip lowers the cost of
-/// the mesh any more. A flip changes the cost of two triangles and of their five edges. In the
-/// plane, this is the flip algorithm for Delaunay triangulations (Lee and Schachter 1980).
+/// the mesh. A flip changes the cost of two triangles and their five edges. In the plane, this is
+/// the flip algorithm for Delaunay triangulations (Lee and Schachter 1980).
 class EdgeFlipper
 {
 public:
@@ -50,7 +50,7 @@ public:
   std::size_t flips () const { return flips_; }
 
 private:
-  // Change of cost by the flip of an edge; 0 if it cannot be flipped or lowers nothing.
+  // Change of cost by the flip of an edge; 0 if it is not allowed or lowers nothing.
   double changeByFlip (MeshEdge e) const;
 
   TriangleMesh& mesh_;
@@ -60,9 +60,9 @@ private:
   std::size_t flips_ = 0;
 };
 
-/// Flips edges of the whole mesh (see EdgeFlipper): first within blocks, on all threads, then what
-/// is left between them. Boundary edges are kept. Of a part of a mesh, fixed triangles stay; it
-/// takes one thread. O(n) in practice.
+/// Flips edges of the whole mesh (see EdgeFlipper): first within blocks, on all threads, then
+/// between them. Keeps boundary edges. In a submesh, uses one thread and keeps fixed triangles.
+/// O(n) in practice.
 /// \return number of flips
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);

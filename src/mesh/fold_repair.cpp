@@ -14,7 +14,7 @@
 
 namespace pcl::floater {
 namespace {
-// Nearest neighbours of the points of a block, counted within it; those elsewhere are left out.
+// Nearest neighbours of the points of a block, within the block and numbered in it.
 CsrLists
 neighborsWithin (const CsrLists& neighbors, Index first, Index last)
 {
@@ -38,7 +38,7 @@ verticesAt (const std::vector<MeshEdge>& edges, const TriangleMesh& mesh)
   return vertices;
 }
 
-// How many costs of triangles may be asked for, and how many were.
+// Number of allowed and of requested triangle costs.
 struct Costs
 {
   std::size_t most;
@@ -46,7 +46,7 @@ struct Costs
 
   std::size_t left () const { return most - std::min (most, asked.load ()); }
 
-  // The share of a block, by its vertices that are to be moved.
+  // The share of a block, by its vertices to move.
   std::size_t share (std::size_t vertices, std::size_t of_all) const
   {
     return static_cast<std::size_t> (static_cast<double> (most) * static_cast<double> (vertices) /
@@ -54,8 +54,8 @@ struct Costs
   }
 };
 
-// Moves vertices of a block, which are counted in it. Tells of each of them whether it is done
-// with: its triangles are free, and its neighbours are all in the block.
+// Moves vertices of a block, numbered in it. Reports which of them are done: their triangles are
+// free, and their neighbours are all in the block.
 std::size_t
 moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
              const std::vector<RepairTarget>& targets, const std::vector<Index>& vertices,
@@ -79,8 +79,8 @@ moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
   return moves;
 }
 
-// Moves vertices, ascending, in blocks of the mesh if there are more than one. Those that are whole
-// in their block are then erased from the list. Returns the number of moves.
+// Moves vertices, ascending, in blocks of the mesh if there are several. Removes those that are
+// done from the list. Returns the number of moves.
 std::size_t
 moveInBlocks (TriangleMesh& mesh, const CsrLists& neighbors,
               const std::vector<RepairTarget>& targets, const TriangleCost& cost,

@@ -21,7 +21,7 @@ edgeOf (Index p, Index q)
   return {std::min (p, q), std::max (p, q)};
 }
 
-// Fills one loop after the other. Edges of earlier fillings are edges of the mesh, too.
+// Fills loops one by one. Edges of earlier fillings count as edges of the mesh.
 class HoleFiller
 {
 public:
@@ -62,8 +62,8 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
-  // Whether the loop goes round a component of one triangle. The only filling is that triangle from
-  // its other side.
+  // Whether the loop goes round a component of one triangle: its only filling is the reversed
+  // triangle.
   bool isRoundOneTriangle (const BoundaryLoop& loop) const
   {
     const auto isInLoop = [&loop] (Index p) {
@@ -79,8 +79,8 @@ private:
     return cost_ (p, q, r) + area_cost_ * double_area;
   }
 
-  // Cuts off ears, each time that of least cost, until the polygon is small enough. Returns false
-  // if there are not enough ears that may be cut off.
+  // Repeatedly cuts off the ear of least cost until the polygon is small enough. Returns false if
+  // too few ears are allowed.
   template <typename Allowed>
   bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles, std::set<Edge>& ears,
                 Allowed&& allowed) const
@@ -110,7 +110,7 @@ private:
       queue.erase (queue.begin ());
       const Index a = before[i], b = after[i];
       if (!allowed (polygon[a], polygon[b])) {
-        queued[i] = -1.0; // not in the queue until a corner next to it is cut off
+        queued[i] = -1.0; // not in the queue until an adjacent corner is cut off
         continue;
       }
       triangles.push_back ({polygon[a], polygon[i], polygon[b]});
@@ -143,12 +143,12 @@ private:
   std::set<Edge> new_edges_;
 };
 
-// Connects the last triangles of a mesh with each other and with the boundary of the others: as
-// TriangleMesh::connect () does all, which would take much longer.
+// Connects the last triangles of a mesh with each other and with the boundary of the others. Much
+// faster than TriangleMesh::connect ().
 void
 connectLast (std::size_t count, TriangleMesh& mesh)
 {
-  std::map<Edge, MeshEdge> open; // by both ends, in the direction of the edge
+  std::map<Edge, MeshEdge> open; // by (from, to)
   const auto first = static_cast<Index> (mesh.triangles.size () - count);
   mesh.neighbors.resize (mesh.triangles.size (), {NONE, NONE, NONE});
   for (Index t = first; t < mesh.triangles.size (); ++t)
@@ -191,7 +191,7 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
     else
       loop.keep_open = true;
   }
-  // Not twice the memory, as a vector takes by itself for a few more.
+  // Reserves exactly: growing would double the memory.
   const std::size_t triangles = mesh.triangles.size () + filler.triangles ().size ();
   mesh.triangles.reserve (triangles);
   mesh.neighbors.reserve (triangles);

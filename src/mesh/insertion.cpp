@@ -15,14 +15,14 @@ namespace pcl::floater {
 namespace {
 constexpr std::size_t LARGEST_STAR = 200; // triangles: the largest k of the options
 
-// A partial point without a triangle has one that is not seen here.
+// A partial point without a triangle has one outside this submesh.
 bool
 isMissing (const TriangleMesh& mesh, Index p)
 {
   return mesh.triangle_of[p] == NONE && !mesh.isPartial (p);
 }
 
-// Inserts points one by one, each time the one whose place costs least.
+// Inserts points one by one, always the one with the cheapest split.
 class PointInserter
 {
 public:
@@ -60,7 +60,7 @@ public:
       if (now.triangle == NONE)
         continue;
       if (now.added > place.added && !queue_.empty () && now.added > queue_.top ().added) {
-        queue_.push (now); // the mesh has changed there: the next point may be better now
+        queue_.push (now); // the mesh has changed there: another point may be cheaper now
         continue;
       }
       insert (now);
@@ -83,8 +83,8 @@ private:
 
   bool isMissing (Index p) const { return floater::isMissing (mesh_, p); }
 
-  // Pairs of missing points, the first among the neighbours of the second: once the first is
-  // inserted, the second has a place.
+  // Pairs of missing points, the first among the neighbours of the second: the second can be
+  // inserted after the first.
   void findAwaiting (const std::vector<Index>& missing)
   {
     ProgressLoop progress (run_);
@@ -97,7 +97,7 @@ private:
     std::sort (awaiting_.begin (), awaiting_.end ());
   }
 
-  // Queues a point if it has a place. The best one is searched again when its turn comes.
+  // Queues a point if it can be inserted. Its cheapest triangle is searched again later.
   void offer (Index p)
   {
     if (queued_[p] != 0)
@@ -109,7 +109,7 @@ private:
     queued_[p] = 1;
   }
 
-  // The triangle at a neighbour of p whose split at p adds the least cost.
+  // The triangle at a neighbour of p with the cheapest split at p.
   Place cheapest (Index p)
   {
     Place best{0.0, p, NONE};
@@ -120,7 +120,7 @@ private:
         hubs_.push_back (q);
       else
         tryFan (q, best);
-    // The triangles of a hub that lie beside p are in the fans of other neighbours, too.
+    // The triangles of a hub beside p are also in the fans of other neighbours.
     for (std::size_t i = 0; i < hubs_.size () && best.triangle == NONE; ++i)
       tryFan (hubs_[i], best);
     return best;
@@ -141,7 +141,7 @@ private:
     }
   }
 
-  // Whether there are more triangles around q than a star could have given it.
+  // Whether q has more triangles than any star.
   bool isHub (Index q) const
   {
     std::size_t count = 0;
@@ -184,7 +184,7 @@ private:
   std::vector<std::pair<Index, Index>> awaiting_; // see findAwaiting; sorted
   std::priority_queue<Place> queue_;
   std::vector<std::uint8_t> queued_; // per point
-  std::vector<Index> seen_;          // per triangle: the last search that looked at it
+  std::vector<Index> seen_;          // per triangle: the last search that visited it
   Index search_ = 0;
   std::vector<Index> fan_, hubs_;
 };

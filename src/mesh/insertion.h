@@ -1,21 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Insertion of points that have no triangle yet.
+// Insertion of points that have no triangle.
 #pragma once
 
 #include "mesh/flips.h"
 #include "mesh/triangle_mesh.h"
 
 namespace pcl::floater {
-/// Whether there are points that insertMissingPoints would insert if it could. O(n).
+/// Whether there are points for insertMissingPoints (). O(n).
 bool
 isAnyMissing (const TriangleMesh& mesh);
 
-/// Inserts every point that is not a vertex but has vertices among its nearest neighbours. Of the
-/// triangles around these, the one whose split at the point costs least is split. The point whose
-/// split costs least comes first, since it shows the next ones where the surface is; a point that
-/// has only missing neighbours follows once one of these is inserted. Fixed triangles stay. O(m log
-/// m) for m missing points.
+/// Inserts every point without triangle that has vertices among its nearest neighbours: splits the
+/// triangle around these whose split costs least. The cheapest point comes first, since it shows
+/// the next ones where the surface is. A point that has only missing neighbours follows when one of
+/// these is inserted. Fixed triangles stay. O(m log m) for m missing points.
 /// \param neighbors of each point, nearest first
 /// \param flip      whether edges around each inserted point are flipped at once
 /// \return number of points inserted
@@ -23,14 +22,13 @@ std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
                      bool flip, const RunContext& run);
 
-/// Gives the normal of a point that is not a vertex the side of the mean normal of those of these
-/// neighbours that are vertices.
+/// Orients the normal of a point without triangle like the mean normal of the vertices among its
+/// neighbours.
 void
 orientMissingNormal (const TriangleMesh& mesh, Index p, const Row& neighbors,
                      std::vector<Eigen::Vector3f>& normals);
 
-/// Gives the normal of every point that is not a vertex the side of the mean normal of those
-/// nearest neighbours that are vertices. O(n).
+/// orientMissingNormal () for all points without triangle. O(n).
 void
 orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
                       std::vector<Eigen::Vector3f>& normals, const RunContext& run);

@@ -13,18 +13,17 @@
 
 namespace pcl::floater {
 namespace {
-constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have any number
+constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have arbitrary values
 
-// Corners of a loop between which it is filled; a longer one is taken in even steps. A limit of
-// time, which grows with the third power.
+// Corners of a loop in its filling; a longer one is sampled in even steps. Limits the time, which
+// grows with the third power.
 constexpr std::size_t MOST_CORNERS = 64;
 
-// Weight of the squared edges of a filling beside its doubled area: among fillings of about the
-// same area, as all of a flat loop are, that with short edges is taken.
+// Weight of the squared edges of a filling beside its doubled area: of fillings with about the same
+// area, as in a flat loop, prefers short edges.
 constexpr double EDGE_WEIGHT = 0.05;
 
-// Tells whether a point has a large sector without neighbours: of those on its own sheet, or of
-// all.
+// Tests whether a point has a large sector without neighbours, on its own sheet or on any.
 class SectorTest
 {
 public:
@@ -95,7 +94,7 @@ public:
   std::array<LogLengths, RINGS> walk (const std::vector<Index>& loop)
   {
     std::array<LogLengths, RINGS> edges;
-    // A point of ring k has the number base_ + k + 1; lower numbers are of earlier walks.
+    // A point of ring k has the number base_ + k + 1; lower numbers belong to earlier walks.
     if (base_ > LARGEST_BASE) {
       std::fill (ring_.begin (), ring_.end (), 0U);
       base_ = 0;
@@ -124,7 +123,7 @@ public:
     return edges;
   }
 
-  // Geodesic curvature at a point of a loop: half a turn less the angles of its triangles.
+  // Geodesic curvature at a point of a loop: half a turn minus the angles of its triangles.
   double curvature (Index p)
   {
     double angle = PI;

@@ -100,7 +100,7 @@ MeshBlocks::putBack (const MeshBlock& part, std::size_t block, TriangleMesh& mes
       const Index neighbor = part.mesh.neighbors[i][corner];
       if (neighbor != NONE)
         mesh.neighbors[ids[i]][corner] = ids[neighbor];
-      else if (!is_fixed) // else it is as before: at the boundary, or in no block
+      else if (!is_fixed) // otherwise unchanged: at the boundary, or in no block
         mesh.neighbors[ids[i]][corner] = NONE;
     }
   }

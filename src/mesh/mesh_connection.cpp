@@ -11,11 +11,11 @@
 
 namespace pcl::floater {
 namespace {
-// Wedges up to which comparing all with all is faster than a hash table. Measured.
+// Number of wedges up to which comparing all pairs is faster than a hash table. Measured.
 constexpr std::size_t MANY_IN_STAR = 32;
 
-// Looks at the triangles around one point after the other. Both triangles of an edge are around
-// each of its ends, so that nothing else needs to be looked at.
+// Processes points one by one. Both triangles of an edge are in the star of each of its ends, so
+// the star suffices.
 class StarConnector
 {
 public:
@@ -28,7 +28,7 @@ public:
     mesh_.triangle_of[p] = star.size () == 0 ? NONE : star[star.size () - 1].triangle;
     if (!indexLeaving (star))
       return false;
-    // The wedge that follows another one anti-clockwise begins at the edge at which that one ends.
+    // A wedge is followed anti-clockwise by the one that begins at its last edge.
     after_.assign (star.size (), NONE);
     before_.assign (star.size (), NONE);
     for (Index i = 0; i < star.size (); ++i) {
@@ -50,7 +50,7 @@ private:
   bool indexLeaving (const VertexStar& star)
   {
     if (star.size () > MANY_IN_STAR) {
-      leaving_ = {}; // not clear (): that goes through the buckets of an earlier, larger one
+      leaving_ = {}; // not clear (): it visits all buckets of an earlier, larger table
       for (Index i = 0; i < star.size (); ++i)
         if (!leaving_.emplace (star[i].next, i).second)
           return false;
@@ -83,8 +83,8 @@ private:
     Index start = 0;
     for (Index i = 0; i < before_.size (); ++i)
       if (before_[i] == NONE)
-        start = i; // of an open fan
-    // Where an edge leads to p twice, the walk may go round without its start.
+        start = i; // start of an open fan
+    // If an edge leads to p twice, the walk may cycle without reaching its start.
     std::size_t count = 1;
     for (Index i = after_[start]; i != NONE && i != start && count <= after_.size (); i = after_[i])
       ++count;
@@ -92,8 +92,8 @@ private:
   }
 
   TriangleMesh& mesh_;
-  std::vector<Index> after_, before_;        // of each wedge: the next ones of the fan, or NONE
-  std::unordered_map<Index, Index> leaving_; // of many wedges: each one by its first edge
+  std::vector<Index> after_, before_;        // of each wedge: neighbours in the fan, or NONE
+  std::unordered_map<Index, Index> leaving_; // if there are many wedges: each by its first edge
 };
 
 } // namespace
@@ -101,7 +101,7 @@ private:
 bool
 TriangleMesh::connect (std::size_t points, const RunContext& run)
 {
-  // Edges are counted elsewhere.
+  // Tables of edges have 3 entries per triangle.
   requireCountable (3 * triangles.size (), NONE - 1, "a table of edges", "use fewer points");
   run.poll ();
   triangle_of.resize (points);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far apart points are on a mesh.
+// Spacing of the points on a mesh.
 #pragma once
 
 #include "mesh/triangle_mesh.h"

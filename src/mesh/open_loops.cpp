@@ -9,7 +9,7 @@
 
 namespace pcl::floater {
 namespace {
-// Indices from that of the largest key on; equal keys keep their order.
+// Indices by descending key; stable.
 template <typename Key>
 std::vector<std::size_t>
 fromLargest (std::size_t count, Key&& key)
@@ -21,7 +21,7 @@ fromLargest (std::size_t count, Key&& key)
   return order;
 }
 
-// Likely boundaries first, by their value; then the others by what is empty beyond them.
+// Likely boundaries first, by value; then the others by their empty length.
 std::pair<bool, double>
 rank (const LoopJudgement& judgement, double value)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangulation of a closed polygon in space at least cost.
+// Minimum-cost triangulation of a closed polygon in space.
 #pragma once
 
 #include "core/run_context.h"
@@ -13,16 +13,16 @@
 namespace pcl::floater {
 /// Triangulates polygons at least cost by dynamic programming over their sub-polygons (Barequet and
 /// Sharir 1995 "Filling gaps in the boundary of a polyhedron"; Liepa 2003 "Filling holes in
-/// meshes"). O(m^3) time and 16 m^2 bytes for m corners. Keeps its memory for the next polygon.
+/// meshes"). O(m^3) time and 16 m^2 bytes for m corners. Reuses its memory.
 class PolygonFilling
 {
 public:
   explicit PolygonFilling (const RunContext& run) : run_ (run) {}
 
-  /// Triangles of least total cost whose corners are those of a closed polygon.
+  /// Triangles of least total cost between the corners of a closed polygon.
   /// \param polygon corners, anti-clockwise
   /// \param cost    (p, q, r): of a triangle, 0 or more
-  /// \param allowed (p, q): whether an edge may join two corners that are not next to each other
+  /// \param allowed (p, q): whether an edge may join two corners that are not adjacent
   /// \return m - 2 triangles, anti-clockwise; empty if m < 3 or no triangulation is allowed
   template <typename Cost, typename Allowed>
   std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)

@@ -9,7 +9,7 @@
 
 namespace pcl::floater {
 namespace {
-// Counts marked points in patches, each of so many points along the space-filling curve.
+// Counts marked points in patches along the space-filling curve.
 class PatchCounter
 {
 public:
@@ -31,10 +31,10 @@ public:
 
 private:
   std::size_t patch_points_;
-  std::vector<Index> before_; // how many of the points before each one are marked
+  std::vector<Index> before_; // number of marked points before each one
 };
 
-// Per triangle.
+// Of each triangle: 1 if it is bad.
 std::vector<std::uint8_t>
 findBadTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   const TriangleCost& cost, const RunContext& run)

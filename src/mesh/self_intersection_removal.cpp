@@ -15,7 +15,7 @@
 namespace pcl::floater {
 namespace {
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
-constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // that take about as long: an estimate
+constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // equivalent in time: an estimate
 
 class CrossingRepair
 {
@@ -54,7 +54,7 @@ private:
     return table_.tests () + TESTS_PER_REBUILT_VERTEX * rebuilt_vertices_ >= most_tests_;
   }
 
-  // Flips single edges as long as that helps.
+  // Flips single edges as long as this helps.
   void flipAll ()
   {
     bool has_changed = true;
@@ -64,7 +64,7 @@ private:
       ProgressLoop progress (run_, triangles.size ());
       for (const Index t : triangles) {
         progress.next ();
-        run_.poll (); // where much crosses, a triangle may take some hundredths of a second
+        run_.poll (); // with many crossings, a triangle may take some hundredths of a second
         if (isSpent ())
           return;
         if (flips_tried_in_[t] >= lastChangeAround (t))
@@ -81,7 +81,7 @@ private:
     }
   }
 
-  // Keeps the flip if it helps.
+  // Tries a flip, and keeps it if it helps.
   bool flip (MeshEdge e)
   {
     const MeshEdge m = mesh_.mate (e);
@@ -117,8 +117,8 @@ private:
     }
   }
 
-  // Rebuilds patches around the triangles that cross others, those that cross the fewest first:
-  // there it is the most likely to help.
+  // Rebuilds patches around crossing triangles, those with the fewest crossings first: they are
+  // most likely to succeed.
   void rebuildAll ()
   {
     std::vector<Index> triangles = table_.crossing ();
@@ -139,7 +139,7 @@ private:
     }
   }
 
-  // Rebuilds a patch around a triangle if that helps: a small one, or else a wider one.
+  // Rebuilds a patch around a triangle if this helps: a small one, or else a wider one.
   bool rebuildAround (Index t)
   {
     std::vector<Index> patch (mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
@@ -157,7 +157,7 @@ private:
     return false;
   }
 
-  // Takes the vertices of a patch out and puts them back, in an order that helps, if there is one.
+  // Removes the vertices of a patch and reinserts them, in an order that helps, if there is one.
   bool rebuild (const std::vector<Index>& patch)
   {
     return tryOrders (patch, limits_.rebuilt_orders, [&] (const std::vector<Index>& vertices) {
@@ -177,8 +177,8 @@ private:
     });
   }
 
-  // Whether a triangle of a vertex crosses another one, and something has changed there since the
-  // vertex was tried last.
+  // Whether a triangle of a vertex crosses another one, and something there changed since its last
+  // try.
   bool isWorthATry (Index v)
   {
     mesh_.fan (v, fan_);
@@ -201,7 +201,7 @@ private:
     return last;
   }
 
-  // Tries all places of a vertex, and keeps the best one if it helps.
+  // Tries all triangles for a vertex, and keeps the best one if it helps.
   bool move (Index v)
   {
     mover_.start ();
@@ -221,9 +221,9 @@ private:
     return best_place != nullptr;
   }
 
-  // What is gained by a change, in the unit of cost: above 0 if it is to be kept. The mesh stays as
-  // it is. Most changes cost more than all pairs there would be worth, or fold the surface: that is
-  // looked at first, since the search for pairs takes most of the time.
+  // Gain of a change, in the unit of cost: above 0 if it should be kept. The mesh stays unchanged.
+  // Tests costs and folds first: most changes cost more than all pairs there are worth, or fold the
+  // surface, and the search for pairs takes most of the time.
   template <typename Change>
   double gainOf (Change&& change)
   {
@@ -257,7 +257,7 @@ private:
       changed_in_[t] = step_;
   }
 
-  // All triangles that the journal has.
+  // Marks all triangles in the journal.
   void noteChanged ()
   {
     changed_.clear ();
@@ -271,7 +271,7 @@ private:
     double cost = 0.0;
   };
 
-  // Of the changed triangles and all their edges.
+  // Flaws of the changed triangles and their edges.
   Flaws flaws ()
   {
     CachedCost& cost = mover_.cost ();
@@ -295,12 +295,12 @@ private:
   CrossingTable table_;
   VertexMover mover_;
   std::size_t most_tests_;
-  std::uint32_t step_ = 1;                // counts the changes that were kept, from 1 on
+  std::uint32_t step_ = 1;                // number of kept changes, from 1 on
   std::vector<std::uint32_t> changed_in_; // of each triangle: the last step that changed it
   std::vector<std::uint32_t> tried_in_;   // of each vertex: the step after which it was tried
-  // The same of crossing triangles: of flips, and of patches around them.
+  // Last tries at crossing triangles: by flips, and by rebuilding.
   std::unordered_map<Index, std::uint32_t> flips_tried_in_, rebuild_tried_in_;
-  std::size_t rebuilt_vertices_ = 0; // taken out and put back in all trials
+  std::size_t rebuilt_vertices_ = 0; // removed and reinserted in all trials
   Uncrossing done_;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending

@@ -16,11 +16,11 @@ namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
-// What rounding can do to a product of three differences of coordinates is some 20 units in the
-// last place of the product of their lengths. A value above this share of it has the right sign.
+// Relative rounding bound. The error of a product of three coordinate differences is some 20 units
+// in the last place of the product of their lengths; larger values have the right sign.
 constexpr double ROUNDING = 1e-13;
 
-// Corners of two triangles, those that both have first.
+// Corners of two triangles, common ones first.
 struct Corners
 {
   Triangle one, other;
@@ -34,7 +34,7 @@ commonFirst (Triangle one, Triangle other)
   for (std::size_t i = 0; i < 3; ++i)
     for (auto j = static_cast<std::size_t> (common); j < 3; ++j)
       if (one[i] == other[j]) {
-        // Earlier corners of `one` stay in their order, and those of `other` follow it.
+        // Keeps the order of the common corners equal in both.
         std::swap (one[static_cast<std::size_t> (common)], one[i]);
         std::swap (other[static_cast<std::size_t> (common)], other[j]);
         ++common;
@@ -43,8 +43,8 @@ commonFirst (Triangle one, Triangle other)
   return {one, other, common};
 }
 
-// Whether a plane separates two triangles without a common corner, so far apart that rounding does
-// not matter. Planes along one of the triangles, or through one of their edges and across it.
+// Whether a plane separates two triangles without a common corner, beyond rounding: a plane along
+// one of the triangles, or through one of their edges and across it.
 class SeparatingPlane
 {
 public:
@@ -76,7 +76,7 @@ public:
   }
 
 private:
-  // Whether a plane across this direction has one triangle on either side.
+  // Whether a plane across this direction separates the triangles.
   bool isAcross (const Eigen::Vector3d& direction) const
   {
     const auto [low, high] = range (one_, direction);
@@ -109,11 +109,11 @@ public:
     }
   }
 
-  // Whether they are sure to have nothing in common but the corner: the plane of one of them, or
-  // one through its edges at the corner and across it, has the other one on one side.
+  // Whether they certainly share only the corner: the plane of one of them, or one through its
+  // edges at the corner and across it, has the other one on one side.
   bool areSeparate () const { return isBeside (one_, other_) || isBeside (other_, one_); }
 
-  // Whether the last corner of the other one is surely not in the plane of the first.
+  // Whether the last corner of the other one is certainly off the plane of the first.
   bool areNotCoplanar () const
   {
     return sideOf (one_[0].cross (one_[1]), one_[0].norm () * one_[1].norm (), other_[1]) != 0;
@@ -135,8 +135,8 @@ private:
     return areOut (normal.cross (own[0]), a * a * b) || areOut (own[1].cross (normal), a * b * b);
   }
 
-  // Sign of a product of a direction and an edge; 0 if rounding might have changed it.
-  // \param size product of the lengths of the edges of which the direction was made
+  // Sign of a product of a direction and an edge; 0 if rounding might change it.
+  // \param size product of the lengths of the edges that define the direction
   static int sideOf (const Eigen::Vector3d& direction, double size, const Eigen::Vector3d& edge)
   {
     const double product = direction.dot (edge);
@@ -148,8 +148,7 @@ private:
   Edges one_, other_;
 };
 
-// Whether the corners of a triangle lie on one line. Exact numbers are needed only where rounding
-// might decide.
+// Whether a triangle is degenerate. Uses exact numbers only where rounding might decide.
 bool
 isOnLine (const Triangle& triangle, const Positions& positions)
 {
@@ -160,7 +159,7 @@ isOnLine (const Triangle& triangle, const Positions& positions)
   return areCollinear (p, positions[triangle[1]], positions[triangle[2]]);
 }
 
-// Whether rounding might decide on which side of the plane of a triangle a point is.
+// Whether rounding might decide the side of a point at the plane of a triangle.
 bool
 isNearPlane (const Triangle& triangle, Index p, const Positions& positions)
 {
@@ -172,8 +171,8 @@ isNearPlane (const Triangle& triangle, Index p, const Positions& positions)
            ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm () * c.squaredNorm ());
 }
 
-// What exact predicates cost, in tests for which an estimate of rounding decides after all.
-// Measured on a grid of points in a plane: 15 microseconds instead of 5.
+// Cost of exact predicates, in tests with floating-point filters. Measured on a grid of points in a
+// plane: 15 microseconds instead of 5.
 std::size_t
 costOfExactTest (const Corners& corners, const Positions& positions)
 {
@@ -185,8 +184,8 @@ costOfExactTest (const Corners& corners, const Positions& positions)
   return 1;
 }
 
-// Tells of a point whether the triangles around it, seen from some direction, lie side by side. No
-// two of them then have anything in common but the point and their edges.
+// Tests whether the fan around a point is flat: in some direction of view, its triangles do not
+// overlap. Then no two of them share more than the point and their edges.
 class PlainFans
 {
 public:
@@ -217,8 +216,8 @@ private:
     Eigen::Vector3d begin, end, area;
   };
 
-  // As seen against the direction, each sector turns to the left, and all together do not go round
-  // more than once: the first spoke is in no sector that does not begin or end with it.
+  // Seen against the direction, each sector turns left, and all together go round at most once: the
+  // first spoke is only in sectors that begin or end with it.
   bool areSideBySide (const Eigen::Vector3d& direction) const
   {
     const double sqr_direction = direction.squaredNorm ();
@@ -237,7 +236,7 @@ private:
     return true;
   }
 
-  // The one with which an open fan begins; in a closed one, any.
+  // The first sector of an open fan; in a closed one, any.
   const Sector& firstSector () const
   {
     for (const Sector& sector : sectors_)
@@ -247,7 +246,7 @@ private:
     return sectors_.front ();
   }
 
-  // Whether a product of three vectors is surely above zero.
+  // Whether a product of three vectors is certainly above zero.
   static bool isPositive (double product, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           double sqr_c)
   {
@@ -270,7 +269,7 @@ public:
   {
     for (std::size_t t = own_first; t < own_last; ++t)
       for (const Index p : triangles[t])
-        is_plain_[p] = 1; // if it turns out to be
+        is_plain_[p] = 1; // to be tested
     const TriangleRanges ranges (triangles, positions.size (), run);
     parallelTasks (run, ranges.count (), [&] (std::size_t r) {
       const VertexStars stars (triangles_, ranges, r);
@@ -347,7 +346,7 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
     return areOnOneSide (a[0], a[1], a[2], b[2]);
   if (corners.common == 0)
     return doMeet (a, b);
-  // Whatever they have in common but the corner reaches the edge opposite to it, of one of them.
+  // Any other common point implies one on the edge opposite to the corner, in one of them.
   return doMeet (a, b[1], b[2]) || doMeet (b, a[1], a[2]);
 }
 

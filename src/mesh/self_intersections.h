@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles of a mesh that cross each other.
+// Finds self-intersections of a mesh.
 #pragma once
 
 #include "core/run_context.h"
@@ -11,8 +11,8 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Two triangles that have more in common than their common corners: they cross, touch, or overlap
-/// in a plane.
+/// Two triangles that share more than their common corners: they cross, touch, or overlap in a
+/// plane.
 struct CrossingPair
 {
   Index first, second; ///< indices of the triangles, first < second
@@ -27,38 +27,37 @@ struct CrossingPair
   }
 };
 
-/// All pairs of triangles whose intersection is more than the corners or the edge that both name.
-/// The decisions are exact for the positions as they are given, as by exact arithmetic. A triangle
-/// whose corners lie on one line is left out.
+/// All pairs of triangles whose intersection is more than their common corners or edge. Exact for
+/// the given positions. Degenerate triangles are ignored.
 ///
-/// Most pairs share a corner. They are settled all at once where the fan around that corner is seen
-/// without overlaps from some direction; only pairs at other corners are tested one by one. Other
-/// pairs are found by a tree of boxes, and tested if no separating plane is seen in double
-/// precision.
+/// Most pairs share a corner. They are all settled at once where the fan around the corner is flat:
+/// its projection in some direction has no overlaps. At other corners, pairs are tested one by one.
+/// Pairs without a common corner are found by a tree of boxes, and tested exactly if double
+/// precision finds no separating plane.
 ///
-/// O(n log n) for a mesh that crosses itself in few places: about a microsecond per point by one
-/// thread. In the worst case all pairs of triangles.
+/// O(n log n) for a mesh with few self-intersections: about a microsecond per point by one thread.
+/// In the worst case all pairs of triangles.
 /// \param triangles an oriented manifold, corners below the number of positions
 /// \return sorted
 std::vector<CrossingPair>
 findSelfIntersections (const std::vector<Triangle>& triangles,
                        const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
 
-/// The pairs of findSelfIntersections of which the first is among some triangles, which may be
-/// found apart from the others: all parts of a mesh together have all pairs once.
-///
-/// \param triangles  in the order of their smallest points (see orderByPoints): those of the part,
-///                   and at least all others whose boxes overlap or touch one of them
-/// \param first,last the part: from `first` to before `last`
-/// \return places in `triangles`, the smaller one first; sorted
+/// The pairs of findSelfIntersections whose first triangle is in a given range. Disjoint ranges
+/// that cover a mesh together return all its pairs once.
+/// \param triangles  in the order of their smallest points (see orderByPoints): the range, and at
+///     least all others whose boxes overlap or touch one of it
+/// \param first,last the range, without `last`
+/// \return indices into `triangles`, the smaller one first; sorted
 std::vector<CrossingPair>
 findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
                          std::size_t last, const std::vector<Eigen::Vector3d>& positions,
                          const RunContext& run);
 
-/// Pairs of places in an order become pairs of triangles.
+/// Converts indices in an order to triangles.
+/// \param places pairs of such indices
+/// \param order triangle of each index
 /// \return sorted
-/// \param order triangle of each place
 std::vector<CrossingPair>
 pairsInOrder (const std::vector<CrossingPair>& places, const std::vector<Index>& order);
 
@@ -72,10 +71,10 @@ boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
   return box;
 }
 
-/// Whether two triangles have more in common than the corners that both name. Exact. False if the
-/// corners of one of them lie on one line.
-/// \param exact_tests counts the tests by exact predicates: they take ten times as long, and count
-/// three times where exact numbers are needed for them
+/// Whether two triangles share more than their common corners. Exact. False if one of them is
+/// degenerate.
+/// \param exact_tests counts the tests by exact predicates, which take ten times as long; tests
+///     that need exact numbers count three times
 bool
 doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions,
          std::size_t* exact_tests = nullptr);

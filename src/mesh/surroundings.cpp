@@ -11,7 +11,7 @@
 
 namespace pcl::floater {
 namespace {
-// Spokes up to which a look at all of them is faster than a hash table. Measured.
+// Number of spokes up to which linear search is faster than a hash table. Measured.
 constexpr std::size_t MANY_AROUND = 32;
 
 void
@@ -32,7 +32,7 @@ appendTo (std::vector<T>& list, const std::vector<T>& next)
 void
 Surroundings::append (Surroundings&& next)
 {
-  const Surroundings other = std::move (next); // its memory is given back here
+  const Surroundings other = std::move (next); // frees its memory
   edges += other.edges;
   nonmanifold_vertices += other.nonmanifold_vertices;
   nonmanifold_edges += other.nonmanifold_edges;
@@ -86,7 +86,7 @@ SurroundingsCheck::spokeTo (Index q)
   }
   else {
     if (added == MANY_AROUND) {
-      place_ = {}; // not clear (): that goes through the buckets of an earlier, larger one
+      place_ = {}; // not clear (): it visits all buckets of an earlier, larger table
       for (Index i = 0; i < added; ++i)
         place_.emplace (spokes_[i].to, i);
     }
@@ -124,7 +124,7 @@ SurroundingsCheck::lookAt (Index p, const VertexStar& star)
     joins += fan_a != fan_b ? 1 : 0;
     spokes_[std::max (fan_a, fan_b)].fan = std::min (fan_a, fan_b);
   }
-  // Two triangles on the same three points close a fan that has no inside.
+  // Two triangles on the same three points form a closed fan without inside.
   const bool is_flat = spokes_.size () == 2 && spokes_[0].out + spokes_[0].in == 2;
   if (joins + 1 < spokes_.size () || is_flat) {
     ++found_.nonmanifold_vertices;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the triangles around each point form, for the examination of a mesh.
+// Triangles around each point, for the examination of a mesh.
 #pragma once
 
 #include "core/disjoint_sets.h"
@@ -12,13 +12,13 @@
 #include <vector>
 
 namespace pcl::floater {
-/// From, to: the surface on the left.
+/// (from, to), with the surface on the left.
 using BoundaryEdge = std::pair<Index, Index>;
 
-/// What was found around some points. Places are the smallest points, NONE if there is none.
+/// Results for a range of points. Positions are the smallest points, NONE if there is none.
 struct Surroundings
 {
-  std::size_t edges = 0; ///< whose smaller end is one of the points, as of all that follows
+  std::size_t edges = 0; ///< whose smaller end is in the range, as below
   std::size_t nonmanifold_vertices = 0, nonmanifold_edges = 0, orientation_conflicts = 0;
   std::size_t degenerate_triangles = 0, folds = 0, long_edges = 0;
   Index broken_at = NONE, degenerate_at = NONE, fold_at = NONE;
@@ -28,11 +28,11 @@ struct Surroundings
   std::vector<BoundaryEdge> boundary; ///< sorted by the points from which they lead
   std::vector<BoundaryEdge> leaving;  ///< edges to points of other ranges, in any direction
 
-  /// Takes over what was found around the points that follow, but for the edges that leave.
+  /// Appends the results of the following range, except `leaving`.
   void append (Surroundings&& next);
 };
 
-/// What is examined.
+/// Input of the examination.
 struct ExaminedMesh
 {
   const std::vector<Triangle>& triangles;
@@ -40,15 +40,15 @@ struct ExaminedMesh
   const std::vector<float>& spacing; ///< local spacing of each point
   double diagonal = 1.0;             ///< of the bounding box of the whole cloud
   const std::vector<std::uint8_t>* is_left_out =
-      nullptr; ///< of each point: around those with 1, nothing is looked at; nullptr: there is none
+      nullptr; ///< of each point: 1 to skip it; nullptr: skip none
 };
 
-/// Looks at the triangles and edges around the points of a range, one after the other.
+/// Examines the triangles and edges around the points of a range, one by one.
 class SurroundingsCheck
 {
 public:
-  /// \param sets of the points; those that edges within the range connect are joined. nullptr: what
-  /// is connected is not asked for
+  /// \param sets of the points; joined along edges within the range. nullptr: components are not
+  ///     needed
   SurroundingsCheck (const ExaminedMesh& mesh, const CheckLimits& limits, DisjointSets* sets)
       : mesh_ (mesh), limits_ (limits), sets_ (sets)
   {
@@ -75,14 +75,14 @@ private:
   const ExaminedMesh& mesh_;
   const CheckLimits& limits_;
   DisjointSets* sets_;
-  std::size_t last_ = 0; // where the range ends
+  std::size_t last_ = 0; // end of the range
   Surroundings found_;
   std::vector<Spoke> spokes_;
   std::unordered_map<Index, Index>
-      place_; // of many spokes: each one by the point to which it leads
+      place_; // if there are many spokes: index of each by its other point
 };
 
-/// Looks around all points, on all threads. Their number does not matter to what is found.
+/// Examines all points, on all threads; the result does not depend on their number.
 /// \param ranges of the triangles
 /// \param sets see SurroundingsCheck
 Surroundings

@@ -8,17 +8,17 @@
 
 namespace pcl::floater {
 namespace {
-constexpr double LEAST_AREA = 1e-9;  // doubled, by the sum of the squared edges: so that the costs
-                                     // of needles stay finite and comparable
-constexpr double LARGEST_AREA = 1e9; // doubled, by the squared spacing, which may be 0: so that the
-                                     // costs of large triangles do, too
+constexpr double LEAST_AREA = 1e-9;  // doubled, over the sum of the squared edges: keeps the costs
+                                     // of needles finite and comparable
+constexpr double LARGEST_AREA = 1e9; // doubled, over the squared spacing, which may be 0: keeps the
+                                     // costs of large triangles finite
 } // namespace
 
 TriangleCost::Value
 TriangleCost::value (Index a, Index b, Index c) const
 {
-  // The smallest point first, so that rounding does not depend on the order of the corners:
-  // otherwise flips could go round in circles.
+  // Starts with the smallest point, so that rounding does not depend on the order of the corners:
+  // otherwise flips could cycle.
   if (b < a && b < c)
     return value (b, c, a);
   if (c < a && c < b)
@@ -30,7 +30,7 @@ TriangleCost::value (Index a, Index b, Index c) const
   const double double_area = area_vector.norm ();
   const double sqr_lengths = ab.squaredNorm () + ac.squaredNorm () + bc.squaredNorm ();
   // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area).
-  // Squares of lengths below 1e-154 are 0: such a triangle counts for a needle.
+  // Squares of lengths below 1e-154 are 0: such triangles count as needles.
   const double cotangents =
       sqr_lengths > 0.0 ? sqr_lengths / (2.0 * std::max (double_area, LEAST_AREA * sqr_lengths))
                         : 0.5 / LEAST_AREA;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The cost of triangles and of the edges between them, which flips and moves of vertices minimize.
+// Cost of triangles and edges, which flips and moves of vertices minimize.
 #pragma once
 
 #include "core/types.h"
@@ -24,9 +24,9 @@ struct CostLimits
 };
 
 /// The cost of a triangle: the sum of the cotangents of its angles, which Delaunay flips minimize
-/// in the plane, and penalties if it is turned away from the normals of its corners or much larger
-/// than triangles between neighbours are. Where sheets are close to each other, the penalties show
-/// that a triangle joins the wrong points.
+/// in the plane, plus penalties if it is turned away from the normals of its corners or is much
+/// larger than usual. Where sheets are close to each other, the penalties reveal triangles that
+/// join the wrong points.
 class TriangleCost
 {
 public:
@@ -40,7 +40,7 @@ public:
   {
   }
 
-  /// The same cost for points that are counted from `first` on.
+  /// This cost for points that are numbered from `first` on.
   TriangleCost countedFrom (Index first) const
   {
     TriangleCost cost = *this;
@@ -57,7 +57,7 @@ public:
     double cost;                 ///< 0 or more
   };
 
-  /// Does not depend, not even by rounding, on which corner comes first.
+  /// Exactly the same for each choice of the first corner.
   Value value (Index a, Index b, Index c) const;
 
   double operator() (Index a, Index b, Index c) const { return value (a, b, c).cost; }
@@ -69,8 +69,8 @@ public:
   /// True if a triangle is turned (see CostLimits).
   bool isTurned (const Triangle& corners) const;
 
-  /// Cost of an edge between two triangles. It is 0 up to an angle of 90 degrees between their
-  /// normals, and grows beyond. One of the normals may be zero: then it is 0.
+  /// Cost of an edge between two triangles: 0 up to an angle of 90 degrees between their normals,
+  /// growing beyond; 0 if one of the normals is zero.
   double ofEdge (const Eigen::Vector3d& unit_normal, const Eigen::Vector3d& other_unit_normal) const
   {
     return limits_.fold_cost * std::max (0.0, -unit_normal.dot (other_unit_normal));
@@ -87,9 +87,9 @@ private:
   CostLimits limits_;
 };
 
-/// The same values, cached. A local search asks for those of a few thousand triangles again and
-/// again. They are kept in a hash table of 8192 entries (400 kB), where a triangle replaces another
-/// one with the same hash. The results are those of TriangleCost, bit by bit. For one thread.
+/// TriangleCost with a cache. A local search needs the costs of a few thousand triangles again and
+/// again. A hash table of 8192 entries (400 kB), where a triangle replaces another one with the
+/// same hash. The results are bitwise equal. For one thread.
 class CachedCost
 {
 public:
@@ -100,15 +100,14 @@ public:
 
   const TriangleCost& plain () const { return cost_; }
 
-  /// A value that is not kept, as it is not likely to be asked for again.
+  /// A value that is not cached, as it is unlikely to be needed again.
   TriangleCost::Value once (Index a, Index b, Index c)
   {
     ++asked_;
     return cost_.value (a, b, c);
   }
 
-  /// How many values were asked for so far: a measure of the work of a search that is the same on
-  /// every machine.
+  /// Number of requested values: a machine-independent measure of work.
   std::size_t asked () const { return asked_; }
 
   /// Valid until the next call.

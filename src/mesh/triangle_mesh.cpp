@@ -10,10 +10,10 @@
 
 namespace pcl::floater {
 namespace {
-// Triangles whose components are found by one task. Long enough that few edges leave them.
+// Triangles per task of findComponents (). Large enough that few edges leave them.
 constexpr std::size_t JOINED = 65536;
 
-// The triangles around a point, one by one: anti-clockwise, then from where it began clockwise.
+// Visits the triangles around a point: anti-clockwise, then clockwise from the start.
 class FanWalk
 {
 public:
@@ -22,7 +22,7 @@ public:
   {
   }
 
-  Index triangle () const { return at_; } // NONE: there are no more
+  Index triangle () const { return at_; } // NONE: no more
 
   void advance ()
   {
@@ -68,7 +68,7 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
     if (t == start)
       return; // closed
   }
-  // At the boundary: those clockwise of the start come before it.
+  // At the boundary: the clockwise ones come first.
   const std::size_t anti_clockwise = fan_triangles.size ();
   for (Index t = neighbors[start][previous (sideOf (start, p))]; t != NONE;) {
     fan_triangles.push_back (t);
@@ -79,9 +79,8 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
   std::rotate (fan_triangles.begin (), middle, fan_triangles.end ());
 }
 
-// Both fans are walked in step, so that the smaller one decides when the walk ends: one of the ends
-// may be the hub of a fan as large as the mesh. A fan of which triangles are missing decides
-// nothing.
+// Walks both fans in step, so the smaller one decides: the other may be a hub with a fan as large
+// as the mesh. A fan with missing triangles cannot decide.
 bool
 TriangleMesh::hasEdge (Index p, Index q) const
 {
@@ -212,7 +211,7 @@ void
 TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
                           const std::vector<Triangle>& filling)
 {
-  // Each edge of the polygon as (from, to, -), and the same edge seen from the triangle across it.
+  // Each edge of the polygon as (from, to, -), and the edge in the triangle across it.
   std::vector<std::pair<Triangle, MeshEdge>> across;
   for (Index t : fan_triangles) {
     const MeshEdge e{t, sideOf (t, p)};
@@ -271,7 +270,8 @@ findComponents (const TriangleMesh& mesh, const RunContext& run)
 {
   const std::size_t triangles = mesh.triangles.size ();
   DisjointSets sets (triangles);
-  // The sets of a range are its own until all ranges are done: edges that leave it wait.
+  // Sets of different ranges are not joined until all ranges are done: edges between them are
+  // stored.
   std::vector<std::vector<std::pair<Index, Index>>> leaving ((triangles + JOINED - 1) / JOINED);
   parallelTasks (run, leaving.size (), [&] (std::size_t range) {
     const std::size_t first = range * JOINED, last = std::min (triangles, first + JOINED);

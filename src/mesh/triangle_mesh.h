@@ -16,11 +16,11 @@ struct MeshEdge
   std::uint8_t side;
 };
 
-/// What a mesh was before its changes. TriangleMesh writes it while it records changes.
+/// Records changes of a mesh, so that they can be undone.
 class MeshJournal
 {
 public:
-  /// Appends the triangles that were changed; some may be appended more than once.
+  /// Appends the changed triangles, some possibly more than once.
   void appendTriangles (std::vector<Index>& list) const
   {
     for (const Entry& entry : entries_)
@@ -50,11 +50,11 @@ struct TriangleMesh
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
   MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
-  /// Of a part of a larger mesh (see MeshBlock, MeshRegion); both are empty if nothing is missing.
+  /// For submeshes (see MeshBlock, MeshRegion); both are empty if the mesh is complete.
   std::vector<std::uint8_t> is_fixed;   ///< per triangle: it may not be changed
   std::vector<std::uint8_t> is_partial; ///< per point: triangles around it are missing
 
-  /// Whether a triangle may be changed.
+  /// Whether a triangle may be changed: it is not fixed.
   bool isFree (Index t) const { return is_fixed.empty () || is_fixed[t] == 0; }
 
   /// Whether triangles around a point are missing.
@@ -73,13 +73,13 @@ struct TriangleMesh
   Index from (MeshEdge e) const { return triangles[e.triangle][next (e.side)]; }
   Index to (MeshEdge e) const { return triangles[e.triangle][previous (e.side)]; }
 
-  /// Which corner of triangle t is point p, which must be one.
+  /// Corner of triangle t that is point p, which must be one.
   std::uint8_t sideOf (Index t, Index p) const
   {
     return static_cast<std::uint8_t> (triangles[t][0] == p ? 0 : triangles[t][1] == p ? 1 : 2);
   }
 
-  /// The same edge seen from the neighbour; triangle NONE at the boundary.
+  /// The edge from the side of the neighbour; triangle NONE at the boundary.
   MeshEdge mate (MeshEdge e) const
   {
     const Index other = neighbors[e.triangle][e.side];
@@ -98,19 +98,19 @@ struct TriangleMesh
 
   /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,
   /// and the other diagonal must not be an edge yet. Afterwards triangle e.triangle has the corners
-  /// (corner, from, opposite) and the other one (opposite, to, corner); both named as before the
-  /// flip, and the new edge is side 1 of both.
+  /// (corner, from, opposite) and the other one (opposite, to, corner), in names before the flip;
+  /// the new edge is side 1 of both.
   void flip (MeshEdge e);
 
   /// Splits triangle t in three at point p, which must not be a vertex. Appends two triangles.
   void split (Index t, Index p);
 
-  /// The same. The second and the third triangle become u and v, which must not be in use.
+  /// Splits triangle t; the second and the third part become u and v, which must be unused.
   void split (Index t, Index p, Index u, Index v);
 
   /// Replaces the closed fan around p by a triangulation of the polygon around it, which has two
   /// triangles less. Its inner edges must not be edges yet. Afterwards p is not a vertex, and the
-  /// last two triangles of the fan are not in use.
+  /// last two triangles of the fan are unused.
   void replaceFan (Index p, const std::vector<Index>& fan_triangles,
                    const std::vector<Triangle>& filling);
 
@@ -118,17 +118,16 @@ struct TriangleMesh
   /// \param is_on false: records no longer
   void recordChanges (bool is_on = true);
 
-  /// The state of the mesh, to which undo () can return. While changes are recorded.
+  /// The current state, for undo (). Requires recording.
   std::size_t mark () const { return journal.entries_.size (); }
 
-  /// Undoes all changes that were recorded since mark () returned this value, the last one first.
+  /// Undoes all recorded changes since mark () returned this value, the last one first.
   void undo (std::size_t mark);
 
-  /// Sets neighbours and triangle_of from the triangles. Points that are partial may have several
-  /// fans. O(n), on all threads. 5 bytes per triangle while it runs, 12 if they are in random
-  /// order.
+  /// Sets neighbours and triangle_of from the triangles. Partial points may have several fans.
+  /// O(n), on all threads. Temporarily 5 bytes per triangle, 12 if they are in random order.
   /// \param points number of points; corners must be below
-  /// \return false if the triangles are no oriented manifold; the mesh is then unusable
+  /// \return false unless the triangles are an oriented manifold; the mesh is then unusable
   /// \throws IndexLimitReached if there are 2^32 / 3 triangles or more
   bool connect (std::size_t points, const RunContext& run);
 
@@ -151,8 +150,8 @@ struct MeshComponents
   Index count = 0;
 };
 
-/// O(n), on all threads. If the triangles are in random order, most of it is done by one thread,
-/// and takes up to 24 bytes per triangle while it runs.
+/// O(n), on all threads. Triangles in random order take mostly one thread, and temporarily up to 24
+/// bytes per triangle.
 MeshComponents
 findComponents (const TriangleMesh& mesh, const RunContext& run);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The order of triangles in which those next to each other are near in space.
+// Spatial order of triangles.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -9,8 +9,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Triangles in the order of their smallest points, which lie along a space-filling curve. Of one
-/// point, in their own order. O(n).
+/// Triangles by their smallest points, which lie along a space-filling curve; stable. O(n).
 /// \param points number of points; corners are below
 inline std::vector<Index>
 orderByPoints (const std::vector<Triangle>& triangles, std::size_t points)

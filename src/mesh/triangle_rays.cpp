@@ -25,8 +25,8 @@ TriangleRays::boxOf (std::size_t group) const
   return box;
 }
 
-// The volumes of the tetrahedra of the ray and each edge have one sign. That of an edge is the same
-// number for both of its triangles but for the sign, so that no ray slips between them.
+// The ray hits if the volumes of the tetrahedra of ray and edges have one sign. Both triangles of
+// an edge compute exactly opposite volumes, so no ray slips between them.
 double
 TriangleRays::hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const
 {

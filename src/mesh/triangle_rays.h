@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which triangles a ray meets.
+// Intersections of rays and triangles.
 #pragma once
 
 #include "core/run_context.h"
@@ -10,8 +10,8 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Triangles in a tree of boxes. About 12 bytes per triangle; O(n) to make, in parallel but for the
-/// sorting. Rays may be cast by several threads.
+/// Triangles in a tree of boxes. About 12 bytes per triangle. O(n) to build, in parallel except for
+/// the sorting. Rays may be cast by several threads.
 class TriangleRays
 {
 public:
@@ -20,8 +20,8 @@ public:
                 const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
 
   /// Calls visit (t, at) for each triangle t that a ray meets beyond its origin, at origin + at *
-  /// direction, in any order, until it returns true. A ray through an edge or a corner meets at
-  /// least one of the triangles around, and none that it runs along.
+  /// direction, unsorted, until it returns true. A ray through an edge or a corner meets at least
+  /// one of the triangles around, and none that it is parallel to.
   /// \param direction not zero, any length
   template <typename Visit>
   void forHits (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -38,13 +38,12 @@ public:
   }
 
 private:
-  // Triangles in one box of the tree: with more there are fewer boxes to make, and more triangles
-  // to look at. Measured.
+  // Triangles in one box of the tree: larger groups mean fewer boxes and more tests. Measured.
   static constexpr std::size_t GROUP = 4;
 
   Eigen::AlignedBox3d boxOf (std::size_t group) const;
 
-  // Where a ray meets a triangle, as a multiple of its direction; 0 if it does not.
+  // Parameter of the intersection along the ray; 0 if there is none.
   double hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   const std::vector<Triangle>& triangles_;

@@ -21,7 +21,7 @@ public:
   void run ()
   {
     if (changed_.empty ())
-      return; // nothing is taken out, and no array over all triangles is needed
+      return; // no triangle is removed, and no array of triangles is needed
     ProgressLoop progress (run_);
     while (!changed_.empty ()) {
       progress.next ();
@@ -41,7 +41,7 @@ private:
     changed_.insert (changed_.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
   }
 
-  // The triangles around p are one fan of the mesh as it was. What is kept of it are runs.
+  // The triangles around p are one fan of the original mesh; the remaining ones form runs.
   void keepLargestFan (Index p)
   {
     mesh_.fan (p, fan_);
@@ -96,7 +96,7 @@ private:
   TriangleMesh& mesh_;
   RunContext run_;
   std::vector<std::uint8_t> is_removed_; // of each triangle
-  std::vector<Index> changed_;           // points that have lost a triangle; some more than once
+  std::vector<Index> changed_;           // points that lost a triangle, possibly repeated
   std::vector<Index> fan_;               // of the current point
 };
 

@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// An edge is as long as the limit up to rounding; positions are in a box of diagonal 1.
+// Tolerance for edges as long as the limit; positions are in a box of diagonal 1.
 constexpr double LENGTH_ROUNDING = 1e-15;
 
 bool
@@ -42,7 +42,7 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
   removeTriangles (mesh, std::move (is_removed), run);
 }
 
-// A set of triangles that has one of each pair. O(pairs log pairs).
+// Greedy cover: a set of triangles with one of each pair. O(pairs log pairs).
 std::vector<std::uint8_t>
 coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs, const RunContext& run)
 {
@@ -51,7 +51,7 @@ coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs, const
     partners[pair.first].push_back (pair.second);
     partners[pair.second].push_back (pair.first);
   }
-  // The most partners that are not in the set first, then the smallest triangle.
+  // Most uncovered partners first, then the smallest triangle.
   std::unordered_map<Index, std::size_t> left;
   std::set<std::pair<std::size_t, Index>> order;
   const auto key = [&] (Index t) { return std::make_pair (pairs.size () - left[t], t); };
@@ -65,7 +65,7 @@ coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs, const
     const Index t = order.begin ()->second;
     order.erase (order.begin ());
     if (left[t] == 0)
-      break; // those that follow have none, either
+      break; // the rest has none, either
     is_in[t] = 1;
     for (const Index u : partners[t]) {
       progress.next ();
@@ -79,7 +79,7 @@ coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs, const
   return is_in;
 }
 
-// \return number of triangles that were cut off
+// \return number of triangles cut off
 std::size_t
 cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
 {

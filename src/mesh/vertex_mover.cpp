@@ -7,7 +7,7 @@
 #include <tuple>
 
 namespace pcl::floater {
-// Cost of some triangles and of all their edges; an edge between two of them counts once.
+// Cost of some triangles and all their edges; shared edges count once.
 double
 VertexMover::costOf (const Index* first, const Index* last)
 {
@@ -24,7 +24,7 @@ VertexMover::costOf (const Index* first, const Index* last)
   return sum;
 }
 
-// Takes a vertex out. Returns false if that is not possible.
+// Removes a vertex. Returns false if this is not possible.
 bool
 VertexMover::takeOut (Index v, double& change)
 {
@@ -123,7 +123,7 @@ VertexMover::rebuild (const std::vector<Index>& vertices, double& change)
   return true;
 }
 
-// Appends the old and the new neighbours of a vertex that has been moved.
+// Appends the old and the new neighbours of a moved vertex.
 void
 VertexMover::markDirty (Index v)
 {
@@ -134,7 +134,7 @@ VertexMover::markDirty (Index v)
 }
 
 // Splits triangle t at a vertex, using the two free slots, and flips edges around the vertex and
-// around its old place. Returns the change of cost by the flips.
+// its old hole. Returns the change of cost by the flips.
 double
 VertexMover::settleAt (Index v, Index t)
 {
@@ -151,9 +151,8 @@ VertexMover::settleAt (Index v, Index t)
   return flipper_.run ();
 }
 
-// True if the mesh has a triangle with these corners, the other way round: the fourth triangle of a
-// tetrahedron. Also true if all three corners are partial: the triangle may exist outside this
-// submesh.
+// True if the mesh has the reversed triangle: the fourth triangle of a tetrahedron. Also true if
+// all three corners are partial: the triangle may exist outside this submesh.
 bool
 VertexMover::isTriangle (const Triangle& corners)
 {
@@ -170,7 +169,7 @@ VertexMover::isTriangle (const Triangle& corners)
   });
 }
 
-// The triangles whose split at the vertex costs least, at most as many as asked for.
+// The triangles with the cheapest splits at the vertex, at most `most`.
 const std::vector<VertexMover::Place>&
 VertexMover::findPlaces (Index v, std::size_t most)
 {
@@ -188,7 +187,7 @@ VertexMover::findPlaces (Index v, std::size_t most)
   return places_;
 }
 
-// Adds a triangle to the cheapest places if it is one of them and has not been looked at.
+// Adds a triangle to the cheapest ones if it belongs there and was not visited.
 void
 VertexMover::offer (Index t, Index v, std::size_t most)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes single vertices out of a mesh and puts them back elsewhere.
+// Moves single vertices of a mesh to other triangles.
 #pragma once
 
 #include "mesh/flips.h"
@@ -9,10 +9,10 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Takes a vertex out, fills its hole by the triangulation of least cost (see PolygonFilling), puts
-/// it back into a triangle at one of its nearest neighbours, on whatever sheet, and flips edges
-/// around both places. Vertices at the boundary and those with too many triangles stay. As long as
-/// the mover exists, the mesh records its changes, so that they can be undone to the last bit.
+/// Removes a vertex, fills its hole by the triangulation of least cost (see PolygonFilling),
+/// inserts it into a triangle at one of its nearest neighbours, on any sheet, and flips edges
+/// around both. Vertices at the boundary and with too many triangles are not moved. While the mover
+/// exists, the mesh records its changes, so that they can be undone exactly.
 class VertexMover
 {
 public:
@@ -32,43 +32,43 @@ public:
   VertexMover& operator= (const VertexMover&) = delete;
   ~VertexMover () { mesh_.recordChanges (false); }
 
-  /// Moves a vertex to the place where the cost of the mesh is least, if it is less than now.
-  /// \param tried number of places that are tried: those where the split itself costs least
+  /// Moves a vertex to the triangle where the mesh costs least, if this lowers the cost.
+  /// \param tried number of triangles to try: those whose split costs least
   /// \return change of the cost of the mesh: below 0, or 0 if the vertex stays
   double move (Index v, std::size_t tried);
 
-  /// A triangle that a vertex can be put into.
+  /// A triangle for the insertion of a vertex.
   struct Place
   {
     double added; ///< cost of its split at the vertex
     Index triangle;
   };
 
-  /// Where a vertex can be put, the cheapest first. The mesh stays as it is.
-  /// \param most number of places that are asked for
-  /// \return empty if the vertex cannot be taken out
+  /// Triangles for a vertex, the cheapest first. The mesh stays unchanged.
+  /// \param most maximum number of triangles
+  /// \return empty if the vertex cannot be removed
   std::vector<Place> placesFor (Index v, std::size_t most);
 
-  /// Moves a vertex to a place that was found for it in this state of the mesh.
+  /// Moves a vertex to a triangle that was found for it in this state of the mesh.
   /// \return change of the cost of the mesh
   double moveTo (Index v, const Place& place);
 
-  /// Takes vertices out, all that can be, and puts them back one by one, each where that costs
-  /// least then.
-  /// \param vertices each once; the last one is put back first
+  /// Removes vertices, except immovable ones, and reinserts them one by one, each where it then
+  /// costs least.
+  /// \param vertices each once; the last one is inserted first
   /// \param change   set to the change of the cost of the mesh
-  /// \return false if one of them has no place left; then the caller has to undo
+  /// \return false if one of them fits nowhere; then the caller has to undo
   bool rebuild (const std::vector<Index>& vertices, double& change);
 
   CachedCost& cost () { return cost_; }
 
-  /// The journal has the changes since the last call of start, and undo undoes them.
+  /// Starts a new journal; undo () returns to this state.
   void start () { mesh_.recordChanges (); }
   void undo () { mesh_.undo (0); }
   const MeshJournal& journal () const { return mesh_.journal; }
 
-  /// Old and new neighbours of all vertices that were moved, also of moves that were undone later.
-  /// New ones are appended; the caller clears the list.
+  /// Old and new neighbours of all moved vertices, undone moves included. Appended; the caller
+  /// clears the list.
   std::vector<Index>& dirty () { return dirty_; }
 
 private:
@@ -87,10 +87,10 @@ private:
   EdgeFlipper flipper_;
   PolygonFilling filling_;
   std::vector<Triangle> filled_; // the filling of the hole that a vertex has left
-  std::vector<Index> slots_;     // the triangles of that hole; the last two are not in use
+  std::vector<Index> slots_;     // triangles of that hole; the last two are unused
   std::vector<Index> fan_, polygon_, dirty_;
   std::vector<Place> places_;          // cheapest first
-  std::vector<std::uint32_t> offered_; // per triangle: the last search that looked at it
+  std::vector<std::uint32_t> offered_; // per triangle: the last search that visited it
   std::uint32_t search_ = 0;
 };
 

@@ -15,7 +15,7 @@
 
 namespace pcl::floater {
 namespace {
-// What a triangle adds to the normal of one of its corners.
+// Contribution of a triangle to the normal of one of its corners.
 struct CornerTerm
 {
   double angle; // 0: nothing
@@ -26,8 +26,7 @@ CornerTerm
 cornerTerm (const Eigen::Vector3d& corner, const Eigen::Vector3d& next,
             const Eigen::Vector3d& previous)
 {
-  // Of unit vectors, no product overflows or vanishes. The edges of a triangle without an area give
-  // zero or NaN.
+  // Products of unit vectors neither overflow nor underflow. Degenerate triangles give zero or NaN.
   const Eigen::Vector3d u = (next - corner).stableNormalized ();
   const Eigen::Vector3d v = (previous - corner).stableNormalized ();
   const Eigen::Vector3d across = u.cross (v);
@@ -37,7 +36,7 @@ cornerTerm (const Eigen::Vector3d& corner, const Eigen::Vector3d& next,
   return {std::atan2 (sine, u.dot (v)), across / sine};
 }
 
-// The sum of the terms in an order of their own, so that it is that of any order of the triangles.
+// Sums the terms in a canonical order: the result does not depend on the order of the triangles.
 Eigen::Vector3f
 meanNormal (std::vector<CornerTerm>& terms)
 {
@@ -47,13 +46,13 @@ meanNormal (std::vector<CornerTerm>& terms)
                : std::lexicographical_compare (a.normal.data (), a.normal.data () + 3,
                                                b.normal.data (), b.normal.data () + 3);
   });
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // so that a zero in it is not negative
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // avoids negative zeros
   double angles = 0.0;
   for (const CornerTerm& term : terms) {
     sum += term.angle * term.normal;
     angles += term.angle;
   }
-  // Each term and each sum is rounded by half an epsilon of it; a sum below that is 0.
+  // Each term and each sum is rounded by half an epsilon; smaller sums are 0.
   const double length = sum.norm ();
   const double rounding =
       static_cast<double> (terms.size ()) * angles * std::numeric_limits<double>::epsilon ();

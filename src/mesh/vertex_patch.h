@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Patches of vertices that are taken out of a mesh and put back in several orders.
+// Patches of vertices for reinsertion in several orders.
 #pragma once
 
 #include "core/order_statistics.h"
@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Adds the vertices beside those of a patch. The patch is ascending afterwards.
+/// Adds one ring of vertices to a patch, and sorts it.
 inline void
 addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
 {
@@ -25,8 +25,8 @@ addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
   patch.swap (wider);
 }
 
-/// Calls attempt (patch) for some orders of a patch, until it returns true. The orders are the same
-/// in every run.
+/// Calls attempt (patch) for some orders of a patch, until it returns true. The orders are
+/// deterministic.
 /// \return whether an attempt returned true
 template <typename Attempt>
 bool

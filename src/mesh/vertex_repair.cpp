@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::uint8_t NO_PLACE = 255; // a rank: all places were tried in vain
+constexpr std::uint8_t NO_PLACE = 255; // rank after all kicks have failed
 } // namespace
 
 std::size_t
@@ -92,7 +92,7 @@ VertexRepair::keepThoseToMove (std::vector<Index>& vertices)
                   vertices.end ());
 }
 
-// True of a vertex at a fold, and where there is a surface, of one at a bad triangle.
+// True for vertices at folds, and on surfaces also at bad triangles.
 bool
 VertexRepair::isToMove (Index v)
 {
@@ -118,8 +118,8 @@ VertexRepair::isAtFold (Index v)
   return false;
 }
 
-// Kicks a vertex to its next places until one is kept. After the flips, several places may turn
-// out to be the same one, or the one where the vertex was: then it has the same neighbours there.
+// Kicks a vertex to its next triangles until one is kept. After the flips, several of them may be
+// equivalent to each other or to the start: the vertex then has the same neighbours.
 bool
 VertexRepair::kick (Index v, std::size_t times)
 {
@@ -158,13 +158,13 @@ VertexRepair::moveAfterKick (double change_by_kick)
         continue;
       change += mover_.move (w, limits_.places_after_kick);
       if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
-        return change; // the mesh is as it was before the kick
+        return change; // the mesh is as before the kick
     }
   }
   return change;
 }
 
-// Notes the neighbours of a vertex. Returns false if they were noted before.
+// Stores the neighbours of a vertex. Returns false if they are known already.
 bool
 VertexRepair::noteRing (Index v)
 {
@@ -179,7 +179,7 @@ VertexRepair::noteRing (Index v)
   return true;
 }
 
-// After a kick that is kept: the corners of all changed triangles may be kicked again.
+// After a successful kick: the corners of all changed triangles may be kicked again.
 void
 VertexRepair::allowKicksAround (std::vector<Index>& again)
 {
@@ -209,7 +209,7 @@ VertexRepair::rebuildAll (const std::vector<Index>& vertices)
   return successes;
 }
 
-// Rebuilds a patch around a vertex if that helps: a small one, or else a wider one.
+// Rebuilds a patch around a vertex if this helps: a small one, or else a wider one.
 bool
 VertexRepair::rebuildAround (Index v)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Moves and kicks of vertices that are in the wrong triangles.
+// Moves and kicks of vertices in the wrong triangles.
 #pragma once
 
 #include "mesh/repair_targets.h"
@@ -9,41 +9,39 @@
 #include <vector>
 
 namespace pcl::floater {
-/// How much is tried to remove folds. All are limits of time: larger values may remove a few more
-/// folds. They were chosen by hand; no measurement is recorded.
+/// Limits of the search, to limit its time: larger values may remove a few more folds. Chosen by
+/// hand; no measurement is recorded.
 struct RepairLimits
 {
   std::size_t largest_fan = 16;   ///< triangles around a vertex that is moved
-  std::size_t patch_points = 512; ///< along the space-filling curve, the patch around a vertex. It
-                                  ///< is to be larger than what is wrong in a surface
+  std::size_t patch_points = 512; ///< points along the space-filling curve in the patch around a
+                                  ///< vertex; larger than usual defects
   int passes = 12;                ///< over the vertices to move; few are left after five
   std::size_t places = 4;         ///< cheapest triangles in which a vertex to move is tried
-  std::size_t kicks = 16;         ///< places to which a vertex of a fold is kicked; at most 255
+  std::size_t kicks = 16;         ///< triangles to which a vertex of a fold is kicked; at most 255
   std::size_t points_per_kick = 16;  ///< points of the mesh for each kick
   int passes_after_kick = 2;         ///< moves of the vertices around
-  std::size_t places_after_kick = 3; ///< the same as `places`, in these moves
+  std::size_t places_after_kick = 3; ///< `places` in these moves
 
-  std::size_t rebuilt_rings = 2;  ///< sizes of the patches that are taken out and put back
-  std::size_t rebuilt_orders = 4; ///< in which their vertices are put back
-  std::size_t vain_rebuilds = 16; ///< vertices at folds around which that is tried in vain before
-                                  ///< it is given up
-  std::size_t rebuilds_per_success = 8; ///< how many more for each that was not in vain
+  std::size_t rebuilt_rings = 2;  ///< sizes of the patches that are removed and reinserted
+  std::size_t rebuilt_orders = 4; ///< reinsertion orders of their vertices
+  std::size_t vain_rebuilds = 16; ///< failures to rebuild around folded vertices before giving up
+  std::size_t rebuilds_per_success = 8; ///< additional failures allowed for each success
 
-  /// Costs of triangles that may be asked for (CachedCost::asked), for each point of the mesh and
-  /// at least: by moves, and by kicks and rebuilt patches. Each takes some 40 nanoseconds with all
-  /// that belongs to it, and all else for an ordinary point 10 microseconds, so that the repair
-  /// takes at most six times as long as a mesh without it. Laser scans of trees and rooms ask for
-  /// up to 560 and 930, points in pairs that nearly coincide for 3000 and 860 without a limit.
+  /// Maximum number of requested costs (CachedCost::asked), per point of the mesh and minimum: by
+  /// moves, and by kicks and rebuilt patches. Each takes some 40 nanoseconds in total, and all else
+  /// for an ordinary point 10 microseconds, so a mesh takes at most six times as long with the
+  /// repair. Laser scans of trees and rooms request up to 560 and 930, points in nearly coinciding
+  /// pairs 3000 and 860 without a limit.
   std::size_t costs_of_moves = 600, costs_of_kicks = 1000, fewest_costs = 5'000'000;
 };
 
-/// Changes a mesh, or a block of one, where it is bad (see moveVertices for what is done, and why).
-/// One thread.
+/// Repairs a mesh or a block of one (see moveVertices). One thread.
 class VertexRepair
 {
 public:
   /// All arguments must outlive the object.
-  /// \param neighbors nearest neighbours of each point, where places for it are searched
+  /// \param neighbors nearest neighbours of each point, candidates for a vertex's new neighbours
   /// \param targets   of each point
   VertexRepair (TriangleMesh& mesh, const CsrLists& neighbors,
                 const std::vector<RepairTarget>& targets, const TriangleCost& cost,
@@ -53,21 +51,21 @@ public:
   {
   }
 
-  /// Moves these vertices, where they are bad, and those around them.
-  /// \param most_costs that may be asked for; no vertex is moved any more when it is reached
+  /// Moves these vertices, if they are bad, and those around them.
+  /// \param most_costs number of requested costs at which moves end
   /// \return number of moves
   std::size_t moveAll (std::vector<Index> vertices, std::size_t most_costs);
 
-  /// Kicks those of these vertices that are at folds, as often as the limits allow.
+  /// Kicks the vertices at folds among these, within the limits.
   /// \return number of kicks that were kept
   std::size_t kickAll (std::vector<Index> vertices);
 
-  /// Takes patches around those of these vertices that are at folds out, and puts them back in an
-  /// order for which the cost is lower, if there is one.
+  /// Removes patches around the vertices at folds among these, and reinserts them in an order of
+  /// lower cost, if there is one.
   /// \return number of patches that were changed
   std::size_t rebuildAll (const std::vector<Index>& vertices);
 
-  /// How many costs were asked for so far.
+  /// Number of requested costs.
   std::size_t costs () const { return cost_.asked (); }
 
 private:
@@ -88,10 +86,10 @@ private:
   VertexMover mover_;
   CachedCost& cost_ = mover_.cost ();
   const std::vector<RepairTarget>& targets_;
-  std::vector<std::uint8_t> next_rank_; // per point: rank of the place to which it is kicked next
+  std::vector<std::uint8_t> next_rank_; // per point: rank of its next kick
   std::size_t kicks_left_ = 0;
-  std::size_t most_costs_ = 0;            // at which kicks and rebuilds end
-  std::vector<std::vector<Index>> rings_; // neighbours at the places tried so far
+  std::size_t most_costs_ = 0;            // limit for kicks and rebuilds
+  std::vector<std::vector<Index>> rings_; // neighbours at the triangles tried so far
   std::vector<Index> fan_, around_, changed_;
 };
 

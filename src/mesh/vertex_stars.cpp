@@ -8,8 +8,8 @@
 
 namespace pcl::floater {
 namespace {
-// Triangles are counted in chunks. There are few of them, as each has a counter for each range, and
-// enough for the threads of a large machine. Short ones do not pay for a task.
+// Triangles are counted in chunks: few, as each has a counter for each range; enough for the
+// threads of a large machine; long enough to be worth a task.
 constexpr std::size_t MOST_CHUNKS = 64, SHORTEST_CHUNK = 65536;
 
 // Calls body (r) for each range that has a corner of the triangle.
@@ -41,7 +41,7 @@ TriangleRanges::TriangleRanges (const std::vector<Triangle>& triangles, std::siz
     for (std::size_t t = chunk * length; t < last; ++t)
       body (t);
   };
-  // Of each chunk: entries of each range, then where the next one goes.
+  // Of each chunk: number of entries of each range, then index of the next one.
   std::vector<std::vector<std::size_t>> places (chunks, std::vector<std::size_t> (ranges, 0));
   std::vector<std::size_t> left_out (chunks, 0);
   parallelTasks (run, chunks, [&] (std::size_t chunk) {
@@ -87,7 +87,7 @@ VertexStars::VertexStars (const std::vector<Triangle>& triangles, const Triangle
   });
   std::partial_sum (begins_.begin (), begins_.end (), begins_.begin ());
   wedges_.resize (begins_.back ());
-  // begins_[p + 1] is where the next one of p goes. At the end it is where those of p end.
+  // begins_[p + 1] is the index of the next entry of p; at the end, the end of p.
   ranges.forEach (r, [&] (Index t) {
     const auto [a, b, c] = triangles[t];
     if (isHere (a))

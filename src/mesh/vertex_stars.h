@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles around points, range by range of the points, for loops on all threads.
+// Triangles around points, by ranges of points, for parallel loops.
 #pragma once
 
 #include "core/run_context.h"
@@ -18,14 +18,14 @@ isProper (const Triangle& t, std::size_t points)
          t[2] != t[0];
 }
 
-/// The triangles that have a corner in each range of points. If the triangles lie in the order of
-/// their points, nearly all of them are in one range only: 4 bytes per triangle, at most 12.
+/// The triangles with a corner in each range of points. If they are in the order of their points,
+/// nearly all are in one range only: 4 bytes per triangle, at most 12.
 class TriangleRanges
 {
 public:
-  /// Points of a range. Measured: twice or four times as many are no faster. What is kept of a
-  /// range fits into a second-level cache, and few edges leave it. With more, its arrays would
-  /// count as large ones where memory is limited, and each would be made in a file.
+  /// Points of a range. Measured: ranges two or four times as long are no faster. The data of a
+  /// range fits into a second-level cache, and few edges leave it. Longer ranges would have arrays
+  /// that are stored in files where memory is limited.
   static constexpr std::size_t LENGTH = 8192;
 
   /// Leaves out triangles that are not proper. O(triangles), on all threads.
@@ -37,7 +37,7 @@ public:
   std::size_t firstPoint (std::size_t r) const { return r * LENGTH; }
   std::size_t lastPoint (std::size_t r) const { return std::min (points_, (r + 1) * LENGTH); }
 
-  /// Triangles that are in no range.
+  /// Number of triangles that are in no range.
   std::size_t leftOut () const { return left_out_; }
 
   /// Calls body (t) for each triangle of a range, ascending.
@@ -50,11 +50,11 @@ public:
 
 private:
   std::size_t points_, left_out_ = 0;
-  std::vector<std::size_t> begins_; // of each range in ids_, and where the last one ends
+  std::vector<std::size_t> begins_; // begins in ids_, and the end of the last one
   std::vector<Index> ids_;
 };
 
-/// A triangle seen from one of its corners.
+/// A triangle as seen from one of its corners.
 struct Wedge
 {
   Index triangle;
@@ -73,7 +73,7 @@ struct VertexStar
   const Wedge& operator[] (std::size_t i) const { return first[i]; }
 };
 
-/// The stars of the points of one range. While it exists, 12 bytes per corner in the range.
+/// The stars of the points of one range. 12 bytes per corner in the range.
 class VertexStars
 {
 public:

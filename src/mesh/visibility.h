@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which side of a surface is seen from outside: lines of sight through it.
+// Lines of sight through a surface: which side is visible from outside.
 #pragma once
 
 #include "core/parallel.h"
@@ -17,9 +17,9 @@ struct SightLine
   Eigen::Vector3d direction; ///< towards its front
 };
 
-/// Chooses lines, evenly over an area that is given triangle by triangle. Their directions are
-/// distributed by Lambert's cosine law, so that each counts by how large the surface looks from
-/// there. They are the same each time: a sequence of low discrepancy (Roberts 2018).
+/// Chooses lines of sight, evenly over an area that is added triangle by triangle. Directions
+/// follow Lambert's cosine law, so each counts by the apparent size of the surface. Deterministic:
+/// a low-discrepancy sequence (Roberts 2018).
 class SightLineSampler
 {
 public:
@@ -29,7 +29,7 @@ public:
   {
   }
 
-  /// Appends a line if one is due at this triangle, and several if it is large.
+  /// Appends the lines for this triangle: none, one, or several if it is large.
   /// \param normal of unit length
   void add (Index triangle, double area, const Eigen::Vector3d& middle,
             const Eigen::Vector3d& normal, std::vector<SightLine>& lines);
@@ -39,13 +39,13 @@ private:
   std::size_t count_ = 0;
 };
 
-/// Whether nothing blocks a line towards either side.
+/// Whether a line is free towards each side.
 struct Sight
 {
   bool front = false, back = false;
 };
 
-/// \param blocks (line, triangle): whether that triangle counts; not asked of the line's own one
+/// \param blocks (line, triangle): whether that triangle counts; not called for the line's own one
 template <typename Blocks>
 std::vector<Sight>
 look (const TriangleRays& rays, const std::vector<SightLine>& lines, Blocks&& blocks,

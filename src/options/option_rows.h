@@ -77,8 +77,8 @@ constexpr double NO_LIMIT = std::numeric_limits<double>::max ();
 /// - a bool, or a bool and its choices;
 /// - an enumerator and its choices;
 /// - an int or a double, and its range;
-/// - for `viewpoint`, ViewOptions; for `largest_hole` and `largest_hole_length`, HoleOptions and the unit of the
-///   size that is meant, which is 0 or more.
+/// - for `viewpoint`, ViewOptions; for `largest_hole` and `largest_hole_length`, HoleOptions and the
+///   unit of the size, which is 0 or more.
 /// The loop of a disc and the callbacks are not in the table.
 template <typename AnyOptions, typename Visitor>
 void

@@ -8,7 +8,7 @@
 
 namespace pcl::floater {
 namespace {
-// Connects inner triangles. Points at which other triangles are missing have several fans.
+// Connects inner triangles. Points with missing triangles have several fans.
 void
 connectInner (TriangleMesh& mesh, std::size_t points, const RunContext& run)
 {
@@ -16,7 +16,7 @@ connectInner (TriangleMesh& mesh, std::size_t points, const RunContext& run)
     throw std::logic_error ("the inner triangles of a part are no manifold");
 }
 
-// Points of a part become points of the cloud.
+// Converts points of a part to points of the cloud.
 void
 countFrom (Index first, Surroundings& around)
 {
@@ -118,7 +118,7 @@ innerComponents (std::vector<Triangle> triangles, Index first, std::size_t point
   for (Triangle& corners : mesh.triangles)
     for (Index& p : corners)
       p -= first;
-  mesh.is_partial.assign (points, 1); // any of them may have several fans here
+  mesh.is_partial.assign (points, 1); // several fans are allowed everywhere
   connectInner (mesh, points, run);
   return findComponents (mesh, run).of_triangle;
 }

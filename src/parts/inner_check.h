@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is found out about the triangles of a part that nothing changes any more.
+// Check of the triangles of a part that are final.
 #pragma once
 
 #include "mesh/facing_objects.h"
@@ -14,22 +14,22 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Pairs of triangles that cross each other.
+/// Self-intersections: counts and positions.
 struct CrossingSum
 {
   static constexpr std::size_t PLACES = 10; ///< as in MeshCheck
 
-  std::size_t found = 0; ///< before any were moved apart
+  std::size_t found = 0; ///< before any were removed
   std::size_t left = 0;
   Uncrossing done;
-  std::vector<std::pair<Index, Index>> places; ///< of the first PLACES pairs that are left: the
-                                               ///< first corners of both triangles
-  Index first_at = NONE;                       ///< the smallest one of all pairs that are left
+  std::vector<std::pair<Index, Index>> places; ///< of the first PLACES remaining pairs: the first
+                                               ///< corners of both triangles
+  Index first_at = NONE;                       ///< smallest one of all remaining pairs
 
   void add (const CrossingSum& next);
 
-  /// Sets what is left.
-  /// \param point_of a corner
+  /// Sets the remaining pairs.
+  /// \param point_of converts a corner
   template <typename PointOf>
   void take (const std::vector<CrossingPair>& pairs, const std::vector<Triangle>& triangles,
              PointOf&& point_of)
@@ -48,20 +48,19 @@ struct CrossingSum
 /// A component of the inner triangles of a part.
 struct InnerComponent
 {
-  ComponentSum sum;       ///< it counts as closed, since the boundary is in zones
-  std::size_t points = 0; ///< that are in no zone
+  ComponentSum sum;       ///< counts as closed, since the boundary is in zones
+  std::size_t points = 0; ///< outside all zones
 };
 
-/// What is known of the inner triangles of a part, which are not in its zone: what the check of the
-/// whole mesh and its facing need of them. Points are those of the cloud.
+/// Data of the inner triangles of a part (outside its zone) for check and facing of the whole mesh.
+/// Points are those of the cloud.
 struct InnerCheck
 {
-  /// Triangles around which there is one box. Chosen by hand: boxes take a sixteenth of what
-  /// triangles do.
+  /// Triangles per box. Chosen by hand: boxes take a sixteenth of the memory of the triangles.
   static constexpr std::size_t BUCKET = 64;
 
   std::size_t triangles = 0;
-  Surroundings around; ///< of the points that are not in the zone; without boundary edges
+  Surroundings around; ///< of the points outside the zone; without boundary edges
   std::vector<InnerComponent> components;
   CrossingSum crossing;
   std::vector<Index> rim;           ///< triangles with a corner in the zone, ascending
@@ -69,7 +68,7 @@ struct InnerCheck
   Eigen::AlignedBox3d box;          ///< around all
 };
 
-/// What checkInner has to know of the whole.
+/// Facts about the whole cloud.
 struct InnerCheckSettings
 {
   CheckLimits limits;
@@ -77,23 +76,23 @@ struct InnerCheckSettings
   std::optional<Eigen::Vector3d> sensor; ///< see FacingHints
 };
 
-/// Checks the inner triangles of a part, but for those that cross each other.
-/// \param triangles  in the order of their smallest points; corners are counted from the first
-///                   point of the part on
+/// Checks the inner triangles of a part, except for self-intersections.
+/// \param triangles  in the order of their smallest points; corners are numbered from the first
+///     point of the part on
 /// \param is_in_zone of each point of the part
 InnerCheck
 checkInner (const PartPoints& points, const std::vector<Triangle>& triangles,
             std::vector<std::uint8_t> is_in_zone, const InnerCheckSettings& settings,
             const RunContext& run);
 
-/// The boxes around consecutive triangles, InnerCheck::BUCKET of them each.
+/// Bounding boxes of InnerCheck::BUCKET consecutive triangles each.
 std::vector<Eigen::AlignedBox3d>
 makeTriangleBuckets (const std::vector<Triangle>& triangles,
                      const std::vector<Eigen::Vector3d>& positions);
 
-/// Turns the triangles of some components round.
-/// \param triangles of a part, as they were checked
-/// \param is_turned each component
+/// Flips the triangles of some components.
+/// \param triangles of a part, as checked
+/// \param is_turned of each component
 void
 turnInner (std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is_turned,
            Index first, std::size_t points, const RunContext& run);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Some points of a cloud, with numbers of their own.
+// A subset of the points of a cloud, renumbered.
 #pragma once
 
 #include "core/types.h"
@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Numbers for some points of a cloud, in the order of the cloud.
+/// Numbers some points of a cloud, in the order of the cloud.
 class JoinedPoints
 {
 public:
@@ -23,7 +23,7 @@ public:
 
   Index pointAt (Index place) const { return points_[place]; }
 
-  /// NONE if the point is not there. O(log n).
+  /// Index of a point, NONE if it is not included. O(log n).
   Index placeOf (Index point) const
   {
     const auto at = std::lower_bound (points_.begin (), points_.end (), point);

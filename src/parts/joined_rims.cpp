@@ -7,7 +7,7 @@
 
 namespace pcl::floater {
 namespace {
-// Makes room for values between others. \param place where each value goes
+// Inserts values between others. `place` is the new index of each value.
 template <typename Value>
 void
 spread (const std::vector<Index>& place, std::size_t count, const Value& between,
@@ -81,8 +81,8 @@ RimJoiner::addTriangles (const PartRim& rim)
   }
 }
 
-// Each once, ascending. They have triangles that are not seen: else they would have room, and be in
-// the rim of their part.
+// Ascending, without repetition. They have triangles outside the rims: otherwise they would be
+// free, and in the rim of their part.
 std::vector<RimJoiner::Other>
 RimJoiner::othersWithoutRim () const
 {

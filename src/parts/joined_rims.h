@@ -10,15 +10,15 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A triangle of a part, by its corners, which are places in the joined points.
+/// A triangle of a part; its corners are indices of joined points.
 struct RimTriangle
 {
   Triangle ascending; ///< its corners
-  Triangle corners;   ///< as they are in the part
+  Triangle corners;   ///< in their order in the part
   Index part, number, component;
 };
 
-/// What is seen of all parts. Points are places in `points`.
+/// The rims of all parts. Points are indices of `points`.
 struct JoinedRims
 {
   JoinedPoints points;
@@ -29,7 +29,7 @@ struct JoinedRims
   CsrLists neighbors;
   TriangleMesh mesh;
   std::vector<RimTriangle> origins;            ///< by their corners
-  std::vector<Candidate> open;                 ///< with room at all corners
+  std::vector<Candidate> open;                 ///< free candidates
   std::vector<std::array<Index, 2>> same_side; ///< two points of one component of a part
 
   Triangle toPoints (Triangle places) const
@@ -39,11 +39,11 @@ struct JoinedRims
     return places;
   }
 
-  /// The triangle of a part with these corners, in whatever order; nullptr if there is none.
+  /// The triangle of a part with these corners, in any order; nullptr if there is none.
   const RimTriangle* find (Triangle corners) const;
 };
 
-/// Joins rims one by one, so that not all of them have to be in memory.
+/// Joins rims one by one, so that they need not all be in memory.
 class RimJoiner
 {
 public:
@@ -65,7 +65,7 @@ private:
   void addTriangles (const PartRim& rim);
   std::vector<Other> othersWithoutRim () const;
 
-  // Of all rims, one behind the other: in the order of the points. Triangles by places in these.
+  // All rims in sequence, by the order of the points. Triangles have indices of these points.
   std::vector<Index> points_;
   JoinedRims joined_;
   std::vector<Other> others_;

@@ -47,7 +47,7 @@ LocalParts::LocalParts (const Points& points, const Parts& parts, LocalGeometry&
   parallelTasks (run, parts.count (), [&] (std::size_t part) {
     const Index first = parts.first (part), last = parts.last (part);
     std::vector<Eigen::Vector3f> own = slice (smoothed, first, last);
-    if (++begun == parts.count ()) // no other part needs them any more
+    if (++begun == parts.count ()) // no other part needs them
       std::vector<Eigen::Vector3f> ().swap (smoothed);
     meshes_[part] = makePartMesh (pointsOf (part, points.workingPositions (), geometry.spacing),
                                   std::move (own),
@@ -106,7 +106,7 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
       points.facing_normals = slice (*normals, first, last);
     std::vector<Triangle> triangles = std::move (meshes_[part].triangles);
     meshes_[part] = {};
-    if (++begun == parts_.count ()) // no other part needs them any more
+    if (++begun == parts_.count ()) // no other part needs them
       std::vector<Eigen::Vector3f> ().swap (geometry_.stars.normals);
     FinishedPart finished = finishPart (std::move (points), std::move (triangles), changes[part],
                                         neighbors_, scatter, settings, run.withThreads (1));

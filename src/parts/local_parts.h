@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts that are meshed in this process, on all of its threads.
+// Parts that are processed here, on all threads.
 #pragma once
 
 #include "local/local_geometry.h"
@@ -10,12 +10,12 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Meshes the parts when it is made.
+/// Meshes the parts in the constructor.
 class LocalParts : public PartWork
 {
 public:
   /// All arguments must outlive this.
-  /// \param geometry the lists of the stars are freed as soon as they are not needed
+  /// \param geometry star lists are freed as soon as possible
   LocalParts (const Points& points, const Parts& parts, LocalGeometry& geometry,
               const PartsSettings& settings, const RunContext& run);
 
@@ -39,7 +39,7 @@ private:
   const PartsSettings& settings_;
   std::vector<PartMesh> meshes_;
   NeighborRows neighbors_;
-  std::vector<FinishedPart> finished_; // without the following
+  std::vector<FinishedPart> finished_; // without the members below
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<Eigen::AlignedBox3d>> buckets_;
 };

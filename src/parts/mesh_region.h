@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles around some points of a mesh.
+// A submesh around some points.
 #pragma once
 
 #include "core/types.h"
@@ -8,19 +8,19 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Triangles of a mesh, and their corners. All numbers are those of the mesh.
+/// Triangles of a mesh, and their corners, in the numbers of the mesh.
 struct MeshRegion
 {
   std::vector<Index> points;            ///< ascending
-  std::vector<std::uint8_t> is_partial; ///< of each: triangles around it are not in the region
+  std::vector<std::uint8_t> is_partial; ///< of each: some of its triangles are outside the region
   std::vector<Index> triangles;         ///< ascending
 };
 
-/// All triangles with a corner that is fewer than `rings` edges away from a seed, all triangles
-/// that are asked for besides, and the seeds themselves. O(rings n).
+/// All triangles with a corner fewer than `rings` edges away from a seed, additional triangles, and
+/// the seeds. O(rings n).
 /// \param points number of points of the mesh
 /// \param seeds points of the mesh; need not be vertices
-/// \param besides of each triangle: 1 for those that are in the region anyway; empty: none
+/// \param besides of each triangle: 1 to include it anyway; empty: none
 MeshRegion
 regionAround (const std::vector<Triangle>& triangles, std::size_t points,
               const std::vector<Index>& seeds, std::size_t rings,

@@ -11,7 +11,7 @@
 
 namespace pcl::floater {
 namespace {
-// A bucket that is in the box of another part.
+// A bucket in the box of another part.
 struct SharedBucket
 {
   Index part;
@@ -19,15 +19,15 @@ struct SharedBucket
   Eigen::AlignedBox3d box;
 };
 
-// Which buckets of one part are needed, and which may be.
+// Buckets of one part that are needed, and that may be.
 struct PartBuckets
 {
   std::vector<Index> needed;
   std::vector<SharedBucket> shared;
 };
 
-// The corners of triangles of one part, and their numbers in ascending order. O(points of the
-// part): they are near each other, so that nothing is sorted.
+// The corners of triangles of one part, numbered ascending. O(points of the part): faster than
+// sorting, as they are near each other.
 class PartCorners
 {
 public:
@@ -145,7 +145,7 @@ private:
     return found;
   }
 
-  // Reads the triangles of the buckets that are needed, and chooses among them.
+  // Reads the needed buckets, and selects triangles.
   NearTriangles read (Index part)
   {
     PartWork::Ranges ranges;
@@ -206,7 +206,8 @@ private:
   const RunContext& run_;
   BoxTree seam_, parts_;
   std::vector<std::vector<Index>> needed_;  // buckets of each part
-  std::vector<std::vector<Index>> crossed_; // those that overlap one of another part
+  std::vector<std::vector<Index>> crossed_; // of each part: buckets that overlap one of another
+                                            // part
 };
 
 } // namespace

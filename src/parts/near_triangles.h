@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inner triangles of parts that others have to know.
+// Inner triangles of parts that other parts need.
 #pragma once
 
 #include "parts/part_work.h"
@@ -24,11 +24,10 @@ struct NearTriangles
   void add (const NearTriangles& next);
 };
 
-/// The inner triangles that have a corner in a zone, and those whose boxes overlap that of a
-/// triangle of a zone, or that may overlap that of an inner triangle of another part. O(n / 64) for
-/// n points, as buckets are looked at, and O(m log m) for m triangles in those that are read.
-/// \param seam           all triangles that are not inner ones, in the order of their smallest
-///                       points
+/// The inner triangles that have a corner in a zone, that overlap (by boxes) a triangle of a zone,
+/// or may overlap an inner triangle of another part. O(n / 64) for n points to test the buckets,
+/// and O(m log m) for m triangles in the buckets that are read.
+/// \param seam           all other triangles, in the order of their smallest points
 /// \param seam_positions of their corners
 /// \param checks         of all parts
 NearTriangles

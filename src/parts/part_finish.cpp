@@ -26,7 +26,7 @@ shifted (Triangle corners, Index by)
   return corners;
 }
 
-// Takes triangles out, turns components round and adds triangles.
+// Removes triangles, flips components and adds triangles.
 void
 apply (const PartChange& change, Index first, std::size_t points, const RunContext& run,
        std::vector<Triangle>& triangles)
@@ -77,7 +77,7 @@ fixBesideSeam (const std::vector<Triangle>& seam, const PartPoints& points, Tria
     }
 }
 
-// The neighbours of some points of the part that are in the part; all counted from its first point.
+// The neighbours of some points within the part, numbered from its first point.
 CsrLists
 neighborsWithin (const PartPoints& points, const NeighborRows& neighbors, std::vector<Index> some)
 {
@@ -97,7 +97,7 @@ neighborsWithin (const PartPoints& points, const NeighborRows& neighbors, std::v
   return within;
 }
 
-// All of them, as soon as they are asked for.
+// Fetches all neighbours on demand.
 class NeighborsWithin
 {
 public:
@@ -137,8 +137,8 @@ withoutTriangle (const TriangleMesh& mesh)
   return points;
 }
 
-// Points from where on triangles are in the zone: those at triangles of several parts, at the
-// boundary, without a triangle, or neighbours of such a point, which may be in another part.
+// Seeds of the zone: points at triangles of several parts, at the boundary, without a triangle, or
+// neighbours of such a point, which may be in another part.
 std::vector<Index>
 seedsOfZone (const TriangleMesh& mesh, const PartPoints& points, const NeighborRows& neighbors,
              const std::vector<Index>& beside)
@@ -162,7 +162,7 @@ seedsOfZone (const TriangleMesh& mesh, const PartPoints& points, const NeighborR
   return seeds;
 }
 
-// Folded edges of triangles that are not in the zone.
+// Folded edges of triangles outside the zone.
 // \param is_in_zone of each triangle
 std::size_t
 countFoldsOutside (const std::vector<std::uint8_t>& is_in_zone, const TriangleMesh& mesh,
@@ -175,7 +175,7 @@ countFoldsOutside (const std::vector<std::uint8_t>& is_in_zone, const TriangleMe
   return count;
 }
 
-// The normals of points without a triangle, by those around (see orientMissingNormals).
+// Orients the normals of points without a triangle (see orientMissingNormals).
 void
 orientMissing (const TriangleMesh& mesh, PartPoints& points, const NeighborRows& neighbors)
 {
@@ -209,7 +209,7 @@ takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh
   return zone;
 }
 
-// 1 for those in a list.
+// Flags of the entries of a list.
 std::vector<std::uint8_t>
 markAll (const std::vector<Index>& list, std::size_t size)
 {
@@ -219,7 +219,7 @@ markAll (const std::vector<Index>& list, std::size_t size)
   return marks;
 }
 
-// The triangles that are not in the zone, in the order of their smallest points.
+// The triangles outside the zone, in the order of their smallest points.
 struct InnerTriangles
 {
   InnerTriangles (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone)
@@ -245,8 +245,8 @@ struct InnerTriangles
   std::vector<Triangle> triangles;
 };
 
-// Looks for inner triangles that cross each other, and moves them apart. Those in the zone stay.
-// The mesh loses its neighbours if it does not change: the search takes as much memory.
+// Removes self-intersections of inner triangles. Those in the zone stay. Clears the neighbours of
+// an unchanged mesh: the search needs as much memory.
 InnerTriangles
 uncrossInner (TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone, PartPoints& points,
               const NeighborTable& neighbors, const PartFinishSettings& settings,
@@ -261,7 +261,7 @@ uncrossInner (TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone, P
     const std::vector<Index> triangle_of = mesh.triangle_of;
     if (!mesh.connect (points.size (), run))
       throw std::logic_error ("the finished mesh of a part is no manifold");
-    mesh.triangle_of = triangle_of; // that of the changes before
+    mesh.triangle_of = triangle_of; // as before these changes
     orientNormals (mesh, points.positions, points.normals, run);
     const TriangleCost cost (points.positions, points.normals, &points.spacing,
                              settings.finish.cost);

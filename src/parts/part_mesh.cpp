@@ -19,7 +19,7 @@ divideCandidates (CandidateLists of_part, Index first, Index last,
   };
   const auto reachesOutAt = [&] (Index p) { return reaches_out[p - first] != 0; };
   PartCandidates divided;
-  // Those inside move forwards in their list, which is not made a second time.
+  // In place: kept entries move forwards in their list.
   const auto divide = [&] (auto& list, const auto& isKept, const auto& asLeft) {
     std::size_t kept = 0;
     for (const auto& candidate : list) {
@@ -83,7 +83,7 @@ findRoom (const TriangleMesh& mesh)
   return points;
 }
 
-// Appends the candidates that have room at all corners to those that are left.
+// Appends the free candidates to `open`.
 void
 appendOpen (const CandidateLists& inside, const std::vector<Index>& with_room, Index first,
             std::size_t points, std::vector<Candidate>& open)

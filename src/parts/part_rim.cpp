@@ -9,10 +9,10 @@
 
 namespace pcl::floater {
 namespace {
-// Rings that have to be seen behind a boundary, to judge it (see findEvidence).
+// Rings behind a boundary that are needed to judge it (see findEvidence).
 constexpr std::size_t BEHIND_BOUNDARY = 5;
 
-// Of each triangle: 1 if its component has fewer triangles than that.
+// Of each triangle: 1 if its component has fewer triangles than `smallest`.
 std::vector<std::uint8_t>
 inSmallComponents (const PartMesh& mesh, std::size_t smallest)
 {
@@ -25,8 +25,7 @@ inSmallComponents (const PartMesh& mesh, std::size_t smallest)
   return is_in;
 }
 
-// Points of the part that are neighbours and not in the region come into it, without their
-// triangles.
+// Adds points of the part to the region, without their triangles.
 void
 addPoints (std::vector<Index> more, MeshRegion& region)
 {
@@ -59,7 +58,7 @@ findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& nei
 {
   MeshRegion region = regionAround (mesh.triangles, points.size (), mesh.with_room, rings,
                                     inSmallComponents (mesh, smallest));
-  // Points that may come to lie at the boundary, and are looked at then.
+  // Points that may get to the boundary, where their neighbours are needed.
   std::vector<Index> with_row = regionAround (mesh.triangles, points.size (), mesh.with_room,
                                               rings - std::min (rings, BEHIND_BOUNDARY))
                                     .points;

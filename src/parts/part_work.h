@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the parts of a cloud are meshed and finished.
+// Interface to the processes that mesh and finish the parts of a cloud.
 #pragma once
 
 #include "parts/part_finish.h"
@@ -11,34 +11,34 @@
 #include <vector>
 
 namespace pcl::floater {
-/// What is known of some points.
+/// Data of some points.
 struct PointValues
 {
   std::vector<Eigen::Vector3d> positions;
   std::vector<float> spacing; ///< local spacing on the mesh
 };
 
-/// The work on the parts: in this process, or in others. All results are those of the functions
-/// that are named. What is not void may be asked for by several threads.
+/// The work on the parts: in this process, or in others. Results are those of the named functions.
+/// Functions that return results are thread-safe.
 class PartWork
 {
 public:
   virtual ~PartWork () = default;
 
-  /// See findRim; of the part's mesh by makePartMesh.
+  /// See findRim, on the part's mesh by makePartMesh.
   virtual PartRim rim (std::size_t part, std::size_t rings) = 0;
 
   /// Finishes all parts, see finishPart. Called once, after all rims.
   /// \param changes of each part
   virtual void finish (std::vector<PartChange> changes, const RunContext& run) = 0;
 
-  /// The finished part, without its inner triangles and their buckets. Asked for once.
+  /// The finished part, without its inner triangles and their buckets. Called once per part.
   virtual FinishedPart finished (std::size_t part) = 0;
 
-  /// The buckets of the inner triangles of a finished part. Asked for once.
+  /// The buckets of the inner triangles of a finished part. Called once per part.
   virtual std::vector<Eigen::AlignedBox3d> buckets (std::size_t part) = 0;
 
-  /// From a triangle to before another one.
+  /// Ranges of triangles, ends excluded.
   using Ranges = std::vector<std::pair<std::size_t, std::size_t>>;
 
   /// Inner triangles of a finished part; corners are points.
@@ -48,7 +48,7 @@ public:
   virtual PointValues valuesOf (const std::vector<Index>& points) = 0;
 };
 
-/// What is known of all points of a cloud.
+/// Data of all points of a cloud.
 inline PointValues
 valuesOfAll (PartWork& work, std::size_t points)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A large cloud in parts, each of which is meshed by itself.
+// Division of a large cloud into parts, which are meshed separately.
 #pragma once
 
 #include "points/point_block.h"
@@ -8,22 +8,22 @@
 #include <algorithm>
 
 namespace pcl::floater {
-/// How a large cloud is cut, and how much of a part others see.
+/// Size of the parts, and of the rims that they share.
 struct PartLimits
 {
-  /// Points of a part, at most. A smaller cloud is one part, and is meshed as a whole. Of a surface
-  /// in parts of m points, about 4.7 sqrt (m) points of each are beside another part: 0.7 % here. A
-  /// part takes some 200 MB while it is worked on.
+  /// Maximum points of a part. A smaller cloud is one part, and is meshed as a whole. In a surface
+  /// in parts of m points, about 4.7 sqrt (m) points of each are beside another part: 0.7 % here.
+  /// Processing a part takes some 200 MB.
   std::size_t points = std::size_t{1} << 19U;
 
-  /// Width, in rings of points, of the rim that a part passes to the stitching. More are looked at
-  /// where that does not suffice. Judging a boundary loop takes 4, and stitching moves boundaries
-  /// by 2 at most, but in rare cases.
+  /// Width, in rings of points, of the rim that a part passes to the stitching; increased if it
+  /// does not suffice. Judging a boundary loop takes 4, and stitching rarely moves boundaries by
+  /// more than 2.
   std::size_t rings = 6;
 };
 
-/// The parts of a cloud: points that follow each other along the space-filling curve. They depend
-/// on the number of points only.
+/// The parts of a cloud: consecutive points on the space-filling curve. They depend only on the
+/// number of points.
 class Parts
 {
 public:
@@ -36,11 +36,11 @@ public:
   std::size_t points () const { return points_; }
   std::size_t count () const { return count_; }
 
-  /// The points of a part: from the first one to one behind the last.
+  /// First point of a part, and one past its last.
   Index first (std::size_t part) const { return BlockCutter::firstOf (part, count_, points_); }
   Index last (std::size_t part) const { return first (part + 1); }
 
-  /// The part that has a point.
+  /// The part of a point.
   std::size_t partOf (Index point) const
   {
     std::size_t low = 0, high = count_;

@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// As many rims at a time as there are threads.
+// Computes one rim per thread at a time.
 JoinedRims
 joinRims (const Parts& parts, PartWork& work, std::size_t rings, const RunContext& run)
 {
@@ -28,12 +28,12 @@ joinRims (const Parts& parts, PartWork& work, std::size_t rings, const RunContex
   return std::move (joiner).join (run);
 }
 
-// Sees more of the parts until that is enough.
+// Increases the rings until the stitching succeeds.
 Stitching
 stitchParts (const Parts& parts, PartWork& work, double unit, const SurfaceSettings& settings,
              std::size_t rings, const RunContext& run)
 {
-  constexpr std::size_t MOST_RINGS = std::size_t{1} << 20U; // more than any part has
+  constexpr std::size_t MOST_RINGS = std::size_t{1} << 20U; // exceeds any part
   for (; rings < MOST_RINGS; rings *= 2) {
     if (std::optional<Stitching> stitching =
             stitch (joinRims (parts, work, rings, run), parts, unit, settings, run))
@@ -42,7 +42,7 @@ stitchParts (const Parts& parts, PartWork& work, double unit, const SurfaceSetti
   throw std::logic_error ("parts of a mesh cannot be stitched");
 }
 
-// Joins what is finished, part by part.
+// Joins the finished parts one by one.
 FinishedSeam
 joinFinished (const Parts& parts, PartWork& work, const std::vector<Triangle>& seam,
               const PartsSettings& settings, const RunContext& run, std::vector<InnerCheck>& checks,

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// How a surface in parts is made and checked.
+/// Settings of a surface in parts.
 struct PartsSettings
 {
   SurfaceSettings surface;
@@ -23,17 +23,17 @@ struct PartsSettings
   PartFinishSettings ofPart (const Parts& all) const;
 };
 
-/// A finished surface in parts. Its triangles stay where the parts are.
+/// A finished surface in parts. Its triangles stay with the parts.
 struct SurfaceOfParts
 {
-  Surface surface; ///< but for its mesh
+  Surface surface; ///< without its mesh
   CheckedParts checked;
   std::vector<InnerCheck> checks; ///< of each part
 };
 
-/// Makes the surface of a cloud that has several parts. Runs through the stages CONSENSUS, HOLES,
-/// FLIPS and CHECK. What is decided for all parts together is where their meshes end: O(n / sqrt
-/// (m)) for parts of m points. O(n log n).
+/// Makes the surface of a cloud that has several parts. Stages CONSENSUS, HOLES, FLIPS and CHECK.
+/// Joint decisions are needed only where the meshes of parts end: O(n / sqrt (m)) for parts of m
+/// points. O(n log n).
 /// \param points their positions need not be in memory
 SurfaceOfParts
 makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,

@@ -29,7 +29,7 @@ valuesOf (const std::vector<Value>& values, const JoinedPoints& points)
   return some;
 }
 
-// The triangles that are not inner ones, and the inner ones near to them.
+// The triangles of the seam zones, and the inner ones near them.
 class SeamChecker
 {
 public:
@@ -62,7 +62,7 @@ public:
       throw std::logic_error ("the finished parts do not fit");
   }
 
-  // Moves triangles apart that cross each other.
+  // Removes self-intersections.
   void uncross ()
   {
     std::vector<CrossingPair> pairs = findCrossing ();
@@ -100,7 +100,7 @@ public:
   }
 
 private:
-  // The positions and the spacing of all points.
+  // Fetches positions and spacing of all its points.
   void takeValues ()
   {
     positions_.reserve (points_.size ());
@@ -118,7 +118,8 @@ private:
     }
   }
 
-  // All pairs but those of two inner triangles of one part, of which the part has told.
+  // All crossing pairs except those of two inner triangles of one part, which the part has
+  // reported.
   std::vector<CrossingPair> findCrossing () const
   {
     const std::vector<Index> order = orderByPoints (mesh_.triangles, points_.size ());
@@ -136,7 +137,7 @@ private:
     return pairs;
   }
 
-  // Moves triangles of these pairs apart. Inner triangles stay.
+  // Removes these crossings. Inner triangles stay.
   void remove (const std::vector<CrossingPair>& pairs)
   {
     std::vector<Eigen::Vector3f> normals (points_.size (), Eigen::Vector3f::Zero ());
@@ -160,7 +161,7 @@ private:
                                               settings_.uncrossing, run_);
   }
 
-  // All of what was found around points. The ends of boundary edges are places.
+  // The results around all points. The ends of boundary edges are indices.
   ExaminedParts examineAll () const
   {
     const ExaminedMesh examined{mesh_.triangles, positions_, spacing_, cloud_.diagonal,
@@ -201,8 +202,8 @@ private:
           {cloud_.cloud_index[at], cloud_.cloud_index[other_at]});
   }
 
-  // Turns components to face outwards.
-  // \return of each component: 1 if it was turned
+  // Orients the components outwards.
+  // \return of each component: 1 if it was flipped
   std::vector<std::uint8_t> turn (const SeamComponents& components, const Parts& parts,
                                   PartWork& work, CheckedParts& checked)
   {
@@ -212,7 +213,7 @@ private:
                                                      : std::vector<Eigen::Vector3f> ();
     if (hints.normals != nullptr)
       hints.normals = &normals;
-    TriangleMesh seam = std::move (mesh_); // without the others, which stay known as neighbours
+    TriangleMesh seam = std::move (mesh_); // near triangles remain as neighbours only
     seam.triangles.resize (seam_count_);
     seam.neighbors.resize (seam_count_);
     MeshComponents of_seam;
@@ -241,7 +242,7 @@ private:
     return is_turned;
   }
 
-  // The sums of each component, part by part.
+  // Sums of each component over all parts.
   std::vector<ComponentSum> sumUp (const SeamComponents& components, const TriangleMesh& seam,
                                    const MeshComponents& of_seam, const FacingHints& hints) const
   {
@@ -258,7 +259,7 @@ private:
     return sums;
   }
 
-  // The whole mesh, put together when it is asked for.
+  // The whole mesh, assembled on demand.
   class AssembledMesh : public FacedMesh
   {
   public:
@@ -335,7 +336,7 @@ private:
     const Parts& parts_;
     PartWork& work_;
     std::optional<Assembled> assembled_;
-    std::vector<Eigen::Vector3d> positions_; // if the cloud does not have them
+    std::vector<Eigen::Vector3d> positions_; // if the cloud has none in memory
   };
 
   const std::vector<InnerCheck>& checks_;
@@ -349,7 +350,7 @@ private:
   std::vector<Index> zone_places_; // of each point of the zones
   std::vector<Eigen::Vector3d> positions_;
   std::vector<float> spacing_;
-  TriangleMesh mesh_; // those that are not inner ones, then the near ones; other points are partial
+  TriangleMesh mesh_; // zone triangles, then near ones; other points are partial
   CrossingSum crossing_;
 };
 

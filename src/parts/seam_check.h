@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the finished parts form together.
+// Check of the finished parts as one mesh.
 #pragma once
 
 #include "mesh/check.h"
@@ -10,29 +10,28 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A mesh, most triangles of which stay where the parts are.
+/// A mesh whose inner triangles stay with the parts.
 struct MeshOfParts
 {
   std::size_t triangles = 0;                        ///< all
-  std::vector<std::vector<std::uint8_t>> is_turned; ///< of each part: 1 for the components of its
-                                                    ///< inner triangles that are to be turned round
-  std::vector<Triangle> seam; ///< all triangles that are not inner ones; corners are points
+  std::vector<std::vector<std::uint8_t>> is_turned; ///< of each part: 1 for components of its inner
+                                                    ///< triangles to be flipped
+  std::vector<Triangle> seam;                       ///< all other triangles; corners are points
 };
 
-/// A mesh in parts, and what is known of it.
+/// A mesh in parts, with its check and facing.
 struct CheckedParts
 {
   MeshOfParts mesh;
-  MeshExamination found; ///< with the number and places of crossing triangles, but without the
-                         ///< pairs themselves
+  MeshExamination found; ///< with number and positions of self-intersections, but without the pairs
   MeshFacing facing;
   CrossingSum crossing;
 };
 
-/// How a finished mesh in parts is checked.
+/// Settings for the check of a mesh in parts.
 struct PartsCheckSettings
 {
-  bool remove_self_intersections = true; ///< of triangles that are not inner ones
+  bool remove_self_intersections = true; ///< except of inner triangles
   CostLimits cost;
   UncrossingLimits uncrossing;
   CheckLimits check;
@@ -40,10 +39,10 @@ struct PartsCheckSettings
   FacingLimits facing_limits;
 };
 
-/// Removes crossings of triangles that are not inner ones, examines the mesh (see checkMesh), and
-/// turns its components to face outwards (see faceOutwards). O(m log m) for m points in all zones.
-/// If facing needs lines of sight, the whole mesh is assembled: O(n log n). Inner triangles of two
-/// parts that cross each other stay as they are.
+/// Removes self-intersections in the zones, examines the mesh (see checkMesh), and orients its
+/// components outwards (see faceOutwards). O(m log m) for m points in all zones. If facing needs
+/// lines of sight, the whole mesh is assembled: O(n log n). Crossings of inner triangles of two
+/// parts stay.
 /// \param checks of all parts
 /// \param points their positions need not be in memory
 CheckedParts

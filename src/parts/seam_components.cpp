@@ -35,7 +35,7 @@ joinComponents (const JoinedPoints& points, const TriangleMesh& mesh, std::size_
     return !mesh.isPartial (p) && mesh.triangle_of[p] != NONE;
   };
 
-  // The smallest point of each set, by the element that represents it.
+  // The smallest point of each set, by its representative.
   std::vector<Index> first (begins.back (), NONE);
   const auto note = [&] (Index element, Index point) {
     Index& smallest = first[sets.find (element)];

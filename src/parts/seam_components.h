@@ -15,18 +15,18 @@ struct SeamComponents
 {
   std::vector<std::size_t> points;          ///< number of points of each component
   std::vector<Index> first;                 ///< the smallest point of each
-  std::vector<Index> of_point;              ///< of each point of a zone, NONE of one without a
-                                            ///< triangle; of others without meaning
+  std::vector<Index> of_point;              ///< of each point of a zone, NONE without a triangle;
+                                            ///< undefined for other points
   std::vector<std::vector<Index>> of_inner; ///< of the components of the inner triangles of each
                                             ///< part
 
   std::size_t count () const { return points.size (); }
 };
 
-/// \param points of zones, and of inner triangles near to them: those are partial
-/// \param mesh   triangles that are not inner ones, and then the near ones; corners are places in
-///               `points`
-/// \param seam   number of those that are not inner ones
+/// Joins the components of the parts.
+/// \param points of zones, and of inner triangles near them: the latter are partial
+/// \param mesh   zone triangles, then the near ones; corners are indices of `points`
+/// \param seam   number of zone triangles
 SeamComponents
 joinComponents (const JoinedPoints& points, const TriangleMesh& mesh, std::size_t seam,
                 const NearTriangles& near, const std::vector<InnerCheck>& checks);

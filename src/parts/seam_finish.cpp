@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// The neighbours that are in the zones.
+// Converts neighbours to indices of the zones; drops others.
 void
 toPlaces (const JoinedPoints& points, CsrLists& lists, const RunContext& run)
 {
@@ -33,9 +33,9 @@ toPlaces (const JoinedPoints& points, CsrLists& lists, const RunContext& run)
   lists = std::move (within);
 }
 
-// Which triangles are not to be repaired: those that are not near to one with corners in several
-// parts, or to a neighbour of a point without a triangle, and those at edges between partial points
-// that have no triangle on the other side. It may be one that is in no zone.
+// Triangles that are not repaired: those far from triangles with corners in several parts and from
+// neighbours of points without a triangle, and those at edges between partial points without a
+// triangle on the other side, which may be outside the zones.
 std::vector<std::uint8_t>
 findFixed (const TriangleMesh& mesh, const CsrLists& neighbors, std::size_t first_of_seam,
            std::size_t rings)
@@ -93,7 +93,7 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
 {
   const JoinedPoints points (zones.points);
   toPlaces (points, zones.neighbors, run);
-  TriangleMesh mesh; // the triangles of the seam last
+  TriangleMesh mesh; // the seam comes last
   mesh.triangles = std::move (zones.triangles);
   mesh.is_partial = std::move (zones.is_partial);
   const std::size_t first_of_seam = mesh.triangles.size ();
@@ -102,7 +102,7 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
   if (!mesh.connect (points.size (), run))
     throw std::logic_error ("the triangles between parts do not fit");
   mesh.is_fixed = findFixed (mesh, zones.neighbors, first_of_seam, rings);
-  std::size_t folds_of_parts = 0; // which they have told already
+  std::size_t folds_of_parts = 0; // already reported by the parts
   for (const MeshEdge& e : findFolds (mesh, zones.positions, run))
     folds_of_parts += std::max (e.triangle, mesh.mate (e).triangle) < first_of_seam ? 1 : 0;
   FinishedSeam finished;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last changes of a mesh in parts where the parts meet.
+// Final changes of a mesh where the parts meet.
 #pragma once
 
 #include "parts/part_finish.h"
@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// The zones of all parts. Points are places in `points`.
+/// The zones of all parts. Points are indices of `points`.
 struct JoinedZones
 {
   std::vector<Index> points; ///< ascending
@@ -16,7 +16,7 @@ struct JoinedZones
   std::vector<Eigen::Vector3f> normals;
   std::vector<float> spacing;
   std::vector<Index> scatter; ///< ascending
-  CsrLists neighbors;         ///< points of the cloud; when the seam is finished: places
+  CsrLists neighbors;         ///< points of the cloud; after the seam is finished: indices
   std::vector<std::uint8_t> is_partial;
   std::vector<Triangle> triangles;
 
@@ -24,21 +24,20 @@ struct JoinedZones
   void add (const SeamZone& zone);
 };
 
-/// The mesh where parts meet, and around its boundary.
+/// The finished mesh where parts meet, and around its boundary.
 struct FinishedSeam
 {
-  JoinedZones zones;               ///< with normals to the side of the mesh; without triangles
-  std::vector<Triangle> triangles; ///< of all zones, and those between them; corners are places
-  MeshFinish finish; ///< but for what parts have told; of folds, those that are left in all zones
+  JoinedZones zones;               ///< with normals on the side of the mesh; without triangles
+  std::vector<Triangle> triangles; ///< of all zones, and between them; corners are indices
+  MeshFinish finish; ///< without the reports of the parts; folds: remaining ones in all zones
 };
 
-/// Inserts points that have no triangle, flips edges and repairs folds around the triangles with
-/// corners in several parts (see repairMesh), and opens the boundary of the whole mesh (see
-/// openBoundary). Triangles beside those that are not in a zone stay. O(m log m) at worst, for m
-/// points in all zones.
+/// Inserts missing points, flips edges and repairs folds around the triangles with corners in
+/// several parts (see repairMesh), and opens the boundary of the whole mesh (see openBoundary).
+/// Triangles beside inner ones stay. O(m log m) at worst, for m points in all zones.
 /// \param seam    see Stitching
-/// \param corners those of all parts, see sampleCorners
-/// \param rings   of triangles around these that are repaired
+/// \param corners of all parts, see sampleCorners
+/// \param rings   of triangles to be repaired around the seam
 FinishedSeam
 finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<double> corners,
             const FinishSettings& settings, std::size_t rings, const RunContext& run);

@@ -16,7 +16,7 @@
 
 namespace pcl::floater {
 namespace {
-// Components of the whole mesh, of those of what is seen of it.
+// Components of the whole mesh, by the components of the rims.
 MeshComponents
 joinComponents (const TriangleMesh& mesh, const JoinedRims& joined, const RunContext& run)
 {
@@ -40,13 +40,13 @@ joinComponents (const TriangleMesh& mesh, const JoinedRims& joined, const RunCon
   return components;
 }
 
-// The loops of the boundary. What is seen of the mesh ends elsewhere, too: at partial points.
-// \return nothing if one is too near to where triangles are missing to be judged
+// The boundary loops. The rims also end at partial points.
+// \return nothing if one is too near to missing triangles to be judged
 std::optional<std::vector<BoundaryLoop>>
 findLoops (const TriangleMesh& mesh, const MeshComponents& components, const JoinedRims& joined,
            const RunContext& run)
 {
-  constexpr std::size_t EDGES = 3; // how far findEvidence goes from a loop to look around a point
+  constexpr std::size_t EDGES = 3; // neighbourhood of a loop in findEvidence, in edges
   std::vector<BoundaryLoop> loops;
   std::vector<Index> ends;
   for (BoundaryLoop& loop :
@@ -65,7 +65,7 @@ findLoops (const TriangleMesh& mesh, const MeshComponents& components, const Joi
   return are_seen ? std::move (loops) : std::optional<std::vector<BoundaryLoop>> ();
 }
 
-// Components of parts, as (part, component), of which not all triangles are seen.
+// Components of parts, as (part, component), with triangles outside the rim.
 std::set<std::pair<Index, Index>>
 findPartlySeen (const JoinedRims& joined)
 {
@@ -77,10 +77,10 @@ findPartlySeen (const JoinedRims& joined)
   return found;
 }
 
-// Sorts the triangles of the mesh out: which are new, which of the parts are left, and which of
-// their components have been turned round.
-// \param filled number of triangles at the end that fill holes, be it in the place of others
-// \return false if all that was seen of a component has gone, but not all of it was seen
+// Classifies the triangles of the mesh: new ones, remaining ones of the parts, and flipped
+// components.
+// \param filled number of triangles at the end that fill holes, some equal to removed ones
+// \return false if all triangles of a component in its rim are gone, but not all were in the rim
 bool
 findChanges (const TriangleMesh& mesh, std::size_t filled, const JoinedRims& joined,
              const Parts& parts, Stitching& stitching)
@@ -121,8 +121,8 @@ findChanges (const TriangleMesh& mesh, std::size_t filled, const JoinedRims& joi
                       [&] (const auto& component) { return is_turned.count (component) > 0; });
 }
 
-// Points of a part that are neighbours of points of other parts that have no triangle: these are to
-// be inserted beside them.
+// Points of a part that are neighbours of points without a triangle in other parts, to be inserted
+// beside them.
 void
 findBeside (const TriangleMesh& mesh, const JoinedRims& joined, const Parts& parts,
             Stitching& stitching)

@@ -85,8 +85,7 @@ public:
     const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
     relative.fill (-1.0); // unknown
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
-      // The relative residual of noise falls at this scale. Without any, there is nothing to
-      // compare.
+      // The last scale only confirms noise that a smaller one has shown.
       if (scale + 1 == SCALES && !is_unevenness_needed &&
           std::none_of (relative.begin (), relative.end (), isRough))
         break;

@@ -13,7 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-// Signed.
+// Signed area.
 double
 planeArea (const ChartLayout& chart)
 {
@@ -24,7 +24,7 @@ planeArea (const ChartLayout& chart)
   return area;
 }
 
-// Direction of a side of the smallest rectangle around the chart: that of an edge of its hull
+// Direction of a side of the smallest enclosing rectangle, which is along an edge of the hull
 // (Freeman and Shapira 1975).
 Eigen::Vector2d
 longSideOfBox (const ChartLayout& chart)
@@ -51,7 +51,7 @@ longSideOfBox (const ChartLayout& chart)
   return best;
 }
 
-// Upright boxes, the lower left corner at the origin, in cells.
+// Rotates and scales the chart, with the lower left corner of its box at the origin, in cells.
 void
 turnAndScale (ChartLayout& chart, double area)
 {
@@ -66,7 +66,7 @@ turnAndScale (ChartLayout& chart, double area)
     p -= box.min ();
 }
 
-// Quarter turns anti-clockwise, in a box that stays at the origin.
+// Rotates by quarter turns anti-clockwise, in a box that stays at the origin.
 void
 turnQuarters (std::vector<Eigen::Vector2d>& uv, int quarters)
 {

@@ -11,11 +11,11 @@
 
 namespace pcl::floater {
 namespace {
-// Shapes up to this many cells wide and high count as boxes. Then the search for a place can go on
-// where that for the last one of the same size ended.
+// Shapes up to this many cells wide and high are packed as boxes: the search for one can start
+// where the last one of its size was placed.
 constexpr std::size_t SMALL = 8;
 
-// Sorts runs, and joins those that touch.
+// Sorts runs, and joins adjacent ones.
 void
 joinRuns (std::vector<CellRun>& runs)
 {
@@ -32,7 +32,8 @@ joinRuns (std::vector<CellRun>& runs)
   runs.resize (kept);
 }
 
-// Where a triangle is within the heights low to high: least and largest x. Empty if it is not.
+// Least and largest x of a triangle between the heights low and high. Empty if it has no point
+// there.
 std::pair<double, double>
 extentBetween (const std::array<Eigen::Vector2d, 3>& corners, double low, double high)
 {
@@ -58,7 +59,7 @@ class Strip
 public:
   explicit Strip (Index width) : width_ (width) {}
 
-  // The lowest place of a shape from a row on, then the leftmost one; or one in row `end` if there
+  // The lowest free position of a shape from a row on, then the leftmost one; in row `end` if there
   // is none below. For shapes that are not wider than the strip.
   CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end) const
   {
@@ -78,7 +79,7 @@ public:
         row.push_back ({place.x + run.first, place.x + run.last});
       joinRuns (row);
       widest_.resize (rows_.size (), width_);
-      Index free = 0, last = 0; // free cells, the end of what is taken
+      Index free = 0, last = 0; // free cells; end of the occupied ones
       for (const CellRun& run : row) {
         free = std::max (free, run.first - last);
         last = run.last + 1;
@@ -90,8 +91,7 @@ public:
   std::size_t height () const { return rows_.size (); }
 
 private:
-  // Whether every row of the shape finds as many free cells side by side in the row where it would
-  // be.
+  // Whether every row of the shape is at most as wide as the widest free run in its row.
   bool isWideEnough (const CellMask& shape, Index y) const
   {
     for (std::size_t r = 0; r < shape.rows.size () && y + r < rows_.size (); ++r)
@@ -101,21 +101,21 @@ private:
     return true;
   }
 
-  // Moves a shape to the right until nothing is in its way. Every place that is passed is taken: so
-  // rows need not be looked at again from the first one on.
-  // \return false if it is beyond the strip then
+  // Moves a shape to the right until it is free. Skipped positions are occupied, so earlier rows
+  // need no new test.
+  // \return false if it leaves the strip
   bool moveToFree (const CellMask& shape, CellPlace& place) const
   {
     const std::size_t rows = std::min (
         shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
-    std::size_t free_rows = 0; // the last ones that were looked at
+    std::size_t free_rows = 0; // the last tested ones
     for (std::size_t r = 0; free_rows < rows && place.x + shape.width <= width_;
          r = r + 1 < rows ? r + 1 : 0)
       free_rows = moveInRow (rows_[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
     return place.x + shape.width <= width_;
   }
 
-  // \return whether it was in the way
+  // \return whether the shape was moved
   static bool moveInRow (const std::vector<CellRun>& taken, const std::vector<CellRun>& runs,
                          Index& x)
   {
@@ -135,8 +135,8 @@ private:
   }
 
   Index width_;
-  std::vector<std::vector<CellRun>> rows_; // taken cells
-  std::vector<Index> widest_;              // of each row: most free cells side by side
+  std::vector<std::vector<CellRun>> rows_; // occupied cells
+  std::vector<Index> widest_;              // of each row: length of the longest free run
 };
 
 bool
@@ -154,7 +154,7 @@ boxOf (const CellMask& shape)
   return box;
 }
 
-// \return the places; side is the height
+// \return the positions; side is the height
 CellPacking
 packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vector<Index>& order,
              Index width, const RunContext& run)
@@ -162,7 +162,7 @@ packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vect
   CellPacking packing;
   packing.places.resize (shapes.size ());
   Strip strip (width);
-  std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of small boxes of a size
+  std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of boxes of a size
   ProgressLoop progress (run, shapes.size ());
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
@@ -264,7 +264,7 @@ packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, con
     packing.side = std::max (width, height);
     if (packing.side < best.side)
       best = std::move (packing);
-    // Of the same area, as a square.
+    // Side of the square of the same area.
     const auto next = std::max (
         least_width, static_cast<Index> (std::sqrt (static_cast<double> (width) * height)));
     if (next == width)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Packs shapes that consist of the cells of a square grid.
+// Packs shapes that consist of grid cells.
 #pragma once
 
 #include "core/run_context.h"
@@ -16,7 +16,7 @@ struct CellRun
   Index first, last;
 };
 
-/// A shape of cells: the runs of each row, in order, not touching each other.
+/// A shape of cells: for each row its runs, in order, not adjacent.
 struct CellMask
 {
   Index width = 0;
@@ -24,13 +24,13 @@ struct CellMask
   std::size_t cells = 0;
 };
 
-/// The cells that triangles touch, and all cells beside these, so that the shape begins one cell
-/// left of and below the origin. O(triangles + cells).
+/// The cells that triangles touch, and all adjacent cells; so the shape begins one cell left of and
+/// below the origin. O(triangles + cells).
 /// \param uv per vertex, in cells, not negative
 CellMask
 makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
 
-/// Where a shape lies: the lower left cell of its box.
+/// Position of a shape: the lower left cell of its box.
 struct CellPlace
 {
   Index x = 0, y = 0;
@@ -43,8 +43,8 @@ struct CellPacking
   Index side = 0; ///< of the square, in cells
 };
 
-/// Packs shapes into a square as small as can be found: the largest first, each at the lowest place
-/// that is free in a strip of given width. The width is tried anew until it equals the height.
+/// Packs shapes into a small square: largest first, each at the lowest free position in a strip.
+/// The width is varied until it equals the height.
 /// \param shapes each in four directions
 CellPacking
 packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, const RunContext& run);

@@ -19,7 +19,7 @@ isLayout (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)
   return isUpright (chart.mesh.triangles, uv) && isSimple (chart.loop, uv);
 }
 
-// Seen from the side to which most of the chart faces.
+// Projects the chart, seen from its mean normal.
 std::vector<Eigen::Vector2d>
 project (const ChartMesh& chart)
 {
@@ -37,7 +37,7 @@ project (const ChartMesh& chart)
   return uv;
 }
 
-// Of the whole, and of the triangle in the middle by area.
+// Measures the mean stretch, and the median by area.
 void
 measure (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv, ChartLayout& layout)
 {
@@ -61,8 +61,9 @@ measure (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv, ChartLa
     }
 }
 
-// The first that is a layout of: the projection; the same, with small parts mended; its boundary,
-// with the inside by convex combinations; a convex-combination map on the circle. Empty if none is.
+// The first valid layout of: the projection; the projection with small defects repaired; its
+// boundary, with convex combinations inside; a convex-combination map on the circle. Otherwise
+// empty.
 std::vector<Eigen::Vector2d>
 beginLayout (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
              const RunContext& run)

@@ -8,7 +8,7 @@
 
 namespace pcl::floater {
 namespace {
-// The boundary of a disc; empty if the mesh is none.
+// The boundary of a disc; empty for other meshes.
 std::vector<Index>
 discLoop (const TriangleMesh& mesh, std::size_t vertices)
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One chart as a mesh of its own.
+// One chart as a separate mesh.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -8,10 +8,11 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Some triangles of a larger mesh, with vertices of their own.
+/// Some triangles of a larger mesh, with their own vertex numbers.
 struct ChartMesh
 {
-  TriangleMesh mesh;                      ///< connected; not if it is no manifold
+  TriangleMesh mesh;                      ///< connected (TriangleMesh::connect), if it is a
+                                          ///< manifold
   std::vector<Index> points;              ///< of the larger mesh, ascending: one for each vertex
   std::vector<Eigen::Vector3d> positions; ///< of the vertices
   std::vector<Index> loop; ///< vertices of the boundary in order, the chart on the left, from the

@@ -30,7 +30,7 @@ public:
     return layOutChart (mesh_.triangles, std::move (chart), positions_, limits_.descent, run_);
   }
 
-  // However large it is.
+  // Lays out a disc of any size.
   ChartLayout layOutWhole (std::vector<Index> disc) const
   {
     DescentLimits descent = limits_.descent;
@@ -39,8 +39,8 @@ public:
     return layOutChart (mesh_.triangles, std::move (disc), positions_, descent, run_);
   }
 
-  // Cuts a chart that stretches too much, or has no layout, where that helps.
-  // \param deviation that of its parts is to be less
+  // Cuts a chart with too much stretch, or without layout, if that helps.
+  // \param deviation limit for its pieces
   void layOutParts (ChartLayout chart, double deviation, Layouts& result) const
   {
     const bool has_layout = !chart.uv.empty ();
@@ -63,28 +63,27 @@ public:
 private:
   bool isWorthwhile (const ChartLayout& chart, const Layouts& parts) const
   {
-    // If each is scaled by its area times its stretch, that of all is their mean.
+    // Each is scaled by its area times its stretch, so the total stretch is their mean.
     double area = 0.0, sum = 0.0;
     for (const ChartLayout& part : parts) {
       if (part.uv.empty ())
-        return true; // not known yet
+        return true; // unknown
       area += part.area;
       sum += part.area * part.stretch;
     }
     return sum / area - 1.0 < limits_.worthwhile * (chart.stretch - 1.0);
   }
 
-  // Whether it stretches about as much everywhere, as noise does.
+  // Whether its stretch is about uniform, as with noise.
   bool isEven (const ChartLayout& chart) const
   {
     return chart.stretch < limits_.too_much &&
            chart.median_stretch - 1.0 > limits_.even * (chart.stretch - 1.0);
   }
 
-  // At least two parts, if a chart has two triangles that can be parted: a few that deviate less if
-  // there are such; else halves, as what is wrong with it is in one place and does not get better
-  // by many cuts.
-  // \param[in,out] deviation that of the parts
+  // Cuts a chart into at least two pieces, if possible: into a few of less deviation; otherwise
+  // into halves, as its defect is then local and many cuts do not help.
+  // \param[in,out] deviation of the pieces
   std::vector<std::vector<Index>> cut (const ChartLayout& layout, double& deviation) const
   {
     const std::vector<Index>& chart = layout.triangles;
@@ -113,7 +112,7 @@ private:
     return lists;
   }
 
-  // Triangles of the largest part.
+  // Number of triangles of the largest piece.
   static std::size_t largestOf (const MeshParts& parts)
   {
     std::vector<std::size_t> sizes (parts.count, 0);
@@ -156,7 +155,7 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
               const std::vector<Eigen::Vector3d>& smooth, bool whole_discs, double largest_stretch,
               const TextureLimits& limits, const RunContext& run)
 {
-  const SingleBlasThread single; // more cost time on small matrices, and change the last digits
+  const SingleBlasThread single; // more are slower on small matrices, and change the last digits
   const RunContext within = run.withThreads (1).withinStage ();
   const ChartCutter by_smooth (mesh, smooth, largest_stretch, limits, within);
   const ChartCutter by_true (mesh, positions, std::max (largest_stretch, limits.too_much), limits,
@@ -173,7 +172,7 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     if (shareMoved (chart) > 0.0)
       refineLayout (mesh.triangles, positions, descent, within, chart);
   };
-  // Where smoothing has taken away more than noise, it is done without.
+  // Where smoothing has removed more than noise, the chart is laid out without it.
   const auto isRight = [&] (const ChartLayout& chart) {
     const double most = shareMoved (chart) > limits.noisy ? limits.wrong : limits.too_much;
     return stretchOf (chart, positions) <= std::max (most, largest_stretch);

@@ -12,12 +12,12 @@
 
 namespace pcl::floater {
 namespace {
-// What two charts have in common.
+// Common border of two charts.
 struct Contact
 {
   double length = 0.0;  // of the seam between them
   double crease = 0.0;  // integral of 1 - cos of the angle across it
-  double offered = 0.0; // cost of the last offer to join them
+  double offered = 0.0; // last offered cost of joining them
 };
 
 // Directions spread evenly: vertices of an icosahedron and middles of its edges.
@@ -52,10 +52,10 @@ struct Chart
 {
   Histogram facing = Histogram::Zero ();          // area by the direction that it faces
   Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // of the area vectors
-  double area = 0.0;         // of its facets, each seen along its own normal, without its roughness
-  double seam = 0.0;         // length of the seams around it
-  std::size_t triangles = 0; // how many
-  std::vector<MeshEdge> border; // its boundary edges, and some that are inside by now
+  double area = 0.0;            // of its facets, each in its own plane, without its roughness
+  double seam = 0.0;            // length of the seams around it
+  std::size_t triangles = 0;    // how many
+  std::vector<MeshEdge> border; // its boundary edges, and some that are inside now
   std::unordered_map<Index, Contact> contacts; // with the charts beside it
 };
 
@@ -66,7 +66,7 @@ oneMinusCosine (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return lengths > 0.0 ? 1.0 - a.dot (b) / lengths : 0.0;
 }
 
-// Numbers parts in the order of their first triangles.
+// Numbers charts in the order of their first triangles.
 void
 renumber (MeshParts& parts)
 {
@@ -128,7 +128,7 @@ public:
     for (Index a = 0; a < charts_.size (); ++a)
       offerAll (a);
     takeOffers (run);
-    // Crumbs that nothing fits join what costs least.
+    // Remaining crumbs join the cheapest neighbour.
     is_for_crumbs_ = true;
     for (Index a = 0; a < charts_.size (); ++a)
       if (charts_[a].triangles <= limits_.most_in_crumb)
@@ -182,7 +182,7 @@ private:
            limits_.away_weight * shareAway (one.facing + other.facing, sum, area);
   }
 
-  // Of the area, what is turned away from the sum.
+  // Share of the area that is turned away from the sum.
   double shareAway (const Histogram& facing, const Eigen::Vector3d& sum, double area) const
   {
     const double level = limits_.away_cosine * sum.norm ();
@@ -228,7 +228,7 @@ private:
       offers_.pop ();
       if (!isCurrent (offer))
         continue;
-      // Charts have grown since, which mostly makes it dearer.
+      // Charts have grown since then, which mostly raises the cost.
       if (costOf (offer.a, offer.b) > offer.cost)
         this->offer (offer.a, offer.b);
       else if (isAllowed (offer.a, offer.b) && makesDisc (offer.a, offer.b)) {
@@ -253,15 +253,15 @@ private:
     offers_.push ({cost, std::min (a, b), std::max (a, b)});
   }
 
-  // Not so if a chart has been joined to another one, or there is a later offer for the two.
+  // False if a chart was joined to another one, or there is a later offer for the two.
   bool isCurrent (const Offer& offer) const
   {
     const auto contact = charts_[offer.a].contacts.find (offer.b);
     return contact != charts_[offer.a].contacts.end () && contact->second.offered == offer.cost;
   }
 
-  // Of two discs: what they share must be connected and no circle, so it has one vertex more than
-  // edges. O(boundary of the shorter one).
+  // Whether the union of two discs is a disc: their common border must be connected and not closed,
+  // so it has one vertex more than edges. O(boundary of the shorter one).
   bool makesDisc (Index a, Index b)
   {
     if (charts_[a].border.size () > charts_[b].border.size ())
@@ -285,7 +285,7 @@ private:
     return points == edges + 1;
   }
 
-  // The chart with fewer neighbours becomes a part of the other one, whose name stays.
+  // Joins the chart with fewer neighbours to the other one, which keeps its number.
   void join (Index a, Index b)
   {
     if (charts_[a].contacts.size () > charts_[b].contacts.size ())
@@ -321,9 +321,9 @@ private:
   Directions directions_ = makeDirections ();
   ChartGrowth growth_;
   std::vector<Chart> charts_;
-  std::vector<Index> part_of_; // per facet: the chart that it was joined to, by steps
+  std::vector<Index> part_of_; // per facet: chart that it was joined to, transitively
   std::priority_queue<Offer> offers_;
-  std::size_t left_ = 0; // charts
+  std::size_t left_ = 0; // number of charts left
   bool is_for_crumbs_ = false;
   std::vector<Index> fan_;
 };
@@ -344,7 +344,7 @@ public:
   bool tryMove (Index t)
   {
     const Index own = charts_.of_triangle[t];
-    std::uint8_t inner = 3; // the side beyond which its chart goes on
+    std::uint8_t inner = 3; // the side towards the rest of its chart
     Index to = NONE;
     for (std::uint8_t side = 0; side < 3; ++side) {
       const Index other = mesh_.neighbors[t][side];
@@ -365,7 +365,7 @@ public:
                         weight ({t, TriangleMesh::previous (inner)}) - weight ({t, inner});
     if (!(gain > 0.0))
       return false;
-    // Without the triangle, its chart must not go through the corner that moves.
+    // Without the triangle, its chart must not touch the corner that changes charts.
     mesh_.fan (mesh_.corner ({t, inner}), fan_);
     for (const Index around : fan_)
       if (around != t && charts_.of_triangle[around] == own)
@@ -375,7 +375,7 @@ public:
   }
 
 private:
-  // Of a seam along an edge.
+  // Weight of a seam along an edge.
   double weight (MeshEdge edge) const
   {
     const double length = (positions_[mesh_.to (edge)] - positions_[mesh_.from (edge)]).norm ();

@@ -14,8 +14,8 @@
 
 namespace pcl::floater {
 namespace {
-constexpr int MOST_STEPS = 10;          // of evening out; the stretch hardly falls any more
-constexpr double LEAST_PROGRESS = 0.98; // of the stretch by a step that is worth the next one
+constexpr int MOST_STEPS = 10;          // of the relaxation; later ones hardly lower the stretch
+constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
 constexpr double SMALLEST_TANGENT = 1e-6, LARGEST_TANGENT = 1e6; // of half an angle
 
 // tan (angle / 2) at corner i of a triangle.
@@ -25,7 +25,7 @@ halfTangent (const std::array<Eigen::Vector3d, 3>& place, std::size_t i)
   const Eigen::Vector3d a = place[(i + 1) % 3] - place[i], b = place[(i + 2) % 3] - place[i];
   const double sine = a.cross (b).norm (), cosine = a.dot (b), lengths = a.norm () * b.norm ();
   const double tangent = cosine >= 0.0 ? sine / (lengths + cosine) : (lengths - cosine) / sine;
-  // Not a number: two corners in one place.
+  // NaN: two equal corners
   return tangent > SMALLEST_TANGENT ? std::min (tangent, LARGEST_TANGENT) : SMALLEST_TANGENT;
 }
 
@@ -43,7 +43,7 @@ meanValueWeights (const ChartMesh& chart)
   std::vector<std::uint8_t> is_inner (chart.positions.size (), 1);
   for (const Index p : chart.loop)
     is_inner[p] = 0;
-  // Around an inner vertex each neighbour ends the edge at which one triangle begins.
+  // At an inner vertex, each edge ends one triangle and begins another.
   Weights weights;
   weights.neighbors = makeCsrLists (chart.positions.size (), [&] (const auto& emit) {
     for (Index t = 0; t < mesh.triangles.size (); ++t)
@@ -69,7 +69,7 @@ meanValueWeights (const ChartMesh& chart)
   return weights;
 }
 
-// Stretch around each vertex, and of all.
+// Stretch around each vertex, and in total.
 struct LocalStretch
 {
   std::vector<double> of_vertex;
@@ -91,7 +91,7 @@ measureLocally (const ChartMesh& chart, const RestShapes& rest,
     if (!(determinant > 0.0))
       return result;
     const RestShape& shape = rest.shapes[t];
-    // Of the inverse of the map from the shape: as many squares, divided by the determinant.
+    // For the inverse of the map from the shape: as many squares, over the determinant.
     const double inverse_determinant = 1.0 / (determinant * shape.to_unit.determinant ());
     const double square = 0.5 * shape.area * (edges * shape.to_unit).squaredNorm () *
                           inverse_determinant * inverse_determinant;
@@ -142,7 +142,7 @@ layOutOnCircle (const ChartMesh& chart, const RestShapes& rest, const RunContext
     return layout;
   LocalStretch stretch = measureLocally (chart, rest, uv);
   if (std::isinf (stretch.mean)) {
-    // Long triangles get weights so different that their ends meet in rounding.
+    // Weights of long triangles are so different that rounding merges their ends.
     std::fill (weights.values.begin (), weights.values.end (), 1.0);
     uv = solveWeights (chart, weights, loop_uv, run);
     if (uv.empty ())

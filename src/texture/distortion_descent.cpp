@@ -16,7 +16,7 @@
 
 namespace pcl::floater {
 namespace {
-// CHOLMOD, which prints nothing. A matrix that rounding has made indefinite is told by info ().
+// CHOLMOD without printing. info () reports a matrix that is indefinite by rounding.
 class Cholesky : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>
 {
 public:
@@ -27,13 +27,13 @@ using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2>; // one row for each vert
 
 constexpr double MEAN_WEIGHT = 1e-8; // of all vertices in the Laplacian: it must not be singular
 constexpr std::size_t MEMORY = 6;    // steps that the direction is made from
-constexpr double SUFFICIENT = 1e-4;  // of the decrease that the slope promises (Armijo)
-constexpr double SHORTEST = 1e-6;    // of a step that is worth it
-constexpr int STEPS_PER_LOOK = 8;    // at the boundary
-// Share by which the diagonal of a Hessian is enlarged where rounding leaves no step that is worth
-// it (Levenberg). It begins a little above the rounding of a double, and grows up to 1.
+constexpr double SUFFICIENT = 1e-4;  // of the decrease predicted by the slope (Armijo)
+constexpr double SHORTEST = 1e-6;    // useful step
+constexpr int STEPS_PER_LOOK = 8;    // between tests of the boundary
+// Initial relative increase of the diagonal of a Hessian if rounding leaves no useful step
+// (Levenberg). Just above the rounding of a double; increased up to 1.
 constexpr double LEAST_DAMPING = 1e-15;
-constexpr double MORE_DAMPING = 1000.0; // times, each time that there is none
+constexpr double MORE_DAMPING = 1000.0; // factor of each increase
 
 Eigen::Matrix2d
 edgesOf (const Plane& x, const Triangle& c)
@@ -75,7 +75,7 @@ public:
     double energy = energyOf (x);
     const double first = energy;
     descend (run, x, energy, accept);
-    // Where a triangle is all but degenerate, no step of L-BFGS is worth it.
+    // If a triangle is nearly degenerate, no step of L-BFGS is useful.
     const bool is_stuck = first - energy <= limits_.least_progress * (first - 4.0);
     if (energy > limits_.enough &&
         (is_stuck || rest_.shapes.size () <= limits_.most_newton_triangles)) {
@@ -87,7 +87,7 @@ public:
   }
 
 private:
-  // To the size at which the energy is least.
+  // Scales to least energy.
   void scale (Plane& x) const
   {
     double direct = 0.0, inverse = 0.0;
@@ -103,7 +103,7 @@ private:
   }
 
   // The length of a step that lowers the energy enough; 0 if there is none.
-  // \param[in,out] x, energy afterwards at the end of the step
+  // \param[in,out] x, energy set to the end of the step
   double goAlong (const Plane& direction, double slope, Plane& x, double& energy) const
   {
     double length = std::min (1.0, limits_.safe_share * reach (x, direction));
@@ -119,7 +119,7 @@ private:
     return 0.0;
   }
 
-  // L-BFGS. Looks at the boundary now and then, and returns if it crosses itself.
+  // L-BFGS. Tests the boundary now and then, and returns if it crosses itself.
   template <typename Accept>
   void descend (const RunContext& run, Plane& x, double& energy, const Accept& accept)
   {
@@ -148,9 +148,9 @@ private:
     }
   }
 
-  // Newton's method, with the Hessian of each triangle made positive: its eigenvectors are known
-  // (Smith, de Goes, Kim 2019). Slower for each step, but it gets on where triangles are so
-  // compressed that the Laplacian tells nothing of them.
+  // Newton's method, with the Hessian of each triangle made positive by its known eigenvectors
+  // (Smith, de Goes, Kim 2019). Slower per step, but works for triangles so compressed that the
+  // Laplacian is useless.
   void newton (const RunContext& run, Plane& x, double& energy) const
   {
     Cholesky solver;
@@ -177,14 +177,14 @@ private:
     }
   }
 
-  // One step of Newton's method. \return false if there is none that lowers the energy
+  // One step of Newton's method. Returns false if none lowers the energy.
   bool goByHessian (Cholesky& solver, const Eigen::SparseMatrix<double>& hessian,
                     const Plane& gradient, Plane& x, double& energy) const
   {
     solver.factorize (hessian);
     if (solver.info () != Eigen::Success)
       return false;
-    // Coordinates of a vertex follow each other.
+    // Coordinates of a vertex are adjacent.
     Eigen::VectorXd right (2 * x.rows ());
     for (Eigen::Index i = 0; i < x.rows (); ++i)
       right.segment<2> (2 * i) = -gradient.row (i).transpose ();
@@ -223,7 +223,7 @@ private:
       Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero ();
       const Eigen::Matrix<double, 3, 2> slopes = slopesOf (shape);
       for (std::size_t m = 0; m < 4; ++m) {
-        // Change of the energy's argument in this mode with each coordinate of the corners.
+        // Derivative of the energy's argument in this mode by each coordinate of the corners.
         const Eigen::Matrix<double, 2, 3> change =
             u * modes[m] * v.transpose () * slopes.transpose ();
         const Eigen::Map<const Eigen::Matrix<double, 6, 1>> change_of (change.data ());
@@ -255,7 +255,7 @@ private:
     return slopes;
   }
 
-  // The Laplacian of the shapes: what the energy is near its least but for a factor.
+  // The Laplacian of the shapes: proportional to the Hessian of the energy near its minimum.
   void factorize ()
   {
     std::vector<Eigen::Triplet<double>> entries;
@@ -316,7 +316,7 @@ private:
     return gradient;
   }
 
-  // How many times the direction can be gone until a triangle has no area.
+  // Largest multiple of the direction before a triangle has no area.
   double reach (const Plane& x, const Plane& direction) const
   {
     double least = std::numeric_limits<double>::infinity ();

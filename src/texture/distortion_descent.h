@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Evens out the distortion of a layout without flipping a triangle.
+// Lowers the distortion of a layout without flipping a triangle.
 #pragma once
 
 #include "core/run_context.h"
@@ -10,47 +10,47 @@
 #include <vector>
 
 namespace pcl::floater {
-/// How long the descent goes on.
+/// Limits of the descent.
 struct DescentLimits
 {
   int steps = 60;                ///< at most
-  double least_progress = 0.003; ///< of the distortion above its least by a step; below, it ends
-  double enough = 4.3;           ///< distortion above which Newton's method follows: 4 is the least
+  double least_progress = 0.003; ///< relative decrease of the distortion above its minimum by a
+                                 ///< step; below, it ends
+  double enough = 4.3;           ///< distortion above which Newton's method follows; the minimum is
+                                 ///< 4
   int newton_steps = 15;         ///< at most
   double least_newton_progress = 0.02; ///< as least_progress
 
-  /// Of a chart: a step of Newton's method takes 6 microseconds for each. Where L-BFGS does not get
-  /// on at all, such steps are made however many there are.
+  /// Largest chart for Newton's method: a step takes 6 microseconds per triangle. If L-BFGS makes
+  /// no progress at all, it is used for any size.
   std::size_t most_newton_triangles = 60'000;
 
-  /// A chart of more triangles that cannot be begun as its projection gets no layout: it would
-  /// begin on a circle, from where the descent takes long and does not come far. It is cut instead.
+  /// Largest chart that may start on a circle, from where the descent is slow and ends early. A
+  /// larger one without valid projection gets no layout, and is cut.
   std::size_t most_on_circle = 5'000;
 
-  double safe_share = 0.8; ///< of the way to the first triangle without area
+  double safe_share = 0.8; ///< of the step to the first triangle without area
 };
 
-/// Moves all vertices, those of the boundary too, to lower the symmetric Dirichlet energy: the
-/// integral over the chart of the squares of the singular values of the map and of its inverse (4
-/// in all where lengths stay). It is infinite where a triangle has no area, and no step goes so
-/// far: so no triangle is flipped (Smith and Schaefer 2015). The direction is that of a
-/// quasi-Newton method (L-BFGS) which begins with the Laplacian of the shapes in space. That is
-/// factorized once; a step takes 1 microsecond per triangle. Where that does not get on, some steps
-/// of Newton's method follow.
+/// Moves all vertices, the boundary included, to lower the symmetric Dirichlet energy: the integral
+/// over the chart of the squared singular values of the map and of its inverse (4 if isometric). It
+/// is infinite where a triangle has no area, and no step goes so far: so no triangle is flipped
+/// (Smith and Schaefer 2015). The direction is from a quasi-Newton method (L-BFGS) with the
+/// Laplacian of the shapes in space, factorized once; a step takes 1 microsecond per triangle.
+/// Without progress, some steps of Newton's method follow.
 ///
-/// The boundary is kept simple: the layout is the last one, of those looked at in between, whose
-/// boundary does not cross itself.
-/// \param[in,out] uv per vertex; no triangle flipped, the boundary simple. Scaled before anything
-/// else
+/// The boundary stays simple: the result is the last tested layout whose boundary does not cross
+/// itself.
+/// \param[in,out] uv per vertex; no triangle flipped, the boundary simple. Scaled first
 void
 descendDistortion (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
                    const RunContext& run, std::vector<Eigen::Vector2d>& uv);
 
-/// Whether a closed polygon has no point twice. Exact; O(n log n).
+/// Whether a closed polygon is simple. Exact; O(n log n).
 bool
 isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv);
 
-/// Whether all triangles run anti-clockwise in the plane. Exact.
+/// Whether all triangles are anti-clockwise in the plane. Exact.
 bool
 isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
 

@@ -10,7 +10,7 @@
 namespace pcl::floater {
 namespace {
 // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
-// deviation: where all is flat, facets are round.
+// deviation: in flat regions, facets become round.
 constexpr double ROUNDNESS = 0.01;
 
 class FacetGrower
@@ -63,7 +63,7 @@ private:
     ++size_;
   }
 
-  // Whether a facet that is a disc stays one: what it shares with the triangle is one path.
+  // Whether a facet that is a disc stays one: its common border with the triangle is one path.
   bool keepsDisc (Index t) const
   {
     std::size_t points = 0, edges = 0;
@@ -75,7 +75,7 @@ private:
     return points == edges + 1;
   }
 
-  // The flattest and nearest of those beside the facet, NONE if none is flat enough.
+  // The flattest and nearest triangle beside the facet, NONE if none is flat enough.
   Index nextTriangle ()
   {
     Index best = NONE;
@@ -110,8 +110,8 @@ private:
   const std::vector<Eigen::Vector3d>& area_vectors_;
   const ChartLimits& limits_;
   MeshParts& facets_;
-  std::vector<Index> facet_of_point_; // the last one that a point came to
-  std::vector<Index> border_;         // triangles beside the facet; some may have been taken
+  std::vector<Index> facet_of_point_; // the latest one of each point
+  std::vector<Index> border_;         // triangles beside the facet; some may be taken already
   Eigen::Vector3d sum_, middle_;
   double area_ = 0.0;
   std::size_t size_ = 0;

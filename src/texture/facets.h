@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small discs of triangles that lie nearly in one plane.
+// Facets: small, nearly plane discs of triangles.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -16,14 +16,14 @@ struct MeshParts
   Index count = 0;
 };
 
-/// Area vectors of all triangles: along the normals, as long as twice the areas. O(n).
+/// Area vectors of all triangles: twice the area times the unit normal. O(n).
 std::vector<Eigen::Vector3d>
 areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const RunContext& run);
 
-/// Joins neighbouring triangles to facets, each of which is a disc, not larger than
-/// ChartLimits::most_in_facet and flatter than ChartLimits::facet_deviation. Few triangles are
-/// facets of their own. O(n), one thread: 0.2 microseconds per triangle.
+/// Joins neighbouring triangles to facets: discs, at most as large as ChartLimits::most_in_facet
+/// and flatter than ChartLimits::facet_deviation. Few triangles stay alone. O(n), one thread: 0.2
+/// microseconds per triangle.
 MeshParts
 growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,

@@ -16,7 +16,7 @@ struct FlatTriangle
   std::array<Eigen::Vector2d, 3> corners;
 };
 
-// The longest edge along the first axis.
+// The longest edge is on the first axis.
 FlatTriangle
 layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_length)
 {

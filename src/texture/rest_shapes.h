@@ -1,25 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles of a chart as they are in space, each laid flat.
+// Shapes of the triangles of a chart in space, each laid flat.
 #pragma once
 
 #include "texture/chart_mesh.h"
 
 namespace pcl::floater {
-/// A triangle laid flat, as a map from the edges that leave its first corner to the unit vectors.
+/// A triangle laid flat: map from the edges at its first corner to the unit vectors.
 struct RestShape
 {
   Eigen::Matrix2d to_unit; ///< inverse of the matrix whose columns are these two edges
   double area;
 };
 
-/// Height over longest edge below which a triangle is taken to be higher than it is. Thinner ones
-/// are noise of the sampling; a layout that keeps their shape would not survive rounding: at a
-/// length of 1/1000 of the texture they keep 100 steps of single precision.
+/// Minimum height over longest edge; thinner triangles are treated as if they had it. They are
+/// noise of the sampling, and a layout with their shape would not survive rounding: at a length of
+/// 1/1000 of the texture they have 100 steps of single precision.
 constexpr double LEAST_HEIGHT = 0.01;
 
-/// The shapes of all triangles of a chart, scaled so that their areas sum up to 1. Edges without
-/// length count as LEAST_HEIGHT of the longest edge of the chart.
+/// The shapes of all triangles of a chart, scaled to a total area of 1. Edges without length count
+/// as LEAST_HEIGHT of the longest edge of the chart.
 struct RestShapes
 {
   std::vector<RestShape> shapes; ///< parallel to the triangles

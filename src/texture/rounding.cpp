@@ -11,7 +11,7 @@
 
 namespace pcl::floater {
 namespace {
-constexpr int ROUNDS = 20;                              // over all that are flipped
+constexpr int ROUNDS = 20;                              // over all flipped triangles
 constexpr std::array<float, 5> REACHES{1, 2, 4, 8, 16}; // in steps of single precision below 1
 
 bool
@@ -21,7 +21,7 @@ isFlipped (const Triangle& t, const std::vector<Eigen::Vector2f>& uv)
                            uv[t[2]].cast<double> ());
 }
 
-// Moves one corner if there are fewer flipped triangles around it then.
+// Moves one corner if this reduces the flipped triangles around it.
 bool
 tryMoves (const std::vector<Triangle>& triangles, const Row& around, Index corner,
           std::vector<Eigen::Vector2f>& uv)

@@ -13,7 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-// The angles at the edges of a vertex, or of several.
+// Angles at the edges of one or several vertices.
 struct Bends
 {
   double outwards = 0.0, inwards = 0.0; // sums
@@ -26,7 +26,7 @@ struct Bends
     edges += other.edges;
   }
 
-  // Mean of those outwards and of those inwards, the smaller one.
+  // The smaller one of the means of outward and inward angles.
   double bothWays () const
   {
     return edges > 0 ? std::min (outwards, inwards) / static_cast<double> (edges) : 0.0;
@@ -110,8 +110,7 @@ private:
       work (before_[p]);
   }
 
-  // The angle between the normals on both sides of an edge: positive where the surface bends
-  // outwards.
+  // The angle between the normals at an edge: positive where the surface is convex.
   double bendAt (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<Eigen::Vector3d>& area_vectors, MeshEdge edge) const
   {
@@ -123,7 +122,7 @@ private:
     return turn.dot (along) >= 0.0 ? angle : -angle;
   }
 
-  // Of the vertices that are marked.
+  // Sums the bends of marked vertices.
   void measureBends (const std::vector<Eigen::Vector3d>& positions,
                      const std::vector<std::uint8_t>& is_marked)
   {
@@ -136,7 +135,7 @@ private:
           if (mate.triangle == NONE || mate.triangle < edge.triangle ||
               (is_marked[mesh_.from (edge)] == 0 && is_marked[mesh_.to (edge)] == 0))
             continue;
-          // Both are written here alone.
+          // Only this thread writes both.
           edge_bends_[3 * t + side] = edge_bends_[3 * std::size_t{mate.triangle} + mate.side] =
               bendAt (positions, area_vectors, edge);
         }
@@ -153,7 +152,7 @@ private:
     });
   }
 
-  // A peak alone bends one way only; so the vertices beside it count as well.
+  // A single peak bends one way only, so adjacent vertices count as well.
   Bends bendsAround (Index p) const
   {
     Bends sum = bends_[p];
@@ -191,7 +190,7 @@ private:
     return wider;
   }
 
-  // How far each vertex may be moved: by the longest mean length of edges around it.
+  // Largest displacement of each vertex: by the longest mean length of edges around it.
   std::vector<double> findReach () const
   {
     std::vector<double> reach (positions_.size (), 0.0);
@@ -213,8 +212,8 @@ private:
     return reach;
   }
 
-  // The mean of the neighbours; on the boundary, of those along it. A vertex of one triangle would
-  // come to lie between these, and goes with them instead.
+  // The mean of the neighbours; at the boundary, of those along it. A vertex of one triangle would
+  // get between these, and moves with them instead.
   Eigen::Vector3d targetOf (const std::vector<Eigen::Vector3d>& positions, Index p) const
   {
     const Row row = leaving_.row (p);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much a layout in the plane stretches a surface (Sander, Snyder, Gortler, Hoppe 2001).
+// Stretch of a layout (Sander, Snyder, Gortler, Hoppe 2001).
 #pragma once
 
 #include "core/types.h"
@@ -9,12 +9,12 @@
 #include <array>
 
 namespace pcl::floater {
-/// Sums over triangles, from which the stretch follows. The map goes from the plane to the surface,
-/// as textures do: where it is wide, a texture is coarse.
+/// Sums over triangles for the stretch. The map goes from the plane to the surface, as in texture
+/// mapping: where it enlarges, the texture is coarse.
 class StretchSums
 {
 public:
-  /// A triangle in space and in the plane; it does not count if it has no area in space.
+  /// Adds a triangle in space and in the plane; ignored if it has no area in space.
   void add (const std::array<Eigen::Vector3d, 3>& place, const std::array<Eigen::Vector2d, 3>& uv);
 
   void add (const StretchSums& other);
@@ -25,13 +25,12 @@ public:
   /// Mean over the surface of the mean square of the two singular values of the map.
   double meanSquare () const { return area_ > 0.0 ? squares_ / area_ : 0.0; }
 
-  /// Root mean square over the surface of the singular values of the map, times the root of the
-  /// ratio of the areas: 1 if lengths are in one ratio everywhere, else more; 1 without triangles;
-  /// infinite if a triangle with an area in space has none in the plane. Also called the L2
-  /// stretch.
+  /// L2 stretch: root mean square over the surface of the singular values of the map, times the
+  /// root of the ratio of the areas. 1 if all lengths have the same ratio, or without triangles;
+  /// otherwise more; infinite if a triangle with an area in space has none in the plane.
   double mean () const;
 
-  /// Largest singular value of any triangle, times the same root: the L-infinity stretch.
+  /// L-infinity stretch: largest singular value of any triangle, times the same root.
   double largest () const;
 
 private:

@@ -39,12 +39,12 @@ checkTextureOptions (const TextureOptions& options)
   return {};
 }
 
-// Coordinates by point, then by chart, so that those of a point follow each other.
+// Coordinates by point, then by chart, so that the coordinates of a point are adjacent.
 void
 takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std::size_t triangles,
                  TextureCoordinates& result)
 {
-  std::vector<Index> first (points + 1, 0); // coordinate of each point
+  std::vector<Index> first (points + 1, 0); // first coordinate of each point
   for (const ChartLayout& chart : charts)
     for (const Index p : chart.points)
       ++first[p + 1];
@@ -124,12 +124,12 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
             "the triangles are no oriented manifold: an edge has more than two triangles or two of "
             "opposite orientation, or a point has several fans; repair the mesh first"};
 
-  // Charts, each a disc, and their layouts, of the surface without its noise.
+  // Charts (discs) and their layouts, on the surface without its noise.
   std::vector<ChartLayout> charts =
       layOutCharts (mesh, positions, smoothNoise (mesh, positions, limits.smoothing, run),
                     options.whole_discs, options.largest_stretch, limits, run);
 
-  // All of them in one square, in single precision.
+  // All charts in one square, in single precision.
   result.gutter = packCharts (charts, limits.atlas, run).gutter;
   takeCoordinates (charts, positions.size (), triangles.size (), result);
   result.chart_count = charts.size ();

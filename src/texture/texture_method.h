@@ -22,32 +22,31 @@ struct TextureLimits
   DescentLimits descent;
   AtlasLimits atlas;
 
-  /// A chart that stretches too much, and about as much everywhere, is cut only if its parts,
-  /// taken together, stretch so much less, above 1. What curvature costs falls to a quarter with
-  /// half of the area; what roughness costs does not fall.
+  /// Largest ratio of the stretch of the pieces, above 1, to that of a chart with uniform stretch
+  /// for which it is cut. The stretch by curvature falls to a quarter with half of the area; the
+  /// stretch by roughness stays.
   double worthwhile = 0.7;
 
-  /// It stretches about as much everywhere if half of its area stretches so much as this share of
-  /// the mean, above 1. Of noise, normals that scatter by 20 to 40 degrees, it is 0.4 and more;
-  /// where a small part sticks out, near 0.
+  /// A chart has uniform stretch if half of its area has at least this share of the mean stretch,
+  /// above 1. For noise, with normals that scatter by 20 to 40 degrees, it is 0.4 and more; where a
+  /// small piece sticks out, near 0.
   double even = 0.25;
 
-  /// A chart that stretches more than this is cut in any case: roughness that is left after
-  /// smoothing does not stretch so much.
+  /// A chart with more stretch is always cut: roughness that is left after smoothing has less.
   double too_much = 1.5;
 
   /// Stretch of the true surface in the layout of the smoothed one, above which it is laid out
-  /// without smoothing, where more than this share of the vertices has been moved (elsewhere it is
+  /// without smoothing, if more than this share of the vertices was moved (otherwise above
   /// too_much). Generated planes, boxes and terrain with noise of up to three spacings stay below
-  /// 3; thin parts that smoothing has flattened do not.
+  /// 3; thin parts that were flattened by smoothing do not.
   double wrong = 4.0;
   double noisy = 0.5;
 
-  /// Steps of the descent by the true surface, which follows that by the smoothed one: a bound on
-  /// the time, as noise lets it go on for long.
+  /// Steps of the descent on the true surface, after the smoothed one; limits the time, as noise
+  /// prevents convergence.
   int steps_to_noise = 20;
 
-  /// Times the deviation of the parts is halved to cut a chart, before it is just cut in two.
+  /// How often the deviation of the pieces is halved, before a chart is cut in two.
   int halvings = 4;
 
   /// These, and the bounds below, were chosen by hand on two noisy scans, for few charts and little
@@ -58,24 +57,24 @@ struct TextureLimits
   double largest_part = 0.9;
   double half = 0.6; ///< share of the triangles in the larger half, at most
 
-  /// Facets to cut a chart by: one for so many triangles, but no fewer than the second figure. Each
-  /// cut is a search of its own, whose time they decide.
+  /// Facets for cutting a chart: one for so many triangles, with a minimum. They decide the time of
+  /// the search for each cut.
   std::size_t triangles_per_facet = 8;
   std::size_t facets_of_cut = 1'000;
 };
 
 /// Cuts a mesh into charts and lays them out, on all threads of the run.
-/// \param triangles an oriented manifold; may have any number of components
+/// \param mesh an oriented manifold; may have any number of components
 /// \param smooth      positions without noise (smoothNoise)
-/// \param whole_discs components that are discs are not cut, however much they stretch
+/// \param whole_discs components that are discs are not cut, whatever their stretch
 /// \param largest_stretch mean stretch above which a chart is cut (see TextureOptions)
-/// \return the charts, in the order of their first triangles; none is left without a layout
+/// \return the charts, in the order of their first triangles; each has a layout
 std::vector<ChartLayout>
 layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const std::vector<Eigen::Vector3d>& smooth, bool whole_discs, double largest_stretch,
               const TextureLimits& limits, const RunContext& run);
 
-/// The whole way. Sets all but the status and the message.
+/// All steps. Sets everything except status and message.
 /// \return the status and message: INVALID_INDICES or INVALID_OPTION for bad input
 Problem
 makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,

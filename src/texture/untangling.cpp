@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  // \return how many triangles are
+  // \return number of flipped triangles
   std::size_t findFlipped ()
   {
     std::size_t flipped = 0;
@@ -65,8 +65,7 @@ private:
     return flipped;
   }
 
-  // Edges of the boundary from left to right: only those that begin before another one ends can
-  // cross it.
+  // Boundary edges from left to right: an edge can only cross others that begin before it ends.
   void findCrossing ()
   {
     const std::vector<Index>& loop = chart_.loop;
@@ -81,7 +80,7 @@ private:
     std::sort (order.begin (), order.end (), [&] (std::size_t a, std::size_t b) {
       return begin (a) != begin (b) ? begin (a) < begin (b) : a < b;
     });
-    std::vector<std::size_t> open; // those that have not ended yet
+    std::vector<std::size_t> open; // edges that have not ended yet
     for (const std::size_t i : order) {
       open.erase (std::remove_if (open.begin (), open.end (),
                                   [&] (std::size_t j) {
@@ -113,7 +112,7 @@ private:
     return side (a, b, c) * side (a, b, d) <= 0.0 && side (c, d, a) * side (c, d, b) <= 0.0;
   }
 
-  // Marks what is bad and so many rings around it, besides what has been marked before.
+  // Marks bad vertices and some rings around them, in addition to earlier marks.
   void markAround (int rings)
   {
     std::vector<Index> found = bad_;
@@ -148,13 +147,13 @@ private:
     const Eigen::Vector2d middle = 0.5 * (before + after);
     if (row.size () > 1)
       return middle;
-    // A vertex of one triangle lies on the right of the way from the vertex before it to that
-    // after.
+    // A vertex of one triangle lies to the right of the line from the vertex before to the one
+    // after it.
     const Eigen::Vector2d way = after - before;
     return middle + EAR_HEIGHT * Eigen::Vector2d (way.y (), -way.x ());
   }
 
-  // A corner of a triangle, as 3 triangle + corner, so many places further.
+  // Corner of a triangle, as 3 triangle + corner, after a number of steps.
   const Eigen::Vector2d& cornerAfter (Index id, Index places) const
   {
     return uv_[chart_.mesh.triangles[id / 3][(id % 3 + places) % 3]];
@@ -166,7 +165,7 @@ private:
   std::vector<Index> before_, after_; // per vertex: those along the boundary, NONE if it is inside
   CsrLists corners_;                  // per vertex: where it is a corner, as 3 triangle + corner
   std::vector<Index> bad_;            // vertices, some more than once
-  std::vector<Index> marked_;         // those that are moved
+  std::vector<Index> marked_;         // to be moved
 };
 
 } // namespace

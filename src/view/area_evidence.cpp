@@ -13,7 +13,7 @@ namespace pcl::floater {
 std::vector<Index>
 areaSampleCentres (std::size_t points, std::size_t count)
 {
-  // Every second place is spare: open stars have no area.
+  // Half of them are spare: points with open stars have no area.
   const std::size_t step = std::max<std::size_t> (1, points / (2 * count));
   std::vector<Index> centres;
   for (std::size_t p = step / 2; p < points && centres.size () < 2 * count; p += step)
@@ -29,7 +29,7 @@ takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vec
   for (std::size_t k = 0; k < centres.size (); ++k) {
     if (stars.open[k] != 0)
       continue;
-    run.beginTask (); // each touches other memory
+    run.beginTask (); // each may load memory pages
     const Eigen::Vector3d& centre = positions[centres[k]];
     const Row star = stars.neighbors.row (static_cast<Index> (k));
     double area = 0.0;
@@ -63,7 +63,7 @@ double
 areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
             std::vector<double>& angles)
 {
-  // Of points at grazing rays, normal and area are too uncertain to tell a smaller cosine.
+  // At grazing rays, normal and area are too uncertain for smaller cosines.
   constexpr double LEAST_COSINE = 0.02;
   angles.clear ();
   for (const AreaSample& sample : samples) {

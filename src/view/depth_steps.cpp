@@ -13,11 +13,11 @@
 
 namespace pcl::floater {
 namespace {
-// How the surface goes on from the first point of an edge to the second.
+// Extrapolation of the surface from the first point of an edge to the second.
 struct Extension
 {
-  float change = 0.0F; // of the level
-  float weight = 0.0F; // sum of the weights of the levels it is made of; 0: not known
+  float change = 0.0F; // of the inverse depth
+  float weight = 0.0F; // sum of the weights of its inverse depths; 0: unknown
 };
 
 // An edge between two triangles, or of one.
@@ -25,7 +25,7 @@ struct StepEdge
 {
   MeshEdge edge;
   float depth;     // of the nearer end
-  float deviation; // the smaller one of both ends, divided by the weights; infinity: not known
+  float deviation; // the smaller one of both ends, over the weights; infinity: unknown
 };
 
 class StepFinder
@@ -60,7 +60,7 @@ public:
     std::vector<std::uint8_t> is_step_edge (edges_.size (), 0);
     parallelTasks (run_, bins, [&] (std::size_t b) {
       const double noise = medianAround (noises, b);
-      // A bin between two steps of quantized depths does not tell how large these are.
+      // A bin between two steps of quantized depths does not show the size of a step.
       const double sharp_noise = std::max (limits_.sharp_noise * noise,
                                            is_rounded[b] != 0 ? limits_.largest_quantum : 0.0);
       for (auto e = binBegin (b); e != binBegin (b + 1); ++e) {
@@ -81,10 +81,10 @@ public:
   }
 
 private:
-  // The edges by the depth of their nearer ends; of the same depth, in their own order.
+  // The edges by the depth of their nearer ends; stable.
   std::vector<Index> orderByDepth () const
   {
-    // A number that is not negative is ordered as its bits are.
+    // Non-negative numbers are ordered like their bits.
     constexpr unsigned HALF = 32;
     std::vector<std::uint64_t> keys (edges_.size ());
     const bool are_positive = !rays_.are_parallel;
@@ -93,7 +93,7 @@ private:
       const float depth = edges_[e].depth;
       std::memcpy (&bits, &depth, sizeof bits);
       constexpr std::uint32_t SIGN = 1U << 31U;
-      if (!are_positive) // of parallel rays, depths may be negative
+      if (!are_positive) // depths of parallel rays may be negative
         bits = (bits & SIGN) != 0 ? ~bits : bits | SIGN;
       keys[e] = std::uint64_t{bits} << HALF | e;
     }
@@ -118,7 +118,7 @@ private:
     });
   }
 
-  // All edges that leave p. Of each, the triangle of p that the edge points away from.
+  // All edges that leave p, each with the triangle of p on its opposite side.
   void continueAround (Index p, std::vector<Index>& fan, std::vector<Index>& around,
                        std::vector<Eigen::Vector2d>& places)
   {
@@ -162,7 +162,7 @@ private:
     return rays_.levels[view_.to (e)] - rays_.levels[view_.from (e)];
   }
 
-  // The continuation from the first end, and that from the other one, along the edge as well.
+  // The extrapolations along the edge from its first and from its second end.
   std::array<Extension, 2> continuationsOf (MeshEdge e) const
   {
     std::array<Extension, 2> both{continuations_[numberOf (e)], {}};
@@ -199,11 +199,11 @@ private:
     });
   }
 
-  // What a depth as a whole is in levels.
+  // Change of the inverse depth for a relative change of depth.
   double unitAt (double depth) const { return rays_.are_parallel ? span_ : 1.0 / depth; }
 
-  // Of a bin and those next to it. The outline of a round body has the same depth all around, and
-  // most edges of such a bin may be steps.
+  // Median over a bin and those beside it. The outline of a round body has constant depth, and most
+  // edges of its bin may be steps.
   double medianAround (const std::vector<double>& noises, std::size_t bin) const
   {
     const std::size_t first = bin - std::min (bin, limits_.bins_beside);
@@ -213,7 +213,7 @@ private:
     return median (window);
   }
 
-  // Of edges of about the same depth, as a share of the depth.
+  // Noise of edges of about the same depth, relative to the depth.
   double measureNoise (const std::vector<Index>& bin, std::uint8_t& is_rounded) const
   {
     std::vector<float> deviations;
@@ -223,13 +223,13 @@ private:
     if (deviations.empty ())
       return 0.0;
     const auto noise = static_cast<double> (quantile (deviations, limits_.noise_quantile));
-    // What a share of the depth is in levels.
+    // Inverse depth per relative depth.
     const double unit = unitAt (static_cast<double> (edges_[bin.front ()].depth));
     const double usual = static_cast<double> (median (deviations));
     is_rounded = usual > limits_.rounding * unit ? 0 : 1;
     if (is_rounded == 0)
       return noise / unit;
-    constexpr double ABOVE = 20.0; // times the median: that is no rounding any more
+    constexpr double ABOVE = 20.0; // times the median: more is not rounding
     constexpr std::size_t FEWEST = 20;
     deviations.erase (std::remove_if (deviations.begin (), deviations.end (),
                                       [usual] (float deviation) {
@@ -243,17 +243,17 @@ private:
     return std::max (noise / unit, std::min (step / unit, 0.5 * limits_.largest_quantum));
   }
 
-  // Of a ray at a level, from the sensor. A level that is not positive is far away.
+  // Position on a ray at an inverse depth, from the sensor. Non-positive ones are far away.
   Eigen::Vector3d placeAt (Index ray, double level) const
   {
     if (rays_.are_parallel)
       return rays_.directions[ray] + level * rays_.parallel;
-    constexpr double FAR_AWAY = 1e-3; // of the levels around
+    constexpr double FAR_AWAY = 1e-3; // of the inverse depths around
     return rays_.directions[ray] / std::max (level, FAR_AWAY * rays_.levels[ray]);
   }
 
-  // An edge from one end, and how far the surface goes straight on from there to the ray of the
-  // other end.
+  // An edge from one end, and the straight extrapolation of the surface from there to the ray of
+  // the other end.
   struct EdgeVectors
   {
     Eigen::Vector3d edge, straight;
@@ -265,7 +265,7 @@ private:
     return {placeAt (q, rays_.levels[q]) - from, placeAt (q, told) - from};
   }
 
-  // Whether the surface would have to turn sharply to the edge.
+  // Whether the surface would bend sharply at the edge.
   bool turnsSharply (const EdgeVectors& v) const
   {
     return v.straight.dot (v.edge) < largest_cosine_ * v.straight.norm () * v.edge.norm ();
@@ -310,7 +310,7 @@ private:
   RunContext run_;
   double span_ = 1.0; // of the depths
   double largest_cosine_;
-  std::vector<Extension> continuations_; // of each edge, by 3 triangle + side: from its first end
+  std::vector<Extension> continuations_; // of each edge, by 3 triangle + side, from its first end
   std::vector<StepEdge> edges_;
 };
 

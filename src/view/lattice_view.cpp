@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every edge of the result is locally Delaunay, which is checked edge by edge, so that the whole is
-// the Delaunay triangulation, however the pixels lie.
+// Every edge of the result is tested to be locally Delaunay, so the result is the Delaunay
+// triangulation, for any positions of the pixels.
 #include "view/lattice_view.h"
 
 #include "core/exact.h"
@@ -14,8 +14,8 @@
 
 namespace pcl::floater {
 namespace {
-/// How a cell is split. Corner i of a cell comes before corner i + 1 anti-clockwise in the plane;
-/// side i is between them. Corner 0 is its pixel of the smallest cloud index.
+/// Diagonal of a cell. Corners and sides are anti-clockwise in the plane; side i is from corner i
+/// to i + 1. Corner 0 is the pixel with the smallest cloud index.
 enum class Split : std::uint8_t
 {
   NONE,  ///< not complete
@@ -45,10 +45,10 @@ public:
 
   std::optional<TriangleMesh> triangulate ()
   {
-    // A cell beside a gap may turn out not to be in the triangulation. Each round takes such cells
-    // out; few clouds need a second one.
+    // Cells beside gaps may not be in the triangulation. Each round removes such cells; few clouds
+    // need two.
     constexpr int ROUNDS = 4;
-    // With more points outside of complete cells, the ordinary triangulation is as fast.
+    // With more points outside of complete cells, this method is not faster.
     constexpr std::size_t LEAST_GAIN = 2;
     findSplits ();
     for (int round = 0; round < ROUNDS; ++round) {
@@ -79,8 +79,7 @@ private:
   std::size_t across (std::size_t cell, std::size_t side) const
   {
     const std::size_t row = cell / columns_, column = cell % columns_;
-    // Of a cell that is not mirrored, the sides are: first row, last column, last row, first
-    // column.
+    // Sides of an unmirrored cell: first row, last column, last row, first column.
     switch (is_mirrored_ ? 3 - side : side) {
     case 0:
       return row == 0 ? cells () : cell - columns_;
@@ -136,7 +135,7 @@ private:
     return isInCircle (q[0], q[1], q[2], q[3]) ? Split::SECOND : Split::FIRST;
   }
 
-  /// Which cells are complete, and whether their triangles are Delaunay beside each other.
+  /// Tests which cells are complete, and whether their triangles are locally Delaunay.
   void findSplits ()
   {
     is_mirrored_ = isMirrored ();
@@ -152,7 +151,7 @@ private:
         if (!isComplete (other))
           continue;
         const Index apex = q[apexAt (splits_[cell], side)];
-        const std::size_t back = (side + 2) % 4; // the same edge, seen from the other cell
+        const std::size_t back = (side + 2) % 4; // the same edge in the other cell
         const Index opposite = cornersOf (other)[apexAt (splits_[other], back)];
         if (isInCircle (q[side], q[(side + 1) % 4], apex, opposite))
           is_bad[cell] = 1;
@@ -163,7 +162,7 @@ private:
         splits_[cell] = Split::NONE;
   }
 
-  /// Whether rows and columns turn clockwise in the plane, in most cells.
+  /// Whether rows and columns are clockwise in the plane, in most cells.
   bool isMirrored () const
   {
     std::size_t positive = 0, negative = 0;
@@ -177,7 +176,7 @@ private:
     return negative > positive;
   }
 
-  /// The places of all points that are not surrounded by complete cells; the others are NaN.
+  /// Positions of the points that are not surrounded by complete cells; NaN for the others.
   std::vector<Eigen::Vector2d> placesOfRest (std::size_t& rest) const
   {
     constexpr double NOWHERE = std::numeric_limits<double>::quiet_NaN ();
@@ -215,8 +214,8 @@ private:
     return {NONE, 0};
   }
 
-  /// Finds which triangles of the outer triangulation lie between the complete cells.
-  /// \return false if some cells are not in the Delaunay triangulation; these are complete no more
+  /// Finds the triangles of the outer triangulation between the complete cells.
+  /// \return false if some cells are not in the Delaunay triangulation; they are marked incomplete
   bool joinOuter ()
   {
     joints_.clear ();
@@ -242,7 +241,7 @@ private:
           covered.push_back (inner.triangle);
         }
         if (edge.triangle == NONE)
-          continue; // of the convex hull
+          continue; // on the convex hull
         is_closed[edge.triangle][edge.side] = 1;
         joints_.push_back ({cell, side, edge});
         if (isInCircle (from, to, q[apexAt (splits_[cell], side)], outer_.corner (edge)))
@@ -265,7 +264,7 @@ private:
     return true;
   }
 
-  /// The triangles of the outer triangulation that are reached from some without crossing a closed
+  /// The triangles of the outer triangulation that are connected to some without crossing a closed
   /// side.
   std::vector<std::uint8_t> spread (std::vector<Index> reached,
                                     const std::vector<std::array<std::uint8_t, 3>>& is_closed) const
@@ -287,7 +286,7 @@ private:
     return is_reached;
   }
 
-  /// \return nothing if complete cells lie on each other, or points in them
+  /// \return nothing if complete cells overlap each other or other points
   std::optional<TriangleMesh> mesh () const
   {
     if (overlaps_)
@@ -338,7 +337,7 @@ private:
     return mesh;
   }
 
-  /// Which side of its triangle a side of a cell is (see setCell).
+  /// Side of the triangle at a side of a cell (see setCell).
   static std::size_t sideIn (Split split, std::size_t side)
   {
     constexpr std::array<std::size_t, 4> OF_FIRST{2, 0, 0, 1}, OF_SECOND{2, 2, 0, 1};
@@ -366,7 +365,7 @@ private:
     }
   }
 
-  /// A side of a complete cell, and the same edge of the triangle beyond it.
+  /// A side of a complete cell, and the edge of the triangle beyond it.
   struct Joint
   {
     std::size_t cell, side;
@@ -383,7 +382,7 @@ private:
   TriangleMesh outer_;
   std::vector<Index> kept_; // triangles of the outer triangulation between cells, ascending
   std::vector<Joint> joints_;
-  bool overlaps_ = false; // complete cells lie on top of each other, as those of a full turn may
+  bool overlaps_ = false; // complete cells overlap, as in a scan of a full turn
 };
 
 } // namespace

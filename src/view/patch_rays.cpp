@@ -24,8 +24,7 @@ PatchRays::PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPa
   }
 }
 
-// Whole arrays at once, which Eigen does by vector instructions: the least distance first, and then
-// whose it is.
+// Vectorized over whole arrays: first the least distance, then its index.
 PatchRays::Neighbors
 PatchRays::neighborsOf (std::size_t ray, bool with_across)
 {

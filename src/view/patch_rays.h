@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rays of a patch, and which of them are neighbours.
+// Neighbouring rays in a patch.
 #pragma once
 
 #include "view/rays.h"
@@ -10,23 +10,23 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Points at nearby rays: the nearest rays to that of a point, nearest first.
+/// Points of a patch of rays, sorted by the angle to the first ray.
 using RayPatch = std::vector<Index>;
 
-/// The rays to the points of a patch, in single precision about the first one. The rays of a patch
-/// are near each other, so that their distances keep six digits.
+/// The rays to the points of a patch, in single precision relative to the first one, which keeps
+/// six digits of their small distances.
 class PatchRays
 {
 public:
   PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
              const Viewpoint& viewpoint);
 
-  /// The neighbours of one ray, by their numbers in the patch; its own where there is none.
+  /// The neighbours of one ray, as indices in the patch; its own index if there is none.
   struct Neighbors
   {
     std::size_t nearest; ///< the nearest ray
-    std::size_t across;  ///< the nearest one that lies across the direction to `nearest`: by more
-                         ///< than 45 degrees. In a scanner's raster, it is in the next row
+    std::size_t across;  ///< the nearest one more than 45 degrees off the direction to `nearest`:
+                         ///< in a scanner's raster, in the next row
     float nearest_distance, second_distance; ///< to the nearest two; infinite if there is none
     float across_distance;                   ///< to `across`; 0 if there is none
   };
@@ -37,7 +37,7 @@ public:
 
 private:
   Eigen::ArrayXf x_, y_, z_;
-  Eigen::ArrayXf sqr_distances_; // to the ray whose neighbours are searched
+  Eigen::ArrayXf sqr_distances_; // to the current ray
 };
 
 } // namespace pcl::floater

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Descent to the viewpoint of least cost.
+// Derivative-free minimization over viewpoints.
 #pragma once
 
 #include "view/rays.h"
@@ -19,9 +19,9 @@ struct RatedViewpoint
   Viewpoint viewpoint;
 };
 
-/// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or turns the direction
-/// of one that is far away; goes on in the direction of a move that lowered the cost; else halves
-/// the step. Steps are relative to the distance from the middle of the cloud, if that is above 1.
+/// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or rotates the
+/// direction of a far one; repeats moves that lowered the cost, and otherwise halves the step.
+/// Steps are relative to the distance from the middle of the cloud, if that is above 1.
 /// \tparam Cost of a viewpoint: double (const Viewpoint&)
 template <typename Cost>
 class PatternSearch
@@ -32,7 +32,7 @@ public:
   {
   }
 
-  /// Goes down from a place until the step is below the smallest one, or all evaluations are used.
+  /// Descends from a start until the step is below the smallest one, or all evaluations are used.
   RatedViewpoint run (const Viewpoint& start, double step, double smallest_step)
   {
     RatedViewpoint best{cost_ (start), start};
@@ -67,7 +67,7 @@ private:
   {
     const double unit =
         at.viewpoint.is_far ? 1.0 : std::max (1.0, (at.viewpoint.place - middle_).norm ());
-    // Other axes each time: along a narrow valley of the cost, no axis may lead down.
+    // Changing axes: in a narrow valley of the cost, no fixed axis may lead down.
     axes_ = (axes_ * turn_).normalized ();
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {-1.0, 1.0}) {
@@ -83,7 +83,7 @@ private:
   }
 
   Eigen::Vector3d middle_;
-  std::size_t left_; // evaluations of the cost
+  std::size_t left_; // remaining evaluations of the cost
   Eigen::Quaterniond axes_ = Eigen::Quaterniond::Identity ();
   Eigen::Quaterniond turn_{0.8, 0.2, 0.33, 0.46}; // an arbitrary rotation, by 74 degrees
   Cost cost_;

@@ -27,7 +27,7 @@ spreadOf (std::vector<double>& values)
   if (values.size () < FEW)
     return 0.0;
   const auto [small, large] = valuesAtRanks (values, values.size () / 10, values.size () * 9 / 10);
-  constexpr double LARGEST = 10.0; // of the logarithm; a patch without rows has no more
+  constexpr double LARGEST = 10.0; // maximum of the logarithm, also for patches without rows
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }
 
@@ -62,7 +62,7 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
   const std::size_t n = positions.size ();
   std::vector<RayPatch> patches (std::min (limits.patches, n));
   const std::size_t size = std::min (limits.patch_points, n);
-  std::vector<float> x (n), y (n), z (n); // 1e-7 of a right angle is enough to tell what is near
+  std::vector<float> x (n), y (n), z (n); // 1e-7 of a right angle suffices for distances
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
       const Eigen::Vector3f ray = rayTo (positions[p], viewpoint).direction.cast<float> ();
@@ -73,7 +73,7 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
   });
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
     const auto seed = (2 * k + 1) * n / (2 * patches.size ());
-    // The smallest distances so far, in twice the room, so that sorting costs O(1) each.
+    // The smallest distances so far, in twice the capacity, so that sorting costs O(1) each.
     std::vector<std::pair<float, Index>> nearest;
     float limit = std::numeric_limits<float>::infinity ();
     const auto keepSmallest = [&] {
@@ -84,7 +84,7 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
       nearest.resize (size);
       limit = nearest.back ().first;
     };
-    // Few rays are that near: whole chunks are passed over. Loops that become vector instructions.
+    // Few rays are that near: skips whole chunks, by vectorized loops.
     constexpr std::size_t CHUNK = 64;
     std::array<float, CHUNK> distance{};
     const float seed_x = x[seed], seed_y = y[seed], seed_z = z[seed];

@@ -12,8 +12,8 @@
 
 namespace pcl::floater {
 namespace {
-// Directions that are tried, and rays that each is compared with. A cone of 5 degrees is found; it
-// matters only that the tear of the plane is small, and not in the middle of dense rays.
+// Number of tried directions, and of rays compared with each. Finds cones of 5 degrees; the tear of
+// the plane only has to be small, and not among dense rays.
 constexpr std::size_t DIRECTIONS = 2000, COMPARED = 2000;
 
 // A direction in the widest of the cones without rays.
@@ -76,7 +76,7 @@ makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpo
       rays.levels[p] = viewpoint.is_far ? ray.depth : 1.0 / ray.depth;
     }
   });
-  // Seen from the sensor, x to y turns anti-clockwise: the frame is right-handed about a vector
+  // Seen from the sensor, x to y is anti-clockwise: the frame is right-handed about a vector
   // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
   const Eigen::Vector3d pole =
       viewpoint.is_far ? Eigen::Vector3d (-viewpoint.place) : emptyDirection (rays.directions);
@@ -99,7 +99,7 @@ RayFrame::RayFrame (const Rays& rays, Index centre) : rays_ (rays), centre_ (cen
   if (rays.are_parallel)
     return;
   x_ = rays.directions[centre].unitOrthogonal ();
-  y_ = x_.cross (rays.directions[centre]); // towards the sensor, x to y turns anti-clockwise
+  y_ = x_.cross (rays.directions[centre]); // towards the sensor, x to y is anti-clockwise
 }
 
 Eigen::Vector2d

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A cloud as its sensor saw it: one ray for each point.
+// Rays from the sensor to the points of a cloud.
 #pragma once
 
 #include "core/run_context.h"
@@ -9,10 +9,10 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Where a cloud was seen from.
+/// Viewpoint of a cloud.
 struct Viewpoint
 {
-  /// The place of the sensor. If it is far away, a unit vector along the rays, which are parallel.
+  /// Position of the sensor. If it is far away: unit vector along the parallel rays.
   Eigen::Vector3d place = Eigen::Vector3d::Zero ();
   bool is_far = false;
 };
@@ -20,10 +20,10 @@ struct Viewpoint
 /// The ray from a viewpoint to a point.
 struct Ray
 {
-  Eigen::Vector3d direction; ///< unit vector; of parallel rays, the foot of the point in the plane
-                             ///< through the origin that the rays meet at right angles. Distances
-                             ///< between directions are angles between rays, or distances.
-                             ///< Zero if the point is the viewpoint itself
+  Eigen::Vector3d direction; ///< unit vector; for parallel rays, the projection of the point on the
+                             ///< plane through the origin perpendicular to the rays. Distances
+                             ///< between directions approximate angles, or are distances. Zero if
+                             ///< the point is the viewpoint
   double depth;              ///< along the ray
 };
 
@@ -35,14 +35,13 @@ struct Rays
 {
   std::vector<Eigen::Vector3d> directions; ///< see Ray
   std::vector<double> depths;              ///< see Ray
-  std::vector<double> levels; ///< 1 / depth; of parallel rays, the depth. In a plane of
-                              ///< space, the level is an affine function of the place
-                              ///< where the ray meets any plane across the rays
+  std::vector<double> levels; ///< inverse depths; for parallel rays, depths. In a plane in space,
+                              ///< they are affine functions of the position where the ray meets any
+                              ///< plane across the rays
 
-  /// In the plane. Delaunay triangulations of these places are those of the rays: stereographic
-  /// projection maps circles to circles. It leaves out a direction of the largest cone without
-  /// rays, beyond which it is torn. Triangles that are anti-clockwise in the plane face the sensor.
-  /// NaN for a point that is the viewpoint itself.
+  /// Projected rays in the plane: stereographic projection maps circles to circles, so their
+  /// Delaunay triangulation is that of the rays. The pole is a direction in the largest cone
+  /// without rays. Anti-clockwise triangles face the sensor. NaN for a point that is the viewpoint.
   std::vector<Eigen::Vector2d> places;
   bool are_parallel = false;
   Eigen::Vector3d parallel = Eigen::Vector3d::Zero (); ///< along parallel rays, unit length
@@ -56,13 +55,13 @@ Rays
 makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
           const RunContext& run);
 
-/// A plane across the ray of one point, in which the places of rays near it are measured from it.
+/// A plane across the ray of one point, for the projection of rays near it.
 class RayFrame
 {
 public:
   RayFrame (const Rays& rays, Index centre);
 
-  /// Where the ray of a point meets the plane.
+  /// Intersection of the ray of a point with the plane.
   Eigen::Vector2d operator() (Index point) const;
 
 private:

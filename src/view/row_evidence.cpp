@@ -23,7 +23,7 @@ findRows (const Points& points, const NeighborTable& neighbors, std::size_t coun
     sample.push_back (static_cast<Index> (p));
   const CsrLists rows_of_sample = neighbors.some (sample);
   for (std::size_t i = 0; i < sample.size (); ++i) {
-    run.beginTask (); // each touches other memory
+    run.beginTask (); // each may load memory pages
     const Index p = sample[i];
     const Row row = rows_of_sample.row (i);
     if (row.size () < 2)
@@ -53,7 +53,7 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
   std::vector<RayPatch> patches (count);
   std::vector<Index> sorted;
   for (std::size_t k = 0; k < count; ++k) {
-    run.beginTask (); // each touches other memory
+    run.beginTask (); // each may load memory pages
     const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
     RayPatch& patch = patches[k];
     patch.assign (1, static_cast<Index> (seed));

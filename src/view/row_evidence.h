@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a cloud was scanned along lines, and in which planes these lie.
+// Test whether a cloud was scanned along lines, and the planes of these lines.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -14,26 +14,23 @@
 namespace pcl::floater {
 struct RowEvidence
 {
-  double share =
-      0.0; ///< of points between their two nearest neighbors, which lie to opposite sides
+  double share = 0.0; ///< share of points between their two nearest neighbours, on opposite sides
   Eigen::Vector3d across = Eigen::Vector3d::Zero (); ///< unit vector across the planes of the rows
-  bool are_straight = true; ///< all rows run along one direction, so that they do not tell planes
+  bool are_straight = true; ///< all rows have one direction, so their planes are undetermined
 };
 
 /// \param neighbors nearest first
-/// \param count number of points that are looked at, spread evenly over their order. O(count).
+/// \param count number of tested points, spread evenly over their order. O(count).
 RowEvidence
 findRows (const Points& points, const NeighborTable& neighbors, std::size_t count,
           const RunContext& run);
 
-/// Patches of points that are near each other in space, around points that are spread evenly over
-/// their order. So of parallel rays of whatever direction, those to a patch are near each other.
-///
+/// Patches of near points around points that are spread evenly over their order. Parallel rays to a
+/// patch are near each other for any direction.
 /// \param neighbors of each point
 /// \param count     of patches
 /// \param size      points of a patch; fewer if there are no more around
-///
-/// \return the points of each patch, the nearest to the first one first
+/// \return the points of each patch, sorted by distance to the first one
 std::vector<RayPatch>
 findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                   std::size_t count, std::size_t size, const RunContext& run);

@@ -32,8 +32,8 @@ public:
 
   std::size_t run ()
   {
-    // Most edges need no flip. All are looked at before the first flip, on all threads; those
-    // around changed triangles are looked at again.
+    // Most edges need no flip. All are tested on all threads before the first flip, and those
+    // around changed triangles again.
     std::vector<std::uint8_t> sides (mesh_.triangles.size (), 0); // to flip, as bits
     parallelRanges (run_, sides.size (), [&] (std::size_t first, std::size_t last) {
       for (auto t = static_cast<Index> (first); t < last; ++t)
@@ -63,7 +63,7 @@ private:
     return other != NONE && e.triangle < other;
   }
 
-  // Whether one of the triangles that decide on an edge has changed.
+  // Whether a triangle that affects an edge has changed.
   bool hasChangedAround (MeshEdge e) const
   {
     const Index other = mesh_.neighbors[e.triangle][e.side];
@@ -91,7 +91,7 @@ private:
       const MeshEdge e = stack_.back ();
       stack_.pop_back ();
       const Index other = mesh_.neighbors[e.triangle][e.side];
-      // The other diagonal may be an edge elsewhere, where triangles between were taken out.
+      // The other diagonal may be an edge elsewhere, where triangles were removed.
       if (other == NONE || !isBetterFlipped (e) ||
           mesh_.hasEdge (mesh_.corner (e), mesh_.corner (mesh_.mate (e))))
         continue;
@@ -106,8 +106,8 @@ private:
     }
   }
 
-  // The angle at p from the ray of `from` to that of `to`, anti-clockwise as the sensor sees it;
-  // nothing if it turns clockwise or hardly at all.
+  // The angle at p from the ray of `from` to that of `to`, anti-clockwise from the sensor; nothing
+  // if it is clockwise or nearly zero.
   std::optional<double> angle (Index p, Index from, Index to) const
   {
     constexpr double SLIVER = 1e-3;
@@ -119,7 +119,8 @@ private:
     return std::atan2 (u.cross (v).norm (), u.dot (v));
   }
 
-  // The other diagonal must be one of a convex quadrangle in the view, and nearly Delaunay.
+  // The edges must form a convex quadrangle in the view, and its other diagonal must be nearly
+  // Delaunay.
   bool isFlippable (Index a, Index b, Index c, Index d) const
   {
     const std::optional<double> at_a = angle (a, d, c), at_b = angle (b, c, d);
@@ -136,7 +137,7 @@ private:
     return other == NONE ? 0.0 : costOf (normal, normals_[other]);
   }
 
-  // Of an edge inside.
+  // For inner edges.
   bool isBetterFlipped (MeshEdge e) const
   {
     const Index other = mesh_.neighbors[e.triangle][e.side];

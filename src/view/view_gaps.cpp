@@ -39,9 +39,9 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
 {
   const std::size_t points = view.triangle_of.size ();
   const std::vector<float> radii = circumradii (view, rays, run);
-  // The second smallest radius around each point: on a boundary, more triangles may lie in the gap
-  // than on the surface, but hardly fewer than two on the surface. Then the median of that among
-  // its neighbours.
+  // The second smallest radius around each point, then its median over the neighbours: at a
+  // boundary, more triangles may lie in the gap than on the surface, but hardly fewer than two on
+  // the surface.
   std::vector<float> around (points, 0.0F), typical (points, 0.0F);
   const auto forPoints = [&] (const auto& body) {
     parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {

@@ -11,10 +11,10 @@
 namespace pcl::floater {
 struct GapLimits
 {
-  double radius = 4.0; ///< circumradius of a triangle, in those of the triangles around; above, it
-                       ///< lies in a gap. A block of 4 by 4 rays that are missing on a raster has
-                       ///< 3.5 times the radius of its cells, one of 5 by 5 has 4.2. Of rays at
-                       ///< random, two triangles in a thousand are as large
+  double radius = 4.0; ///< circumradius of a triangle, over the typical one around it, above which
+                       ///< it lies in a gap. A block of 4 by 4 missing rays in a raster has 3.5
+                       ///< times the radius of its cells, one of 5 by 5 has 4.2. For random rays,
+                       ///< two triangles in a thousand are as large
 };
 
 /// Marks the triangles of the view that lie in a gap. O(n).

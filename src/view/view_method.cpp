@@ -13,8 +13,8 @@
 
 namespace pcl::floater {
 namespace {
-// The triangles in an order that only they decide: what follows depends on it. Each begins with its
-// smallest corner; they are sorted by that and by the next one, so along the curve of the points.
+// Sorts triangles canonically, since later results depend on their order. Each begins with its
+// smallest corner; sorted by this and the next one, so along the curve of the points.
 TriangleMesh
 inOrder (const TriangleMesh& mesh, const RunContext& run)
 {
@@ -57,7 +57,7 @@ inOrder (const TriangleMesh& mesh, const RunContext& run)
   return sorted;
 }
 
-// Of an organized cloud, by its pixels where they are in the order of the rays.
+// Uses the pixels of an organized cloud if they are in the order of the rays.
 TriangleMesh
 triangulateRays (const Rays& rays, const Points& points, const RunContext& run, bool& is_by_pixels)
 {
@@ -69,7 +69,7 @@ triangulateRays (const Rays& rays, const Points& points, const RunContext& run, 
   return inOrder (mesh ? *mesh : triangulateHull (rays.places), run);
 }
 
-// Fills the loops that the policy does not keep. All loops end at a gap or at a depth step.
+// Fills the loops that the policy does not keep. All loops are at a gap or a depth step.
 std::size_t
 closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
             const ViewSettings& settings, const RunContext& run)
@@ -78,7 +78,7 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, points.positions, spacing, run);
-  // Nothing is seen beyond any of them: the longest are kept.
+  // No point lies beyond any of them: the longest are kept.
   std::vector<LoopJudgement> judgements (loops.size ());
   for (std::size_t i = 0; i < loops.size (); ++i)
     judgements[i].empty_length = loops[i].length;
@@ -109,8 +109,8 @@ hasInnerPoint (const TriangleMesh& mesh, const std::vector<Index>& patch,
   return false;
 }
 
-// A depth step is a closed line, or ends at a gap or another step: a few triangles alone are noise.
-// They are no steps any more. \param is_gap of each triangle
+// Unmarks short steps. A depth step is a closed line, or ends at a gap or another step; a few
+// triangles alone are noise. `is_gap` has an entry for each triangle.
 void
 dropShortSteps (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_gap,
                 std::size_t shortest, std::vector<std::uint8_t>& is_step)
@@ -145,7 +145,7 @@ hasBoundary (const TriangleMesh& mesh)
   });
 }
 
-// The front of each component, which the sensor has seen unless it is far away.
+// The front of each component: towards the sensor, unless it is far away.
 MeshFacing
 faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
             const ViewSettings& settings, const RunContext& run)
@@ -160,7 +160,7 @@ faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
     hints.sensor.reset ();
   if (!by_view || viewpoint.is_far || !hasBoundary (mesh))
     return faceOutwards (mesh, points.positions, hints, settings.finish.facing, run);
-  MeshFacing facing; // as the triangles of the view do
+  MeshFacing facing; // oriented like the view
   FacingObject& all = facing.objects.emplace_back ();
   all.rule = FacingRule::SENSOR;
   all.triangles = mesh.triangles.size ();
@@ -174,7 +174,7 @@ bool
 isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
             const RunContext& run)
 {
-  // A few patches tell most clouds that were not seen from there. What they tell is less certain.
+  // A few patches suffice to reject most wrong viewpoints, with looser thresholds.
   constexpr std::size_t FEW = 8;
   constexpr double LENIENT_SHARE = 5.0, LENIENT_REGULARITY = 2.0;
   EvidenceLimits first = limits;

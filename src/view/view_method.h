@@ -25,49 +25,48 @@ struct ViewLimits
   GapLimits gaps;
   StepLimits steps;
   ViewFlipLimits flips;
-  std::size_t shortest_step = 9; ///< triangles of a depth step that stands alone; with fewer, it is
-                                 ///< noise. One edge beyond the noise marks 2, and all edges of a
-                                 ///< point 6 or 8
-  std::size_t smallest_part = 12;     ///< points; smaller parts are left out with the outliers. A
-                                      ///< point and the rays around it are 7 or 9
-  double largest_unused_share = 0.05; ///< of the points; with more in no triangle, it is no scan of
-                                      ///< surfaces from there after all
+  std::size_t shortest_step = 9;  ///< triangles of an isolated depth step; shorter ones are noise.
+                                  ///< One edge beyond the noise marks 2, and all edges of a point 6
+                                  ///< or 8
+  std::size_t smallest_part = 12; ///< points; smaller components are left out with the
+                                  ///< outliers. A point and the rays around it are 7 or 9
+  double largest_unused_share = 0.05; ///< of the points; if more are in no triangle, the cloud is
+                                      ///< not a scan of surfaces from there
 };
 
 struct ViewSettings
 {
   HoleOptions holes = {};
   bool flip_edges = true;      ///< choose diagonals by smoothness
-  bool remove_outliers = true; ///< leave out small parts that no edge joins to others
+  bool remove_outliers = true; ///< remove small components
   ViewLimits limits = {};
   OpenLoopLimits open_loops = {};      ///< for policies of holes other than AUTO
-  HoleFillingLimits hole_filling = {}; ///< the same
-  FinishLimits finish = {};            ///< the same, and for closed components
-  FacingHints facing = {};             ///< its sensor counts for rays of a sensor far away only
+  HoleFillingLimits hole_filling = {}; ///< see above
+  FinishLimits finish = {};            ///< for such policies, and for closed components
+  FacingHints facing = {};             ///< its sensor is used only if the viewpoint is far away
 };
 
-/// Whether the cloud was seen from there (see RayEvidence). Ends early where it is clear that it
-/// was not. O(n), 0.1 microseconds per point where it was.
+/// Whether the cloud was seen from a viewpoint (see RayEvidence). Stops early if it clearly was
+/// not. O(n), 0.1 microseconds per point if it was.
 bool
 isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
             const RunContext& run);
 
-/// A surface as it was seen.
+/// The surface of one scan.
 struct ViewSurface
 {
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
-  std::size_t steps = 0;     ///< triangles of the view across depth steps, left out
-  std::size_t gaps = 0;      ///< triangles of the view in gaps, left out
+  std::size_t steps = 0;     ///< triangles left out at depth steps
+  std::size_t gaps = 0;      ///< triangles left out in gaps
   bool is_by_pixels = false; ///< triangulated by the rows and columns of an organized cloud
 };
 
-/// Triangulates the rays, leaves out what lies in gaps of the view or across depth steps, and
-/// chooses diagonals. From the sensor, no part of the mesh hides another. Its front faces the
-/// sensor, but a mesh that is closed faces outwards, and so does everything if the sensor is far
-/// away on an unknown side; or as the hints on its facing want. Stages DELAUNAY, HOLES and FLIPS.
-/// O(n log n).
+/// Triangulates the rays, leaves out triangles in gaps or across depth steps, and chooses
+/// diagonals. From the sensor, no part of the mesh hides another. The mesh faces the sensor, but
+/// outwards if it is closed, or if the sensor is far away on an unknown side; hints may ask for
+/// another facing. Stages DELAUNAY, HOLES and FLIPS. O(n log n).
 ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
                  const RunContext& run);

@@ -13,13 +13,13 @@
 
 namespace pcl::floater {
 namespace {
-// Two rays, by the points they lead to.
+// Two rays, as indices of points.
 struct RayPair
 {
   Index first, second;
 };
 
-// Pairs whose distances shall be alike.
+// Pairs whose distances should be equal.
 using PairGroup = std::vector<RayPair>;
 
 double
@@ -28,7 +28,7 @@ logDistance (const std::vector<Eigen::Vector3d>& positions, RayPair pair,
 {
   const Eigen::Vector3d offset = rayTo (positions[pair.first], viewpoint).direction -
                                  rayTo (positions[pair.second], viewpoint).direction;
-  constexpr double SMALLEST = 1e-24; // rays that hide each other have no logarithm
+  constexpr double SMALLEST = 1e-24; // the logarithm of coinciding rays is undefined
   return 0.5 * std::log (std::max (offset.squaredNorm (), SMALLEST));
 }
 
@@ -63,8 +63,8 @@ public:
       begin_[g + 1] = begin_[g] + groups[g].size ();
   }
 
-  // The residuals of all pairs from each viewpoint: logarithms of distances about the median of
-  // their group.
+  // Residuals of all pairs from each viewpoint: logarithms of distances minus the median of their
+  // group.
   std::vector<std::vector<double>> residuals (const std::vector<Viewpoint>& viewpoints) const
   {
     constexpr std::size_t GROUPS = 32; // of a task: a tenth of a millisecond
@@ -85,7 +85,7 @@ public:
     return std::move (residuals (std::vector<Viewpoint>{viewpoint}).front ());
   }
 
-  // Cauchy's, for the scale at which half of the residuals are larger.
+  // Scale of the Cauchy distribution: median of the residuals.
   static double scaleOf (const std::vector<double>& residuals)
   {
     constexpr double SMALLEST = 1e-9; // rounding of positions
@@ -122,10 +122,10 @@ private:
   const std::vector<Eigen::Vector3d>& positions_;
   const std::vector<PairGroup>& groups_;
   RunContext run_;
-  std::vector<std::size_t> begin_; // of each group: the place of its first residual
+  std::vector<std::size_t> begin_; // of each group: index of its first residual
 };
 
-// A far viewpoint turns about two axes; any other moves along three.
+// A far viewpoint rotates about two axes; any other moves along three.
 Viewpoint
 moved (const Viewpoint& from, const Eigen::Vector3d& by)
 {
@@ -147,16 +147,16 @@ fitViewpoint (const std::vector<Eigen::Vector3d>& positions, const std::vector<R
 {
   constexpr std::size_t MOST_STEPS = 20;
   constexpr double DIFFERENCE = 1e-7;    // for derivatives; positions are in a box of diagonal 1
-  constexpr double SMALLEST_STEP = 1e-7; // a tenth of what the search asks for
+  constexpr double SMALLEST_STEP = 1e-7; // a tenth of the precision of the search
   constexpr double MOST_DAMPING = 1e6;
   const Eigen::Index unknowns = start.is_far ? 2 : 3;
   Viewpoint viewpoint = start;
   double damping = 1e-3;
-  double least_scale = is_coarse ? 0.5 : 0.1; // all pairs take part at first, then those alike
+  double least_scale = is_coarse ? 0.5 : 0.1; // first all pairs take part, later those alike
   for (std::size_t step = 0; step < MOST_STEPS && damping < MOST_DAMPING; ++step) {
     const std::vector<PairGroup> groups = findPairs (positions, patches, viewpoint, run);
     const ViewpointFit fit (positions, groups, run);
-    // From the viewpoint, and from those beside it along each unknown.
+    // The viewpoint, and its offsets along each unknown.
     std::vector<Viewpoint> places{viewpoint};
     for (Eigen::Index i = 0; i < unknowns; ++i)
       places.push_back (moved (viewpoint, DIFFERENCE * Eigen::Vector3d::Unit (i)));

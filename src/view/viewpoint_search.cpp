@@ -38,7 +38,7 @@ public:
 
   bool hasSamples () const { return samples_.size () >= limits_.samples / 2; }
 
-  // Quartiles of the areas themselves, as seen from nowhere.
+  // Spread of the areas without any viewpoint.
   double spreadOfAreas () const
   {
     std::vector<double> areas;
@@ -47,7 +47,7 @@ public:
     return quartileSpread (areas);
   }
 
-  // Parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
+  // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
   std::optional<Viewpoint> findAlongRows (const Eigen::Vector3d& across) const
   {
     const Eigen::Vector3d x = across.unitOrthogonal (), y = across.cross (x);
@@ -58,15 +58,15 @@ public:
       const double angle = step * static_cast<double> (k);
       candidates.push_back ({0.0, {std::cos (angle) * x + std::sin (angle) * y, true}});
     }
-    // Whatever the direction, rays of a patch lead to points that are near each other.
+    // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (
         positions_, neighbors_.all (), std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
-    // Lines on a plane are as even from all directions: they do not tell any. Around the right
-    // direction, the costs rise slowly. So every third direction tells whether there may be one: of
-    // 80 generated line scans, the least cost of these was .009 to .053 of their median.
+    // Lines on a plane are even from all directions, and show none. Around the right direction,
+    // costs rise slowly, so every third direction shows whether there may be one: in 80 generated
+    // line scans, the least of these costs was .009 to .053 of their median.
     constexpr std::size_t THIRD = 3;
-    constexpr double BESIDE = 2.0; // how much more the least cost may be, up to 1.5 degrees beside
+    constexpr double BESIDE = 2.0; // factor of the least cost up to 1.5 degrees away
     std::vector<RatedViewpoint> thirds;
     for (std::size_t k = 0; k < count; k += THIRD)
       thirds.push_back (candidates[k]);
@@ -80,7 +80,8 @@ public:
     for (const RatedViewpoint& candidate : candidates)
       if (starts.size () < limits_.by_rows && !isNear (candidate, starts, APART))
         starts.push_back (candidate);
-    // Rays are spaced evenly from the right direction only; from others, less unevenly than around.
+    // Rays are evenly spaced from the right direction only; from others, less than from those
+    // around.
     RatedViewpoint best = NOT_FOUND;
     for (const RatedViewpoint& start : starts)
       if (takeBetter (refine (start.viewpoint, step), best))
@@ -104,8 +105,8 @@ public:
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     if (candidates.empty () || candidates.front ().cost > limits_.explained * spreadOfAreas ())
       return {};
-    // The best by areas, one after the other; then the best by rays of the next ones. Areas may be
-    // misled: those of a plane are the same from the mirror image of a place.
+    // First the best by areas, then the best by rays of the next ones. Areas can mislead: in a
+    // plane, they are the same from the mirror image of a viewpoint.
     candidates.resize (std::min (candidates.size (), limits_.by_areas + limits_.compared));
     const auto others = candidates.begin () + static_cast<std::ptrdiff_t> (
                                                   std::min (candidates.size (), limits_.by_areas));
@@ -124,9 +125,9 @@ public:
   }
 
 private:
-  static constexpr double APART = 0.1;       // two directions whose descents may differ
-  static constexpr double EVEN = 0.02;       // spread of rays that needs no other try
-  static constexpr double AREA_ERROR = 0.05; // of a place, in bounding boxes
+  static constexpr double APART = 0.1;       // of two directions whose descents may differ
+  static constexpr double EVEN = 0.02;       // spread of rays that ends the search
+  static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
   inline static const RatedViewpoint NOT_FOUND{std::numeric_limits<double>::infinity (), {}};
 
@@ -135,8 +136,8 @@ private:
     return found.cost < NOT_FOUND.cost ? std::optional<Viewpoint> (found.viewpoint) : std::nullopt;
   }
 
-  // Takes what was found if the rays are spaced more evenly from there. Returns whether they are
-  // so even that no other place need be tried.
+  // Accepts a viewpoint with more even rays. Returns whether they are even enough to end the
+  // search.
   bool takeBetter (const std::optional<Viewpoint>& found, RatedViewpoint& best) const
   {
     if (!found)
@@ -147,10 +148,10 @@ private:
     return cost < EVEN;
   }
 
-  // Areas tell a place to about a hundredth of the bounding box; rays tell the rest.
+  // Areas give a viewpoint to about a hundredth of the bounding box; rays refine it.
   static constexpr double SMALLEST_AREA_STEP = 4e-3;
 
-  // Samples that tell the plane around a place: a tenth, as few as a plane can be told by.
+  // Samples for the plane around a viewpoint: a tenth, as few as a plane needs.
   static constexpr std::size_t AROUND = 50;
 
   static bool isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
@@ -167,13 +168,13 @@ private:
     });
   }
 
-  // Of the grid of places.
+  // Cell size of the grid of viewpoints.
   double cell () const
   {
     return 2.0 * box_.sizes ().maxCoeff () / static_cast<double> (limits_.cells);
   }
 
-  // The best places by areas, but for those around a better one.
+  // The best viewpoints by areas, without those beside a better one.
   std::vector<RatedViewpoint> bestStarts () const
   {
     std::vector<RatedViewpoint> candidates = startingPlaces ();
@@ -188,8 +189,8 @@ private:
     return starts;
   }
 
-  // The mirror image of a place at the plane of the samples around it. A scanner that stands low on
-  // the ground is no farther from its image than descents by areas can tell.
+  // Mirror image of a viewpoint at the plane of the samples around it. A scanner low above the
+  // ground is closer to its image than the precision of a descent by areas.
   Viewpoint mirrored (const Viewpoint& viewpoint) const
   {
     std::vector<Eigen::Vector3d> offsets;
@@ -209,7 +210,7 @@ private:
     return {viewpoint.place - 2.0 * height * plane.normal, false};
   }
 
-  // A grid of places, and places far away, rated by a few areas.
+  // A grid of viewpoints, and far ones, rated by a few areas.
   std::vector<RatedViewpoint> startingPlaces () const
   {
     std::vector<RatedViewpoint> candidates;
@@ -226,7 +227,7 @@ private:
       const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
       add ({centre + offset.cwiseProduct (size), false});
     }
-    // Farther away, on spheres around the box, the last of infinite radius.
+    // On spheres around the box, the last of infinite radius.
     const double golden_angle = PI * (3.0 - std::sqrt (5.0));
     for (std::size_t i = 0; i < limits_.directions; ++i) {
       const double z =
@@ -245,8 +246,8 @@ private:
     return candidates;
   }
 
-  // The spreads alone. Near the viewpoint, they fall all the way, while the share of rays that are
-  // near others first rises where outlines begin to meet.
+  // Only the spreads: towards the viewpoint they fall all the way, while the share of near rays
+  // first rises where outlines begin to overlap.
   double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
   {
     return costByRays (viewpoint, patches, true, run_.threads ());
@@ -268,14 +269,14 @@ private:
     });
   }
 
-  // Sorts candidates by their costs. Whether the least one is a small share of the median.
+  // Sorts candidates by cost. Returns whether the least one is a small share of the median.
   static bool standsOut (std::vector<RatedViewpoint>& candidates, double share)
   {
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     return candidates.front ().cost <= share * candidates[candidates.size () / 2].cost;
   }
 
-  // Areas hardly tell places that are far away from each other: parallel rays are tried first.
+  // Areas hardly separate far viewpoints: parallel rays are tried first.
   std::optional<Viewpoint> refineWithFar (const Viewpoint& viewpoint) const
   {
     constexpr double FAR = 1.5; // bounding boxes
@@ -292,7 +293,8 @@ private:
            evidence.near_share > excess.near_share * evidence_.near_share;
   }
 
-  // Rows tell the place of a spinning lidar along its axis, but may mislead among other rasters.
+  // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead for other
+  // rasters.
   std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
     const std::optional<Viewpoint> found = refineBy (start, step, true);
@@ -311,12 +313,12 @@ private:
                       .run (viewpoint, step, 0.2 * step)
                       .viewpoint;
       step *= 0.3;
-      // Where the first, coarse steps lead to no more evidence than this, finer ones hardly do.
+      // If the first, coarse steps give no better evidence than this, finer ones rarely do.
       if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_),
                       viewpoint.is_far ? limits_.after_round_from_far : limits_.after_round))
         return {};
     }
-    // The patches of a better place lead to a better one yet.
+    // Patches from a better viewpoint give a still better one.
     RayEvidence evidence;
     for (std::size_t round = 0; round < limits_.fits; ++round) {
       const EvidenceLimits& limits = round == 0 ? coarse_ : evidence_;
@@ -338,10 +340,10 @@ private:
   const NeighborTable& neighbors_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
-  EvidenceLimits coarse_; // fewer patches, while a place is searched
+  EvidenceLimits coarse_; // fewer patches, during the search
   RunContext run_;
   const std::vector<AreaSample>& samples_;
-  std::vector<AreaSample> few_samples_; // to compare many places
+  std::vector<AreaSample> few_samples_; // to compare many viewpoints
   Eigen::AlignedBox3d box_;
 };
 

@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// The user's loop, given in cloud indices. A duplicate means the point that stands for it.
+// The user's loop, given in cloud indices. Duplicates are replaced by their representatives.
 Boundary
 fromUser (const Points& points, const std::vector<Index>& user_loop)
 {

@@ -24,16 +24,16 @@ struct Boundary
   Problem problem;            ///< NO_BOUNDARY or INVALID_LOOP
 };
 
-/// The loop that the options give, or else the one that their method finds (SPANNING_TREE or
-/// TWO_SEGMENTS; for CONSENSUS see consensus_loop.h). An INVALID_LOOP is told here; call
-/// checkBoundary () for everything else.
+/// The loop in the options, or otherwise the one that their method finds (SPANNING_TREE or
+/// TWO_SEGMENTS; for CONSENSUS see consensus_loop.h). May report INVALID_LOOP; for other problems
+/// call checkBoundary ().
 Boundary
 findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
               const RunContext& run, const LoopLimits& limits = {});
 
-/// Measures the steps of the loop (see measureSteps ()). A loop of fewer than 3 points becomes
-/// NO_BOUNDARY, and so does one that was found but is so short that it is a mere gap in the
-/// sampling. Does nothing if there is a problem already.
+/// Measures the steps of the loop (see measureSteps ()). Reports NO_BOUNDARY for a loop of fewer
+/// than 3 points, or a found one so short that it is a gap in the sampling. Does nothing after a
+/// problem.
 /// \param spacing  per point: local spacing
 /// \param is_given the loop was given by the user
 void

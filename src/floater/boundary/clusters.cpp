@@ -9,8 +9,8 @@
 
 namespace pcl::floater {
 namespace {
-// A tree that counts points in spheres. A sphere with the growing distance as its radius holds a
-// good part of a dense boundary, so a node that lies inside of it is counted as a whole.
+// A tree that counts points in spheres. A sphere of the growing distance contains a large piece of
+// a dense boundary, so nodes inside of it are counted as a whole.
 class SphereCounter
 {
 public:
@@ -81,8 +81,8 @@ private:
   std::vector<Node> nodes_;
 };
 
-// Places of the points in the list: that with the most points around it first, of equal ones the
-// first in the list.
+// Indices of the points in the list, by descending number of points around; ties in the order of
+// the list.
 std::vector<Index>
 byDescendingDensity (const std::vector<Eigen::Vector3d>& points, double radius,
                      const RunContext& run)
@@ -125,8 +125,8 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
       continue;
     std::vector<Index> cluster{start};
     taken[start] = 1;
-    // The order in which points are processed does not matter: a cluster is all that can be reached
-    // from its start among the points that no earlier cluster has taken.
+    // The order does not matter: a cluster is everything that can be reached from its start among
+    // the untaken points.
     for (std::size_t processed = 0; processed < cluster.size (); ++processed) {
       progress.next ();
       const Index p = cluster[processed];

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Clusters by region growing, each from the densest point that no earlier cluster has taken.
+/// Clusters by region growing, each from the densest untaken point.
 /// O(n log n) for n points along curves.
 /// \param positions       per point
 /// \param boundary_points ascending

@@ -9,8 +9,8 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A run of consecutive sectors of one star without a triangle, or with one whose circumcircle is
-/// too wide. The neighbours at its two ends are the next boundary points as seen from this one.
+/// A run of consecutive sectors of one star without a triangle, or with too wide a circumcircle.
+/// The neighbours at its two ends are the next boundary points from this one.
 struct Gap
 {
   Index point;
@@ -18,8 +18,8 @@ struct Gap
   Index last;  ///< neighbour at which it ends; the same as `first` if only one neighbour is left
 };
 
-/// The gaps of all stars, ordered by point. A star without any triangle has one gap, which goes
-/// from its nearest neighbour to the same neighbour. O(entries).
+/// The gaps of all stars, ordered by point. A star without any triangle has one gap, from its
+/// nearest neighbour to itself. O(entries).
 /// \param stars              with their offsets
 /// \param spacing            per point: local spacing, in the unit of the offsets
 /// \param circumradius_ratio a triangle counts as missing if its circumradius exceeds this many

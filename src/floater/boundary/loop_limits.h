@@ -8,8 +8,8 @@
 #include <array>
 
 namespace pcl::floater {
-/// Thresholds that decide which loop is found and whether it counts as a boundary. Lengths are in
-/// local spacings (see localSpacing ()) unless a field says otherwise.
+/// Thresholds for the loop of a disc. Lengths are in local spacings (see localSpacing ()) unless
+/// noted.
 ///
 /// The values of the spanning tree and of the refinement were chosen together on 33 real clouds; 28
 /// of these got the right loop. They were not varied one by one, so none of them is certain.
@@ -25,21 +25,21 @@ struct LoopLimits
   double longest_edge = 6.0;
   /// A loop without a longer step is trusted. The experiments used values from 3 to 5.
   double largest_trusted_step = 4.0;
-  /// Cost per length of an edge whose ends see each other at the ends of their gaps. An edge
-  /// between candidates that are merely near each other costs 1 per length.
+  /// Cost per length of an edge whose ends are both at the end of the other's gap. An edge between
+  /// candidates that are only near each other costs 1 per length.
   double mutual_cost = 0.05;
-  /// Cost per length of an edge where only one end sees the other.
+  /// Cost per length of an edge where only one end is at the end of the other's gap.
   double one_sided_cost = 0.4;
-  /// A loop replaces an earlier one that is as trustworthy if it is longer by this factor. It keeps
-  /// the smaller circumradius ratio where loops differ by little more than their jags.
+  /// Factor of length by which a loop replaces an equally trustworthy earlier one. Keeps the
+  /// smaller circumradius ratio if loops differ little more than their jags.
   double least_gain = 1.02;
 
   // Refinement.
 
   /// Longest detour over a candidate that is inserted.
   double largest_detour = 3.0;
-  /// Share of an edge's length: a candidate at most so far on the surface's side of the edge still
-  /// counts as lying beyond it.
+  /// Share of an edge's length: a candidate at most so far on the inner side of the edge still
+  /// counts as beyond it.
   double edge_margin = 0.1;
 
   // Two segments.
@@ -59,7 +59,7 @@ struct LoopLimits
   /// in the sampling of a closed surface. Of the real discs, the shortest boundary has 36 points;
   /// not certain.
   std::size_t shortest_loop = 10;
-  /// Points of a cloud up to which a loop of any length is taken. Not derived from data.
+  /// Points of a cloud up to which any loop is accepted. Not derived from data.
   std::size_t few_points = 100;
 };
 

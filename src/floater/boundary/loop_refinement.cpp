@@ -15,7 +15,7 @@ namespace {
 // Largest number of steps along the loop between two edges that 2-opt exchanges. A longer reversal
 // does not undo a crossing of neighbouring jags, and the time grows with the window.
 constexpr std::size_t WINDOW = 30;
-constexpr int UNTANGLE_PASSES = 10; // each of them only after one that changed something
+constexpr int UNTANGLE_PASSES = 10; // each only if the last one changed something
 constexpr int INSERTION_PASSES = 4; // a candidate may lie beyond an edge to one just inserted
 // Nearest points of the loop whose edges are tried for a candidate.
 constexpr std::size_t TRIED_LOOP_POINTS = 4;
@@ -58,9 +58,9 @@ untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loo
   }
 }
 
-// Tells on which side of the loop the surface lies. The normals of the loop's points are turned so
-// that each agrees with the one before. Then the edges vote whether the neighbours of their points
-// lie to the left or to the right.
+// Determines the side of the surface at the loop. The normals of the loop's points are oriented one
+// after the other. Then the edges vote whether the neighbours of their points lie to the left or to
+// the right.
 class LoopSides
 {
 public:
@@ -89,7 +89,7 @@ public:
         normal = -normal;
   }
 
-  // Distance of c from the line through a and b, positive on the surface's side. `at` is the place
+  // Distance of c from the line through a and b, positive on the surface's side. `at` is the index
   // of a in the loop.
   double inside (std::size_t at, Index a, Index b, Index c) const
   {
@@ -105,7 +105,7 @@ private:
 };
 
 // Inserts candidates that lie on or beyond an edge of the loop.
-// \return how many
+// \return number of insertions
 std::size_t
 insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
               const std::vector<float>& spacing, const std::vector<Index>& candidates,
@@ -121,8 +121,8 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
   const KdTree tree (places, run);
   struct Insertion
   {
-    std::size_t after; // place in the loop
-    double along;      // place along the edge: several points may go to one edge
+    std::size_t after; // index in the loop
+    double along;      // position along the edge: several points may go to one edge
     Index point;
   };
   std::vector<Insertion> insertions;

@@ -27,8 +27,8 @@ struct Bridge
   }
 };
 
-// A kd-tree that finds the nearest point of another component. A node whose points all belong to
-// one component carries the label of that component; queries from there pass over it.
+// A kd-tree that finds the nearest point of another component. Nodes with a single component are
+// labelled with it; queries from there skip them.
 class ComponentTree
 {
 public:

@@ -15,7 +15,7 @@ namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
-// Nearest candidates that a candidate is joined to, besides those at the ends of its gaps.
+// Nearest candidates that are connected with a candidate, besides those at the ends of its gaps.
 constexpr std::size_t NEAR_CANDIDATES = 8;
 
 struct CandidateEdge
@@ -109,14 +109,14 @@ joinCandidates (const Positions& positions, const std::vector<float>& spacing,
   return edges;
 }
 
-// A minimum spanning forest. Every node knows its ancestors 1, 2, 4, ... steps up, so that the
-// length of the path between two nodes takes O(log nodes).
+// A minimum spanning forest. Every node stores its ancestors 1, 2, 4, ... steps up, so the length
+// of the path between two nodes takes O(log nodes).
 class SpanningForest
 {
 public:
   // Kruskal's algorithm.
   // \param edges   by cost
-  // \param outside where the edges that are not in the forest are appended
+  // \param outside gets the edges that are not in the forest
   SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges,
                   std::vector<CandidateEdge>& outside, const RunContext& run)
       : root_distance_ (nodes, 0.0), depth_ (nodes, 0), tree_ (nodes, NONE)
@@ -229,7 +229,7 @@ longestCycle (const SpanningForest& forest, const std::vector<CandidateEdge>& ou
               const Candidates& candidates, const RunContext& run)
 {
   constexpr double ROUNDING =
-      1e-9; // lengths that differ by less are equal; then the first edge wins
+      1e-9; // smaller differences of length count as ties; the first edge wins
   const CandidateEdge* closing = nullptr;
   double longest = 0.0;
   ProgressLoop progress (run);

@@ -10,13 +10,13 @@
 namespace pcl::floater {
 /// Finds the longest boundary loop. This method is not in TW 385.
 ///
-/// Candidates are the points with a gap in their star (see gaps.h). Edges join them: an edge is
-/// cheapest where each of its ends sees the other at the end of its gap, dearer where only one
-/// does, and dearest between candidates that are merely near each other. A minimum spanning tree
-/// then runs along the borders. Of all edges outside of the tree, the one that closes the longest
-/// cycle gives the loop; spurs and clusters of false candidates close short cycles only. The loop
-/// is then refined (see loop_refinement.h). All this is done for each circumradius ratio of the
-/// limits, and the longest loop without a large step wins.
+/// Candidates are the points with a gap in their star (see gaps.h). An edge between them is
+/// cheapest if each end is at the end of the other's gap, dearer if only one is, and dearest
+/// between candidates that are only near each other. A minimum spanning tree then runs along the
+/// borders. Of all other edges, the one that closes the longest cycle gives the loop; spurs and
+/// clusters of false candidates close short cycles only. The loop is then refined (see
+/// loop_refinement.h). The longest loop without a large step over all circumradius ratios of the
+/// limits wins.
 ///
 /// Weakness: two borders that come within about 3 spacings of each other in more than one place
 /// may be joined, and a border stays open where its steps exceed LoopLimits::longest_edge.

@@ -21,9 +21,9 @@ using Positions = std::vector<Eigen::Vector3d>;
 // Appends points to a segment that begins with `seed` until it has `size` points.
 //
 // The first_k nearest neighbours of the points in the segment come first. A farther neighbour is
-// taken only while all of those are in the segment already. TW 385 leaves open which of several
-// candidates of one rank comes first. Here it is the one that is nearest to the seed along the
-// segment: both ends then advance alike, and the last point appended is an end.
+// appended only if these are exhausted. TW 385 leaves open which of several candidates of one rank
+// comes first. Here it is the nearest to the seed along the segment: both ends then advance alike,
+// and the last point appended is an end.
 std::vector<Index>
 growSegment (const Positions& points, Index seed, std::size_t size, const RunContext& run,
              const LoopLimits& limits)
@@ -104,10 +104,10 @@ univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
   return order;
 }
 
-// Orders a segment between its ends, which are its first and its last point. How many neighbours
-// serve best depends on the jags of the border: with too few, several points get the same
-// parameter; with too many, jags are smoothed out. Both make the way through the points longer, so
-// the shortest order is taken.
+// Orders a segment between its ends, its first and its last point. The best number of neighbours
+// depends on the jags of the border: with too few, several points get the same parameter; with too
+// many, jags are smoothed out. Both make the path through the points longer, so the shortest order
+// is used.
 std::vector<Index>
 orderSegment (const Positions& positions, const std::vector<Index>& segment, const RunContext& run,
               const LoopLimits& limits)

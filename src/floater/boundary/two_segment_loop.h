@@ -13,11 +13,11 @@ namespace pcl::floater {
 /// ends by the univariate Floater parameterization (reciprocal distance weights), and joins them to
 /// a loop. O(n log n).
 ///
-/// The choices that TW 385 leaves open, or that are made differently here: the seed is the first
-/// point of the cluster (TW 385 takes a random one); a segment first takes the point that is
-/// nearest to the seed along the segment; neighbourhoods are symmetric; those of the
-/// parameterization hold as many points as give the shortest order (LoopLimits::univariate_k); gaps
-/// wider than any neighbourhood are bridged where they are narrowest.
+/// The choices that TW 385 leaves open, or that differ here: the seed is the first point of the
+/// cluster (TW 385: a random one); a segment first takes the point nearest to the seed along the
+/// segment; neighbourhoods are symmetric; the parameterization uses the number of neighbours with
+/// the shortest order (LoopLimits::univariate_k); gaps wider than any neighbourhood are bridged
+/// where they are narrowest.
 ///
 /// Weakness: where the cluster is a thick band, or the border turns back on itself within a
 /// neighbourhood, the order is not that along the border.
