@@ -188,7 +188,7 @@ appendRows (const CsrLists& added, CsrLists& lists)
   if (added.ids.empty ())
     return;
   std::size_t last = lists.ids.size ();         // one past the entries not yet moved
-  lists.ids.reserve (last + added.ids.size ()); // reserve exactly
+  lists.ids.reserve (last + added.ids.size ()); // growing might double it
   lists.ids.resize (last + added.ids.size ());
   // From the last row to the first: entries move backwards, in runs of rows to which nothing is
   // added.

@@ -33,7 +33,7 @@ struct Continuation
 /// For each boundary edge, finds the nearest one ahead that faces it. If it belongs to another
 /// component, that one continues this one. If both edges run in the same direction, the fronts are
 /// on opposite sides, whatever the angle between the surfaces: shared edges have opposite
-/// directions. O(b log b) for b boundary edges; O(1) if only one component has a boundary.
+/// directions. O(b log b) for b boundary edges; no search if only one component has a boundary.
 /// \return ordered by (a, b)
 std::vector<Continuation>
 findContinuations (const TriangleMesh& mesh, const MeshComponents& components,
