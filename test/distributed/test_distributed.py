@@ -238,9 +238,9 @@ class Surfaces(Case):
 
 class RealClouds(Case):
     def test_clouds(self):
-        data = os.environ.get("PCL_FLOATER_DATA")
-        if not data:
-            self.skipTest("PCL_FLOATER_DATA is not set")
+        data = os.environ.get("PCL_FLOATER_DATA", "")
+        if not os.path.isdir(data):
+            self.skipTest(f"there is no folder of real clouds: PCL_FLOATER_DATA is '{data}'")
         names = ["raw_milk", "raw_slope_lidar"]
         clouds = sorted(pathlib.Path(data).glob("*.pcd")) if OPTIONS.long else [
             pathlib.Path(data) / f"{name}.pcd" for name in names]
@@ -518,7 +518,8 @@ class Steps(Case):
         cloud = self.generate("torus", "--points", 1000)
         outcome = run(self.command("-q", "--report", self.path("report.json"), cloud,
                                    self.path("mesh.ply")))
-        self.assertEqual((outcome.returncode, outcome.stdout, outcome.stderr), (0, "", ""))
+        self.assertEqual((outcome.returncode, outcome.stdout), (0, ""))
+        self.assertNotIn("pcl_floater", outcome.stderr)  # MPI may have something to say of the machine
         self.assertIn('"status": "SUCCESS"', self.path("report.json").read_text())
 
     def test_memory_limit(self):
