@@ -161,13 +161,16 @@ TEST (Memory, DoesNotGrowWithTheNumberOfRuns)
     Floater floater;
     floater.setTopology (topology);
     floater.setNumberOfThreads (1); // the memory of other threads is not in these figures
+    // The allocator keeps freed chunks, some more at one time than at another. A leak in each run would be of
+    // 32 bytes at least.
+    constexpr std::size_t RUNS = 200;
     std::size_t after_ten = 0;
-    for (int run = 0; run < 200; ++run) {
+    for (std::size_t run = 0; run < RUNS; ++run) {
       EXPECT_FALSE (polygonsOf (floater, cloud).empty ());
       if (run == 10)
         after_ten = inUse ();
     }
-    EXPECT_EQ (inUse (), after_ten);
+    EXPECT_LT (inUse (), after_ten + 16 * (RUNS - 10));
   }
 }
 #endif
