@@ -92,26 +92,21 @@ visitOptions (AnyOptions& options, Visitor&& visit)
          options.threads, NumberRange{0, NO_LIMIT});
   visit (OptionRow{"blocks", GENERAL, "setNumberOfBlocks", UsedFor::ALL,
                    "blocks in which the nearest neighbours are searched, 0: chosen by the number "
-                   "of points; the "
-                   "result is the same"},
+                   "of points; the result is the same"},
          options.blocks, NumberRange{0, NO_LIMIT});
   visit (OptionRow{"method", KIND, "setDiscOptions (DiscOptions::tw385 ())", UsedFor::ALL,
                    "tw385: a disc by the method of that report and nothing else: no outliers, "
-                   "noise, sheet filter, "
-                   "flips or repair"},
+                   "noise, sheet filter, flips or repair"},
          disc.as_published, METHOD_CHOICES);
-  visit (
-      OptionRow{
-          "topology", KIND, "setTopology", UsedFor::ALL,
-          "what the points are taken for: a disc (one component with one boundary loop, laid out "
-          "in the "
-          "plane) or any surface; auto: a disc if the boundary loop is given, else any surface"},
-      options.topology, TOPOLOGY_CHOICES);
+  visit (OptionRow{"topology", KIND, "setTopology", UsedFor::ALL,
+                   "what the points are taken for: a disc (one component with one boundary loop, "
+                   "laid out in the plane) or any surface; auto: a disc if the boundary loop is "
+                   "given, else any surface"},
+         options.topology, TOPOLOGY_CHOICES);
   visit (OptionRow{"holes", SURFACE, "setHolePolicy", UsedFor::ALL,
                    "boundary loops that stay open: those that look like boundaries, not like gaps "
-                   "of the sampling; "
-                   "none; the largest of each component; a number of the most likely; or those "
-                   "above a size"},
+                   "of the sampling; none; the largest of each component; a number of the most "
+                   "likely; or those above a size"},
          options.holes.policy, HOLE_CHOICES);
   visit (OptionRow{"kept_loops", SURFACE, "setKeptLoops", UsedFor::KEEP_COUNT,
                    "keep-count: boundary loops that stay open"},
@@ -124,10 +119,8 @@ visitOptions (AnyOptions& options, Visitor&& visit)
          options.holes, LengthUnit::CLOUD);
   visit (OptionRow{"viewpoint", SURFACE, "setViewPoint, setViewUse", UsedFor::ALL,
                    "one scan: where its sensor was, before any shift; its points are connected as "
-                   "they were seen "
-                   "from there. auto: that of the file, or one that is found, if the spacing of "
-                   "the points tells "
-                   "so; none: the cloud is no single scan"},
+                   "they were seen from there. auto: that of the file, or one that is found, if "
+                   "the spacing of the points tells so; none: the cloud is no single scan"},
          options.view);
   visit (OptionRow{"facing", SURFACE, "setFacing", UsedFor::ALL,
                    "which side of each component is its front; auto: decided from the data"},
@@ -165,8 +158,7 @@ visitOptions (AnyOptions& options, Visitor&& visit)
          options.neighbors.k, NumberRange{6, 200});
   visit (OptionRow{"neighborhood", NEIGHBORHOODS, "setNeighborhood", UsedFor::NEIGHBORHOOD,
                    "points that a point of a disc is a mean of: the nearest, those in a ball, or "
-                   "the Delaunay star "
-                   "among either"},
+                   "the Delaunay star among either"},
          options.neighbors.kind, NEIGHBORHOOD_CHOICES);
   visit (OptionRow{"ball_radius", NEIGHBORHOODS, "setBallRadius", UsedFor::BALLS,
                    "ball, ball-delaunay: radius, in mean distances of a point to its 6 nearest"},
@@ -174,13 +166,11 @@ visitOptions (AnyOptions& options, Visitor&& visit)
   visit (OptionRow{"sheet_filter", NEIGHBORHOODS, "setFilterSheets", UsedFor::STARS,
                    "drop neighbours on another sheet of the surface"},
          options.filter_sheets);
-  visit (
-      OptionRow{
-          "boundary", BOUNDARY, "boundary.method", UsedFor::LOOP,
-          "how the boundary loop is found: in a spanning tree of the boundary points; as the "
-          "largest "
-          "boundary loop of the consensus of the stars; or as in TW 385, section 3 (two-segments)"},
-      disc.boundary.method, BOUNDARY_CHOICES);
+  visit (OptionRow{"boundary", BOUNDARY, "boundary.method", UsedFor::LOOP,
+                   "how the boundary loop is found: in a spanning tree of the boundary points; as "
+                   "the largest boundary loop of the consensus of the stars; or as in TW 385, "
+                   "section 3 (two-segments)"},
+         disc.boundary.method, BOUNDARY_CHOICES);
   visit (OptionRow{"opening_angle", BOUNDARY, "boundary.opening_angle", UsedFor::TWO_SEGMENTS,
                    "two-segments: degrees; a boundary point has a wider sector without neighbours"},
          disc.boundary.opening_angle, NumberRange{0, 360, true, true});
