@@ -104,7 +104,7 @@ describeUnusedOptions (const Options& options, const Report& report, bool has_pl
         names.size () == 1 ? "an option has no effect: " : "options have no effect: ";
     for (std::size_t i = 0; i < names.size (); ++i)
       text += (i == 0 ? "" : ", ") + names[i];
-    sentences.push_back (text + "; " + reason);
+    sentences.push_back (text.append ("; ").append (reason));
   }
   return sentences;
 }
