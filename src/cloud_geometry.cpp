@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_geometry.h"
 
-#include "input/check_input.h"
-#include "points/noise_projection.h"
+#include "input/input.h"
+#include "points/noise.h"
 #include "points/outliers.h"
 #include "report/report_cloud.h"
 

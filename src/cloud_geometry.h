@@ -5,7 +5,7 @@
 
 #include "local/local_geometry.h"
 #include "mesh/facing.h"
-#include "options/request.h"
+#include "options/stage_limits.h"
 #include "points/neighbors.h"
 #include "points/noise.h"
 

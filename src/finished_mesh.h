@@ -6,7 +6,7 @@
 #include "local/local_geometry.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
-#include "options/request.h"
+#include "options/stage_limits.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/reconstruct.h>

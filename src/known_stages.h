@@ -5,11 +5,11 @@
 
 #include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
-#include "options/request.h"
+#include "options/stage_limits.h"
 #include "parts/parts_method.h"
 #include "points/noise.h"
 #include "points/points.h"
-#include "view/area_evidence.h"
+#include "view/ray_evidence.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

@@ -6,19 +6,17 @@
 #include "reconstruct.h"
 
 #include "cloud_geometry.h"
+#include "core/problem.h"
 #include "finished_mesh.h"
-#include "input/working_set.h"
+#include "input/input.h"
 #include "known_stages.h"
-#include "local/star_agreement.h"
-#include "options/published_method.h"
-#include "options/request.h"
-#include "options/unused_options.h"
-#include "problem_of_exception.h"
+#include "local/stars.h"
+#include "options/check_options.h"
+#include "options/stage_limits.h"
 #include "reconstruct_parts.h"
 #include "reconstruct_view.h"
 #include "report/report_cloud.h"
 #include "report/report_mesh.h"
-#include "report/report_text.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "local/star_agreement.h"
+#include "local/stars.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "local/stars.h"
-#include "points/rows.h"
+#include "points/neighbors.h"
 
 #include <array>
 #include <cstddef>

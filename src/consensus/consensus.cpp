@@ -4,7 +4,6 @@
 
 #include "consensus/orientation.h"
 #include "core/geometry.h"
-#include "core/tangent_frame.h"
 
 #include <algorithm>
 #include <tuple>

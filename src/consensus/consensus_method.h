@@ -4,15 +4,35 @@
 #pragma once
 
 #include "consensus/consensus_mesh.h"
-#include "consensus/hole_closing.h"
+#include "floater/boundary/boundary.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
+#include "mesh/loops.h"
 #include "points/points.h"
 
 #include <optional>
 #include <vector>
 
 namespace pcl::floater {
+/// The limits of all steps of consensusLoop.
+struct ConsensusLoopLimits
+{
+  ConsensusLimits consensus;
+  OpenLoopLimits open_loops;
+  double gap_ratio = 2.0; ///< circumradius over local spacing above which a star triangle is a gap
+                          ///< (see findGaps). Chosen by hand; no measurement is recorded
+};
+
+/// Makes the consensus mesh and takes the loop of its largest component that
+/// HolePolicy::KEEP_LARGEST would keep open, the surface on the left. Then inserts points beside
+/// the loop that have a gap in their star (see refineLoop): a ragged boundary has points that no
+/// triangle connects to the rest. O(n log n).
+/// \param positions by which the geometry was made
+/// \return the loop; its candidates are the points with gaps and on any loop
+Boundary
+consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
+               const RunContext& run, const ConsensusLoopLimits& limits = {});
+
 /// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {

@@ -6,6 +6,7 @@
 #include "consensus/candidates.h"
 #include "core/disjoint_sets.h"
 #include "core/run_context.h"
+#include "core/types.h"
 
 #include <vector>
 
@@ -43,5 +44,15 @@ public:
 private:
   SignedSets sides_;
 };
+
+/// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
+/// are connected by edges. An orientation that spreads round such a surface contradicts itself
+/// along a whole row across it; a wrong triangle between two sheets stands alone. Fails for strips
+/// less than about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
+/// \param contradicting see ConsensusMesh::seam
+/// \param shortest_seam triangles; see ConsensusLimits
+/// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
+std::vector<Triangle>
+findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam);
 
 } // namespace pcl::floater

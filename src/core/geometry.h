@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small formulas that several stages share.
+// Planes, frames and small geometry.
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
 
 namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
@@ -33,5 +37,115 @@ isFold (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
   return product < 0.0 &&
          product * product > SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
 }
+
+/// Right-handed axes with the normal as the third.
+struct TangentFrame
+{
+  explicit TangentFrame (const Eigen::Vector3d& unit_normal)
+      : normal (unit_normal), x (unit_normal.unitOrthogonal ()), y (unit_normal.cross (x))
+  {
+  }
+
+  Eigen::Vector2d project (const Eigen::Vector3d& offset) const
+  {
+    return {x.dot (offset), y.dot (offset)};
+  }
+
+  Eigen::Vector3d normal, x, y;
+};
+
+struct Plane
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ (); ///< unit vector of arbitrary sign
+  double mean_square = 0.0;                           ///< of the distances to the plane
+  double aspect = 0.0; ///< middle over largest eigenvalue of the covariance: 1 for a disc, 0 for
+                       ///< collinear points, which determine no plane
+
+  /// Distance of a point to the plane, negative below it.
+  double height (const Eigen::Vector3d& point) const { return normal.dot (point - centre); }
+};
+
+struct Line
+{
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX (); ///< unit vector of arbitrary sign
+  double mean_square = 0.0; ///< of the distances to the line, in the direction of larger ones
+  double aspect = 1.0;      ///< see Plane
+};
+
+/// Axes of least (first) to largest (last) spread, and the spreads: root mean squares.
+struct PrincipalAxes
+{
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d axes; ///< unit vectors, in columns
+  Eigen::Vector3d spread;
+};
+
+/// Accumulates sums for the least-squares plane. The points should lie around the origin, within a
+/// few times their own extent.
+class PlaneFit
+{
+public:
+  void add (const Eigen::Vector3d& point, double weight = 1.0)
+  {
+    sum_ += weight * point;
+    products_.noalias () += weight * point * point.transpose ();
+    weight_ += weight;
+  }
+
+  /// Sum of the weights.
+  double weight () const { return weight_; }
+
+  /// Needs a positive weight. For collinear or coinciding points: one of the planes that contain
+  /// them.
+  Plane plane () const
+  {
+    const Eigen::Matrix3d scattered = scatter ();
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect (scattered);
+    Plane plane;
+    plane.centre = sum_ / weight_;
+    const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
+    if (normal.allFinite ())
+      plane.normal = normal.normalized ();
+    const Eigen::Vector3d& eigenvalues = solver.eigenvalues ();
+    if (eigenvalues[2] > 0.0)
+      plane.aspect = std::max (0.0, eigenvalues[1]) / eigenvalues[2];
+    plane.mean_square = std::max (0.0, plane.normal.dot (scattered * plane.normal)) / weight_;
+    return plane;
+  }
+
+  /// The least-squares line. Needs a positive weight.
+  Line line () const
+  {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect (scatter ());
+    Line line;
+    const Eigen::Vector3d direction = solver.eigenvectors ().col (2);
+    if (direction.allFinite ())
+      line.direction = direction.normalized ();
+    const Eigen::Vector3d& eigenvalues = solver.eigenvalues ();
+    line.mean_square = std::max (0.0, eigenvalues[1]) / weight_;
+    if (eigenvalues[2] > 0.0)
+      line.aspect = std::max (0.0, eigenvalues[1]) / eigenvalues[2];
+    return line;
+  }
+
+  /// Slower than plane (), but more accurate for nearly collinear points. Needs a positive weight.
+  PrincipalAxes principalAxes () const
+  {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (scatter ());
+    return {sum_ / weight_, solver.eigenvectors (),
+            (solver.eigenvalues ().cwiseMax (0.0) / weight_).cwiseSqrt ()};
+  }
+
+private:
+  // Covariance times the sum of the weights.
+  Eigen::Matrix3d scatter () const { return products_ - sum_ * sum_.transpose () / weight_; }
+
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero ();
+  Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero ();
+  double weight_ = 0.0;
+};
 
 } // namespace pcl::floater

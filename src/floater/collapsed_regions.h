@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/run_context.h"
-#include "floater/disc_limits.h"
+#include "floater/floater_method.h"
 #include "mesh/triangle_mesh.h"
 
 #include <vector>

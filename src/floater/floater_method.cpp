@@ -1,14 +1,126 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stages of TW 385 in order, with its sections and equations.
 #include "floater/floater_method.h"
 
+#include "floater/domain.h"
 #include "floater/planar_delaunay.h"
 #include "floater/region_recursion.h"
+#include "floater/weights.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+// Adds each link as one more neighbour, with the weight of an average neighbour.
+// \param links (point, neighbour), ascending
+void
+addLinks (const std::vector<std::array<Index, 2>>& links, CsrLists& neighbors,
+          std::vector<double>& weights)
+{
+  if (links.empty ())
+    return;
+  CsrLists wider;
+  std::vector<double> wider_weights;
+  wider.offsets.push_back (0);
+  auto link = links.begin ();
+  for (Index p = 0; p < neighbors.rows (); ++p) {
+    const Index first = neighbors.offsets[p], last = neighbors.offsets[p + 1];
+    wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first,
+                      neighbors.ids.begin () + last);
+    wider_weights.insert (wider_weights.end (), weights.begin () + first, weights.begin () + last);
+    for (; link != links.end () && (*link)[0] == p; ++link) {
+      wider.ids.push_back ((*link)[1]);
+      wider_weights.push_back (1.0 / std::max<double> (1.0, last - first));
+    }
+    wider.offsets.push_back (static_cast<Index> (wider.ids.size ()));
+  }
+  neighbors = std::move (wider);
+  weights = std::move (wider_weights);
+}
+
+Problem
+describeOutcome (const Solution& solution)
+{
+  switch (solution.outcome) {
+  case Solution::Outcome::OK:
+    return {};
+  case Solution::Outcome::SINGULAR:
+    return {RunStatus::SINGULAR,
+            "the linear system is singular (" + solution.message + "); use more neighbours"};
+  case Solution::Outcome::NOT_CONVERGED:
+    return {RunStatus::NOT_CONVERGED,
+            solution.message + "; allow more iterations, or use a direct solver"};
+  case Solution::Outcome::UNAVAILABLE:
+    return {RunStatus::SOLVER_UNAVAILABLE, solution.message};
+  case Solution::Outcome::OUT_OF_MEMORY:
+    return {RunStatus::OUT_OF_MEMORY, "not enough memory for the factorization (" +
+                                          solution.message +
+                                          "): use fewer points, or a machine with more memory"};
+  case Solution::Outcome::FAILED:
+    break;
+  }
+  return {RunStatus::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
+}
+
+} // namespace
+
+Parameterization
+parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
+              const std::vector<Index>& loop, const ParameterizationSettings& settings,
+              const RunContext& run, const DiscLimits& limits)
+{
+  Parameterization result;
+  run.beginStage (Stage::WEIGHTS);
+  std::vector<double> weights = computeWeights (stars, settings.weighting, run);
+  CsrLists neighbors = std::move (stars.neighbors);
+  stars = {};
+
+  CsrLists no_links;
+  if (!settings.link_points)
+    no_links.offsets.assign (positions.size () + 1, 0);
+  const Reachability reach = reachLoop (neighbors, settings.link_points ? nearest : no_links,
+                                        positions, loop, run, limits);
+  addLinks (reach.links, neighbors, weights);
+  result.relinked = reach.linked_points;
+  result.unreachable =
+      static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
+  const double reached = static_cast<double> (positions.size () - result.unreachable);
+  if (reached < limits.least_reached_share * static_cast<double> (positions.size ())) {
+    result.problem = {
+        RunStatus::UNREACHABLE,
+        std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
+            " points do not connect to the boundary loop: the cloud has several components, or "
+            "gaps much wider than its spacing; reconstruct its components one by one, or use "
+            "more neighbours"};
+    return result;
+  }
+  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, settings.domain);
+  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable);
+  neighbors = {};
+  std::vector<double> ().swap (weights);
+  result.unknowns = system.unknowns ();
+  result.nonzeros = system.nonzeros ();
+
+  run.beginStage (Stage::SOLVE);
+  Solution solution = solve (system, settings.solver, run);
+  result.problem = describeOutcome (solution);
+  const Eigen::MatrixX2d solved = std::move (solution.uv);
+  result.solution = std::move (solution);
+  if (result.problem)
+    return result;
+
+  result.uv.assign (positions.size (),
+                    Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    result.uv[loop[i]] = loop_uv[i];
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    result.uv[system.point_of_unknown[i]] = solved.row (static_cast<Eigen::Index> (i));
+  return result;
+}
+
+// The stages of TW 385 in order, with its sections and equations.
+
 namespace {
 Problem
 describeFolds (const Disc& disc)

@@ -3,12 +3,79 @@
 // The method of TW 385: one disc, laid out in the plane.
 #pragma once
 
+#include "core/problem.h"
+#include "core/run_context.h"
 #include "floater/boundary/boundary.h"
-#include "floater/disc_limits.h"
-#include "floater/parameterize.h"
+#include "floater/solvers/solver.h"
+#include "local/stars.h"
 #include "mesh/finish.h"
 
+#include <pcl/surface/floater/options.h>
+
+#include <cstddef>
+#include <vector>
+
 namespace pcl::floater {
+/// Thresholds for the mesh of a disc.
+struct DiscLimits
+{
+  /// Smallest share of all points connected with the boundary loop; below, the cloud counts as
+  /// several components (UNREACHABLE). Not derived from data, and not certain.
+  /// others together. Not derived from data, and not certain.
+  double least_reached_share = 0.5;
+
+  /// Maximum number of links of a point that is not connected with the loop. With one link a lone
+  /// point would coincide with its neighbour, and with two lie on the line between them; three is
+  /// the least number that places it freely in the plane.
+  std::size_t links_per_point = 3;
+
+  /// Scale of the parameterization (length in the plane over length in space) relative to that of
+  /// the loop, below which a triangle has collapsed. Neighbours among a million points are about
+  /// 1e-3 apart on the circle, and parameters are accurate to about 1e-13, so at this depth
+  /// positions are accurate to 1e-4 of their distance. No real cloud with a clean disc has such a
+  /// region; 1e-3 made one real cloud (nefertiti) worse.
+  double collapsed_scale = 1e-6;
+
+  /// Share of all edges: if more are folded after the flips, the surface is no disc. On 24 clouds,
+  /// discs had up to 0.01 and closed surfaces that were laid out as discs 0.04 or more.
+  double largest_fold_share = 0.03;
+};
+
+struct ParameterizationSettings
+{
+  Weighting weighting = Weighting::MEAN_VALUE;
+  DomainOptions domain;
+  SolverOptions solver;
+  bool link_points = true; ///< link isolated points so that all are connected with the loop
+};
+
+/// Parameters of the points in the plane.
+struct Parameterization
+{
+  std::vector<Eigen::Vector2d> uv; ///< per point; NaN if it is not connected with the loop; empty
+                                   ///< if there is a problem
+  std::size_t relinked = 0;    ///< points that had to be linked to points connected with the loop
+  std::size_t unreachable = 0; ///< points not connected with the loop
+  std::size_t unknowns = 0;    ///< rows of the linear system
+  std::size_t nonzeros = 0;    ///< entries of its matrix
+  Solution solution;           ///< figures of the solver; the solution itself is in uv
+  Problem problem; ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, SOLVER_UNAVAILABLE, OUT_OF_MEMORY or
+                   ///< INTERNAL_ERROR
+};
+
+/// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system
+/// (TW 385, equations (1) to (3)). Runs through the stages WEIGHTS and SOLVE.
+/// \param positions per point
+/// \param nearest   nearest neighbours, to which points that are not connected with the loop are
+///                  linked
+/// \param stars     with their offsets; freed as soon as there are weights
+/// \param loop      boundary points in order, at least 3
+/// \throws std::bad_alloc
+Parameterization
+parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
+              const std::vector<Index>& loop, const ParameterizationSettings& settings,
+              const RunContext& run, const DiscLimits& limits = {});
+
 struct DiscSettings
 {
   Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;

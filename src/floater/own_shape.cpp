@@ -4,7 +4,6 @@
 
 #include "core/exact.h"
 #include "core/geometry.h"
-#include "core/plane_fit.h"
 
 #include <Eigen/Geometry>
 

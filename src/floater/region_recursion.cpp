@@ -3,7 +3,7 @@
 #include "floater/region_recursion.h"
 
 #include "core/run_context.h"
-#include "floater/parameterize.h"
+#include "floater/floater_method.h"
 #include "floater/planar_delaunay.h"
 #include "local/stars.h"
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "floater/collapsed_regions.h"
-#include "floater/parameterize.h"
+#include "floater/floater_method.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "local/local_geometry.h"
 
-#include "local/spacing.h"
+#include "local/planes.h"
 
 #include <algorithm>
 #include <optional>

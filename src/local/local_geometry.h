@@ -3,8 +3,8 @@
 // The geometry around each point.
 #pragma once
 
+#include "local/planes.h"
 #include "local/stars.h"
-#include "local/tangent_planes.h"
 #include "points/kd_tree.h"
 #include "points/points.h"
 

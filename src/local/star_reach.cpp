@@ -4,7 +4,6 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "core/plane_fit.h"
 
 #include <algorithm>
 #include <atomic>

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "core/csr_lists.h"
-#include "core/tangent_frame.h"
+#include "core/geometry.h"
 #include "local/planar_star.h"
-#include "local/sheet.h"
+#include "local/planes.h"
 #include "points/kd_tree.h"
-#include "points/rows.h"
+#include "points/neighbors.h"
 
 #include <vector>
 

@@ -5,9 +5,9 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
-#include "local/sheet.h"
+#include "local/planes.h"
 #include "local/star_reach.h"
-#include "points/rows.h"
+#include "points/neighbors.h"
 
 #include <vector>
 
@@ -119,5 +119,15 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
              const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
              const StarSettings& settings, const RunContext& run,
              const BeyondNeighbors* beyond = nullptr);
+
+/// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).
+bool
+hasTriangle (const Stars& stars, Index p, Index q, Index r);
+
+/// Share of the neighbours in each point's star that have the point in theirs; 0 without
+/// neighbours. It is 1 for the Delaunay triangulation of a smooth, densely sampled surface, also on
+/// ambiguous lattices. O(entries of the stars).
+std::vector<float>
+starAgreement (const Stars& stars, const RunContext& run);
 
 } // namespace pcl::floater

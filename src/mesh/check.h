@@ -3,8 +3,9 @@
 // Examination of a finished mesh of any method.
 #pragma once
 
-#include "mesh/boundary_loops.h"
+#include "mesh/loops.h"
 #include "mesh/self_intersections.h"
+#include "mesh/triangle_mesh.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/report.h>
@@ -13,6 +14,12 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Spacing of each point on a mesh: the median length of its edges. For points without edges, the
+/// median of all others. O(n).
+std::vector<float>
+spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const RunContext& run);
+
 /// Thresholds of the examination. They do not change a mesh.
 struct CheckLimits
 {

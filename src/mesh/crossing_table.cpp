@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/crossing_table.h"
 
-#include "mesh/triangle_order.h"
+#include "mesh/vertex_stars.h"
 
 #include <algorithm>
 

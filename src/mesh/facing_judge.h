@@ -4,7 +4,6 @@
 #pragma once
 
 #include "mesh/facing.h"
-#include "mesh/facing_objects.h"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/finish.h"
 
-#include "mesh/boundary_folds.h"
 #include "mesh/flips.h"
 #include "mesh/insertion.h"
+#include "mesh/open_boundary.h"
 
 #include <utility>
 

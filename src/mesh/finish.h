@@ -4,12 +4,12 @@
 #pragma once
 
 #include "local/local_geometry.h"
-#include "mesh/boundary_notches.h"
 #include "mesh/facing.h"
 #include "mesh/fold_repair.h"
+#include "mesh/open_boundary.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
-#include "points/neighbor_table.h"
+#include "points/neighbors.h"
 
 #include <limits>
 #include <vector>

@@ -3,7 +3,6 @@
 #include "mesh/hole_filling.h"
 
 #include "core/geometry.h"
-#include "mesh/polygon_filling.h"
 
 #include <algorithm>
 #include <map>

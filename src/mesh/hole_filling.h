@@ -3,10 +3,82 @@
 // Fills boundary loops by triangulated polygons.
 #pragma once
 
-#include "mesh/boundary_loops.h"
+#include "core/run_context.h"
+#include "core/types.h"
+#include "mesh/loops.h"
 #include "mesh/triangle_cost.h"
 
+#include <cmath>
+#include <limits>
+#include <vector>
+
 namespace pcl::floater {
+/// Triangulates polygons at least cost by dynamic programming over their sub-polygons (Barequet and
+/// Sharir 1995 "Filling gaps in the boundary of a polyhedron"; Liepa 2003 "Filling holes in
+/// meshes"). O(m^3) time and 16 m^2 bytes for m corners. Reuses its memory.
+class PolygonFilling
+{
+public:
+  explicit PolygonFilling (const RunContext& run) : run_ (run) {}
+
+  /// Triangles of least total cost between the corners of a closed polygon.
+  /// \param polygon corners, anti-clockwise
+  /// \param cost    (p, q, r): of a triangle, 0 or more
+  /// \param allowed (p, q): whether an edge may join two corners that are not adjacent
+  /// \return m - 2 triangles, anti-clockwise; empty if m < 3 or no triangulation is allowed
+  template <typename Cost, typename Allowed>
+  std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)
+  {
+    const std::size_t m = polygon.size ();
+    best_.assign (m * m, {0.0, 0});
+    ProgressLoop progress (run_);
+    for (std::size_t span = 2; span < m; ++span)
+      for (std::size_t i = 0; i + span < m; ++i) {
+        progress.next ();
+        const std::size_t j = i + span;
+        Choice& choice = best_[i * m + j];
+        choice = {std::numeric_limits<double>::infinity (), 0};
+        if (span < m - 1 && !allowed (polygon[i], polygon[j]))
+          continue;
+        for (std::size_t apex = i + 1; apex < j; ++apex) {
+          const double before = best_[i * m + apex].cost + best_[apex * m + j].cost;
+          if (before >= choice.cost)
+            continue;
+          const double sum = before + cost (polygon[i], polygon[apex], polygon[j]);
+          if (sum < choice.cost)
+            choice = {sum, apex};
+        }
+      }
+    std::vector<Triangle> triangles;
+    if (m >= 3 && std::isfinite (best_[m - 1].cost))
+      collect (polygon, 0, m - 1, triangles);
+    return triangles;
+  }
+
+private:
+  // The best triangulation of the sub-polygon from corner i to corner j: its cost, and the third
+  // corner of the triangle at the edge from i to j.
+  struct Choice
+  {
+    double cost;
+    std::size_t apex;
+  };
+
+  void collect (const std::vector<Index>& polygon, std::size_t i, std::size_t j,
+                std::vector<Triangle>& triangles) const
+  {
+    if (j - i < 2)
+      return;
+    const std::size_t apex = best_[i * polygon.size () + j].apex;
+    triangles.push_back ({polygon[i], polygon[apex], polygon[j]});
+    collect (polygon, i, apex, triangles);
+    collect (polygon, apex, j, triangles);
+  }
+
+  RunContext run_;
+  std::vector<Choice> best_; // [i * m + j]
+};
+
 /// Limits of hole filling.
 struct HoleFillingLimits
 {

@@ -5,8 +5,8 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "mesh/crossing_table.h"
+#include "mesh/fold_repair.h"
 #include "mesh/vertex_mover.h"
-#include "mesh/vertex_patch.h"
 
 #include <algorithm>
 #include <limits>

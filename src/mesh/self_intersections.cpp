@@ -6,7 +6,6 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "mesh/box_tree.h"
-#include "mesh/triangle_order.h"
 #include "mesh/vertex_stars.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "mesh/trimming.h"
 
 #include "mesh/self_intersections.h"
-#include "mesh/triangle_removal.h"
 
 #include <algorithm>
 #include <set>
@@ -11,6 +10,122 @@
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+class TriangleRemoval
+{
+public:
+  TriangleRemoval (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const RunContext& run)
+      : mesh_ (mesh), run_ (run), is_removed_ (std::move (is_removed))
+  {
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      if (is_removed_[t] != 0)
+        changed_.insert (changed_.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+  }
+
+  void run ()
+  {
+    if (changed_.empty ())
+      return; // no triangle is removed, and no array of triangles is needed
+    ProgressLoop progress (run_);
+    while (!changed_.empty ()) {
+      progress.next ();
+      const Index p = changed_.back ();
+      changed_.pop_back ();
+      keepLargestFan (p);
+    }
+    compact ();
+  }
+
+private:
+  void takeOut (Index t)
+  {
+    if (is_removed_[t] != 0)
+      return;
+    is_removed_[t] = 1;
+    changed_.insert (changed_.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+  }
+
+  // The triangles around p are one fan of the original mesh; the remaining ones form runs.
+  void keepLargestFan (Index p)
+  {
+    mesh_.fan (p, fan_);
+    const auto isKept = [this] (Index t) { return is_removed_[t] == 0; };
+    // In a closed fan, a run may go on from the last triangle to the first: begin at a gap.
+    if (isClosed (p))
+      std::rotate (fan_.begin (), std::find_if_not (fan_.begin (), fan_.end (), isKept),
+                   fan_.end ());
+    std::size_t largest = 0, length = 0, end = 0;
+    for (std::size_t i = 0; i < fan_.size (); ++i) {
+      length = isKept (fan_[i]) ? length + 1 : 0;
+      if (length > largest) {
+        largest = length;
+        end = i + 1;
+      }
+    }
+    for (std::size_t i = 0; i < fan_.size (); ++i)
+      if (i + largest < end || i >= end)
+        takeOut (fan_[i]);
+  }
+
+  bool isClosed (Index p) const
+  {
+    const Index first = fan_.front ();
+    return mesh_.neighbors[first][TriangleMesh::previous (mesh_.sideOf (first, p))] != NONE;
+  }
+
+  void compact ()
+  {
+    Index kept = 0;
+    std::vector<Index> place (mesh_.triangles.size (), NONE);
+    for (std::size_t t = 0; t < place.size (); ++t)
+      if (is_removed_[t] == 0)
+        place[t] = kept++;
+    run_.poll ();
+    std::fill (mesh_.triangle_of.begin (), mesh_.triangle_of.end (), NONE);
+    for (std::size_t t = 0; t < place.size (); ++t) {
+      const Index to = place[t];
+      if (to == NONE)
+        continue;
+      mesh_.triangles[to] = mesh_.triangles[t];
+      for (std::size_t side = 0; side < 3; ++side) {
+        const Index across = mesh_.neighbors[t][side];
+        mesh_.neighbors[to][side] = across == NONE ? NONE : place[across];
+        mesh_.triangle_of[mesh_.triangles[to][side]] = to;
+      }
+    }
+    mesh_.triangles.resize (kept);
+    mesh_.neighbors.resize (kept);
+  }
+
+  TriangleMesh& mesh_;
+  RunContext run_;
+  std::vector<std::uint8_t> is_removed_; // of each triangle
+  std::vector<Index> changed_;           // points that lost a triangle, possibly repeated
+  std::vector<Index> fan_;               // of the current point
+};
+
+} // namespace
+
+void
+removeTriangles (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const RunContext& run)
+{
+  TriangleRemoval (mesh, std::move (is_removed), run).run ();
+}
+
+std::size_t
+removeSmallComponents (TriangleMesh& mesh, std::size_t fewest_points, const RunContext& run)
+{
+  const MeshComponents components = findComponents (mesh, run);
+  const std::vector<std::size_t> points = countPoints (mesh, components);
+  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    is_removed[t] = points[components.of_triangle[t]] < fewest_points ? 1 : 0;
+  removeTriangles (mesh, std::move (is_removed), run);
+  return static_cast<std::size_t> (
+      std::count_if (points.begin (), points.end (),
+                     [fewest_points] (std::size_t count) { return count < fewest_points; }));
+}
+
 namespace {
 // Tolerance for edges as long as the limit; positions are in a box of diagonal 1.
 constexpr double LENGTH_ROUNDING = 1e-15;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mesh/flips.h"
-#include "mesh/polygon_filling.h"
+#include "mesh/hole_filling.h"
 
 #include <vector>
 

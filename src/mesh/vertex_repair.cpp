@@ -4,7 +4,7 @@
 
 #include "core/geometry.h"
 #include "core/order_statistics.h"
-#include "mesh/vertex_patch.h"
+#include "mesh/fold_repair.h"
 
 #include <algorithm>
 #include <cmath>

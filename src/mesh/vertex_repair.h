@@ -3,7 +3,7 @@
 // Moves and kicks of vertices in the wrong triangles.
 #pragma once
 
-#include "mesh/repair_targets.h"
+#include "mesh/triangle_cost.h"
 #include "mesh/vertex_mover.h"
 
 #include <vector>

@@ -3,6 +3,7 @@
 // Triangles around points, by ranges of points, for parallel loops.
 #pragma once
 
+#include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "core/types.h"
 
@@ -10,6 +11,21 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Triangles by their smallest points, which lie along a space-filling curve; stable. O(n).
+/// \param points number of points; corners are below
+inline std::vector<Index>
+orderByPoints (const std::vector<Triangle>& triangles, std::size_t points)
+{
+  return makeCsrLists (points,
+                       [&] (const auto& emit) {
+                         for (Index t = 0; t < triangles.size (); ++t) {
+                           const Triangle& corners = triangles[t];
+                           emit (*std::min_element (corners.begin (), corners.end ()), t);
+                         }
+                       })
+      .ids;
+}
+
 /// Whether the corners are three points below `points`.
 inline bool
 isProper (const Triangle& t, std::size_t points)

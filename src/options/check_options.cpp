@@ -7,8 +7,63 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <utility>
 
 namespace pcl::floater {
+DiscOptions
+DiscOptions::tw385 ()
+{
+  DiscOptions disc;
+  disc.as_published = true;
+  disc.boundary.method = BoundaryMethod::TWO_SEGMENTS; // section 3.3
+  disc.boundary.opening_angle = 160.0;                 // section 3.1
+  disc.boundary.cluster_tolerance = 0.05;              // sections 3.2 and 5: 5 % of the diagonal
+  disc.domain.curve = Domain::CIRCLE;                  // section 2.1: any convex domain
+  disc.weighting = Weighting::MEAN_VALUE;              // section 4.1, equation (2)
+  disc.solver.method = Solver::UMFPACK;                // section 4.2
+  disc.solver.ordering = Ordering::AMD;                // section 4.2
+  return disc;
+}
+
+Options
+effectiveOptions (const Options& options)
+{
+  Options effective = options;
+  if (!options.disc.as_published)
+    return effective;
+  if (options.topology == Topology::AUTO)
+    effective.topology = Topology::DISC;
+  effective.remove_outliers = false;
+  effective.scatter = ScatterPolicy::KEEP;
+  effective.denoise = false;
+  effective.filter_sheets = false;
+  effective.flip_edges = false;
+  effective.remove_self_intersections = false;
+  return effective;
+}
+
+Limits
+effectiveLimits (const Limits& limits, const Options& options)
+{
+  Limits effective = limits;
+  if (!options.disc.as_published)
+    return effective;
+  effective.planes.core_points = std::numeric_limits<std::size_t>::max ();
+  effective.planes.sheet_sine = 1.0;
+  return effective;
+}
+
+void
+choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given)
+{
+  const DiscOptions published = DiscOptions::tw385 ();
+  if (!boundary_is_given)
+    disc.boundary.method = published.boundary.method;
+  if (!ordering_is_given && disc.solver.method == published.solver.method)
+    disc.solver.ordering = published.solver.ordering;
+}
+
 namespace {
 Problem
 refused (const char* option, const std::string& why)
@@ -108,6 +163,108 @@ checkOptions (const Options& options)
   if (!options.disc.boundary.loop.empty () && options.disc.boundary.loop.size () < 3)
     return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
   return {};
+}
+
+namespace {
+bool
+areInBalls (Neighborhood kind)
+{
+  return kind == Neighborhood::BALL || kind == Neighborhood::BALL_DELAUNAY;
+}
+
+// Why options that only discs read have no effect, or nullptr.
+const char*
+reasonOfDisc (UsedFor use, const Options& options, const Report& report)
+{
+  const DiscOptions& disc = options.disc;
+  const Solver solver = disc.solver.method;
+  if (report.topology != Topology::DISC)
+    return "the mesh was not made as a disc";
+  const bool is_of_loop = use == UsedFor::LOOP || use == UsedFor::TWO_SEGMENTS;
+  if (is_of_loop && !disc.boundary.loop.empty ())
+    return "the boundary loop is given";
+  if (use == UsedFor::TWO_SEGMENTS && disc.boundary.method != BoundaryMethod::TWO_SEGMENTS)
+    return "only the boundary method two-segments reads it";
+  if (use == UsedFor::POLYGON && disc.domain.curve != Domain::POLYGON)
+    return "the domain is no polygon";
+  if (use == UsedFor::ILUT && solver != Solver::BICGSTAB_ILUT)
+    return "only the solver bicgstab-ilut reads it";
+  if (use == UsedFor::ITERATIVE && solver != Solver::BICGSTAB_ILUT &&
+      solver != Solver::GAUSS_SEIDEL)
+    return "the solver is direct";
+  return nullptr;
+}
+
+const char*
+reasonOf (UsedFor use, const Options& options, const Report& report)
+{
+  const bool in_balls = areInBalls (options.neighbors.kind);
+  switch (use) {
+  case UsedFor::ALL:
+    return nullptr;
+  case UsedFor::KEEP_COUNT:
+    return options.holes.policy == HolePolicy::KEEP_COUNT
+               ? nullptr
+               : "only the hole policy keep-count reads it";
+  case UsedFor::BY_SIZE:
+    return options.holes.policy == HolePolicy::BY_SIZE ? nullptr
+                                                       : "only the hole policy by-size reads it";
+  case UsedFor::STARS:
+  case UsedFor::NEIGHBORHOOD:
+  case UsedFor::NEAREST:
+  case UsedFor::BALLS:
+  case UsedFor::SCATTER:
+    if (use == UsedFor::SCATTER && options.disc.as_published)
+      return "the method of TW 385 keeps all points";
+    if (report.is_view)
+      return "a scan is connected as its sensor saw it, without neighbours";
+    if (use == UsedFor::NEAREST && in_balls)
+      return "neighbours are searched in balls";
+    if (use == UsedFor::BALLS && !in_balls)
+      return "neighbours are not searched in balls";
+    // A surface uses Delaunay stars of either.
+    if (use == UsedFor::NEIGHBORHOOD && report.topology == Topology::SURFACE &&
+        options.neighbors.kind == Neighborhood::NEAREST)
+      return "the mesh was not made as a disc";
+    return nullptr;
+  default:
+    return reasonOfDisc (use, options, report);
+  }
+}
+
+} // namespace
+
+std::vector<std::string>
+describeUnusedOptions (const Options& options, const Report& report, bool has_plane_normals)
+{
+  const OptionValues defaults (Options{}), given (options);
+  std::vector<std::pair<std::string, std::vector<std::string>>> found; // reasons, and the options
+  const auto add = [&found] (const std::string& name, const char* reason) {
+    for (auto& [known, names] : found)
+      if (known == reason) {
+        names.push_back (name);
+        return;
+      }
+    found.push_back ({reason, {name}});
+  };
+  for (std::size_t i = 0; i < given.rows.size (); ++i)
+    if (given.values[i] != defaults.values[i])
+      if (const char* const reason = reasonOf (given.rows[i].used_for, options, report))
+        add (given.rows[i].name, reason);
+  if (report.is_view && has_plane_normals && options.facing != Facing::AUTO &&
+      options.facing != Facing::NORMALS)
+    add ("the normals of the input",
+         "a scan is connected as its sensor saw it, without tangent planes, and "
+         "another facing is asked for");
+  std::vector<std::string> sentences;
+  for (const auto& [reason, names] : found) {
+    std::string text =
+        names.size () == 1 ? "an option has no effect: " : "options have no effect: ";
+    for (std::size_t i = 0; i < names.size (); ++i)
+      text += (i == 0 ? "" : ", ") + names[i];
+    sentences.push_back (text.append ("; ").append (reason));
+  }
+  return sentences;
 }
 
 } // namespace pcl::floater

@@ -1,17 +1,45 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks before, between and after the stages.
+// Checks of the options, warnings of those without effect, and the choices of TW 385.
 #pragma once
 
 #include "core/problem.h"
+#include "options/stage_limits.h"
 
 #include <pcl/surface/floater/options.h>
+#include <pcl/surface/floater/report.h>
+
+#include <string>
+#include <vector>
 
 namespace pcl::floater {
+/// The options of a run: as given, but with DiscOptions::as_published all extensions are turned
+/// off.
+Options
+effectiveOptions (const Options& options);
+
+/// The limits of a run: as given, but with DiscOptions::as_published tangent planes use all
+/// neighbours (section 4.1).
+Limits
+effectiveLimits (const Limits& limits, const Options& options);
+
+/// Sets the choices of TW 385 for a disc where the user gave none: the boundary method, and for
+/// UMFPACK the ordering.
+void
+choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given);
+
 /// INVALID_OPTION if an option is out of its range, the solver does not take the ordering, or the
 /// hole policy or a given loop does not fit the topology. INVALID_LOOP if the given loop has fewer
 /// than three points. SOLVER_UNAVAILABLE if the library is without the solver.
 Problem
 checkOptions (const Options& options);
+
+/// One sentence for each reason why options had no effect, with their names. Only options that
+/// differ from the default count.
+/// \param report of the run, for the method that made the mesh
+/// \param has_plane_normals normals were given for the tangent planes
+std::vector<std::string>
+describeUnusedOptions (const Options& options, const Report& report,
+                       bool has_plane_normals = false);
 
 } // namespace pcl::floater

@@ -4,18 +4,19 @@
 // their origin.
 #pragma once
 
-#include "consensus/consensus_loop.h"
 #include "consensus/consensus_method.h"
+#include "core/run_context.h"
 #include "floater/floater_method.h"
+#include "local/planes.h"
 #include "local/stars.h"
-#include "local/tangent_planes.h"
 #include "mesh/check.h"
 #include "mesh/self_intersection_removal.h"
-#include "parts/parts.h"
-#include "points/gross_outliers.h"
+#include "parts/part_mesh.h"
 #include "points/noise.h"
 #include "points/outliers.h"
 #include "view/view_method.h"
+
+#include <array>
 
 namespace pcl::floater {
 struct Limits
@@ -34,5 +35,27 @@ struct Limits
   CheckLimits check;
   UncrossingLimits uncrossing;
 };
+
+struct Request
+{
+  const Options& options;
+  const Limits& limits;
+  const RunContext& run;
+  std::array<double, 3> sensor_origin{}; ///< as in Input
+};
+
+/// Whether the disc method is asked for.
+inline bool
+asksForDisc (const Options& options)
+{
+  return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
+}
+
+/// Whether the cloud may be connected as its sensor saw it.
+inline bool
+mayBeSeen (const Options& options)
+{
+  return !asksForDisc (options) && options.view.use != ViewUse::NEVER;
+}
 
 } // namespace pcl::floater

@@ -3,9 +3,9 @@
 // Check of the triangles of a part that are final.
 #pragma once
 
-#include "mesh/facing_objects.h"
+#include "mesh/examination.h"
+#include "mesh/facing.h"
 #include "mesh/self_intersection_removal.h"
-#include "mesh/surroundings.h"
 #include "parts/part_mesh.h"
 
 #include <Eigen/Geometry>

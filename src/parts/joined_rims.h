@@ -3,13 +3,39 @@
 // The rims of all parts in one mesh.
 #pragma once
 
-#include "parts/joined_points.h"
-#include "parts/part_rim.h"
+#include "core/types.h"
+#include "parts/part_mesh.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
+/// Numbers some points of a cloud, in the order of the cloud.
+class JoinedPoints
+{
+public:
+  JoinedPoints () = default;
+
+  /// \param points ascending, each once
+  explicit JoinedPoints (std::vector<Index> points) : points_ (std::move (points)) {}
+
+  std::size_t size () const { return points_.size (); }
+
+  Index pointAt (Index place) const { return points_[place]; }
+
+  /// Index of a point, NONE if it is not included. O(log n).
+  Index placeOf (Index point) const
+  {
+    const auto at = std::lower_bound (points_.begin (), points_.end (), point);
+    return at != points_.end () && *at == point ? static_cast<Index> (at - points_.begin ()) : NONE;
+  }
+
+private:
+  std::vector<Index> points_;
+};
+
 /// A triangle of a part; its corners are indices of joined points.
 struct RimTriangle
 {

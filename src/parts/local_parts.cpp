@@ -4,7 +4,7 @@
 
 #include "consensus/candidates.h"
 #include "core/parallel.h"
-#include "local/smoothed_normals.h"
+#include "local/planes.h"
 
 #include <algorithm>
 #include <atomic>

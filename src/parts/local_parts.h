@@ -5,7 +5,7 @@
 
 #include "local/local_geometry.h"
 #include "parts/parts_method.h"
-#include "points/neighbor_table.h"
+#include "points/neighbors.h"
 
 #include <vector>
 

@@ -4,9 +4,9 @@
 
 #include "mesh/insertion.h"
 #include "mesh/self_intersection_removal.h"
-#include "mesh/triangle_order.h"
-#include "parts/mesh_region.h"
-#include "points/neighbor_table.h"
+#include "mesh/vertex_stars.h"
+#include "parts/near_triangles.h"
+#include "points/neighbors.h"
 
 #include <algorithm>
 #include <numeric>

@@ -6,12 +6,60 @@
 #include "consensus/consensus_mesh.h"
 #include "core/csr_lists.h"
 #include "core/run_context.h"
-#include "parts/parts.h"
+#include "points/point_block.h"
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
 namespace pcl::floater {
+/// Size of the parts, and of the rims that they share.
+struct PartLimits
+{
+  /// Maximum points of a part. A smaller cloud is one part, and is meshed as a whole. In a surface
+  /// in parts of m points, about 4.7 sqrt (m) points of each are beside another part: 0.7 % here.
+  /// Processing a part takes some 200 MB.
+  std::size_t points = std::size_t{1} << 19U;
+
+  /// Width, in rings of points, of the rim that a part passes to the stitching; increased if it
+  /// does not suffice. Judging a boundary loop takes 4, and stitching rarely moves boundaries by
+  /// more than 2.
+  std::size_t rings = 6;
+};
+
+/// The parts of a cloud: consecutive points on the space-filling curve. They depend only on the
+/// number of points.
+class Parts
+{
+public:
+  Parts (std::size_t points, const PartLimits& limits)
+      : points_ (points),
+        count_ (std::max<std::size_t> (1, (points + limits.points - 1) / limits.points))
+  {
+  }
+
+  std::size_t points () const { return points_; }
+  std::size_t count () const { return count_; }
+
+  /// First point of a part, and one past its last.
+  Index first (std::size_t part) const { return BlockCutter::firstOf (part, count_, points_); }
+  Index last (std::size_t part) const { return first (part + 1); }
+
+  /// The part of a point.
+  std::size_t partOf (Index point) const
+  {
+    std::size_t low = 0, high = count_;
+    while (high - low > 1) {
+      const std::size_t middle = low + (high - low) / 2;
+      (first (middle) <= point ? low : high) = middle;
+    }
+    return low;
+  }
+
+private:
+  std::size_t points_, count_;
+};
+
 /// The points of a part, numbered from its first point.
 struct PartPoints
 {
@@ -69,5 +117,44 @@ PartMesh
 makePartMesh (const PartPoints& points, std::vector<Eigen::Vector3f> smoothed,
               PartCandidates candidates, const NeighborRows& neighbors,
               const ConsensusLimits& limits, const RunContext& run);
+
+/// The triangles of a part around its boundary, the data of their corners, and the free candidates.
+/// Points are those of the cloud.
+struct PartRim
+{
+  std::vector<Index> points; ///< of the part, ascending: corners, points without a triangle, and
+                             ///< neighbours of both
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> normals;  ///< from the stars, of any sign
+  std::vector<Eigen::Vector3f> smoothed; ///< oriented like the triangles
+  std::vector<float> spacing;
+  std::vector<std::uint8_t> is_partial; ///< some triangles of the point in the part are missing
+                                        ///< here
+  std::vector<std::uint8_t> has_room;   ///< free: it has no triangle, or is at the boundary
+  CsrLists neighbors;                   ///< of free points and those beside them, nearest first;
+                                        ///< otherwise empty
+
+  std::vector<Triangle> triangles; ///< corners are indices of `points`
+  std::vector<Index> numbers;      ///< of each triangle: its number in the part, ascending
+  std::vector<Index> component;    ///< of each triangle
+  Index components = 0;            ///< of the part
+
+  std::vector<Candidate> open; ///< corners may be in other parts, and not free there
+
+  std::vector<Index> others; ///< points of other parts that are neighbours, ascending
+  std::vector<Eigen::Vector3d> other_positions;
+  std::vector<Eigen::Vector3f> other_normals;
+};
+
+/// Appends positions and normals of points (ascending) to the arrays.
+using OtherPoints =
+    std::function<void (const std::vector<Index>& points, std::vector<Eigen::Vector3d>& positions,
+                        std::vector<Eigen::Vector3f>& normals)>;
+
+/// The rim of a part: all triangles with a corner fewer than `rings` edges away from a free point,
+/// and all components of fewer than `smallest` triangles. O(rings n).
+PartRim
+findRim (const PartPoints& points, const PartMesh& mesh, const NeighborRows& neighbors,
+         const OtherPoints& others, std::size_t rings, std::size_t smallest);
 
 } // namespace pcl::floater

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "consensus/consensus_method.h"
-#include "parts/parts.h"
+#include "parts/part_mesh.h"
 #include "parts/seam_check.h"
 
 #include <vector>

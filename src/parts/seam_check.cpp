@@ -7,9 +7,9 @@
 #include "mesh/examination.h"
 #include "mesh/facing_judge.h"
 #include "mesh/flips.h"
-#include "mesh/triangle_order.h"
-#include "parts/joined_points.h"
-#include "parts/seam_components.h"
+#include "mesh/vertex_stars.h"
+#include "parts/joined_rims.h"
+#include "parts/seam_finish.h"
 
 #include <algorithm>
 #include <iterator>

@@ -4,10 +4,10 @@
 
 #include "consensus/consensus.h"
 #include "consensus/manifold_part.h"
-#include "consensus/orientation_seam.h"
+#include "consensus/orientation.h"
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
-#include "parts/mesh_region.h"
+#include "parts/near_triangles.h"
 
 #include <algorithm>
 #include <map>

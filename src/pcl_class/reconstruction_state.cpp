@@ -4,9 +4,9 @@
 #include <pcl/surface/floater/vertex_normals.h>
 
 #include "core/disjoint_sets.h"
+#include "core/problem.h"
 #include "pcl_class/pcl_neighborhoods.h"
 #include "pcl_class/reconstruction_data.h"
-#include "problem_of_exception.h"
 
 #include <pcl/PolygonMesh.h>
 #include <pcl/TextureMesh.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/points.h"
 
-#include "core/plane_fit.h"
-#include "points/curve_sort.h"
+#include "core/geometry.h"
+#include "points/hilbert_curve.h"
 
 #include <Eigen/Geometry>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/report_mesh.h"
 
-#include "report/report_text.h"
+#include "report/report_cloud.h"
 
 #include <algorithm>
 #include <cmath>

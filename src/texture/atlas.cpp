@@ -5,13 +5,279 @@
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "texture/cell_packing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace pcl::floater {
+namespace {
+// Shapes up to this many cells wide and high are packed as boxes: the search for one can start
+// where the last one of its size was placed.
+constexpr std::size_t SMALL = 8;
+
+// Sorts runs, and joins adjacent ones.
+void
+joinRuns (std::vector<CellRun>& runs)
+{
+  std::sort (runs.begin (), runs.end (), [] (const CellRun& a, const CellRun& b) {
+    return a.first != b.first ? a.first < b.first : a.last < b.last;
+  });
+  std::size_t kept = 0;
+  for (const CellRun& run : runs) {
+    if (kept > 0 && run.first <= runs[kept - 1].last + 1)
+      runs[kept - 1].last = std::max (runs[kept - 1].last, run.last);
+    else
+      runs[kept++] = run;
+  }
+  runs.resize (kept);
+}
+
+// Least and largest x of a triangle between the heights low and high. Empty if it has no point
+// there.
+std::pair<double, double>
+extentBetween (const std::array<Eigen::Vector2d, 3>& corners, double low, double high)
+{
+  double least = std::numeric_limits<double>::infinity (), largest = -least;
+  const auto extend = [&] (double x) {
+    least = std::min (least, x);
+    largest = std::max (largest, x);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % 3];
+    if (a.y () >= low && a.y () <= high)
+      extend (a.x ());
+    for (const double y : {low, high})
+      if ((a.y () < y && b.y () > y) || (a.y () > y && b.y () < y))
+        extend (a.x () + (b.x () - a.x ()) * ((y - a.y ()) / (b.y () - a.y ())));
+  }
+  return {least, largest};
+}
+
+// A strip of cells of a given width and any height.
+class Strip
+{
+public:
+  explicit Strip (Index width) : width_ (width) {}
+
+  // The lowest free position of a shape from a row on, then the leftmost one; in row `end` if there
+  // is none below. For shapes that are not wider than the strip.
+  CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end) const
+  {
+    CellPlace place = from;
+    for (; place.y < end; ++place.y, place.x = 0)
+      if (isWideEnough (shape, place.y) && moveToFree (shape, place))
+        break;
+    return place;
+  }
+
+  void occupy (const CellMask& shape, const CellPlace& place)
+  {
+    rows_.resize (std::max (rows_.size (), place.y + shape.rows.size ()));
+    for (std::size_t r = 0; r < shape.rows.size (); ++r) {
+      std::vector<CellRun>& row = rows_[place.y + r];
+      for (const CellRun& run : shape.rows[r])
+        row.push_back ({place.x + run.first, place.x + run.last});
+      joinRuns (row);
+      widest_.resize (rows_.size (), width_);
+      Index free = 0, last = 0; // free cells; end of the occupied ones
+      for (const CellRun& run : row) {
+        free = std::max (free, run.first - last);
+        last = run.last + 1;
+      }
+      widest_[place.y + r] = std::max (free, width_ - last);
+    }
+  }
+
+  std::size_t height () const { return rows_.size (); }
+
+private:
+  // Whether every row of the shape is at most as wide as the widest free run in its row.
+  bool isWideEnough (const CellMask& shape, Index y) const
+  {
+    for (std::size_t r = 0; r < shape.rows.size () && y + r < rows_.size (); ++r)
+      for (const CellRun& run : shape.rows[r])
+        if (widest_[y + r] <= run.last - run.first)
+          return false;
+    return true;
+  }
+
+  // Moves a shape to the right until it is free. Skipped positions are occupied, so earlier rows
+  // need no new test.
+  // \return false if it leaves the strip
+  bool moveToFree (const CellMask& shape, CellPlace& place) const
+  {
+    const std::size_t rows = std::min (
+        shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
+    std::size_t free_rows = 0; // the last tested ones
+    for (std::size_t r = 0; free_rows < rows && place.x + shape.width <= width_;
+         r = r + 1 < rows ? r + 1 : 0)
+      free_rows = moveInRow (rows_[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
+    return place.x + shape.width <= width_;
+  }
+
+  // \return whether the shape was moved
+  static bool moveInRow (const std::vector<CellRun>& taken, const std::vector<CellRun>& runs,
+                         Index& x)
+  {
+    const Index before = x;
+    for (std::size_t i = 0; i < runs.size ();) {
+      const auto in_way =
+          std::lower_bound (taken.begin (), taken.end (), x + runs[i].first,
+                            [] (const CellRun& t, Index first) { return t.last < first; });
+      if (in_way != taken.end () && in_way->first <= x + runs[i].last) {
+        x = in_way->last + 1 - runs[i].first;
+        i = 0;
+      }
+      else
+        ++i;
+    }
+    return x != before;
+  }
+
+  Index width_;
+  std::vector<std::vector<CellRun>> rows_; // occupied cells
+  std::vector<Index> widest_;              // of each row: length of the longest free run
+};
+
+bool
+isSmall (const CellMask& shape)
+{
+  return shape.width <= SMALL && shape.rows.size () <= SMALL;
+}
+
+CellMask
+boxOf (const CellMask& shape)
+{
+  CellMask box = shape;
+  for (std::vector<CellRun>& row : box.rows)
+    row = {{0, shape.width - 1}};
+  return box;
+}
+
+// \return the positions; side is the height
+CellPacking
+packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vector<Index>& order,
+             Index width, const RunContext& run)
+{
+  CellPacking packing;
+  packing.places.resize (shapes.size ());
+  Strip strip (width);
+  std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of boxes of a size
+  ProgressLoop progress (run, shapes.size ());
+  for (const Index s : order) {
+    progress.reach (static_cast<std::size_t> (&s - order.data ()));
+    CellPlace best;
+    if (isSmall (shapes[s][0])) {
+      const CellMask box = boxOf (shapes[s][0]);
+      CellPlace& last = last_places[{box.width, box.rows.size ()}];
+      last = best = strip.findPlace (box, last, NONE);
+      strip.occupy (box, best);
+    }
+    else {
+      std::size_t least_top = NONE;
+      for (std::uint8_t quarters = 0; quarters < 4; ++quarters) {
+        const CellMask& shape = shapes[s][quarters];
+        if (shape.width > width || shape.rows.size () >= least_top)
+          continue;
+        CellPlace place = strip.findPlace (shape, {}, least_top - shape.rows.size ());
+        place.quarters = quarters;
+        const std::size_t top = place.y + shape.rows.size ();
+        if (top < least_top) {
+          least_top = top;
+          best = place;
+        }
+      }
+      strip.occupy (shapes[s][best.quarters], best);
+    }
+    packing.places[s] = best;
+  }
+  packing.side = static_cast<Index> (strip.height ());
+  return packing;
+}
+
+} // namespace
+
+CellMask
+makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
+{
+  // Cell (x, y) of the plane is cell (x + 1, y + 1) of the mask.
+  CellMask mask;
+  Eigen::Vector2d size = Eigen::Vector2d::Zero ();
+  for (const Eigen::Vector2d& p : uv)
+    size = size.cwiseMax (p);
+  const auto cellOf = [] (double x) { return static_cast<Index> (std::max (x, 0.0)); };
+  std::vector<std::vector<CellRun>> touched (cellOf (size.y ()) + std::size_t{1});
+  for (const Triangle& t : triangles) {
+    const std::array<Eigen::Vector2d, 3> corners{uv[t[0]], uv[t[1]], uv[t[2]]};
+    const auto [low, high] = std::minmax ({corners[0].y (), corners[1].y (), corners[2].y ()});
+    for (Index row = cellOf (low); row <= cellOf (high); ++row) {
+      const auto [least, largest] =
+          extentBetween (corners, static_cast<double> (row), static_cast<double> (row) + 1.0);
+      if (least <= largest) {
+        touched[row].push_back ({cellOf (least), cellOf (largest)});
+        constexpr std::size_t MANY = 64;
+        if (touched[row].size () > MANY)
+          joinRuns (touched[row]);
+      }
+    }
+  }
+  mask.rows.resize (touched.size () + 2);
+  mask.width = cellOf (size.x ()) + 3;
+  for (std::size_t row = 0; row < touched.size (); ++row) {
+    joinRuns (touched[row]);
+    for (const CellRun& run : touched[row])
+      for (std::size_t beside = row; beside <= row + 2; ++beside)
+        mask.rows[beside].push_back ({run.first, run.last + 2});
+  }
+  for (std::vector<CellRun>& row : mask.rows) {
+    joinRuns (row);
+    for (const CellRun& run : row)
+      mask.cells += run.last - run.first + 1;
+  }
+  return mask;
+}
+
+CellPacking
+packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, const RunContext& run)
+{
+  std::vector<Index> order (shapes.size ());
+  std::iota (order.begin (), order.end (), Index{0});
+  const auto length = [&shapes] (Index s) {
+    return std::max<std::size_t> (shapes[s][0].width, shapes[s][0].rows.size ());
+  };
+  std::stable_sort (order.begin (), order.end (),
+                    [&] (Index a, Index b) { return length (a) > length (b); });
+  std::size_t cells = 0;
+  Index least_width = 1;
+  for (const auto& shape : shapes) {
+    cells += shape[0].cells;
+    least_width = std::max (least_width, shape[0].width);
+  }
+  constexpr double EXPECTED_FILL = 0.85;
+  auto width = std::max (
+      least_width, static_cast<Index> (std::sqrt (static_cast<double> (cells) / EXPECTED_FILL)));
+  CellPacking best;
+  best.side = NONE;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    CellPacking packing = packInStrip (shapes, order, width, run);
+    const Index height = packing.side;
+    packing.side = std::max (width, height);
+    if (packing.side < best.side)
+      best = std::move (packing);
+    // Side of the square of the same area.
+    const auto next = std::max (
+        least_width, static_cast<Index> (std::sqrt (static_cast<double> (width) * height)));
+    if (next == width)
+      break;
+    width = next;
+  }
+  return best;
+}
+
 namespace {
 // Signed area.
 double

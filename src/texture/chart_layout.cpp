@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "texture/convex_layout.h"
 #include "texture/stretch.h"
-#include "texture/untangling.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "mesh/triangle_mesh.h"
-#include "texture/chart_limits.h"
 #include "texture/facets.h"
 
 #include <vector>

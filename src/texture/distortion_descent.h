@@ -5,7 +5,6 @@
 
 #include "core/run_context.h"
 #include "texture/chart_mesh.h"
-#include "texture/rest_shapes.h"
 
 #include <vector>
 

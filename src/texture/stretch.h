@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stretch of a layout (Sander, Snyder, Gortler, Hoppe 2001).
+// Stretch of a texture, and its rounding to floats.
 #pragma once
 
 #include "core/types.h"
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace pcl::floater {
 /// Sums over triangles for the stretch. The map goes from the plane to the surface, as in texture
@@ -38,5 +39,14 @@ private:
   double area_ = 0.0, plane_area_ = 0.0;
   double largest_ = 0.0; // singular value
 };
+
+/// Moves corners of flipped triangles by a few steps of single precision, if this reduces the
+/// flipped triangles around them. Exact tests. O(triangles) if there are none. One thread,
+/// deterministic.
+/// \param         triangles corners as indices of uv
+/// \param[in,out] uv        in the unit square, and afterwards
+/// \return number of triangles that are still flipped
+std::size_t
+repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vector2f>& uv);
 
 } // namespace pcl::floater

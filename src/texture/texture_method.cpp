@@ -4,11 +4,13 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "texture/rounding.h"
+#include "core/problem.h"
 #include "texture/smoothing.h"
 #include "texture/stretch.h"
 
 #include <algorithm>
+#include <new>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -137,6 +139,33 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   findSeams (mesh, positions, result);
   measure (triangles, positions, result);
   return {};
+}
+
+// The entry point of the texture coordinates: exceptions and callbacks.
+
+TextureCoordinates
+computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
+                           const std::vector<Triangle>& triangles, const TextureOptions& options)
+{
+  TextureCoordinates result;
+  Problem problem;
+  try {
+    Statistics times;
+    RunMonitor monitor ({{}, options.progress_callback, options.cancelled_callback}, times);
+    const RunContext run (options.threads, &monitor);
+    run.beginStage (Stage::CHECK); // the last stage takes the rest of the progress, here all of it
+    problem = makeTextureCoordinates (positions, triangles, options, {}, run, result);
+    if (!problem)
+      monitor.finish ();
+  }
+  catch (...) {
+    problem = problemOfException ();
+  }
+  if (problem)
+    result = {};
+  result.status = problem.status;
+  result.message = std::move (problem.message);
+  return result;
 }
 
 } // namespace pcl::floater

@@ -6,8 +6,8 @@
 #include "core/problem.h"
 #include "core/run_context.h"
 #include "texture/atlas.h"
-#include "texture/chart_limits.h"
 #include "texture/distortion_descent.h"
+#include "texture/facets.h"
 #include "texture/smoothing.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>

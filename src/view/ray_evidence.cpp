@@ -5,6 +5,9 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +15,71 @@
 #include <utility>
 
 namespace pcl::floater {
+RowEvidence
+findRows (const Points& points, const NeighborTable& neighbors, std::size_t count,
+          const RunContext& run)
+{
+  constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
+  constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
+  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
+  std::size_t looked_at = 0, in_rows = 0;
+  Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
+  std::vector<Index> sample;
+  for (std::size_t p = step / 2; p < positions.size (); p += step)
+    sample.push_back (static_cast<Index> (p));
+  const CsrLists rows_of_sample = neighbors.some (sample);
+  for (std::size_t i = 0; i < sample.size (); ++i) {
+    run.beginTask (); // each may load memory pages
+    const Index p = sample[i];
+    const Row row = rows_of_sample.row (i);
+    if (row.size () < 2)
+      continue;
+    const Eigen::Vector3d u = (positions[row[0]] - positions[p]).normalized ();
+    const Eigen::Vector3d v = (positions[row[1]] - positions[p]).normalized ();
+    ++looked_at;
+    if (u.dot (v) >= OPPOSITE)
+      continue;
+    ++in_rows;
+    along += (u - v) * (u - v).transpose ();
+  }
+  RowEvidence rows;
+  if (in_rows == 0)
+    return rows;
+  rows.share = static_cast<double> (in_rows) / static_cast<double> (looked_at);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes (along);
+  rows.across = axes.eigenvectors ().col (0);
+  rows.are_straight = axes.eigenvalues ()[1] < STRAIGHT * axes.eigenvalues ()[2];
+  return rows;
+}
+
+std::vector<RayPatch>
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count, std::size_t size, const RunContext& run)
+{
+  std::vector<RayPatch> patches (count);
+  std::vector<Index> sorted;
+  for (std::size_t k = 0; k < count; ++k) {
+    run.beginTask (); // each may load memory pages
+    const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
+    RayPatch& patch = patches[k];
+    patch.assign (1, static_cast<Index> (seed));
+    sorted = patch;
+    for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
+      for (const Index q : neighbors.row (patch[i])) {
+        const auto place = std::lower_bound (sorted.begin (), sorted.end (), q);
+        if (patch.size () == size || (place != sorted.end () && *place == q))
+          continue;
+        sorted.insert (place, q);
+        patch.push_back (q);
+      }
+    const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
+    std::stable_sort (patch.begin (), patch.end (),
+                      [&] (Index a, Index b) { return distance (a) < distance (b); });
+  }
+  return patches;
+}
+
 namespace {
 struct PatchEvidence
 {
@@ -143,6 +211,72 @@ isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
 {
   return evidence.near_share <= limits.near_share &&
          evidence.ray_spread <= limits.regularity * evidence.point_spread;
+}
+
+std::vector<Index>
+areaSampleCentres (std::size_t points, std::size_t count)
+{
+  // Half of them are spare: points with open stars have no area.
+  const std::size_t step = std::max<std::size_t> (1, points / (2 * count));
+  std::vector<Index> centres;
+  for (std::size_t p = step / 2; p < points && centres.size () < 2 * count; p += step)
+    centres.push_back (static_cast<Index> (p));
+  return centres;
+}
+
+std::vector<AreaSample>
+takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
+                 const Stars& stars, const RunContext& run)
+{
+  std::vector<AreaSample> samples;
+  for (std::size_t k = 0; k < centres.size (); ++k) {
+    if (stars.open[k] != 0)
+      continue;
+    run.beginTask (); // each may load memory pages
+    const Eigen::Vector3d& centre = positions[centres[k]];
+    const Row star = stars.neighbors.row (static_cast<Index> (k));
+    double area = 0.0;
+    for (std::size_t i = 0; i < star.size (); ++i)
+      area += (positions[star[i]] - centre)
+                  .cross (positions[star[(i + 1) % star.size ()]] - centre)
+                  .norm ();
+    if (area > 0.0)
+      samples.push_back ({centre, stars.normals[k].cast<double> (), area});
+  }
+  return samples;
+}
+
+std::vector<AreaSample>
+takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+                 std::size_t count, const RunContext& run)
+{
+  const std::vector<Index> centres = areaSampleCentres (points.size (), count);
+  return takeAreaSamples (centres, points.positions,
+                          makeStarsOf (centres, points, planes, settings, run), run);
+}
+
+double
+quartileSpread (std::vector<double>& values)
+{
+  const auto [lower, upper] = valuesAtRanks (values, values.size () / 4, values.size () * 3 / 4);
+  return std::log (upper / lower);
+}
+
+double
+areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
+            std::vector<double>& angles)
+{
+  // At grazing rays, normal and area are too uncertain for smaller cosines.
+  constexpr double LEAST_COSINE = 0.02;
+  angles.clear ();
+  for (const AreaSample& sample : samples) {
+    const Eigen::Vector3d ray =
+        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (sample.position - viewpoint.place);
+    const double sqr_distance = ray.squaredNorm ();
+    const double cosine = std::abs (sample.normal.dot (ray)) / std::sqrt (sqr_distance);
+    angles.push_back (sample.area * std::max (cosine, LEAST_COSINE) / sqr_distance);
+  }
+  return quartileSpread (angles);
 }
 
 } // namespace pcl::floater

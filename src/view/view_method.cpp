@@ -4,9 +4,9 @@
 
 #include "core/parallel.h"
 #include "floater/planar_delaunay.h"
-#include "mesh/mesh_spacing.h"
-#include "mesh/triangle_order.h"
-#include "mesh/triangle_removal.h"
+#include "mesh/check.h"
+#include "mesh/trimming.h"
+#include "mesh/vertex_stars.h"
 #include "view/lattice_view.h"
 
 #include <algorithm>

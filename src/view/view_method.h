@@ -6,12 +6,11 @@
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
 #include "mesh/hole_filling.h"
-#include "mesh/open_loops.h"
+#include "mesh/loops.h"
 #include "points/points.h"
 #include "view/depth_steps.h"
 #include "view/ray_evidence.h"
 #include "view/view_flips.h"
-#include "view/view_gaps.h"
 #include "view/viewpoint_search.h"
 
 #include <optional>

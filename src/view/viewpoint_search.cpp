@@ -4,10 +4,7 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "core/plane_fit.h"
-#include "view/area_evidence.h"
-#include "view/pattern_search.h"
-#include "view/row_evidence.h"
+#include "view/ray_evidence.h"
 #include "view/viewpoint_fit.h"
 
 #include <Eigen/Geometry>

@@ -3,9 +3,8 @@
 // Search for an unknown viewpoint of a cloud.
 #pragma once
 
-#include "points/neighbor_table.h"
+#include "points/neighbors.h"
 #include "points/points.h"
-#include "view/area_evidence.h"
 #include "view/ray_evidence.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings on options that have no effect.
-#include "options/unused_options.h"
+#include "options/check_options.h"
 
 #include "options/option_rows.h"
 #include "samples.h"

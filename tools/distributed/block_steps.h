@@ -7,7 +7,7 @@
 
 #include "store.h"
 
-#include "options/request.h"
+#include "options/stage_limits.h"
 
 namespace pcl::floater {
 /// The steps that are done for each block, in order. A step starts when the one before is complete

@@ -4,11 +4,11 @@
 
 #include "atomic_file.h"
 #include "format.h"
-#include "input/working_set.h"
+#include "input/input.h"
 #include "memory_limit.h"
 #include "mesh_normals.h"
 #include "mesh_writer.h"
-#include "options/published_method.h"
+#include "options/check_options.h"
 #include "precision.h"
 #include "prepared_input.h"
 #include "report_json.h"

@@ -3,7 +3,7 @@
 #include "block_steps.h"
 
 #include "cloud_geometry.h"
-#include "points/nearest_neighbors.h"
+#include "points/neighbors.h"
 #include "points/outliers.h"
 #include "stored_cloud.h"
 

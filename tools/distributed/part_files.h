@@ -5,7 +5,7 @@
 
 #include "array_file.h"
 #include "parts/part_finish.h"
-#include "parts/part_rim.h"
+#include "parts/part_mesh.h"
 
 #include <deque>
 #include <vector>

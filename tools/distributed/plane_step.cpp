@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "block_steps.h"
 
-#include "local/spacing.h"
-#include "points/nearest_neighbors.h"
+#include "local/planes.h"
 #include "points/neighbors.h"
 #include "stored_cloud.h"
 

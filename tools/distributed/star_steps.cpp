@@ -5,7 +5,7 @@
 
 #include "cloud_geometry.h"
 #include "known_stages.h"
-#include "local/smoothed_normals.h"
+#include "local/planes.h"
 #include "stored_cloud.h"
 
 #include <algorithm>

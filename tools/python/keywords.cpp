@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "keywords.h"
 
+#include "options/check_options.h"
 #include "options/option_rows.h"
-#include "options/published_method.h"
 
 #include <limits>
 #include <string>

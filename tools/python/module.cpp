@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of the Python module pcl_floater. The part in Python checks what arrays it
 // gets, and makes exceptions and meshes of what this one returns.
-#include "input/check_input.h"
+#include "input/input.h"
 #include "keywords.h"
 #include "mesh_functions.h"
 #include "options/check_options.h"
-#include "options/published_method.h"
 #include "point_rows.h"
 #include "report_json.h"
 #include "result_arrays.h"

@@ -7,7 +7,6 @@
 #include "option_table.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"
-#include "options/published_method.h"
 #include "texture_output.h"
 #include "usage_message.h"
 

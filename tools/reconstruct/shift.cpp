@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shift.h"
 
-#include "points/gross_outliers.h"
+#include "points/outliers.h"
 
 #include <Eigen/Geometry>
 

@@ -30,4 +30,18 @@ neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunCon
 std::vector<NeighborEdge>
 nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k);
 
+/// Clusters by region growing, each from the densest untaken point.
+/// O(n log n) for n points along curves.
+/// \param positions       per point
+/// \param boundary_points ascending
+/// \param tolerance       largest growing distance and radius in which density is counted, in the
+///                        unit of the positions (xi D in TW 385)
+/// \param k               nearest boundary points that are appended at a time
+/// \return disjoint clusters of points, ascending in each; the largest cluster first, of equally
+///         large ones that with the smallest point
+std::vector<std::vector<Index>>
+clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
+                       const std::vector<Index>& boundary_points, double tolerance, int k,
+                       const RunContext& run);
+
 } // namespace pcl::floater

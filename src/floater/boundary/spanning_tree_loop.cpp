@@ -3,8 +3,8 @@
 #include "floater/boundary/spanning_tree_loop.h"
 
 #include "core/disjoint_sets.h"
-#include "floater/boundary/gaps.h"
-#include "floater/boundary/loop_refinement.h"
+#include "floater/boundary/boundary.h"
+#include "floater/boundary/two_segment_loop.h"
 #include "points/kd_tree.h"
 
 #include <algorithm>

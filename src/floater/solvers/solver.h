@@ -3,16 +3,63 @@
 // The solvers of the linear system (TW 385, section 4.2), behind one interface.
 #pragma once
 
+#include "core/csr_lists.h"
 #include "core/problem.h"
 #include "core/run_context.h"
-#include "floater/solvers/linear_system.h"
 
+#include <Eigen/Core>
 #include <pcl/surface/floater/options.h>
 
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pcl::floater {
+/// A u = b for both coordinates of the interior points, in compressed rows.
+struct LinearSystem
+{
+  std::vector<Index> point_of_unknown; ///< interior points that take part, ascending
+  std::vector<Index> unknown_of_point; ///< per point; NONE for points of the loop and left out ones
+  std::vector<int> row_offsets{0};     ///< one more than there are unknowns; MOST_MATRIX_ENTRIES
+  std::vector<int> columns;            ///< ascending in each row
+  std::vector<double> values;          ///< parallel to columns
+  Eigen::MatrixX2d rhs;                ///< per unknown, for either coordinate
+
+  std::size_t unknowns () const { return row_offsets.size () - 1; }
+  std::size_t nonzeros () const { return values.size (); }
+
+  /// Calls visit (column, value) for each entry of a row.
+  template <typename Visit>
+  void visitRow (std::size_t row, Visit&& visit) const
+  {
+    const auto last = static_cast<std::size_t> (row_offsets[row + 1]);
+    for (auto entry = static_cast<std::size_t> (row_offsets[row]); entry < last; ++entry)
+      visit (static_cast<std::size_t> (columns[entry]), values[entry]);
+  }
+
+  /// Adds a row below the others, apart from its right-hand sides.
+  /// \param row (column, value) in any order; sorted
+  void addRow (std::vector<std::pair<int, double>>& row);
+};
+
+/// Assembles the system of TW 385, equation (1): the diagonal of a row is the sum of its weights,
+/// those of loop points included, and the weights of unknowns come with a negative sign. Since the
+/// diagonal is that sum instead of 1, rows sum up exactly, and the solution is as accurate as the
+/// solver. O(entries).
+/// \param neighbors per point: distinct neighbours, not the point itself; a neighbour that is
+///                  neither an unknown nor on the loop is left out
+/// \param weights   parallel to neighbors.ids, positive
+/// \param loop      points of the loop in order
+/// \param loop_uv   their parameters
+/// \param reachable per point; 1 if the point takes part (see reachability.h)
+/// \throws IndexLimitReached if the matrix has more than `most_entries`
+LinearSystem
+assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
+                const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
+                const std::vector<std::uint8_t>& reachable,
+                std::size_t most_entries = MOST_MATRIX_ENTRIES);
+
 /// The solution of a LinearSystem, and what it cost.
 struct Solution
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The boundary loop of a disc as a loop of the triangles that stars agree on.
-#include "consensus/consensus_loop.h"
+#include "consensus/consensus_method.h"
 
 #include "samples.h"
 

@@ -3,7 +3,7 @@
 // Linear systems of triangulated grids, for the tests of solvers and orderings.
 #pragma once
 
-#include "floater/solvers/linear_system.h"
+#include "floater/solvers/solver.h"
 #include "floater/weights.h"
 #include "triangulated_grid.h"
 

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/boundary/boundary.h"
 
-#include "floater/boundary/clusters.h"
-#include "floater/boundary/gaps.h"
-#include "floater/boundary/loop_refinement.h"
 #include "floater/boundary/neighbor_graph.h"
 #include "floater/boundary/two_segment_loop.h"
 #include "samples.h"

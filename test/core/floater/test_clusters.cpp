@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boundary points and their clusters (TW 385, sections 3.1 and 3.2).
-#include "floater/boundary/clusters.h"
+#include "floater/boundary/neighbor_graph.h"
 
 #include <gtest/gtest.h>
 

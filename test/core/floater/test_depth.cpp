@@ -5,7 +5,7 @@
 #include "floater/region_recursion.h"
 
 #include "floater/boundary/boundary.h"
-#include "floater/parameterize.h"
+#include "floater/floater_method.h"
 #include "floater/planar_delaunay.h"
 #include "samples.h"
 #include "surfaces.h"

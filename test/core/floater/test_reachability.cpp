@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/reachability.h"
+#include "floater/domain.h"
 
 #include "local/stars.h"
 #include "random_stream.h"

@@ -3,9 +3,8 @@
 // Tangent planes, stars in them, and the spacing of the sampling.
 #include "local/stars.h"
 
-#include "local/spacing.h"
-#include "local/tangent_planes.h"
-#include "points/nearest_neighbors.h"
+#include "local/planes.h"
+#include "points/neighbors.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sizes of boundary loops.
-#include "mesh/boundary_loops.h"
+#include "mesh/loops.h"
 
 #include "samples.h"
 

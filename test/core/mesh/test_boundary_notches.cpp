@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles that only fill notches of the boundary.
-#include "mesh/boundary_notches.h"
+#include "mesh/open_boundary.h"
 
 #include "mesh/connected_mesh.h"
 #include "samples.h"

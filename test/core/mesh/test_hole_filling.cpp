@@ -3,7 +3,6 @@
 // Triangulation of polygons at least cost, and the filling of holes by it.
 #include "mesh/hole_filling.h"
 
-#include "mesh/polygon_filling.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>

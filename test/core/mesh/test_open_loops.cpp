@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which boundary loops are kept open.
-#include "mesh/open_loops.h"
+#include "mesh/loops.h"
 
 #include "core/geometry.h"
 

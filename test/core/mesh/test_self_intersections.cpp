@@ -5,7 +5,7 @@
 
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersection_removal.h"
-#include "mesh/triangle_order.h"
+#include "mesh/vertex_stars.h"
 #include "report/report_mesh.h"
 
 #include <gtest/gtest.h>

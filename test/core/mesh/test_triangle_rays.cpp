@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/triangle_rays.h"
+#include "mesh/visibility.h"
 
 #include "core/geometry.h"
 #include "samples.h"

@@ -3,7 +3,7 @@
 // Loops over the triangles around points, on several threads.
 #include "mesh/vertex_stars.h"
 
-#include "mesh/facing_objects.h"
+#include "mesh/facing.h"
 #include "mesh/flips.h"
 #include "mesh/known_meshes.h"
 #include "samples.h"

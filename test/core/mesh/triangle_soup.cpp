@@ -3,7 +3,7 @@
 #include "triangle_soup.h"
 
 #include "core/geometry.h"
-#include "mesh/triangle_rays.h"
+#include "mesh/visibility.h"
 #include "random_directions.h"
 
 #include <algorithm>

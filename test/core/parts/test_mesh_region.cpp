@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parts/mesh_region.h"
+#include "parts/near_triangles.h"
 
 #include <gtest/gtest.h>
 

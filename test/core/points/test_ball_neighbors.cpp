@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Neighbours in balls, and stars of all of them.
-#include "points/ball_neighbors.h"
+#include "points/neighbors.h"
 
 #include "local/planar_star.h"
 #include "points/point_samples.h"

@@ -3,7 +3,7 @@
 // Points of a block, and nearest neighbours that do not depend on the number of blocks.
 #include "points/point_block.h"
 
-#include "points/nearest_neighbors.h"
+#include "points/neighbors.h"
 #include "points/point_samples.h"
 
 #include <pcl/surface/floater/reconstruct.h>

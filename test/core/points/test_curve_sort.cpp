@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "points/curve_sort.h"
-
 #include "points/hilbert_curve.h"
+
 #include "samples.h"
 
 #include <gtest/gtest.h>

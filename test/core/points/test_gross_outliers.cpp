@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "points/gross_outliers.h"
+#include "points/outliers.h"
 
 #include "mesh_oracle.h"
 #include "points/point_samples.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/outliers.h"
 
-#include "points/nearest_neighbors.h"
+#include "points/neighbors.h"
 #include "points/point_samples.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same neighbours as those of the tree, for points in any order.
-#include "points/sequential_search.h"
+#include "points/kd_tree.h"
 
 #include "samples.h"
 

@@ -9,7 +9,6 @@
 #include "texture/convex_layout.h"
 #include "texture/smoothing.h"
 #include "texture/stretch.h"
-#include "texture/untangling.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packing of cells, and the repair of what rounding to single precision flips.
 #include "random_stream.h"
-#include "texture/cell_packing.h"
-#include "texture/rounding.h"
+#include "texture/atlas.h"
+#include "texture/stretch.h"
 #include "texture_check.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether points lie in rows, and in which planes: lines and circles, and a surface without rows.
-#include "view/row_evidence.h"
+#include "view/ray_evidence.h"
 
 #include "points/neighbors.h"
 #include "points/points.h"

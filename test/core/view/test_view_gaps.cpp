@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of a view without rays.
-#include "view/view_gaps.h"
+#include "view/view_flips.h"
 
 #include "core/geometry.h"
 #include "floater/planar_delaunay.h"

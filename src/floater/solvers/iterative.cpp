@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parallel.h"
+#include "floater/solvers/solver_parts.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Vector = Eigen::VectorXd;
+
+class IncompleteFactors : public Eigen::IncompleteLUT<double>
+{
+public:
+  std::size_t nonZeros () const { return static_cast<std::size_t> (m_lu.nonZeros ()); }
+};
+
+// One round of BiCGSTAB (van der Vorst 1992), from zero on.
+// \param target norm of the residual, as it is updated, at which the round ends
+// \return iterations
+int
+runRound (const Eigen::Map<const Matrix>& matrix, const Vector& rhs, double target, int most,
+          const IncompleteFactors& factors, const RunContext& run, Vector& solution)
+{
+  constexpr double EPSILON = std::numeric_limits<double>::epsilon ();
+  solution = Vector::Zero (rhs.size ());
+  Vector rest = rhs, start = rhs, v = solution, direction = solution;
+  double rho = 1.0, alpha = 1.0, omega = 1.0, sqr_start = start.squaredNorm ();
+  int iterations = 0;
+  for (; iterations < most && rest.norm () > target; ++iterations) {
+    run.poll ();
+    const double rho_before = rho;
+    rho = start.dot (rest);
+    if (std::abs (rho) < EPSILON * EPSILON * sqr_start) { // orthogonal: begin with what is left
+      rest = rhs - matrix * solution;
+      start = rest;
+      rho = sqr_start = rest.squaredNorm ();
+    }
+    direction = rest + ((rho / rho_before) * (alpha / omega)) * (direction - omega * v);
+    const Vector y = factors.solve (direction);
+    v = matrix * y;
+    alpha = rho / start.dot (v);
+    const Vector s = rest - alpha * v;
+    const Vector z = factors.solve (s);
+    const Vector t = matrix * z;
+    const double sqr_t = t.squaredNorm ();
+    omega = sqr_t > 0.0 ? t.dot (s) / sqr_t : 0.0;
+    solution += alpha * y + omega * z;
+    rest = s - omega * t;
+  }
+  return iterations;
+}
+
+// Solves for one right-hand side.
+// \return the solution, and iterations
+std::pair<Vector, int>
+iterate (const LinearSystem& system, Eigen::Index side, const Eigen::Map<const Matrix>& matrix,
+         const IncompleteFactors& factors, const SolverOptions& options, const RunContext& run)
+{
+  Vector rest = system.rhs.col (side), solution = Vector::Zero (rest.size ()), step;
+  double norm = rest.norm (), target = options.tolerance * norm;
+  int iterations = 0;
+  while (norm > target && iterations < options.max_iterations) {
+    iterations +=
+        runRound (matrix, rest, target, options.max_iterations - iterations, factors, run, step);
+    step += solution;
+    Residual residual = measureResidual (system, side, step);
+    const double next_norm = residual.rest.norm ();
+    if (!(next_norm < norm))
+      break;
+    std::swap (solution, step);
+    rest = std::move (residual.rest);
+    const bool stalls = next_norm > 0.5 * norm;
+    norm = next_norm;
+    target = residual.target (options.tolerance);
+    if (stalls)
+      break;
+  }
+  return {std::move (solution), iterations};
+}
+
+} // namespace
+
+void
+solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run,
+                   Solution& solution)
+{
+  const Eigen::Index n = system.rhs.rows ();
+  const Eigen::Map<const Matrix> matrix (n, n, static_cast<Eigen::Index> (system.nonzeros ()),
+                                         system.row_offsets.data (), system.columns.data (),
+                                         system.values.data ());
+  IncompleteFactors factors;
+  // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
+  const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
+  const double fill = std::ceil (2.0 * options.ilut_fill / mean_row);
+  // Eigen reserves so many entries, and counts them in an int without looking.
+  const std::size_t reserved_in_row =
+      std::min (system.unknowns (), static_cast<std::size_t> (fill * mean_row) + 1) + 1;
+  requireCountable (system.unknowns () * reserved_in_row, MOST_MATRIX_ENTRIES,
+                    "the incomplete factorization", "use a smaller fill, or fewer points");
+  factors.setFillfactor (static_cast<int> (fill));
+  factors.setDroptol (options.ilut_drop);
+  factors.compute (matrix);
+  solution.nnz_factors = factors.nonZeros ();
+
+  solution.uv.resize (n, 2);
+  parallelTasks (run, 2, [&] (std::size_t side) {
+    const auto at = static_cast<Eigen::Index> (side);
+    const auto [unknowns, iterations] = iterate (system, at, matrix, factors, options, run);
+    solution.uv.col (at) = unknowns;
+    solution.iterations[side] = static_cast<std::size_t> (iterations);
+  });
+}
+
+namespace {
+// Sweeps between two measurements of the residual, each of which costs as much as a sweep.
+constexpr int SWEEPS_BETWEEN_CHECKS = 10;
+
+void
+sweep (const LinearSystem& system, const RunContext& run, Eigen::MatrixX2d& uv)
+{
+  ProgressLoop progress (run);
+  for (std::size_t row = 0; row < system.unknowns (); ++row) {
+    progress.next ();
+    const auto i = static_cast<Eigen::Index> (row);
+    Eigen::RowVector2d sum = system.rhs.row (i);
+    double diagonal = 0.0;
+    system.visitRow (row, [&] (std::size_t column, double value) {
+      if (column == row)
+        diagonal = value;
+      else
+        sum -= value * uv.row (static_cast<Eigen::Index> (column));
+    });
+    uv.row (i) = sum / diagonal;
+  }
+}
+
+} // namespace
+
+void
+solveWithGaussSeidel (const LinearSystem& system, const SolverOptions& options,
+                      const RunContext& run, Solution& solution)
+{
+  solution.uv = Eigen::MatrixX2d::Zero (system.rhs.rows (), 2);
+  std::array<bool, 2> solved{};
+  for (int sweeps = 0; sweeps < options.max_iterations && !(solved[0] && solved[1]);) {
+    const int next = std::min (sweeps + SWEEPS_BETWEEN_CHECKS, options.max_iterations);
+    for (; sweeps < next; ++sweeps)
+      sweep (system, run, solution.uv);
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!solved[side]) {
+        const auto at = static_cast<Eigen::Index> (side);
+        const Residual residual = measureResidual (system, at, solution.uv.col (at));
+        solution.iterations[side] = static_cast<std::size_t> (sweeps);
+        solved[side] = residual.rest.norm () <= residual.target (options.tolerance);
+      }
+  }
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "input/input.h"
+
+#include "core/types.h"
+#include "options/check_options.h"
+#include "options/stage_limits.h"
+#include "report/report_cloud.h"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace pcl::floater {
+Problem
+checkInput (const Input& input)
+{
+  const std::vector<Index>& indices = input.cloud_index;
+  const auto refused = [] (const std::string& why) {
+    return Problem{RunStatus::INVALID_INDICES, why};
+  };
+  if (indices.size () != input.positions.size ())
+    return refused ("there are " + std::to_string (input.positions.size ()) + " positions but " +
+                    std::to_string (indices.size ()) + " cloud indices; give one for each");
+  for (const std::vector<Eigen::Vector3f>* normals : {&input.normals, &input.facing_normals})
+    if (!normals->empty () && normals->size () != input.cloud_size)
+      return refused ("there are " + std::to_string (normals->size ()) +
+                      " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
+                      " points; give one for each, or none");
+  if (input.lattice_width != 0 && input.cloud_size % input.lattice_width != 0)
+    return refused ("the rows of the organized cloud have " + std::to_string (input.lattice_width) +
+                    " points, but the whole cloud has " + std::to_string (input.cloud_size) +
+                    "; give a divisor of that, or 0");
+  if (indices.empty ())
+    return {};
+  const Index largest = *std::max_element (indices.begin (), indices.end ());
+  if (largest >= input.cloud_size)
+    return refused ("cloud index " + std::to_string (largest) + " is outside the cloud of size " +
+                    std::to_string (input.cloud_size));
+  if (std::is_sorted (indices.begin (), indices.end (), std::less_equal<> ()))
+    return {}; // each is larger than the one before
+  std::vector<bool> is_taken (largest + std::size_t{1}, false);
+  for (const Index index : indices) {
+    if (is_taken[index])
+      return refused ("cloud index " + std::to_string (index) + " is given twice");
+    is_taken[index] = true;
+  }
+  return {};
+}
+
+bool
+isSensorKnown (const std::array<double, 3>& sensor_origin)
+{
+  const Eigen::Map<const Eigen::Vector3d> sensor (sensor_origin.data ());
+  return !sensor.isZero (0.0) && sensor.allFinite ();
+}
+
+Problem
+checkFacing (const Input& input, const Options& options)
+{
+  const auto refused = [] (const char* why) { return Problem{RunStatus::INVALID_OPTION, why}; };
+  if (options.facing == Facing::NORMALS && input.facing_normals.empty ())
+    return refused ("the mesh is to face where the normals of the points point to, but the points "
+                    "have no normals: take points with normals, or choose another facing");
+  if (options.facing == Facing::VIEWPOINT && !mayBeSeen (options) &&
+      !isSensorKnown (input.sensor_origin))
+    return refused ("the mesh is to face the viewpoint, but the cloud has no origin of its sensor, "
+                    "and no viewpoint is looked for: give that origin, or choose another facing");
+  return {};
+}
+
+namespace {
+// Removes the points whose rows are flagged. Returns their cloud indices, ascending.
+std::vector<Index>
+takeOut (Input& input, const std::vector<std::uint8_t>& is_taken)
+{
+  std::vector<Index> taken;
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < is_taken.size (); ++row) {
+    if (is_taken[row] != 0) {
+      taken.push_back (input.cloud_index[row]);
+      continue;
+    }
+    input.positions[kept] = input.positions[row];
+    input.cloud_index[kept] = input.cloud_index[row];
+    ++kept;
+  }
+  input.positions.resize (kept);
+  input.cloud_index.resize (kept);
+  std::sort (taken.begin (), taken.end ());
+  return taken;
+}
+
+} // namespace
+
+Problem
+cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limits,
+            const RunContext& run, Report& report)
+{
+  constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are not outliers
+  const GrossOutliers found = findGrossOutliers (input.positions, run, limits);
+  if (found.isolated.empty () && found.unbearable.empty ())
+    return {};
+  std::vector<Index> given = options.disc.boundary.loop;
+  std::sort (given.begin (), given.end ());
+  const auto mayGo = [&] (Index row) {
+    return options.remove_outliers &&
+           !std::binary_search (given.begin (), given.end (), input.cloud_index[row]);
+  };
+  const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
+  std::vector<std::uint8_t> is_taken (input.positions.size (), 0);
+  for (const Index row : found.unbearable) {
+    if (!are_few || !mayGo (row))
+      return tooFarAway (input.cloud_index[row], input.positions[row]);
+    is_taken[row] = 1;
+  }
+  for (const Index row : found.isolated)
+    is_taken[row] = mayGo (row) ? 1 : 0;
+  reportGrossOutliers (takeOut (input, is_taken), report);
+  return {};
+}
+
+Problem
+takePoints (Input& input, const Request& request, Points& points, Report& report)
+{
+  const Options& options = request.options;
+  const RunContext& run = request.run;
+  report.statistics.cloud_points = input.cloud_size;
+  report.statistics.selected_points = input.positions.size ();
+  if (Problem problem = checkOptions (options))
+    return problem;
+  if (Problem problem = checkInput (input))
+    return problem;
+  if (Problem problem = checkFacing (input, options))
+    return problem;
+  if (asksForDisc (options))
+    run.setMethod (Topology::DISC);
+
+  run.beginStage (Stage::WORKING_SET);
+  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
+    return problem;
+  points = makePoints (input.positions, input.cloud_index, run);
+  points.lattice_width = input.lattice_width;
+  points.normals = normalsOfPoints (input.normals, points);
+  std::vector<Eigen::Vector3f> ().swap (input.normals);
+  points.facing_normals = normalsOfPoints (input.facing_normals, points);
+  std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
+  std::vector<Eigen::Vector3d> ().swap (input.positions);
+  std::vector<Index> ().swap (input.cloud_index);
+  reportPoints (points, report);
+  return {};
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Local spacing, tangent planes, and smoothed normals.
+#pragma once
+
+#include "core/csr_lists.h"
+#include "core/run_context.h"
+#include "points/neighbors.h"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <vector>
+
+namespace pcl::floater {
+/// Thresholds that separate sheets. Chosen on the clouds of the first benchmark: wide enough for
+/// sharp edges of 90 degrees; unreliable for thin sheets.
+struct SheetLimits
+{
+  double plane_sine = 0.75;   ///< of the angle, 49 degrees, between a tangent plane and a neighbour
+  double normal_cosine = 0.3; ///< of the angle, 72 degrees, between normals
+};
+
+/// True if a neighbour at `offset` lies within the limits of both tangent planes, and the unsigned
+/// normals agree.
+inline bool
+onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
+             const Eigen::Vector3d& offset, const SheetLimits& limits)
+{
+  const double limit = limits.plane_sine * offset.norm ();
+  return std::abs (normal.dot (offset)) <= limit && std::abs (other_normal.dot (offset)) <= limit &&
+         std::abs (normal.dot (other_normal)) >= limits.normal_cosine;
+}
+
+/// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
+/// triangulation that is the length of an edge. O(n).
+/// \param neighbors nearest first
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const RunContext& run);
+
+/// localSpacing () of the points in `rows`; 0 for other points.
+/// \param neighbors of the points in `rows`
+std::vector<float>
+localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const Rows& rows, const RunContext& run);
+
+/// Thresholds for the sheet of a point. The first two were chosen on the clouds of the first
+/// benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds there
+/// (test/benchmark/flaws.py shows the effect of changes).
+struct PlaneLimits
+{
+  std::size_t core_points = 8; ///< nearest neighbours of the first plane: about the first ring of
+                               ///< an even sampling, and a little more
+  double sheet_sine = 0.5;     ///< of the angle, 30 degrees, between the first plane and a
+                               ///< neighbour of the second fit
+  double least_aspect = 0.05;  ///< of the points of the first plane (see Plane::aspect); neighbours
+                               ///< are added until it is reached. Points on a line with noise of
+                               ///< one step are below, a third of an evenly sampled disc is above
+};
+
+/// Unit normals, of arbitrary sign: planes through the 8 nearest neighbours, refitted to all
+/// neighbours near that plane, so that a second sheet within reach does not tilt them. If the 8
+/// nearest are nearly collinear, as in scan lines, more are used. O(n k).
+/// \param neighbors of the points in `rows`, nearest first
+/// \param rows      points to compute; others are zero
+std::vector<Eigen::Vector3f>
+fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  const Rows& rows, const RunContext& run, const PlaneLimits& limits = {});
+
+/// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
+/// own. At a sharp edge the least-squares plane follows one of the faces; the mean lies between
+/// them.
+Eigen::Vector3d
+meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Eigen::Vector3f>& normals, Index p);
+
+/// The mean normal of each point where it is more than 26 degrees off the point's normal; otherwise
+/// the point's normal. O(n).
+/// \param rows points to compute; others are zero
+std::vector<Eigen::Vector3f>
+smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                 const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+                 const RunContext& run);
+
+} // namespace pcl::floater
