@@ -3,12 +3,11 @@
 // Fuzz target: each line of the bytes is an argument of the tool. Parsed and checked, not run.
 #include "fuzz_target.h"
 
-#include "check_paths.h"
 #include "command_line.h"
 #include "options/check_options.h"
 
 #include "atomic_file.h"
-#include "read_error.h"
+#include "cloud.h"
 
 #include <cstdio>
 #include <cstdlib>

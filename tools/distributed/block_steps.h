@@ -5,9 +5,8 @@
 // not depend on the blocks.
 #pragma once
 
-#include "store.h"
-
 #include "options/stage_limits.h"
+#include "store.h"
 
 namespace pcl::floater {
 /// The steps that are done for each block, in order. A step starts when the one before is complete

@@ -4,10 +4,10 @@
 #include "driver.h"
 
 #include "atomic_file.h"
-#include "dealer.h"
 #include "heap_reuse.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
+#include "messages.h"
 #include "run_report.h"
 #include "stored_mesh.h"
 

@@ -6,16 +6,15 @@
 #include "format.h"
 #include "input/input.h"
 #include "memory_limit.h"
-#include "mesh_normals.h"
+#include "mesh_output.h"
 #include "mesh_writer.h"
 #include "options/check_options.h"
 #include "precision.h"
 #include "prepared_input.h"
 #include "report_json.h"
+#include "run_report.h"
 #include "stored_mesh.h"
 #include "stored_stages.h"
-#include "summary.h"
-#include "tiles.h"
 
 #include <nlohmann/json.hpp>
 

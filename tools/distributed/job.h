@@ -5,8 +5,8 @@
 
 #include "block_steps.h"
 #include "command_line.h"
-#include "merged_cloud.h"
 #include "part_steps.h"
+#include "plan.h"
 
 #include <optional>
 #include <string>

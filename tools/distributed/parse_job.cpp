@@ -3,7 +3,6 @@
 #include "job.h"
 
 #include "format.h"
-#include "option_kinds.h"
 #include "option_table.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"

@@ -3,9 +3,9 @@
 // What is written of a part.
 #pragma once
 
-#include "array_file.h"
 #include "parts/part_finish.h"
 #include "parts/part_mesh.h"
+#include "store.h"
 
 #include <deque>
 #include <vector>

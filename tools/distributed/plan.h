@@ -3,6 +3,8 @@
 // The manifest of a work folder: what is reconstructed, how, and in which blocks.
 #pragma once
 
+#include "cloud.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,5 +58,14 @@ manifestText (const Plan& plan);
 /// \throws WorkError if it is no manifest of this version, or damaged
 Plan
 parseManifest (const std::string& text, const std::string& name);
+
+/// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
+/// are those that all files have with one type, and coordinates of different types become double.
+/// \param all_digits see readCloud
+/// \param[out] firsts if it is not nullptr, the first row of each file, and the number of all rows
+/// \throws ReadError, which names the file
+Cloud
+readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
+            std::vector<std::size_t>* firsts = nullptr);
 
 } // namespace pcl::floater

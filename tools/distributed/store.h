@@ -3,15 +3,152 @@
 // Where the files of a run are: in its work folder, or at another process that has it.
 #pragma once
 
-#include "array_file.h"
 #include "plan.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace pcl::floater {
+/// Version of all files in a work folder. To be raised whenever what is in them changes.
+constexpr std::uint32_t WORK_FORMAT = 6;
+
+/// A file of a work folder cannot be used. The message names it, the cause, and what to do.
+class WorkError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Bytes of a file, wherever it is.
+class ByteSource
+{
+public:
+  virtual ~ByteSource () = default;
+
+  virtual std::uint64_t size () const = 0;
+
+  /// Reads `count` bytes from `offset`.
+  /// \throws WorkError if they are not there
+  virtual void read (std::uint64_t offset, std::size_t count, char* bytes) = 0;
+};
+
+/// \throws WorkError if the file does not exist or cannot be read
+std::unique_ptr<ByteSource>
+openFile (const std::filesystem::path& path);
+
+/// Arrays to write.
+class ArrayWriter
+{
+public:
+  /// \param values must outlive this
+  template <typename T>
+  void add (const std::string& name, const std::vector<T>& values)
+  {
+    add (name, values.data (), values.size ());
+  }
+
+  template <typename T>
+  void add (const std::string& name, const T* values, std::size_t count)
+  {
+    static_assert (std::is_trivially_copyable_v<T>);
+    addBytes (name, reinterpret_cast<const char*> (values), sizeof (T), count);
+  }
+
+  /// Passes the bytes of the file to `write`, one piece after the other.
+  /// \param plan of which the arrays are a part; 0: they are the plan
+  void emit (std::uint64_t plan,
+             const std::function<void (const char* bytes, std::size_t count)>& write) const;
+
+  /// Writes a file that is visible when it is complete. It may still be on its way to the disk
+  /// then.
+  /// \throws WriteError
+  void write (const std::filesystem::path& path, std::uint64_t plan) const;
+
+private:
+  struct Array
+  {
+    std::string name;
+    const char* bytes;
+    std::size_t element;
+    std::size_t count;
+  };
+
+  void addBytes (const std::string& name, const char* bytes, std::size_t element,
+                 std::size_t count);
+
+  std::vector<Array> arrays_;
+};
+
+/// Arrays of a file. What is read is compared with its checksums.
+class ArrayFile
+{
+public:
+  /// \param name for messages
+  /// \param plan of which the arrays have to be a part
+  /// \throws WorkError if it is no such file, has another version, is truncated, or is of another
+  ///   plan; as do all members that read, if the file is damaged
+  ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std::uint64_t plan);
+
+  const std::string& name () const { return name_; }
+
+  /// Elements of an array.
+  std::size_t count (const std::string& array) const { return find (array).count; }
+
+  /// Reads elements from `first` to before `last`.
+  template <typename T>
+  void read (const std::string& array, std::size_t first, std::size_t last, T* values)
+  {
+    static_assert (std::is_trivially_copyable_v<T>);
+    readBytes (find (array), sizeof (T), first, last, reinterpret_cast<char*> (values));
+  }
+
+  template <typename T>
+  std::vector<T> read (const std::string& array, std::size_t first, std::size_t last)
+  {
+    std::vector<T> values (last - first);
+    read (array, first, last, values.data ());
+    return values;
+  }
+
+  template <typename T>
+  std::vector<T> read (const std::string& array)
+  {
+    return read<T> (array, 0, count (array));
+  }
+
+  /// Reads all of the file.
+  /// \throws WorkError if anything is damaged
+  void verify ();
+
+private:
+  struct Array
+  {
+    std::string name;
+    std::uint64_t element, count, offset;
+    std::vector<std::uint64_t> checksums; // of each piece
+  };
+
+  const Array& find (const std::string& array) const;
+  void readBytes (const Array& array, std::size_t element, std::size_t first, std::size_t last,
+                  char* bytes);
+  [[noreturn]] void refuse (const std::string& cause) const;
+
+  std::unique_ptr<ByteSource> source_;
+  std::string name_;
+  std::vector<Array> arrays_;
+  std::vector<char> piece_; // that was read last
+  std::uint64_t piece_at_;  // where it is; NOWHERE: there is none
+};
+
 /// The files of a run.
 class Store
 {

@@ -5,6 +5,114 @@
 #include <algorithm>
 
 namespace pcl::floater {
+ArrayFile&
+Slices::file (std::size_t block)
+{
+  const auto known = files_.find (block);
+  if (known != files_.end ())
+    return known->second;
+  return files_.emplace (block, openArrays (store_, blockFile (step_, block), plan_)).first->second;
+}
+
+void
+writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer)
+{
+  writer.add (array, lists.ids);
+  // Where each list ends; the first begins at 0.
+  writer.add (array + ".ends", lists.offsets.data () + (lists.offsets.empty () ? 0 : 1),
+              lists.rows ());
+}
+
+CsrLists
+readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last)
+{
+  CsrLists lists;
+  if (first == last)
+    return lists;
+  Index begin = 0;
+  if (first > 0)
+    file.read (array + ".ends", first - 1, first, &begin);
+  lists.offsets.resize (last - first + 1);
+  lists.offsets[0] = begin;
+  file.read (array + ".ends", first, last, lists.offsets.data () + 1);
+  lists.ids = file.read<Index> (array, begin, lists.offsets.back ());
+  for (Index& offset : lists.offsets)
+    offset -= begin;
+  return lists;
+}
+
+CsrLists
+Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
+{
+  CsrLists all;
+  all.offsets.reserve (points.size () + 1);
+  all.offsets.push_back (0);
+  forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
+    const CsrLists lists = readLists (file (block), array, first, last);
+    const Index before = all.offsets.back ();
+    all.ids.insert (all.ids.end (), lists.ids.begin (), lists.ids.end ());
+    for (std::size_t r = 1; r < lists.offsets.size (); ++r)
+      all.offsets.push_back (before + lists.offsets[r]);
+  });
+  return all;
+}
+
+void
+appendRow (const Row& row, CsrLists& all)
+{
+  if (all.offsets.empty ())
+    all.offsets.push_back (0);
+  all.ids.insert (all.ids.end (), row.begin (), row.end ());
+  all.offsets.push_back (static_cast<Index> (all.ids.size ()));
+}
+
+LocalPoints::LocalPoints (const std::vector<Index>& points) : points_ (points)
+{
+  for (Index place = 0; place < points.size (); ++place) {
+    if (runs_.empty () || runs_.back ().last != points[place])
+      runs_.push_back ({points[place], points[place], place});
+    ++runs_.back ().last;
+  }
+}
+
+Index
+LocalPoints::placeOf (Index point) const
+{
+  // Mostly in the same run as the last one that was asked for.
+  if (hint_ < runs_.size () && runs_[hint_].first <= point && point < runs_[hint_].last)
+    return runs_[hint_].place + (point - runs_[hint_].first);
+  const auto after = std::upper_bound (runs_.begin (), runs_.end (), point,
+                                       [] (Index p, const Run& run) { return p < run.first; });
+  if (after == runs_.begin () || point >= (after - 1)->last)
+    return NONE;
+  hint_ = static_cast<std::size_t> (after - 1 - runs_.begin ());
+  return (after - 1)->place + (point - (after - 1)->first);
+}
+
+bool
+LocalPoints::toPlaces (std::vector<Index>& points) const
+{
+  bool are_all = true;
+  for (Index& point : points) {
+    point = placeOf (point);
+    are_all = are_all && point != NONE;
+  }
+  return are_all;
+}
+
+CsrLists
+LocalPoints::toPlaces (const std::vector<Index>& rows, CsrLists lists) const
+{
+  CsrLists places;
+  places.offsets.assign (points_.size () + 1, 0);
+  for (std::size_t i = 0; i < rows.size (); ++i)
+    places.offsets[placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
+  sumRowLengths (places.offsets);
+  places.ids = std::move (lists.ids);
+  toPlaces (places.ids);
+  return places;
+}
+
 void
 takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
         BlockSearch& search)

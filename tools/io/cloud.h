@@ -3,20 +3,216 @@
 // A point cloud with all fields of its file.
 #pragma once
 
-#include "field.h"
+#include "byte_order.h"
 #include "file_bytes.h"
-#include "kept_points.h"
-#include "read_error.h"
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl::floater {
+/// A file cannot be used as input. The message names the cause, not the file.
+class ReadError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Type of the values of a field.
+enum class ScalarType
+{
+  INT8,
+  UINT8,
+  INT16,
+  UINT16,
+  INT32,
+  UINT32,
+  INT64,
+  UINT64,
+  FLOAT32,
+  FLOAT64
+};
+
+/// Calls visitor (T{}) with the C++ type T of `type`, and returns its result.
+template <typename Visitor>
+auto
+visitType (ScalarType type, Visitor&& visitor)
+{
+  switch (type) {
+  case ScalarType::INT8:
+    return visitor (std::int8_t{});
+  case ScalarType::UINT8:
+    return visitor (std::uint8_t{});
+  case ScalarType::INT16:
+    return visitor (std::int16_t{});
+  case ScalarType::UINT16:
+    return visitor (std::uint16_t{});
+  case ScalarType::INT32:
+    return visitor (std::int32_t{});
+  case ScalarType::UINT32:
+    return visitor (std::uint32_t{});
+  case ScalarType::INT64:
+    return visitor (std::int64_t{});
+  case ScalarType::UINT64:
+    return visitor (std::uint64_t{});
+  case ScalarType::FLOAT32:
+    return visitor (float{});
+  case ScalarType::FLOAT64:
+    break;
+  }
+  return visitor (double{});
+}
+
+/// Size of one value in bytes.
+inline std::size_t
+sizeOf (ScalarType type)
+{
+  return visitType (type, [] (auto tag) { return sizeof (tag); });
+}
+
+/// One named field of all points: a view of bytes, which it keeps alive. The `count` values of a
+/// point are consecutive. Copies are cheap.
+struct Field
+{
+  std::string name;
+  ScalarType type = ScalarType::FLOAT32;
+  std::size_t count = 1;
+  std::shared_ptr<const char> first = {}; ///< first value of the first point; any alignment
+  std::size_t stride = 0;                 ///< bytes from one point to the next
+  ByteOrder order = HOST_BYTE_ORDER;
+  double scale = 1.0;   ///< of coordinates: they are value * scale + offset
+  double offset = -0.0; ///< so that the sign of a zero stays
+
+  std::size_t pointBytes () const { return count * sizeOf (type); }
+
+  /// Value c of a point; T must be the C++ type of `type`.
+  template <typename T>
+  T value (std::size_t point, std::size_t c = 0) const
+  {
+    return readNumber<T> (first.get () + point * stride + c * sizeof (T), order);
+  }
+
+  /// Value of a point as a double; exact except for 64-bit integers.
+  double asDouble (std::size_t point) const
+  {
+    return visitType (
+        type, [&] (auto tag) { return static_cast<double> (value<decltype (tag)> (point)); });
+  }
+
+  /// Value of a point with scale and offset, as a double.
+  double scaled (std::size_t point) const { return asDouble (point) * scale + offset; }
+};
+
+/// Makes the fields views of rows: all fields of the first point from `first` on, then all fields
+/// of the next.
+inline void
+viewRows (const std::vector<Field*>& fields, const std::shared_ptr<const char>& first,
+          ByteOrder order)
+{
+  std::size_t stride = 0;
+  for (const Field* field : fields)
+    stride += field->pointBytes ();
+  std::size_t offset = 0;
+  for (Field* field : fields) {
+    field->first = {first, first.get () + offset};
+    field->stride = stride;
+    field->order = order;
+    offset += field->pointBytes ();
+  }
+}
+
+/// Allocates rows for the values of `points` points, in the byte order of this machine, and makes
+/// the fields views of them.
+inline std::shared_ptr<char>
+allocateRows (const std::vector<Field*>& fields, std::size_t points)
+{
+  std::size_t bytes = 0;
+  for (const Field* field : fields)
+    bytes += points * field->pointBytes ();
+  const std::shared_ptr<char> rows (new char[bytes], std::default_delete<char[]> ());
+  viewRows (fields, rows, HOST_BYTE_ORDER);
+  return rows;
+}
+
+/// A subset of the rows of a file, renumbered from 0. Takes a fifth of a byte per row, and no
+/// memory if all rows are kept.
+class KeptPoints
+{
+public:
+  /// All rows.
+  KeptPoints () = default;
+
+  /// The rows for which keep (row) is true.
+  template <typename Keep>
+  KeptPoints (std::size_t rows, const Keep& keep)
+  {
+    std::vector<Word> words ((rows + WORD_ROWS - 1) / WORD_ROWS);
+    for (std::size_t row = 0; row < rows; ++row) {
+      Word& word = words[row / WORD_ROWS];
+      if (row % WORD_ROWS == 0)
+        word.before = static_cast<std::uint32_t> (kept_);
+      if (keep (row)) {
+        word.bits |= std::uint64_t{1} << row % WORD_ROWS;
+        ++kept_;
+      }
+    }
+    if (kept_ < rows)
+      words_ = std::move (words);
+  }
+
+  bool areAll () const { return words_.empty (); }
+
+  /// Number of rows that are kept, unless all are.
+  std::size_t size () const { return kept_; }
+
+  /// The new number of a row that is kept.
+  std::uint32_t number (std::uint32_t row) const
+  {
+    if (areAll ())
+      return row;
+    const Word& word = words_[row / WORD_ROWS];
+    const std::uint64_t below = (std::uint64_t{1} << row % WORD_ROWS) - 1;
+    return word.before + static_cast<std::uint32_t> (__builtin_popcountll (word.bits & below));
+  }
+
+  /// The row of a new number; 0 if it is not below size (). O(log rows) if not all rows are kept.
+  std::size_t row (std::size_t number) const
+  {
+    if (areAll ())
+      return number;
+    std::size_t first = 0;
+    for (std::size_t last = words_.size (); last - first > 1;) {
+      const std::size_t middle = first + (last - first) / 2;
+      (words_[middle].before <= number ? first : last) = middle;
+    }
+    std::uint64_t bits = words_[first].bits;
+    for (std::size_t i = words_[first].before; i < number; ++i)
+      bits &= bits - 1; // clears the lowest bit
+    if (bits == 0)
+      return 0; // beyond size ()
+    return first * WORD_ROWS + static_cast<std::size_t> (__builtin_ctzll (bits));
+  }
+
+private:
+  static constexpr std::size_t WORD_ROWS = 64;
+
+  struct Word
+  {
+    std::uint64_t bits = 0;   // kept rows
+    std::uint32_t before = 0; // number of kept rows in the words before
+  };
+
+  std::vector<Word> words_;
+  std::size_t kept_ = 0;
+};
+
 /// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)
 /// of type UINT8, and normals are nx, ny, nz. All other fields keep their names. The fields have
 /// all rows of the file, also those of points that have been left out since.
@@ -104,5 +300,24 @@ shiftText (const Cloud& cloud);
 /// \return the number of points left out
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
+
+/// A cloud of some rows of another one, in any order, each as often as it is named; all of them are
+/// kept. Coordinates, shift and all fields are copied. O(rows).
+/// \param added fields of one value that come after those of the cloud; setValues gives them their
+/// values. A field of the cloud that has the name of one of them is left out
+Cloud
+copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows,
+          const std::vector<Field>& added);
+
+/// Sets the values of a field that copyRows has added. \tparam T the C++ type of the field
+template <typename T>
+void
+setValues (Cloud& copied, const std::string& name, const std::vector<T>& values)
+{
+  const Field& field = *copied.find (name);
+  auto* bytes = const_cast<char*> (field.first.get ()); // copyRows has allocated them
+  for (std::size_t i = 0; i < values.size (); ++i)
+    std::memcpy (bytes + i * field.stride, &values[i], sizeof (T));
+}
 
 } // namespace pcl::floater

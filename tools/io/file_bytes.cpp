@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_bytes.h"
 
-#include "read_error.h"
+#include "cloud.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -3,7 +3,6 @@
 #include "byte_order.h"
 #include "cloud_reader.h"
 #include "plural.h"
-#include "polygon_fans.h"
 #include "text_scanner.h"
 
 #include <optional>

@@ -3,7 +3,7 @@
 // A table of numbers, read from text line by line.
 #pragma once
 
-#include "field.h"
+#include "cloud.h"
 #include "plural.h"
 #include "table_columns.h"
 #include "text_scanner.h"

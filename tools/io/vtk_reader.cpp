@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_reader.h"
-#include "polygon_fans.h"
 #include "text_scanner.h"
 
 #include <algorithm>

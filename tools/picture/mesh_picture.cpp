@@ -4,7 +4,6 @@
 
 #include "canvas.h"
 #include "mesh_view.h"
-#include "mipmap.h"
 
 #include <algorithm>
 #include <cmath>

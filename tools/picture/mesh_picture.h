@@ -3,8 +3,8 @@
 // A picture of a mesh and of its parameterization, side by side.
 #pragma once
 
-#include "colour_image.h"
-#include "picture_mesh.h"
+#include "mesh_texture.h"
+#include "mesh_view.h"
 
 #include <optional>
 

@@ -4,9 +4,7 @@
 // gets, and makes exceptions and meshes of what this one returns.
 #include "input/input.h"
 #include "keywords.h"
-#include "mesh_functions.h"
 #include "options/check_options.h"
-#include "point_rows.h"
 #include "report_json.h"
 #include "result_arrays.h"
 #include "watch.h"

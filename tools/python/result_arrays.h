@@ -4,7 +4,6 @@
 #pragma once
 
 #include <pcl/surface/floater/reconstruct.h>
-
 #include <pybind11/pybind11.h>
 
 #include <memory>
@@ -29,5 +28,10 @@ defineResultArray (pybind11::module_& module);
 /// are unsigned, and here signed: every cloud index is below 2^31.
 pybind11::dict
 arraysOfResult (const std::shared_ptr<const Result>& result);
+
+/// Adds the functions vertex_normals and texture_coordinates. Triangles are a contiguous array of
+/// the shape (m, 3) of uint32.
+void
+defineMeshFunctions (pybind11::module_& module);
 
 } // namespace pcl::floater

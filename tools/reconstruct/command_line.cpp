@@ -2,17 +2,99 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_line.h"
 
+#include "atomic_file.h"
+#include "cloud.h"
+#include "cloud_reader.h"
+#include "format.h"
+#include "large_arrays.h"
 #include "memory_limit.h"
-#include "option_kinds.h"
+#include "mesh_output.h"
+#include "mesh_writer.h"
 #include "option_table.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"
-#include "texture_output.h"
+#include "text_scanner.h"
 #include "usage_message.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <utility>
+
 namespace pcl::floater {
+int
+fail (const char* program, int code, const std::string& message)
+{
+  std::fprintf (stderr, "%s: %s\n", program, message.c_str ());
+  return code;
+}
+
+int
+failByException (const char* program, const char* if_no_memory)
+{
+  try {
+    throw;
+  }
+  catch (const UsageError& error) {
+    return fail (program, EXIT_USAGE, std::string (error.what ()) + "\nTry --help.");
+  }
+  catch (const ReadError& error) {
+    return fail (program, EXIT_INPUT, error.what ());
+  }
+  catch (const WriteError& error) {
+    return fail (program, EXIT_OUTPUT, error.what ());
+  }
+  catch (const std::bad_alloc&) {
+    const std::string failure = largeArrayFailure ();
+    if (!failure.empty ())
+      return fail (program, EXIT_INTERNAL, failure);
+    std::fprintf (stderr, "%s: not enough memory; %s\n", program, if_no_memory);
+    return EXIT_INTERNAL;
+  }
+  catch (const std::exception& error) {
+    return fail (program, EXIT_INTERNAL, std::string ("unexpected error: ") + error.what ());
+  }
+}
+
+std::vector<std::uint32_t>
+readLoop (const std::filesystem::path& path)
+{
+  std::string text (FileBytes (path).view ());
+  std::replace (text.begin (), text.end (), ',', ' ');
+  std::vector<std::uint32_t> loop;
+  TextScanner scanner (text);
+  while (scanner.nextLine ())
+    for (std::string_view word = scanner.word (); !word.empty () && word.front () != '#';
+         word = scanner.word ())
+      if (!parseNumber (word, loop.emplace_back ()))
+        scanner.fail ("'" + std::string (word) + "' is not the index of a point");
+  if (loop.empty ())
+    throw ReadError ("it has no indices of points");
+  return loop;
+}
+
+std::optional<std::string>
+setLimit (const std::string& setting, Limits& limits)
+{
+  const std::size_t equals = setting.find ('=');
+  const std::string name = setting.substr (0, equals);
+  const std::string word = equals == std::string::npos ? "" : setting.substr (equals + 1);
+  std::optional<std::string> problem = "'" + setting + "' is no NAME=VALUE of a limit";
+  const auto offer = [&] (const char* offered, auto& limit, auto least) {
+    if (name != offered)
+      return;
+    if (parseNumber (word, limit) && limit >= least)
+      problem.reset ();
+    else
+      problem = "'" + word + "' is no value of " + name;
+  };
+  offer ("parts.points", limits.parts.points, std::size_t{1000});
+  offer ("parts.rings", limits.parts.rings, std::size_t{1});
+  return problem;
+}
+
 namespace {
 /// \throws UsageError
 void
@@ -94,6 +176,85 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   checkTextureOptions (command_line);
   checkMemoryLimit (command_line);
   return std::nullopt;
+}
+
+namespace {
+/// Whether two paths name the same file, which need not exist.
+bool
+areSame (const std::filesystem::path& a, const std::filesystem::path& b)
+{
+  std::error_code error;
+  if (std::filesystem::equivalent (a, b, error) && !error)
+    return true;
+  // weakly_canonical would leave a relative path as it is if no part of it exists.
+  const auto full = [&error] (const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
+  };
+  return full (a) == full (b);
+}
+
+std::string
+unknownExtension (const std::filesystem::path& path)
+{
+  const std::string extension = lowerExtension (path);
+  return extension.empty () ? "it has no extension that tells its format"
+                            : "its extension '" + extension + "' is unknown";
+}
+
+} // namespace
+
+void
+checkPaths (const CommandLine& line)
+{
+  if (!line.cloudFormat ()) {
+    if (isStandardStream (line.input))
+      throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
+                        "--input-format pcd");
+    if (lowerExtension (line.input) == ".laz")
+      throw ReadError (LAZ_ADVICE);
+    throw ReadError (unknownExtension (line.input) + "; use " + CLOUD_EXTENSIONS +
+                     ", or give its format by --input-format");
+  }
+  for (const auto& [name, path] :
+       {std::pair ("--report", &line.report), std::pair ("--loop", &line.loop),
+        std::pair ("--parameterization", &line.parameterization)})
+    if (isStandardStream (*path))
+      throw UsageError (std::string (name) + " takes the name of a file, not -");
+  struct Named
+  {
+    const char* name;
+    const std::filesystem::path* path;
+    bool is_output;
+  };
+  const std::filesystem::path materials = materialsOf (line);
+  const std::array<Named, 7> all{{{"INPUT", &line.input, false},
+                                  {"--loop", &line.loop, false},
+                                  {"OUTPUT", &line.output, true},
+                                  {"--parameterization", &line.parameterization, true},
+                                  {"--report", &line.report, true},
+                                  {"the file of materials", &materials, true},
+                                  {"--texture", &line.texture, true}}};
+  for (std::size_t i = 0; i < all.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (all[i].is_output && !all[i].path->empty () && !all[j].path->empty () &&
+          !isStandardStream (*all[i].path) && !isStandardStream (*all[j].path) &&
+          areSame (*all[i].path, *all[j].path))
+        throw UsageError (std::string (all[j].name) + " and " + all[i].name +
+                          " are the same file, '" + all[i].path->string () +
+                          "'; give different ones");
+  if (!line.meshFormat () && isStandardStream (line.output))
+    throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
+                      "--output-format ply");
+  if (!line.meshFormat ())
+    throw WriteError ("cannot write '" + line.output.string () +
+                      "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
+                      ", or give its format by --output-format");
+  if (!line.parameterization.empty () && !meshFormatOf (line.parameterization))
+    throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
+                      unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
+  for (const Named& named : all)
+    if (named.is_output && !named.path->empty ())
+      requireWritable (*named.path);
 }
 
 } // namespace pcl::floater

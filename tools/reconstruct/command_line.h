@@ -4,22 +4,63 @@
 #pragma once
 
 #include "cloud_reader.h"
-#include "exit_codes.h"
 #include "mesh_writer.h"
 #include "options/choices.h"
 #include "options/stage_limits.h"
 #include "precision.h"
 
+#include <Eigen/Core>
 #include <pcl/surface/floater/options.h>
 
-#include <Eigen/Core>
-
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl::floater {
+/// Exit codes, as documented in --help.
+enum ExitCode
+{
+  EXIT_OK = 0,
+  EXIT_USAGE = 1,
+  EXIT_INPUT = 2,
+  EXIT_RECONSTRUCTION = 3,
+  EXIT_OUTPUT = 4,
+  EXIT_INTERNAL = 5,
+  EXIT_WARNINGS = 6
+};
+
+/// The command line is wrong, or asks for something impossible.
+class UsageError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Prints "program: message" to standard error.
+/// \return the code
+int
+fail (const char* program, int code, const std::string& message);
+
+/// Tells the exception that is being handled, by fail. To be called in a catch block.
+/// \param if_no_memory what to do where memory was not enough
+/// \return the exit code of it
+int
+failByException (const char* program, const char* if_no_memory);
+
+/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
+/// that begins with # begins a comment, up to the end of the line.
+/// \throws ReadError
+std::vector<std::uint32_t>
+readLoop (const std::filesystem::path& path);
+
+/// Changes the limit that a setting such as "parts.points=5000" names.
+/// \return why it cannot, if so
+std::optional<std::string>
+setLimit (const std::string& setting, Limits& limits);
+
 /// What the user asked for. Paths that were not given are empty.
 struct CommandLine
 {
@@ -93,5 +134,11 @@ constexpr Choices<std::optional<MeshFormat>, 7> MESH_FORMAT_CHOICES{{{"auto", st
 /// \throws UsageError
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line);
+
+/// Checks all paths against each other and against the disk, before the work begins.
+/// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
+/// ReadError if the extension of the input is unknown
+void
+checkPaths (const CommandLine& command_line);
 
 } // namespace pcl::floater

@@ -4,24 +4,19 @@
 // class, so that coordinates keep their double precision.
 #include "array_pool.h"
 #include "blas_threads.h"
-#include "check_paths.h"
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "format.h"
 #include "large_arrays.h"
-#include "loop_file.h"
 #include "memory_limit.h"
-#include "mesh_normals.h"
+#include "mesh_output.h"
 #include "mesh_writer.h"
 #include "plural.h"
 #include "precision.h"
 #include "prepared_input.h"
 #include "progress.h"
 #include "reconstruct.h"
-#include "remaining_time.h"
 #include "run_report.h"
-#include "summary.h"
-#include "texture_output.h"
 
 #include <algorithm>
 #include <chrono>

@@ -4,8 +4,84 @@
 #pragma once
 
 #include "command_line.h"
+#include "format.h"
+#include "suggestion.h"
+#include "text_scanner.h"
+
+#include <CLI/CLI.hpp>
 
 #include <functional>
+#include <sstream>
+#include <string>
+
+namespace pcl::floater {
+// Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
+// where it is told, shows the default in the help, and refuses a malformed word by name.
+
+/// An option whose value is one of several words.
+template <typename Enum, std::size_t N>
+void
+addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<Enum, N>& choices,
+           const std::string& description, const std::string& group)
+{
+  std::string words;
+  std::vector<std::string> known;
+  for (const auto& choice : choices) {
+    words += (words.empty () ? "" : ", ") + std::string (choice.first);
+    known.emplace_back (choice.first);
+  }
+  const auto choose = [&value, choices, words, known, name] (const std::string& word) {
+    for (const auto& choice : choices)
+      if (word == choice.first) {
+        value = choice.second;
+        return;
+      }
+    throw CLI::ValidationError (name,
+                                "'" + word + "' is none of: " + words + didYouMean (word, known));
+  };
+  app.add_option_function<std::string> (name, choose, description + ":\n" + words)
+      ->option_text (std::string ("NAME (") + choiceName (choices, value) + ")")
+      ->group (group);
+}
+
+/// An option whose value is a number. All of the word has to be one.
+template <typename Number>
+void
+addNumber (CLI::App& app, const std::string& name, Number& value, const std::string& description,
+           const std::string& group)
+{
+  const auto parse = [&value, name] (const std::string& word) {
+    if (!parseNumber (word, value))
+      throw CLI::ValidationError (name,
+                                  "'" + word + "' is not a " +
+                                      (std::is_integral_v<Number> ? "whole number" : "number"));
+  };
+  std::ostringstream text;
+  text << (std::is_integral_v<Number> ? "N (" : "X (") << value << ")";
+  app.add_option_function<std::string> (name, parse, description)
+      ->option_text (text.str ())
+      ->group (group);
+}
+
+/// An option whose value is the path of a file or a folder.
+void
+addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
+         const std::string& description, const std::string& group, const char* kind = "FILE");
+
+/// The name that the tools have for an option of the table: "--kept-loops" of "kept_loops".
+std::string
+toolName (std::string name);
+
+/// Breaks the texts of all options into lines.
+void
+wrapTexts (CLI::App& app);
+
+/// Reads "1,-2.5,3".
+/// \return nothing if these are not three finite numbers
+std::optional<Eigen::Vector3d>
+parsePlace (const std::string& word);
+
+} // namespace pcl::floater
 
 namespace CLI // NOLINT(readability-identifier-naming)
 {

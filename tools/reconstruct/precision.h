@@ -1,16 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In which precision coordinates are written.
+// In which precision, and from which origin, coordinates are written.
 #pragma once
 
 #include "cloud.h"
 #include "mesh_writer.h"
+
+#include <Eigen/Core>
 
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace pcl::floater {
+/// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
+/// bounding box of all finite points that are no gross outliers, rounded to the power of ten below
+/// its diagonal. (0, 0, 0) if floats hold them well as they are: if the distance of two floats of
+/// the size of the coordinates is below a hundredth of the spacing that the points would have on a
+/// flat sheet as large as the box. O(n).
+Eigen::Vector3d
+chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads);
+
 /// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
 /// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
 enum class Precision

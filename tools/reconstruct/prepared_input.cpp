@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prepared_input.h"
 
-#include "shift.h"
+#include "precision.h"
 
 #include <numeric>
 

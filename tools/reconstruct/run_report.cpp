@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
+#include "atomic_file.h"
+#include "format.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
+#include "plural.h"
 #include "report_json.h"
 
 #include <nlohmann/json.hpp>
-
 #include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
 
 namespace pcl::floater {
 namespace {
@@ -157,6 +162,165 @@ reportMemory (const CommandLine& line, Report& report)
   if (peak > line.max_memory)
     report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
                                ", above --max-memory " + formatSize (line.max_memory));
+}
+
+namespace {
+void
+printWarnings (const Report& report)
+{
+  for (const std::string& warning : report.warnings)
+    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
+}
+
+/// Prints boundary loops that may have been wrongly kept open or filled, the least sure ones.
+void
+printLoopDecisions (std::FILE* to, const Report& report)
+{
+  constexpr std::size_t MOST = 10;
+  const std::size_t count = report.loop_decisions.size ();
+  if (count == 0)
+    return;
+  std::fprintf (to, "not sure   of %s%s\n", counted (count, "boundary loop").c_str (),
+                count > MOST ? ", the least sure of them:" : "");
+  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
+    const LoopDecision& decision = report.loop_decisions[i];
+    std::fprintf (
+        to,
+        "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with a "
+        "probability of %.0f %%\n",
+        decision.points, decision.width_spacings, decision.at,
+        decision.stays_open ? "stays open" : "filled", 100.0 * decision.probability);
+  }
+}
+
+/// Prints parts of the mesh whose front may be their back, the least sure ones.
+void
+printFacingDecisions (std::FILE* to, const Report& report)
+{
+  constexpr std::size_t MOST = 10;
+  const std::size_t count = report.facing_decisions.size ();
+  if (count == 0)
+    return;
+  std::fprintf (to, "not sure   which side is the front of %s%s\n",
+                counted (count, "part").c_str (), count > MOST ? ", the least sure of them:" : "");
+  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
+    const FacingDecision& decision = report.facing_decisions[i];
+    std::fprintf (
+        to,
+        "           of %zu triangles at point %u: by the rule '%s', with a certainty of %.0f "
+        "%%\n",
+        decision.triangles, decision.at, facingRuleName (decision.rule),
+        100.0 * decision.certainty);
+  }
+}
+
+/// Prints method, components, genus and boundary loops.
+void
+printShape (std::FILE* to, const Report& report)
+{
+  const MeshCheck& check = report.check;
+  std::fprintf (to, "topology   %s%s%s\n", choiceName (TOPOLOGY_CHOICES, report.topology),
+                report.topology_reason.empty () ? "" : ": ", report.topology_reason.c_str ());
+  std::fprintf (
+      to, "shape      %s, genus %lld, %s\n", counted (check.components, "component").c_str (),
+      static_cast<long long> (check.genus), check.loops.empty () ? "closed" : "with boundary");
+  if (check.loops.empty ())
+    return;
+  const LoopSummary &longest = check.loops.front (), &shortest = check.loops.back ();
+  if (check.loops.size () == 1)
+    std::fprintf (to, "loops      1 of %zu points, %.3g spacings wide\n", longest.points,
+                  longest.width_spacings);
+  else
+    std::fprintf (
+        to, "loops      %zu, of %zu points, %.3g spacings wide, to %zu points, %.3g spacings\n",
+        check.loops.size (), longest.points, longest.width_spacings, shortest.points,
+        shortest.width_spacings);
+}
+
+void
+printSummary (std::FILE* to, const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const Statistics& statistics = report.statistics;
+  constexpr double MEGABYTE = 1e6;
+  std::fprintf (
+      to,
+      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
+      run.input_points, statistics.used_points, statistics.duplicate_points,
+      statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
+      report.unused.size ());
+  if (!report.scatter.empty ())
+    std::fprintf (to,
+                  "scatter    %s where the cloud is flat at no scale, as in leaves or in parts of "
+                  "few points: "
+                  "%s\n",
+                  counted (report.scatter.size (), "point").c_str (),
+                  line.options.scatter == ScatterPolicy::DROP ? "left out"
+                                                              : "connected like the others");
+  std::fprintf (to, "triangles  %zu\n", statistics.triangles);
+  printShape (to, report);
+  printLoopDecisions (to, report);
+  printFacingDecisions (to, report);
+  if (statistics.trimmed_triangles > 0)
+    std::fprintf (to, "cut off    %s (%zu to open crossings), %s, %s\n",
+                  counted (statistics.trimmed_triangles, "triangle").c_str (),
+                  statistics.opened_triangles,
+                  counted (statistics.trimmed_components, "component").c_str (),
+                  counted (statistics.trimmed_points, "point").c_str ());
+  if (!run.shift.isZero (0.0))
+    std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates\n",
+                  run.shift.x (), run.shift.y (), run.shift.z ());
+  if (report.is_view)
+    std::fprintf (to,
+                  "viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
+                  "out\n",
+                  report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
+                  report.viewpoint[1], report.viewpoint[2],
+                  counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
+  if (report.denoised)
+    std::fprintf (to,
+                  "noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
+                  "points were "
+                  "projected on local planes\n",
+                  statistics.noise, statistics.noise_quantile_90, statistics.largest_noise,
+                  statistics.projected_points);
+  std::fprintf (to,
+                "seconds    %.3f reading, %.3f reconstructing, %.3f writing; peak memory %.0f MB\n",
+                run.read_seconds, run.reconstruct_seconds, run.write_seconds,
+                static_cast<double> (peakMemory ()) / MEGABYTE);
+  std::fprintf (to, "warnings   %zu\n", report.warnings.size ());
+  std::fprintf (to, "mesh       %s\n",
+                isStandardStream (line.output) ? "to the standard output" : line.output.c_str ());
+  if (run.texture.status == RunStatus::SUCCESS)
+    std::fprintf (to, "texture    %s, stretch %.3f, %.0f %% of the square used, %.3f s%s%s\n",
+                  counted (run.texture.chart_count, "chart").c_str (), run.texture.stretch,
+                  100.0 * run.texture.area_used, run.texture_seconds,
+                  line.texture.empty () ? "" : ": ", line.texture.c_str ());
+  if (!line.parameterization.empty ())
+    std::fprintf (to, "flat mesh  %s\n", line.parameterization.c_str ());
+  if (!line.report.empty ())
+    std::fprintf (to, "report     %s\n", line.report.c_str ());
+}
+
+} // namespace
+
+void
+printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures)
+{
+  const bool is_ok = report.status == RunStatus::SUCCESS && !figures.is_refused;
+  const bool has_mesh = isStandardStream (line.output); // the standard output takes nothing else
+  std::FILE* const to = has_mesh ? stderr : stdout;
+  if (!is_ok)
+    std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct %s: %s (%s)\n",
+                  inputName (line.input).c_str (), report.message.c_str (),
+                  outcomeName (report, figures).c_str ());
+  if (figures.is_refused || (is_ok && !line.quiet))
+    printWarnings (report);
+  if (is_ok && !line.quiet)
+    printSummary (to, line, report, figures);
+  if (line.json)
+    std::fprintf (to, "%s\n", summaryLine (line, report, figures).c_str ());
+  if (std::fflush (stdout) != 0 || std::ferror (stdout) != 0)
+    throw WriteError ("cannot write to the standard output");
 }
 
 } // namespace pcl::floater

@@ -49,4 +49,11 @@ reportText (const CommandLine& command_line, const Report& report, const RunFigu
 std::string
 summaryLine (const CommandLine& command_line, const Report& report, const RunFigures& run);
 
+/// Prints errors and warnings to the standard error stream, the summary and the line of --json to
+/// the standard output. Comes before any output file is visible: if nothing can be printed, no file
+/// has been changed.
+/// \throws WriteError if the standard output fails
+void
+printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures);
+
 } // namespace pcl::floater

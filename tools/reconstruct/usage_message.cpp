@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "usage_message.h"
 
-#include "option_kinds.h"
+#include "option_table.h"
 #include "suggestion.h"
 
 #include <CLI/CLI.hpp>

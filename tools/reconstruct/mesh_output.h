@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texture coordinates of the mesh, the texture, and the file of materials that names it.
+// What is written beside the triangles: normals, texture coordinates, the texture and its materials.
 #pragma once
 
 #include "atomic_file.h"
+#include "cloud.h"
 #include "command_line.h"
 #include "mesh_texture.h"
 
@@ -14,6 +15,11 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Gives the cloud the fields nx, ny and nz of 32-bit floats, with the normals of the vertices of
+/// the mesh (see vertexNormals ()), in place of those that it has. All points must be left.
+void
+replaceNormals (Cloud& cloud, const Triangles& triangles, int threads);
+
 /// Checks what the command line asks for.
 /// \throws UsageError
 void
