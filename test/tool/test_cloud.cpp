@@ -3,7 +3,7 @@
 // Clouds that stay in their file.
 #include "atomic_file.h"
 #include "cloud_reader.h"
-#include "progress.h"
+#include "remaining_time.h"
 #include "sample.h"
 #include "tool_runner.h"
 
