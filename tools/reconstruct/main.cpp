@@ -16,6 +16,7 @@
 #include "prepared_input.h"
 #include "progress.h"
 #include "reconstruct.h"
+#include "remaining_time.h"
 #include "run_report.h"
 
 #include <algorithm>
