@@ -92,27 +92,26 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   }
   std::vector<Triangle> triangles = std::move (mesh.triangles);
   mesh = {};
-  Problem problem = reportCheck (points, found, request.options, report);
-  if (!problem)
-    problem =
-        reportTrimming (points, trimming, request.options.trimming, triangles.size (), report);
-  if (!problem)
-    reportFacing (points, finish.facing, request.options.facing, report);
-  reportTriangles (triangles.size (), finish, report);
+  Problem problem =
+      reportFinished (triangles.size (), finish, found, trimming, points, request, report);
   result.triangles = inCloud (points, std::move (triangles));
   return problem;
 }
 
 Problem
 reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
-                const Points& points, const Request& request, Report& report)
+                const Trimming& trimming, const Points& points, const Request& request,
+                Report& report)
 {
-  if (triangles == 0)
+  if (triangles == 0 && trimming.triangles == 0)
     return nothingMade ();
   Problem problem = reportCheck (points, found, request.options, report);
   if (!problem)
+    problem = reportTrimming (points, trimming, request.options.trimming, triangles, report);
+  if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
-  reportTriangles (triangles, finish, report);
+  report.statistics.flips = finish.flips;
+  report.statistics.triangles = triangles;
   return problem;
 }
 

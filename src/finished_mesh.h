@@ -6,6 +6,7 @@
 #include "local/local_geometry.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
+#include "mesh/trimming.h"
 #include "options/stage_limits.h"
 #include "points/points.h"
 
@@ -37,11 +38,12 @@ Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
          const LocalGeometry& geometry, const Request& request, Result& result);
 
-/// Checks and reports like useMesh (), for a mesh whose triangles are stored elsewhere. Trims
-/// nothing.
-/// \param triangles number of triangles
+/// Reports a finished mesh, wherever its triangles are. The end of every way.
+/// \param triangles number of triangles that are left
+/// \return like useMesh ()
 Problem
 reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
-                const Points& points, const Request& request, Report& report);
+                const Trimming& trimming, const Points& points, const Request& request,
+                Report& report);
 
 } // namespace pcl::floater

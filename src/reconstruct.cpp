@@ -15,6 +15,7 @@
 #include "options/stage_limits.h"
 #include "reconstruct_parts.h"
 #include "reconstruct_view.h"
+#include "report/findings.h"
 #include "report/report_cloud.h"
 #include "report/report_mesh.h"
 
@@ -285,6 +286,7 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
     const Limits effective_limits = effectiveLimits (limits, options);
     problem = reconstructAny (input, {effective, effective_limits, context, input.sensor_origin},
                               known, result);
+    describeFindings (result.report);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))
         result.report.warnings.push_back (std::move (unused));

@@ -113,7 +113,7 @@ reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
   if (known == nullptr)
     return useAssembled (std::move (surface), points, geometry, request, result);
   Problem problem = reportFinished (checked.mesh.triangles, surface.made.surface.finish,
-                                    checked.found, points, request, report);
+                                    checked.found, {}, points, request, report);
   MeshOfParts& mesh = surface.made.checked.mesh;
   mesh.seam = inCloud (points, std::move (mesh.seam));
   known->keepMesh (std::move (mesh));

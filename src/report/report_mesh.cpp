@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/report_mesh.h"
 
-#include "report/report_cloud.h"
+#include "report/findings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace pcl::floater {
 namespace {
@@ -26,46 +25,31 @@ isSmallHole (const LoopSummary& loop, std::size_t component_points)
 }
 
 void
-warnOfShape (const Points& points, const MeshExamination& found, Report& report)
+findShape (const Points& points, const MeshExamination& found, Report& report)
 {
-  std::vector<std::string>& warnings = report.warnings;
   const MeshCheck& check = found.check;
   if (check.folds > 0)
-    warnings.push_back (counted (check.folds, "edge is", "edges are") +
-                        " folded by more than 120 degrees" +
-                        oneAt (check.folds, place (points, found.fold_at)) +
-                        ": sheets of the surface come close there, or a feature is thinly sampled");
-  if (const std::size_t pairs = found.check.self_intersections; pairs > 0)
-    warnings.push_back (
-        counted (pairs, "pair of triangles crosses", "pairs of triangles cross") + " each other" +
-        oneAt (pairs, place (points, found.crossing_at)) +
-        ": sheets of the surface come closer there than their points are, or a feature is thinly "
-        "sampled");
+    addFinding (report, FindingId::FOLDS, points, {found.fold_at}, check.folds);
+  if (check.self_intersections > 0)
+    addFinding (report, FindingId::CROSSING_TRIANGLES, points, {found.crossing_at},
+                check.self_intersections);
   if (found.long_edges > 0)
-    warnings.push_back (
-        counted (found.long_edges, "edge inside the surface is", "edges inside the surface are") +
-        " much longer than the local spacing, " +
-        (found.long_edges == 1 ? "" : "the longest one ") + "of " + rounded (found.longest_inside) +
-        " spacings from " + place (points, found.longest_inside_at.first) + " to " +
-        place (points, found.longest_inside_at.second) + ": a hole may be bridged there");
+    addFinding (report, FindingId::LONG_EDGES, points,
+                {found.longest_inside_at.first, found.longest_inside_at.second}, found.long_edges,
+                found.longest_inside);
   if (check.degenerate_triangles > 0)
-    warnings.push_back (counted (check.degenerate_triangles, "triangle has", "triangles have") +
-                        " no area" +
-                        oneAt (check.degenerate_triangles, place (points, found.degenerate_at)) +
-                        ": points lie on one line there in the precision of the coordinates");
+    addFinding (report, FindingId::NO_AREA, points, {found.degenerate_at},
+                check.degenerate_triangles);
   if (found.smallest_component < FEW_POINTS &&
       found.largest_component > TINY_SHARE * found.smallest_component)
-    warnings.push_back ("the mesh has " + std::to_string (check.components) +
-                        " components, the smallest of " +
-                        std::to_string (found.smallest_component) + " points at " +
-                        place (points, found.smallest_component_at) +
-                        ": they may belong to a larger one, or be outliers");
+    addFinding (report, FindingId::SMALL_COMPONENT, points, {found.smallest_component_at},
+                check.components, found.smallest_component);
 }
 
-// No warning if the user chose the holes, or asked to cut edges or crossings: holes are expected.
+// Nothing is said if the user chose the holes, or asked to cut edges or crossings: holes are expected.
 void
-warnOfHoles (const Points& points, const MeshExamination& found, const Options& options,
-             Report& report)
+findHoles (const Points& points, const MeshExamination& found, const Options& options,
+           Report& report)
 {
   const bool close_all = options.holes.policy == HolePolicy::CLOSE_ALL;
   if (options.topology == Topology::DISC ||
@@ -82,17 +66,8 @@ warnOfHoles (const Points& points, const MeshExamination& found, const Options& 
     }
   if (holes == 0)
     return;
-  const std::string where = (holes == 1 ? ", of " : ", the largest, of ") +
-                            std::to_string (found.loops[largest].points.size ()) +
-                            " points, around " +
-                            place (points, found.loops[largest].points.front ());
-  if (close_all)
-    report.warnings.push_back (counted (holes, "hole stays", "holes stay") +
-                               " open though all were to be closed" + where);
-  else
-    report.warnings.push_back (
-        counted (holes, "small hole stays", "small holes stay") + " open" + where +
-        ": the sampling may be thin there; the hole policy decides what is closed");
+  addFinding (report, close_all ? FindingId::HOLES_LEFT_OPEN : FindingId::SMALL_HOLES, points,
+              {found.loops[largest].points.front ()}, holes, found.loops[largest].points.size ());
 }
 
 // "2 components, 3 boundary loops", "closed, genus 4", "one disc".
@@ -126,10 +101,7 @@ reportUnused (const Points& points, const MeshExamination& found, Report& report
   const auto first = std::find_if (found.unused.begin (), found.unused.end (), [&] (Index p) {
     return points.cloud_index[p] == report.unused.front ();
   });
-  report.warnings.push_back (counted (report.unused.size (), "point is", "points are") +
-                             " in no triangle, " + place (points, *first) +
-                             (report.unused.size () == 1 ? ": it does" : " among them: they do") +
-                             " not connect to the rest of the surface");
+  addFinding (report, FindingId::UNUSED_POINTS, points, {*first}, report.unused.size ());
 }
 
 void
@@ -140,10 +112,8 @@ reportBoundary (const Points& points, const Boundary& boundary, Report& report)
   report.statistics.boundary_candidates = boundary.candidates;
   report.statistics.loop_points = boundary.loop.size ();
   if (boundary.largest_step > LONG_STEP)
-    report.warnings.push_back ("the boundary loop has a step of " +
-                               std::to_string (boundary.largest_step) + " local spacings at " +
-                               place (points, boundary.longest_from) +
-                               ": it may cut across the surface there");
+    addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
+                boundary.largest_step);
 }
 
 void
@@ -199,10 +169,7 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
   report.statistics.levels = disc.levels;
   report.statistics.relinked_points = parameterization.relinked;
   if (parameterization.relinked > 0)
-    report.warnings.push_back (
-        counted (parameterization.relinked, "point was", "points were") +
-        " not connected to the boundary loop through neighbours, and linked to the nearest points "
-        "that are");
+    addFinding (report, FindingId::LINKED_POINTS, points, {}, parameterization.relinked);
   if (parameterization.uv.empty ())
     return;
   const Eigen::Vector2d nowhere =
@@ -219,10 +186,7 @@ void
 reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, Report& report)
 {
   if (!seam.empty ())
-    report.warnings.push_back (
-        "the surface seems to be one-sided, like a Moebius strip: it was cut open along " +
-        counted (seam.size (), "triangle", "triangles") + " near " +
-        place (points, seam.front ()[0]));
+    addFinding (report, FindingId::ONE_SIDED, points, {seam.front ()[0]}, seam.size ());
 }
 
 void
@@ -254,24 +218,9 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
                     [] (const LoopDecision& a, const LoopDecision& b) {
                       return std::abs (a.probability - 0.5) < std::abs (b.probability - 0.5);
                     });
-  if (too_deep == 0)
-    return;
-  std::ostringstream text;
-  text.precision (3);
-  text << counted (too_deep, "hole stays", "holes stay")
-       << " open though the sampling around looks as if points were missing there, "
-       << (too_deep == 1 ? "of a width of " : "the widest of ") << widest->width * points.scale
-       << " (" << widest->width / widest->spacing << " local spacings) around "
-       << place (points, widest->points.front ())
-       << ": triangles across would be a lid; the hole policy decides what is closed";
-  report.warnings.push_back (text.str ());
-}
-
-void
-reportTriangles (std::size_t triangles, const MeshFinish& finish, Report& report)
-{
-  report.statistics.flips = finish.flips;
-  report.statistics.triangles = triangles;
+  if (too_deep > 0)
+    addFinding (report, FindingId::DEEP_HOLES, points, {widest->points.front ()}, too_deep,
+                widest->width * points.scale, widest->width / widest->spacing);
 }
 
 std::vector<Triangle>
@@ -308,8 +257,8 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
     report.statistics.loop_points = report.loop.size ();
   }
   reportUnused (points, found, report);
-  warnOfShape (points, found, report);
-  warnOfHoles (points, found, options, report);
+  findShape (points, found, report);
+  findHoles (points, found, options, report);
   return {};
 }
 

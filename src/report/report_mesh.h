@@ -35,10 +35,6 @@ reportLoops (const Points& points, const Surface& surface, Report& report);
 void
 reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report);
 
-/// Reports counts of triangles and flips.
-void
-reportTriangles (std::size_t triangles, const MeshFinish& finish, Report& report);
-
 /// Converts corners from points to cloud indices.
 std::vector<Triangle>
 inCloud (const Points& points, std::vector<Triangle> triangles);

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -94,6 +95,69 @@ struct FacingDecision
   FacingRule rule = FacingRule::SHEET; ///< rule that turned it
   double certainty = 0.0; ///< confidence in the rule: 0.5 (another rule fits as well) to 1. For
                           ///< NORMALS: share of the area whose normals point to the front
+};
+
+/// What a run has found out about a cloud or its mesh and a user should know. The sentence of each is in
+/// Report::warnings, and in doc/troubleshooting.md.
+enum class FindingId
+{
+  COINCIDENT_POINTS,    ///< many points coincide
+  GROSS_OUTLIERS,       ///< points left out: over a thousand times as far away as all others
+  OUTLIERS,             ///< points left out: off any surface
+  NOISE,                ///< points are noisy, and were connected by their places on local planes
+  COORDINATES_IN_FLOAT, ///< coordinates are coarse: stored in 32 bits far from the origin
+  COORDINATES_ROUNDED,  ///< coordinates are coarse: rounded when they were stored
+  DOUBTFUL_VIEWPOINT,   ///< many points are in no triangle of the view
+  OTHER_VIEWPOINT,      ///< the points are spaced as seen from another place than the given one
+  OTHER_DIRECTION,      ///< the same, from far away
+  STEP_IN_LOOP,         ///< disc: a long edge in the boundary loop
+  LINKED_POINTS,        ///< disc: points not connected to the boundary loop through neighbours
+  ONE_SIDED,            ///< the surface was cut open because it seems one-sided
+  DEEP_HOLES,           ///< holes stay open because a filling would be a lid
+  UNUSED_POINTS,        ///< points are in no triangle
+  FOLDS,                ///< edges are folded by more than 120 degrees
+  CROSSING_TRIANGLES,   ///< pairs of triangles cross each other
+  LONG_EDGES,           ///< edges inside the surface are much longer than the local spacing
+  NO_AREA,              ///< triangles have no area
+  SMALL_COMPONENT,      ///< a component has few points
+  HOLES_LEFT_OPEN,      ///< holes stay open though all were to be closed
+  SMALL_HOLES,          ///< small holes stay open
+  NO_VIEWPOINT,         ///< the mesh was to face the viewpoint, but none is known
+  NORMALS_CONTRADICT,   ///< normals do not decide the front: they contradict each other
+  NORMALS_MISSING,      ///< normals do not decide the front: there are none
+  CLOSED_HAS_NO_UP,     ///< a closed part was to face up
+  VIEWPOINT_OUTSIDE,    ///< a closed part was to face the viewpoint
+  GUESSED_OUTSIDE,      ///< the front is a guess: no side is outside
+  GUESSED_UP,           ///< the front is a guess: as much faces down as up
+  GUESSED_TOWARDS_VIEW, ///< the front is a guess: as much looks away from the viewpoint as towards it
+  GUESSED_FRONT,        ///< the front is a guess: a body or a sheet
+  COUNT                 ///< the number of findings
+};
+
+/// What a finding means for the mesh.
+enum class Severity
+{
+  NOTE,  ///< nothing is wrong with the mesh
+  DOUBT, ///< a decision of the run may be wrong
+  FLAW   ///< the mesh is wrong there
+};
+
+/// Short name of a finding in lower case ("folds").
+PCL_FLOATER_EXPORT const char*
+findingName (FindingId id);
+
+/// Short name of a severity in lower case ("flaw").
+PCL_FLOATER_EXPORT const char*
+severityName (Severity severity);
+
+/// A finding, with the figures of its sentence.
+struct Finding
+{
+  FindingId id = FindingId::COUNT;
+  Severity severity = Severity::NOTE;
+  std::vector<double> numbers; ///< in the order of the sentence, how many there are first
+  /// Places, each by a point: its cloud index and position.
+  std::vector<std::pair<std::uint32_t, std::array<double, 3>>> places;
 };
 
 /// Result of the final check. It uses only triangles and positions.
@@ -181,8 +245,10 @@ struct Statistics
 struct Report
 {
   RunStatus status = RunStatus::NOT_RUN; ///< outcome
-  std::string message; ///< one sentence: the cause and what to do; empty after SUCCESS
-  std::vector<std::string> warnings;  ///< oddities of cloud and mesh, one sentence each
+  std::string message;           ///< one sentence: the cause and what to do; empty after SUCCESS
+  std::vector<Finding> findings; ///< oddities of cloud and mesh, in the order of the run
+  std::vector<std::string>
+      warnings; ///< a sentence for each finding, and for options without effect
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE
   std::string topology_reason;        ///< reason for this method, in a few words
   MeshCheck check;                    ///< final check of the mesh
