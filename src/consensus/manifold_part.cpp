@@ -119,9 +119,11 @@ private:
     for (std::size_t i = 0; i < count && start == 0; ++i)
       if (find (to, from[i]) == count)
         start = i;
-    std::size_t walked = 0;
-    for (std::size_t i = start; i < count && walked < count; ++walked)
+    std::size_t walked = 0, i = start;
+    do { // to the end of an open fan, or once around a closed one: others may be beside it
+      ++walked;
       i = find (from, to[i]);
+    } while (i < count && i != start);
     return walked == count;
   }
 
