@@ -91,6 +91,9 @@ def check_names():
 
     def body(kind, name, text):
         return re.search(kind + " " + name + r"\n\{(.*?)^\};", text, re.MULTILINE | re.DOTALL)[1]
+
+    def enumerators(name):
+        return set(re.findall(r"^  ([A-Z_]+)\b", body("enum class", name, report), re.MULTILINE))
     wanted = {
         "doc/options.md":
             set(re.findall(r'"(?:-\w,)?(--[a-z][a-z-]+)"', table)) - {"--help", "--version"} |
@@ -98,8 +101,8 @@ def check_names():
             set(re.findall(r"^  [\w:<> ]+ (\w+)(?: = [^;]*)?;", "".join(
                 body("struct", name, options) for name in ("BoundaryOptions", "DomainOptions", "SolverOptions")),
                 re.MULTILINE)),
-        "doc/troubleshooting.md": set(re.findall(r"^  ([A-Z_]+)\b", body("enum class", "RunStatus", report),
-                                                 re.MULTILINE))}
+        "doc/troubleshooting.md": enumerators("RunStatus") | {
+            name.lower() for name in enumerators("FindingId") - {"COUNT"}}}
     for page, names in wanted.items():
         text = (ROOT / page).read_text()
         if len(names) < 10:

@@ -26,11 +26,11 @@ struct Sentence
 };
 
 constexpr Sentence SENTENCES[] = {
-    {FindingId::COINCIDENT_POINTS, "coincident points", Severity::NOTE,
+    {FindingId::COINCIDENT_POINTS, "coincident_points", Severity::NOTE,
      "{0:point coincides|points coincide} with another one, point {n1} with point {n2}"
      "{0?| among them}: one point of each place is in the mesh; coordinates may have been rounded, "
      "or a cloud may be in the file twice"},
-    {FindingId::GROSS_OUTLIERS, "gross outliers", Severity::NOTE,
+    {FindingId::GROSS_OUTLIERS, "gross_outliers", Severity::NOTE,
      "{0:point is|points are} over a thousand times as far away as all others, {0?|among them }"
      "point {n1}: {0?it was|they were} left out"},
     {FindingId::OUTLIERS, "outliers", Severity::NOTE,
@@ -41,91 +41,91 @@ constexpr Sentence SENTENCES[] = {
      "below {n3}): {0?it was connected by its place on the plane|they were connected by their "
      "places on the planes} of the points around; the vertices of the mesh are the points "
      "themselves"},
-    {FindingId::COORDINATES_IN_FLOAT, "coordinates in float", Severity::DOUBT,
+    {FindingId::COORDINATES_IN_FLOAT, "coordinates_in_float", Severity::DOUBT,
      "the coordinates are coarse: along {a0} they are {n1} apart, {n2} of the local spacing{3+, "
      "and "
      "{3:point coincides|points coincide} with another}. 32-bit numbers have this step so far from "
      "the origin: subtract an origin before coordinates are stored in 32 bits; the tool's --shift "
      "does that for files in text or in double precision"},
-    {FindingId::COORDINATES_ROUNDED, "coordinates rounded", Severity::DOUBT,
+    {FindingId::COORDINATES_ROUNDED, "coordinates_rounded", Severity::DOUBT,
      "the coordinates are coarse: along {a0} they are {n1} apart, {n2} of the local spacing{3+, "
      "and "
      "{3:point coincides|points coincide} with another}. They were rounded when they were stored: "
      "store them with more digits"},
-    {FindingId::DOUBTFUL_VIEWPOINT, "doubtful viewpoint", Severity::DOUBT,
+    {FindingId::DOUBTFUL_VIEWPOINT, "doubtful_viewpoint", Severity::DOUBT,
      "{n0} of {n1} points are in no triangle of the view: the sensor may not have been at the "
      "given viewpoint"},
-    {FindingId::OTHER_VIEWPOINT, "other viewpoint", Severity::DOUBT,
+    {FindingId::OTHER_VIEWPOINT, "other_viewpoint", Severity::DOUBT,
      "the points are spaced as seen from the place ({n0}, {n1}, {n2}), and not as seen from the "
      "given viewpoint: that may be wrong; if none is given, the place is found"},
-    {FindingId::OTHER_DIRECTION, "other direction", Severity::DOUBT,
+    {FindingId::OTHER_DIRECTION, "other_direction", Severity::DOUBT,
      "the points are spaced as seen from far away in the direction ({n0}, {n1}, {n2}), and not as "
      "seen from the given viewpoint: that may be wrong; if none is given, the place is found"},
-    {FindingId::STEP_IN_LOOP, "step in loop", Severity::DOUBT,
+    {FindingId::STEP_IN_LOOP, "step_in_loop", Severity::DOUBT,
      "the boundary loop has a step of {n0} local spacings at {p0}: it may cut across the surface "
      "there"},
-    {FindingId::LINKED_POINTS, "linked points", Severity::DOUBT,
+    {FindingId::LINKED_POINTS, "linked_points", Severity::DOUBT,
      "{0:point was|points were} not connected to the boundary loop through neighbours, and linked "
      "to the nearest points that are"},
-    {FindingId::ONE_SIDED, "one-sided", Severity::DOUBT,
+    {FindingId::ONE_SIDED, "one_sided", Severity::DOUBT,
      "the surface seems to be one-sided, like a Moebius strip: it was cut open along "
      "{0:triangle|triangles} near {p0}"},
-    {FindingId::DEEP_HOLES, "deep holes", Severity::DOUBT,
+    {FindingId::DEEP_HOLES, "deep_holes", Severity::DOUBT,
      "{0:hole stays|holes stay} open though the sampling around looks as if points were missing "
      "there, {0?of a width of|the widest of} {n1} ({n2} local spacings) around {p0}: triangles "
      "across would be a lid; the hole policy decides what is closed"},
-    {FindingId::UNUSED_POINTS, "unused points", Severity::FLAW,
+    {FindingId::UNUSED_POINTS, "unused_points", Severity::FLAW,
      "{0:point is|points are} in no triangle, {p0}{0?: it does| among them: they do} not connect "
      "to the rest of the surface"},
     {FindingId::FOLDS, "folds", Severity::FLAW,
      "{0:edge is|edges are} folded by more than 120 degrees{at}: sheets of the surface come close "
      "there, or a feature is thinly sampled"},
-    {FindingId::CROSSING_TRIANGLES, "crossing triangles", Severity::FLAW,
+    {FindingId::CROSSING_TRIANGLES, "crossing_triangles", Severity::FLAW,
      "{0:pair of triangles crosses|pairs of triangles cross} each other{at}: sheets of the surface "
      "come closer there than their points are, or a feature is thinly sampled"},
-    {FindingId::LONG_EDGES, "long edges", Severity::DOUBT,
+    {FindingId::LONG_EDGES, "long_edges", Severity::DOUBT,
      "{0:edge inside the surface is|edges inside the surface are} much longer than the local "
      "spacing, {0?|the longest one }of {n1} spacings from {p0} to {p1}: a hole may be bridged "
      "there"},
-    {FindingId::NO_AREA, "no area", Severity::FLAW,
+    {FindingId::NO_AREA, "no_area", Severity::FLAW,
      "{0:triangle has|triangles have} no area{at}: points lie on one line there in the precision "
      "of the coordinates"},
-    {FindingId::SMALL_COMPONENT, "small component", Severity::DOUBT,
+    {FindingId::SMALL_COMPONENT, "small_component", Severity::DOUBT,
      "the mesh has {n0} components, the smallest of {n1} points at {p0}: they may belong to a "
      "larger one, or be outliers"},
-    {FindingId::HOLES_LEFT_OPEN, "holes left open", Severity::FLAW,
+    {FindingId::HOLES_LEFT_OPEN, "holes_left_open", Severity::FLAW,
      "{0:hole stays|holes stay} open though all were to be closed, {0?of|the largest, of} {n1} "
      "points, around {p0}"},
-    {FindingId::SMALL_HOLES, "small holes", Severity::DOUBT,
+    {FindingId::SMALL_HOLES, "small_holes", Severity::DOUBT,
      "{0:small hole stays|small holes stay} open, {0?of|the largest, of} {n1} points, around {p0}: "
      "the sampling may be thin there; the hole policy decides what is closed"},
-    {FindingId::NO_VIEWPOINT, "no viewpoint", Severity::DOUBT,
+    {FindingId::NO_VIEWPOINT, "no_viewpoint", Severity::DOUBT,
      "the mesh was to face the viewpoint, but none is known: the cloud has no origin of its "
      "sensor, and the points do not tell it. Other evidence decides which side is the front; give "
      "the place of the sensor, or choose another facing"},
-    {FindingId::NORMALS_CONTRADICT, "normals contradict", Severity::DOUBT,
+    {FindingId::NORMALS_CONTRADICT, "normals_contradict", Severity::DOUBT,
      "the normals of the points contradict each other on {0:part|parts} of the mesh, {0?at|the "
      "largest at} {p0}: many point to either side, as if they had never been oriented. They do not "
      "decide which side is the front there; orient them, or choose another facing"},
-    {FindingId::NORMALS_MISSING, "normals missing", Severity::DOUBT,
+    {FindingId::NORMALS_MISSING, "normals_missing", Severity::DOUBT,
      "no point has a normal on {0:part|parts} of the mesh, {0?at|the largest at} {p0}: normals do "
      "not decide which side is the front there; choose another facing"},
-    {FindingId::CLOSED_HAS_NO_UP, "closed has no up", Severity::NOTE,
+    {FindingId::CLOSED_HAS_NO_UP, "closed_has_no_up", Severity::NOTE,
      "{0:part|parts} of the mesh, {0?at|the largest at} {p0}, {0?is|are} closed: no side is up, "
      "and {0?it faces|they face} outwards"},
-    {FindingId::VIEWPOINT_OUTSIDE, "viewpoint outside", Severity::NOTE,
+    {FindingId::VIEWPOINT_OUTSIDE, "viewpoint_outside", Severity::NOTE,
      "{0:part|parts} of the mesh, {0?at|the largest at} {p0}, {0?is|are} closed: the viewpoint is "
      "outside, and {0?it faces|they face} outwards"},
-    {FindingId::GUESSED_OUTSIDE, "guessed outside", Severity::DOUBT,
+    {FindingId::GUESSED_OUTSIDE, "guessed_outside", Severity::DOUBT,
      "which side is the front of {0:part|parts} of the mesh is a guess, {0?at|the largest at} "
      "{p0}: no side of it is outside, and it bulges to neither; choose another facing"},
-    {FindingId::GUESSED_UP, "guessed up", Severity::DOUBT,
+    {FindingId::GUESSED_UP, "guessed_up", Severity::DOUBT,
      "which side is the front of {0:part|parts} of the mesh is a guess, {0?at|the largest at} "
      "{p0}: as much of it faces down as up; choose another facing"},
-    {FindingId::GUESSED_TOWARDS_VIEW, "guessed towards view", Severity::DOUBT,
+    {FindingId::GUESSED_TOWARDS_VIEW, "guessed_towards_view", Severity::DOUBT,
      "which side is the front of {0:part|parts} of the mesh is a guess, {0?at|the largest at} "
      "{p0}: as much of it looks away from the viewpoint as towards it; choose another facing"},
-    {FindingId::GUESSED_FRONT, "guessed front", Severity::DOUBT,
+    {FindingId::GUESSED_FRONT, "guessed_front", Severity::DOUBT,
      "which side is the front of {0:part|parts} of the mesh is a guess, {0?at|the largest at} "
      "{p0}: it may be a body or a sheet; the place of the sensor would tell, if it is one scan"},
 };

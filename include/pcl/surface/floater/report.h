@@ -142,7 +142,7 @@ enum class Severity
   FLAW   ///< the mesh is wrong there
 };
 
-/// Short name of a finding in lower case ("folds").
+/// Name of a finding in lower case ("crossing_triangles").
 PCL_FLOATER_EXPORT const char*
 findingName (FindingId id);
 
