@@ -3,6 +3,7 @@
 #include "cloud_geometry.h"
 
 #include "input/input.h"
+#include "local/scatter.h"
 #include "points/noise.h"
 #include "points/outliers.h"
 #include "report/report_cloud.h"
@@ -70,36 +71,31 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
   reportOutliers (cloud_indices, points.size (), report);
 }
 
-Noise
-measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable& neighbors,
-                        const NeighborSettings& settings, const Request& request,
-                        const NoiseProbes* known, Report& report)
+bool
+dropsScatter (const Options& options)
 {
-  const Options& options = request.options;
-  const Limits& limits = request.limits;
-  const RunContext& run = request.run;
-  const bool drops_scatter = options.scatter == ScatterPolicy::DROP;
-  if (!options.denoise && !drops_scatter)
-    return {};
-  Noise noise = measureNoise (points.positions, neighbors, limits.noise, run, known);
-  if (drops_scatter)
-    noise.scatter = exceptLoop (std::move (noise.scatter), points, options.disc.boundary.loop);
-  reportScatter (points, noise.scatter, report);
-  if (drops_scatter && !noise.scatter.empty ()) {
-    removePoints (points, noise.scatter);
-    report.statistics.working_points = points.size ();
-    if (checkPoints (points))
-      return {}; // the caller reports the problem
-    std::optional<KdTree> tree;
-    CsrLists of_rest =
-        findNeighbors (points, settings, run, asksForDisc (options) ? nullptr : &tree);
-    planes = fitLocalPlanes (points, std::move (of_rest), std::move (tree), starSettings (request),
-                             run, limits.planes);
-    if (options.denoise)
-      noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
-    noise.scatter.clear (); // all scatter has been removed
-  }
-  return options.denoise ? noise : Noise{};
+  return options.scatter == ScatterPolicy::DROP ||
+         (options.scatter == ScatterPolicy::AUTO && !asksForDisc (options));
+}
+
+bool
+takeScatter (Points& points, const LocalGeometry& geometry, const Noise& noise,
+             const Request& request, Report& report)
+{
+  if (noise.unevenness.empty ())
+    return false;
+  std::vector<Index> scatter =
+      findScatter (geometry.neighbors, geometry.stars, noise.unevenness,
+                   request.limits.noise.uneven, request.limits.scatter, request.run);
+  const bool drops = dropsScatter (request.options);
+  if (drops)
+    scatter = exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop);
+  reportScatter (points, scatter, report);
+  if (!drops || scatter.empty ())
+    return false;
+  removePoints (points, scatter);
+  report.statistics.working_points = points.size ();
+  return true;
 }
 
 StarSettings
@@ -117,23 +113,28 @@ starSettings (const Request& request)
   return settings;
 }
 
+LocalPlanes
+findPlanes (const Points& points, const NeighborSettings& settings, const Request& request)
+{
+  const RunContext& run = request.run;
+  run.beginStage (Stage::NEIGHBORS);
+  std::optional<KdTree> tree; // searched again for the stars of a surface
+  CsrLists neighbors =
+      findNeighbors (points, settings, run, asksForDisc (request.options) ? nullptr : &tree);
+  run.beginStage (Stage::STARS);
+  return fitLocalPlanes (points, std::move (neighbors), std::move (tree), starSettings (request),
+                         run, request.limits.planes);
+}
+
 LocalGeometry
 projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
               const NeighborSettings& settings, const Request& request)
 {
-  const Limits& limits = request.limits;
-  const RunContext& run = request.run;
-  points.projected = projectNoisyPoints (points.positions, neighbors, noise, limits.noise, run);
+  points.projected =
+      projectNoisyPoints (points.positions, neighbors, noise, request.limits.noise, request.run);
   neighbors = {};
-  run.beginStage (Stage::NEIGHBORS);
-  std::optional<KdTree> tree;
-  neighbors = findNeighbors (points, settings, run, &tree);
-  run.beginStage (Stage::STARS);
-  const StarSettings stars = starSettings (request);
-  return makeLocalGeometry (
-      points,
-      fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes),
-      stars, run);
+  LocalPlanes planes = findPlanes (points, settings, request);
+  return makeLocalGeometry (points, std::move (planes), starSettings (request), request.run);
 }
 
 FacingHints

@@ -26,20 +26,24 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
 void
 removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report);
 
-/// Measures noise and finds scatter: points without a surface at any scale. Removes scatter if that
-/// is requested, except points of the user's loop.
-/// \param planes of the points; renewed if points are removed
-/// \param neighbors from which the planes were made
-/// \param known of every NOISE_PROBES-th point, if measured before
-/// \return nothing noisy if denoising is off
-Noise
-measureNoiseAndScatter (Points& points, LocalPlanes& planes, const NeighborTable& neighbors,
-                        const NeighborSettings& settings, const Request& request,
-                        const NoiseProbes* known, Report& report);
+/// Whether scatter is left out of the mesh.
+bool
+dropsScatter (const Options& options);
+
+/// Finds and reports scatter: regions that are no surface at any scale. Removes it from the points
+/// if it is left out of the mesh, except points of the user's loop.
+/// \return whether points were removed
+bool
+takeScatter (Points& points, const LocalGeometry& geometry, const Noise& noise,
+             const Request& request, Report& report);
 
 /// Settings for the stars of the points.
 StarSettings
 starSettings (const Request& request);
+
+/// The neighbours of all points, and their tangent planes.
+LocalPlanes
+findPlanes (const Points& points, const NeighborSettings& settings, const Request& request);
 
 /// Beyond TW 385: projects noisy points on local planes, by which they are connected. The mesh has
 /// triangles only, so the user's points stay unchanged.

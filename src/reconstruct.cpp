@@ -205,28 +205,39 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
             findViewpoint (points, table, samples, search, limits.view.evidence, run)))
       return *problem;
   }
-  const std::size_t with_scatter = points.size ();
   std::optional<NoiseProbes> probes;
   if (known != nullptr)
     probes = known->noiseProbes ();
-  Noise noise = measureNoiseAndScatter (points, planes, table, settings, request,
-                                        probes ? &*probes : nullptr, report);
-  if (points.size () != with_scatter)
-    known = nullptr; // the known stages do not fit fewer points
-  if (Problem problem = checkPoints (points)) {
-    problem.message = "without the " + counted (with_scatter - points.size (), "point", "points") +
-                      " of no surface: " + problem.message + "; keep the scatter";
-    return problem;
-  }
+  const bool is_measured = options.denoise || dropsScatter (options);
+  Noise noise;
+  if (is_measured)
+    noise = measureNoise (points.positions, table, limits.noise, run, probes ? &*probes : nullptr);
+  const bool reads_stars = noise.noisy_points > 0 || !noise.unevenness.empty ();
   LocalGeometry geometry;
   if (known == nullptr)
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-  else if (noise.noisy_points == 0 && Parts (points.size (), limits.parts).count () > 1)
+  else if (!reads_stars && Parts (points.size (), limits.parts).count () > 1)
     geometry.spacing = known->spacing (); // the parts hold all other arrays
   else {
     table.all ();
-    geometry = known->geometry (std::move (planes), noise.noisy_points > 0);
+    geometry = known->geometry (std::move (planes), reads_stars);
   }
+  const std::size_t with_scatter = points.size ();
+  if (takeScatter (points, geometry, noise, request, report)) {
+    known = nullptr; // the known stages do not fit fewer points
+    geometry = {};
+    if (Problem problem = checkPoints (points)) {
+      problem.message = "without the " +
+                        counted (with_scatter - points.size (), "point", "points") +
+                        " of no surface: " + problem.message + "; keep the scatter";
+      return problem;
+    }
+    planes = findPlanes (points, settings, request);
+    noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+    geometry = makeLocalGeometry (points, std::move (planes), stars, run);
+  }
+  if (!options.denoise)
+    noise = {};
   noise.is_strong =
       noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
   if (noise.is_strong) {
@@ -239,7 +250,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     geometry = projectNoise (points, std::move (around), noise, settings, request);
     known = nullptr;
   }
-  geometry.scatter = std::move (noise.scatter);
   reportNoise (noise, noise.is_strong, report);
   noise = {};
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), run), report);

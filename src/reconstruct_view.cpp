@@ -29,16 +29,10 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   const Viewpoint of_file{(origin - points.centre) / points.scale, false};
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
-  run.beginStage (Stage::NEIGHBORS);
-  std::optional<KdTree> tree;
-  CsrLists neighbors =
-      findNeighbors (points, neighborSettings (request.options, nullptr), run, &tree);
-  run.beginStage (Stage::STARS);
-  const StarSettings stars = starSettings (request);
-  const LocalPlanes planes = fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars,
-                                             run, request.limits.planes);
+  const LocalPlanes planes =
+      findPlanes (points, neighborSettings (request.options, nullptr), request);
   const std::vector<AreaSample> samples =
-      takeAreaSamples (points, planes, stars, search.samples, run);
+      takeAreaSamples (points, planes, starSettings (request), search.samples, run);
   const std::optional<Viewpoint> found =
       findViewpoint (points, planes.neighbors, samples, search, evidence, run);
   return found ? found

@@ -26,8 +26,8 @@ constexpr Choices<Facing, 5> FACING_CHOICES{{{"auto", Facing::AUTO},
                                              {"up", Facing::UP},
                                              {"viewpoint", Facing::VIEWPOINT},
                                              {"normals", Facing::NORMALS}}};
-constexpr Choices<ScatterPolicy, 2> SCATTER_CHOICES{
-    {{"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
+constexpr Choices<ScatterPolicy, 3> SCATTER_CHOICES{
+    {{"auto", ScatterPolicy::AUTO}, {"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
 constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{
     {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
      {"consensus", BoundaryMethod::CONSENSUS},

@@ -138,7 +138,7 @@ visitOptions (AnyOptions& options, Visitor&& visit)
                    "leave points that lie off any surface out of the mesh"},
          options.remove_outliers);
   visit (OptionRow{"scatter", SURFACE, "setScatterPolicy", UsedFor::SCATTER,
-                   "what becomes of points that are on no surface at any scale, such as leaves"},
+                   "what becomes of regions that are no surface at any scale, such as leaves"},
          options.scatter, SCATTER_CHOICES);
   visit (
       OptionRow{"denoise", SURFACE, "setDenoise", UsedFor::ALL,

@@ -8,6 +8,7 @@
 #include "core/run_context.h"
 #include "floater/floater_method.h"
 #include "local/planes.h"
+#include "local/scatter.h"
 #include "local/stars.h"
 #include "mesh/check.h"
 #include "mesh/self_intersection_removal.h"
@@ -24,6 +25,7 @@ struct Limits
   GrossOutlierLimits gross_outliers;
   OutlierLimits outliers;
   NoiseLimits noise;
+  ScatterLimits scatter;
   PlaneLimits planes;
   SheetLimits sheets;
   ReachLimits reach;

@@ -258,7 +258,7 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
 struct Places
 {
   std::vector<float> noise, unevenness;
-  bool are_noisy = true, are_scatter = true; // enough of them to exclude chance
+  bool are_noisy = true, are_uneven = true; // enough of them
 };
 
 // The samples at the larger scales, made when they are needed.
@@ -303,7 +303,7 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTabl
       for (std::size_t i = 0; i < count; ++i)
         points.push_back (static_cast<Index> (i * stride * CENTRES));
       measured = probeNoise (positions, neighbors.all (), points, samples.all (), limits, run,
-                             places.are_scatter);
+                             places.are_uneven);
     }
     else {
       measured = *known;
@@ -312,40 +312,36 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTabl
       places.noise[i * stride] = measured.noise[i];
       places.unevenness[i * stride] = measured.unevenness[i];
     }
-    const auto are_many = [&] (const std::vector<float>& values, auto is_one) {
-      const auto ones = std::count_if (values.begin (), values.end (), is_one);
-      return static_cast<double> (ones) >= FEW * static_cast<double> (count);
-    };
+    const auto noisy = std::count_if (places.noise.begin (), places.noise.end (),
+                                      [] (float x) { return x > 0.0F; });
+    const auto uneven =
+        std::count_if (places.unevenness.begin (), places.unevenness.end (),
+                       [&] (float x) { return static_cast<double> (x) >= limits.uneven; });
     places.are_noisy =
-        places.are_noisy && are_many (places.noise, [] (float x) { return x > 0.0F; });
-    places.are_scatter = places.are_scatter && are_many (places.unevenness, [&] (float x) {
-                           return static_cast<double> (x) >= limits.scatter;
-                         });
-    if (!places.are_noisy && !places.are_scatter)
+        places.are_noisy && static_cast<double> (noisy) >= FEW * static_cast<double> (count);
+    places.are_uneven = places.are_uneven &&
+                        static_cast<std::size_t> (uneven) * stride * CENTRES >= limits.least_uneven;
+    if (!places.are_noisy && !places.are_uneven)
       break;
   }
   return places;
 }
 
-// Points around which no scale is flat.
-std::vector<Index>
-findScatter (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& unevenness,
-             const PointSample& centres, double limit, const RunContext& run)
+// The unevenness around each point.
+std::vector<float>
+spread (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& unevenness,
+        const PointSample& centres, const RunContext& run)
 {
   const std::vector<float> around = smoothed (positions, unevenness, centres, 0.5, run);
-  std::vector<std::uint8_t> is_scatter (positions.size ());
+  std::vector<float> at_point (positions.size ());
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t p = first; p < last; ++p) {
       centres.nearest (positions[p], 1, found);
-      is_scatter[p] = static_cast<double> (around[found.front ().point / CENTRES]) >= limit ? 1 : 0;
+      at_point[p] = around[found.front ().point / CENTRES];
     }
   });
-  std::vector<Index> scatter;
-  for (Index p = 0; p < positions.size (); ++p)
-    if (is_scatter[p] != 0)
-      scatter.push_back (p);
-  return scatter;
+  return at_point;
 }
 
 void
@@ -370,11 +366,11 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
   if (!mayBeNoisy (n))
     return noise;
   const Places places = measurePlaces (positions, neighbors, limits, run, known);
-  if (!places.are_noisy && !places.are_scatter)
+  if (!places.are_noisy && !places.are_uneven)
     return noise;
   const PointSample centres (positions, CENTRES, run);
-  if (places.are_scatter)
-    noise.scatter = findScatter (positions, places.unevenness, centres, limits.scatter, run);
+  if (places.are_uneven)
+    noise.unevenness = spread (positions, places.unevenness, centres, run);
   if (!places.are_noisy)
     return noise;
   const std::vector<float> around =

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Noise of the points, each at its own scale, and scatter: points on no surface at any scale.
+// Noise of the points, each at its own scale, and how uneven the cloud is around them.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -37,11 +37,10 @@ struct NoiseLimits
   /// of 0.3 spacings 0.07, of 0.5 spacings 0.18. Clean clouds of the benchmark have at most 0.020,
   /// its depth cameras at least 0.038. Chosen between these: close to both, and not certain.
   double disturbed_share = 0.035;
-  /// Residual in spacings at the scale where it is smallest, median of the probes around a point,
-  /// from which on the point is scatter. In 20,000 generated points, five clouds of each kind: 98
-  /// to 99.7 % are scatter if strewn into a box, a ball or clumps; on a plane 0.05 % with noise of
-  /// 1.5 spacings, 8 % with 2, 78 % with 3.
-  double scatter = 0.48;
+  /// Unevenness from which on a point may lie on no surface. Points strewn into a box or a ball
+  /// have 0.49 or more, sheets with noise of one spacing 0.37 or less.
+  double uneven = 0.42;
+  std::size_t least_uneven = 100; ///< points; if there are fewer, unevenness is not measured at all
 };
 
 /// The noise of a cloud.
@@ -50,7 +49,9 @@ struct Noise
   std::vector<float> at_point; ///< standard deviation across the surface, in the unit of the
                                ///< positions; 0 at points that are not noisy
   std::size_t noisy_points = 0;
-  std::vector<Index> scatter; ///< points around which no scale is flat, ascending: leaves, grass
+  /// Unevenness of each point: the residual in spacings at the scale where it is smallest, median
+  /// of the probes around. Empty if hardly any point is uneven.
+  std::vector<float> unevenness;
   double median = 0.0, quantile_90 = 0.0, largest = 0.0; ///< over all points, in local spacings
   bool is_strong = false;                                ///< see isStrong; set by the caller
 };
@@ -80,10 +81,9 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 
 /// Measures noise at every eighth point (probe), at three scales: its 20 nearest of all points, of
 /// every fourth, and of every sixteenth. Each point has the 90 % quantile of the 10 probes around
-/// it. Clouds of fewer than 320 points lack these scales: they have no noise and no scatter; a
-/// single bush of fewer points lies in a surface at the largest scale. If fewer than 1 % of the
-/// probes are noisy, there is no noise. A probe where all three scales are lines, as on a wire, is
-/// scatter. O(n log n).
+/// it. Clouds of fewer than 320 points lack these scales, and have neither noise nor unevenness.
+/// If fewer than 1 % of the probes are noisy, there is no noise. A probe where all three scales are
+/// lines, as on a wire, is as uneven as can be. O(n log n).
 /// \param positions along a space-filling curve
 /// \param neighbors of each point, nearest first
 /// \param known of every NOISE_PROBES-th point, if measured before

@@ -42,10 +42,11 @@ enum class LengthUnit
   CLOUD     ///< units of the cloud
 };
 
-/// How scatter is treated: points around which the cloud is not flat at any scale, such as leaves
-/// and grass. Scans that are connected as their sensor saw them are not searched for it.
+/// How scatter is treated: regions of a cloud that are no surface at any scale, such as leaves and
+/// grass. Scans that are connected as their sensor saw them are not searched for it.
 enum class ScatterPolicy
 {
+  AUTO, ///< like DROP for a surface, like KEEP for a disc
   KEEP, ///< connected like all other points; the surface there has no meaning
   DROP  ///< left out of the mesh
 };
@@ -269,7 +270,7 @@ struct Options
   Facing facing = Facing::AUTO;       ///< which side of the mesh is its front
   DiscOptions disc;                   ///< options of the disc method; ignored by other methods
   bool remove_outliers = true;        ///< leave out points that lie off any surface
-  ScatterPolicy scatter = ScatterPolicy::KEEP; ///< points on no surface, such as leaves
+  ScatterPolicy scatter = ScatterPolicy::AUTO; ///< points on no surface, such as leaves
   bool denoise = true;       ///< where noise is strong, connect the points by their projections on
                              ///< local planes; the vertices are not moved
   bool filter_sheets = true; ///< drop neighbours that lie on another sheet of the surface
