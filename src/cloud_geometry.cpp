@@ -90,7 +90,7 @@ takeScatter (Points& points, const LocalGeometry& geometry, const Noise& noise,
   const bool drops = dropsScatter (request.options);
   if (drops)
     scatter = exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop);
-  reportScatter (points, scatter, report);
+  reportScatter (points, scatter, drops && request.options.scatter == ScatterPolicy::AUTO, report);
   if (!drops || scatter.empty ())
     return false;
   removePoints (points, scatter);

@@ -50,9 +50,7 @@ public:
   virtual std::vector<float> spacing () = 0;
 
   /// The parts of a large cloud, to be meshed where their geometry is stored.
-  /// \param scatter points around which the cloud is not flat at any scale, ascending
-  virtual std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter,
-                                           const PartsSettings& settings) = 0;
+  virtual std::unique_ptr<PartWork> parts (const PartsSettings& settings) = 0;
 
   /// The candidates of the stars, for a cloud that is one part.
   virtual ProposedTriangles triangles () = 0;

@@ -227,9 +227,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     known = nullptr; // the known stages do not fit fewer points
     geometry = {};
     if (Problem problem = checkPoints (points)) {
-      problem.message = "without the " +
-                        counted (with_scatter - points.size (), "point", "points") +
-                        " of no surface: " + problem.message + "; keep the scatter";
+      problem.message = "the cloud is no surface: " +
+                        counted (with_scatter - points.size (), "point lies", "points lie") +
+                        " on none at any scale, such as leaves, a solid, or many depth frames with "
+                        "errors, and without them " +
+                        problem.message + "; take a part that is a surface, or keep the scatter";
       return problem;
     }
     planes = findPlanes (points, settings, request);

@@ -90,7 +90,7 @@ reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
   PartsInWork surface{parts, nullptr, {}};
   std::optional<LeftToParts> left;
   if (known != nullptr) {
-    surface.work = known->parts (geometry.scatter, settings);
+    surface.work = known->parts (settings);
     left.emplace (points, geometry, *surface.work);
   }
   else

@@ -21,8 +21,6 @@ struct LocalGeometry
   std::vector<float> own_spacing; ///< of the positions, if they differ from the working positions;
                                   ///< otherwise empty
   Stars stars;                    ///< with unit normals
-  std::vector<Index> scatter;     ///< points around which the cloud is not flat at any scale,
-                                  ///< ascending
 
   /// Spacing on the mesh, whose vertices are the input positions.
   const std::vector<float>& meshSpacing () const

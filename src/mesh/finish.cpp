@@ -18,7 +18,7 @@ MeshFinish
 repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
             const RunContext& run)
 {
-  const auto& [positions, neighbors, spacing, scatter, normals] = input;
+  const auto& [positions, neighbors, spacing, normals] = input;
   MeshFinish finish;
   orientNormals (mesh, positions, normals, run);
   const TriangleCost cost (positions, normals, &spacing, settings.limits.cost);
@@ -35,7 +35,7 @@ repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& 
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
     // Flips have turned some triangles; normals may have the wrong sign now.
     orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, neighbors.all (), scatter, cost, positions, settings.limits.repair, run);
+    moveVertices (mesh, neighbors.all (), cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
   return finish;
@@ -55,10 +55,9 @@ MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
 {
-  MeshFinish finish = repairMesh (mesh,
-                                  {positions, geometry.neighbors, geometry.meshSpacing (),
-                                   geometry.scatter, geometry.stars.normals},
-                                  settings, run);
+  MeshFinish finish = repairMesh (
+      mesh, {positions, geometry.neighbors, geometry.meshSpacing (), geometry.stars.normals},
+      settings, run);
   if (settings.open_boundary)
     openBoundary (mesh, positions, sampleCorners (mesh, positions, CORNER_SAMPLE, run),
                   settings.limits.notches, run, finish);

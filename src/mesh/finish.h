@@ -53,7 +53,6 @@ struct RepairInput
   NeighborTable neighbors;                       ///< fully read only if there is something to
                                                  ///< insert or to repair
   const std::vector<float>& spacing;
-  const std::vector<Index>& scatter;     ///< see LocalGeometry
   std::vector<Eigen::Vector3f>& normals; ///< get the side of the mesh
 };
 

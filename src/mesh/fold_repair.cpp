@@ -144,12 +144,12 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 }
 
 std::size_t
-moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<Index>& scatter,
-              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
-              const RepairLimits& limits, const RunContext& run)
+moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
+              const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
+              const RunContext& run)
 {
   const std::vector<RepairTarget> targets =
-      findRepairTargets (mesh, positions, scatter, cost, limits.patch_points, run);
+      findRepairTargets (mesh, positions, cost, limits.patch_points, run);
   std::vector<Index> bad;
   for (Index v = 0; v < targets.size (); ++v)
     if (targets[v] == RepairTarget::BAD || targets[v] == RepairTarget::SCATTERED)

@@ -66,11 +66,10 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// if few are bad. A whole mesh is repaired in blocks first, on all threads, then between them; a
 /// submesh in one thread, without its fixed triangles.
 /// \param neighbors nearest neighbours of each point, candidates for a vertex's new neighbours
-/// \param scatter   points around which the cloud is not flat at any scale, ascending
 /// \return number of moves and kicks that were kept
 std::size_t
-moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const std::vector<Index>& scatter,
-              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
-              const RepairLimits& limits, const RunContext& run);
+moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
+              const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
+              const RunContext& run);
 
 } // namespace pcl::floater

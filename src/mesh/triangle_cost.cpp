@@ -113,24 +113,19 @@ findBadTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& 
 
 std::vector<RepairTarget>
 findRepairTargets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const std::vector<Index>& scatter, const TriangleCost& cost,
-                   std::size_t patch_points, const RunContext& run)
+                   const TriangleCost& cost, std::size_t patch_points, const RunContext& run)
 {
   const std::size_t points = mesh.triangle_of.size ();
-  std::vector<std::uint8_t> is_corner (points, 0), is_scatter (points, 0);
+  std::vector<std::uint8_t> is_corner (points, 0);
   const std::vector<std::uint8_t> is_bad = findBadTriangles (mesh, positions, cost, run);
   for (Index t = 0; t < is_bad.size (); ++t)
     if (is_bad[t] != 0)
       for (const Index v : mesh.triangles[t])
         is_corner[v] = 1;
-  for (const Index v : scatter)
-    is_scatter[v] = 1;
-  const PatchCounter corners (is_corner, patch_points), scattered (is_scatter, patch_points);
+  const PatchCounter corners (is_corner, patch_points);
   std::vector<RepairTarget> targets (points, RepairTarget::NOTHING);
   for (Index v = 0; v < points; ++v)
-    if (!scatter.empty () && scattered.areMost (v))
-      targets[v] = RepairTarget::LEFT;
-    else if (is_corner[v] != 0)
+    if (is_corner[v] != 0)
       targets[v] = corners.areMost (v) ? RepairTarget::SCATTERED : RepairTarget::BAD;
   return targets;
 }

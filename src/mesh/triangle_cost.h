@@ -165,16 +165,13 @@ enum class RepairTarget : std::uint8_t
              ///< degrees from a neighbouring triangle
   SCATTERED, ///< most points of the patch around are corners of bad triangles: there is no
              ///< consistent surface, so only vertices at folds are moved
-  LEFT       ///< most points of the patch around are scatter: no triangle is better than another
 };
 
 /// Class of each point. A patch is a run of points along the space-filling curve. O(n).
-/// \param scatter      points around which the cloud is not flat at any scale, ascending
 /// \param patch_points length of a patch
 std::vector<RepairTarget>
 findRepairTargets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const std::vector<Index>& scatter, const TriangleCost& cost,
-                   std::size_t patch_points, const RunContext& run);
+                   const TriangleCost& cost, std::size_t patch_points, const RunContext& run);
 
 /// Whether a triangle is bad (see RepairTarget::BAD).
 /// \param normal_of normal of a triangle, of any length

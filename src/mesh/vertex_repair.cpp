@@ -55,7 +55,7 @@ VertexRepair::kickAll (std::vector<Index> vertices)
     std::vector<Index> again;
     for (Index v : vertices) {
       progress.reach (kicks - kicks_left_);
-      if (targets_[v] == RepairTarget::LEFT || !isAtFold (v))
+      if (!isAtFold (v))
         continue;
       if (kick (v, share)) {
         ++kept;
@@ -96,8 +96,6 @@ VertexRepair::keepThoseToMove (std::vector<Index>& vertices)
 bool
 VertexRepair::isToMove (Index v)
 {
-  if (targets_[v] == RepairTarget::LEFT)
-    return false;
   if (isAtFold (v)) // sets fan_
     return true;
   return targets_[v] != RepairTarget::SCATTERED &&
@@ -200,7 +198,7 @@ VertexRepair::rebuildAll (const std::vector<Index>& vertices)
   ProgressLoop progress (run_, vertices.size ());
   for (const Index v : vertices) {
     progress.next ();
-    if (targets_[v] == RepairTarget::LEFT || !isAtFold (v))
+    if (!isAtFold (v))
       continue;
     if (isSpent () || tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
       break;

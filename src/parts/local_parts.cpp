@@ -96,11 +96,6 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
   std::atomic<std::size_t> begun{0};
   parallelTasks (run, parts_.count (), [&] (std::size_t part) {
     const Index first = parts_.first (part), last = parts_.last (part);
-    const std::vector<Index>& all = geometry_.scatter;
-    std::vector<Index> scatter (std::lower_bound (all.begin (), all.end (), first),
-                                std::lower_bound (all.begin (), all.end (), last));
-    for (Index& p : scatter)
-      p -= first;
     PartPoints points = pointsOf (part, points_.positions, geometry_.meshSpacing ());
     if (const auto* const normals = settings_.surface.facing.normals)
       points.facing_normals = slice (*normals, first, last);
@@ -109,7 +104,7 @@ LocalParts::finish (std::vector<PartChange> changes, const RunContext& run)
     if (++begun == parts_.count ()) // no other part needs them
       std::vector<Eigen::Vector3f> ().swap (geometry_.stars.normals);
     FinishedPart finished = finishPart (std::move (points), std::move (triangles), changes[part],
-                                        neighbors_, scatter, settings, run.withThreads (1));
+                                        neighbors_, settings, run.withThreads (1));
     triangles_[part] = std::move (finished.triangles);
     buckets_[part] = std::move (finished.buckets);
     finished_[part] = std::move (finished);

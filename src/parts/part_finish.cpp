@@ -187,7 +187,7 @@ orientMissing (const TriangleMesh& mesh, PartPoints& points, const NeighborRows&
 
 SeamZone
 takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh& mesh,
-          const NeighborRows& neighbors, const std::vector<Index>& scatter)
+          const NeighborRows& neighbors)
 {
   SeamZone zone;
   std::vector<Index> place (points.size (), NONE);
@@ -198,7 +198,6 @@ takeZone (const MeshRegion& region, const PartPoints& points, const TriangleMesh
     zone.positions.push_back (points.positions[p]);
     zone.normals.push_back (points.normals[p]);
     zone.spacing.push_back (points.spacing[p]);
-    zone.is_scatter.push_back (std::binary_search (scatter.begin (), scatter.end (), p) ? 1 : 0);
   }
   zone.neighbors = neighbors (zone.points);
   zone.is_partial = region.is_partial;
@@ -281,8 +280,8 @@ uncrossInner (TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone, P
 
 FinishedPart
 finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
-            const NeighborRows& neighbors, const std::vector<Index>& scatter,
-            const PartFinishSettings& settings, const RunContext& run)
+            const NeighborRows& neighbors, const PartFinishSettings& settings,
+            const RunContext& run)
 {
   apply (change, points.first, points.size (), run, triangles);
   TriangleMesh mesh;
@@ -298,9 +297,9 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
   FinishSettings finish_settings;
   finish_settings.flip_edges = settings.flip_edges;
   finish_settings.limits = settings.finish;
-  const MeshFinish finish = repairMesh (
-      mesh, {points.positions, within.table (), points.spacing, scatter, points.normals},
-      finish_settings, run);
+  const MeshFinish finish =
+      repairMesh (mesh, {points.positions, within.table (), points.spacing, points.normals},
+                  finish_settings, run);
   finished.flips = finish.flips;
   finished.folds_after_flips = finish.folds_after_flips;
 
@@ -316,7 +315,7 @@ finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange
       uncrossInner (mesh, is_in_zone, points, within.table (), settings, run, crossing);
   if (crossing.done.hasChanged ())
     finished.folds = countFoldsOutside (is_in_zone, mesh, points.positions, run);
-  finished.zone = takeZone (region, points, mesh, neighbors, scatter);
+  finished.zone = takeZone (region, points, mesh, neighbors);
   mesh = {};
   finished.check = checkInner (points, inner.triangles, markAll (region.points, points.size ()),
                                settings.check, run);

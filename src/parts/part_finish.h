@@ -23,8 +23,7 @@ struct SeamZone
   std::vector<float> spacing;
   std::vector<std::uint8_t> is_partial; ///< some triangles of the point in the part are missing
                                         ///< here
-  std::vector<std::uint8_t> is_scatter;
-  CsrLists neighbors; ///< of each point, nearest first
+  CsrLists neighbors;                   ///< of each point, nearest first
   std::vector<Triangle> triangles;
 };
 
@@ -60,12 +59,10 @@ struct PartFinishSettings
 /// n) at worst.
 /// \param points    of the part; the vertices lie on their positions
 /// \param triangles see PartMesh
-/// \param scatter   points of the part around which the cloud is not flat at any scale, ascending,
-///     numbered from its first point
 FinishedPart
 finishPart (PartPoints points, std::vector<Triangle> triangles, const PartChange& change,
-            const NeighborRows& neighbors, const std::vector<Index>& scatter,
-            const PartFinishSettings& settings, const RunContext& run);
+            const NeighborRows& neighbors, const PartFinishSettings& settings,
+            const RunContext& run);
 
 /// Data of some points.
 struct PointValues

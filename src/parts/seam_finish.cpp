@@ -145,11 +145,8 @@ JoinedZones::add (const SeamZone& zone)
     neighbors.offsets.push_back (0);
   const auto entries = static_cast<Index> (neighbors.ids.size ());
   append (zone.neighbors.ids, neighbors.ids);
-  for (std::size_t i = 0; i < zone.points.size (); ++i) {
+  for (std::size_t i = 0; i < zone.points.size (); ++i)
     neighbors.offsets.push_back (entries + zone.neighbors.offsets[i + 1]);
-    if (zone.is_scatter[i] != 0)
-      scatter.push_back (before + static_cast<Index> (i));
-  }
   for (const auto& [a, b, c] : zone.triangles)
     triangles.push_back ({before + a, before + b, before + c});
 }
@@ -174,9 +171,8 @@ finishSeam (JoinedZones zones, const std::vector<Triangle>& seam, std::vector<do
     folds_of_parts += std::max (e.triangle, mesh.mate (e).triangle) < first_of_seam ? 1 : 0;
   FinishedSeam finished;
   MeshFinish& finish = finished.finish;
-  finish = repairMesh (
-      mesh, {zones.positions, zones.neighbors, zones.spacing, zones.scatter, zones.normals},
-      settings, run);
+  finish = repairMesh (mesh, {zones.positions, zones.neighbors, zones.spacing, zones.normals},
+                       settings, run);
   finish.folds_after_flips -= std::min (finish.folds_after_flips, folds_of_parts);
   mesh.is_fixed.clear ();
   if (settings.open_boundary)

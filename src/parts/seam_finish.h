@@ -39,8 +39,7 @@ struct JoinedZones
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Vector3f> normals;
   std::vector<float> spacing;
-  std::vector<Index> scatter; ///< ascending
-  CsrLists neighbors;         ///< points of the cloud; after the seam is finished: indices
+  CsrLists neighbors; ///< points of the cloud; after the seam is finished: indices
   std::vector<std::uint8_t> is_partial;
   std::vector<Triangle> triangles;
 

@@ -36,6 +36,9 @@ constexpr Sentence SENTENCES[] = {
     {FindingId::OUTLIERS, "outliers", Severity::NOTE,
      "{0:point lies|points lie} off any surface, {0?|among them }point {n1}: {0?it was|they were} "
      "left out"},
+    {FindingId::SCATTER, "scatter", Severity::NOTE,
+     "{0:point lies|points lie} on no surface at any scale, such as leaves: {n1} % of the cloud, "
+     "{0?|among them }{p0}. {0?It was|They were} left out; the scatter policy decides that"},
     {FindingId::NOISE, "noise", Severity::DOUBT,
      "{0:point is|points are} noisy, by up to {n1} local spacings (median of all points {n2}, 90 % "
      "below {n3}): {0?it was connected by its place on the plane|they were connected by their "

@@ -80,13 +80,18 @@ reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, 
 }
 
 void
-reportScatter (const Points& points, const std::vector<Index>& scatter, Report& report)
+reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_unasked,
+               Report& report)
 {
   report.scatter.clear ();
   for (const Index p : scatter)
     report.scatter.push_back (points.cloud_index[p]);
   std::sort (report.scatter.begin (), report.scatter.end ());
   report.statistics.scatter_points = scatter.size ();
+  if (is_unasked && !scatter.empty ())
+    addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, scatter.size (),
+                100.0 * static_cast<double> (scatter.size ()) /
+                    static_cast<double> (points.size ()));
 }
 
 void

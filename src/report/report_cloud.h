@@ -35,10 +35,12 @@ reportGrossOutliers (const std::vector<Index>& outliers, Report& report);
 void
 reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report);
 
-/// Reports points around which no scale is flat.
+/// Reports points of no surface.
 /// \param scatter ascending
+/// \param is_unasked whether they are left out though nobody asked for it, which is worth a warning
 void
-reportScatter (const Points& points, const std::vector<Index>& scatter, Report& report);
+reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_unasked,
+               Report& report);
 
 /// Reports the noise, and warns if points are connected by their projections.
 void

@@ -220,7 +220,6 @@ PartWriter::addFinished (const FinishedPart& part)
   addVectors ("normals", zone.normals, arrays_);
   arrays_.add ("spacing", zone.spacing);
   arrays_.add ("is_partial", zone.is_partial);
-  arrays_.add ("is_scatter", zone.is_scatter);
   writeLists ("neighbors", zone.neighbors, arrays_);
   addTriangles ("zone", zone.triangles);
   auto& counts = keep<Index> ();
@@ -373,7 +372,6 @@ readFinished (ArrayFile& file)
   zone.normals = readVectors<Eigen::Vector3f> (file, "normals");
   zone.spacing = file.read<float> ("spacing");
   zone.is_partial = file.read<std::uint8_t> ("is_partial");
-  zone.is_scatter = file.read<std::uint8_t> ("is_scatter");
   zone.neighbors = readLists (file, "neighbors", 0, zone.points.size ());
   zone.triangles = readTriangles (file, "zone");
   const std::vector<Index> counts = file.read<Index> ("counts");

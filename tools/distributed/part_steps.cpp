@@ -171,7 +171,7 @@ readWhole (ArrayFile& file, const StepContext& context, bool& has_facing_normals
 
 // Tells what was decided from what was decided in another run.
 std::uint64_t
-identify (const std::vector<PartChange>& changes, const std::vector<Index>& scatter)
+identify (const std::vector<PartChange>& changes)
 {
   std::uint64_t value = 0;
   const auto add = [&value] (const auto& list) {
@@ -186,7 +186,6 @@ identify (const std::vector<PartChange>& changes, const std::vector<Index>& scat
     add (change.seam);
     add (change.beside);
   }
-  add (scatter);
   return value;
 }
 
@@ -221,10 +220,6 @@ finishStep (const StepContext& context, std::size_t part)
   StoredPart stored (context, part);
   ArrayFile changes = openArrays (context.store, CHANGES, context.plan);
   const auto id = changes.read<std::uint64_t> ("id");
-  std::vector<Index> scatter;
-  for (const Index p : changes.read<Index> ("scatter"))
-    if (p >= stored.first () && p < stored.last ())
-      scatter.push_back (p - stored.first ());
   std::vector<Triangle> triangles;
   {
     ArrayFile mesh = openArrays (context.store, blockFile (MESH, part), context.plan);
@@ -239,7 +234,7 @@ finishStep (const StepContext& context, std::size_t part)
     points.facing_normals = stored.facingNormals ();
   const FinishedPart finished =
       finishPart (std::move (points), std::move (triangles), readChange (changes, part),
-                  stored.neighbors (), scatter, settings.ofPart (partsOf (context)), context.run);
+                  stored.neighbors (), settings.ofPart (partsOf (context)), context.run);
   PartWriter writer;
   writer.arrays ().add ("id", id);
   writer.addFinished (finished);
@@ -272,10 +267,9 @@ isPartFinished (const StepContext& context, const FolderStore& folder, std::size
 void
 StoredParts::finish (std::vector<PartChange> changes, const RunContext& run)
 {
-  const std::uint64_t id = identify (changes, scatter_);
+  const std::uint64_t id = identify (changes);
   PartWriter writer;
   writer.arrays ().add ("id", &id, 1);
-  writer.arrays ().add ("scatter", scatter_);
   std::vector<double> whole;
   addWhole (settings_, whole);
   writer.arrays ().add ("whole", whole);

@@ -51,12 +51,11 @@ class StoredParts : public PartWork
 {
 public:
   /// \param context, folder must outlive this
-  /// \param scatter  see finishPart
   /// \param help     see JoinHelp
-  StoredParts (const StepContext& context, FolderStore& folder, std::vector<Index> scatter,
-               const PartsSettings& settings, const JoinHelp& help)
-      : context_ (context), folder_ (folder), scatter_ (std::move (scatter)), settings_ (settings),
-        deal_ (help.finish), reuse_ (help.limit), parts_ (partsOf (context))
+  StoredParts (const StepContext& context, FolderStore& folder, const PartsSettings& settings,
+               const JoinHelp& help)
+      : context_ (context), folder_ (folder), settings_ (settings), deal_ (help.finish),
+        reuse_ (help.limit), parts_ (partsOf (context))
   {
   }
 
@@ -70,7 +69,6 @@ public:
 private:
   const StepContext& context_;
   FolderStore& folder_;
-  std::vector<Index> scatter_;
   PartsSettings settings_;
   JoinHelp::Deal deal_;
   HeapReuse reuse_;

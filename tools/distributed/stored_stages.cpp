@@ -177,9 +177,9 @@ StoredStages::spacing ()
 }
 
 std::unique_ptr<PartWork>
-StoredStages::parts (const std::vector<Index>& scatter, const PartsSettings& settings)
+StoredStages::parts (const PartsSettings& settings)
 {
-  return std::make_unique<StoredParts> (context_, folder_, scatter, settings, help_);
+  return std::make_unique<StoredParts> (context_, folder_, settings, help_);
 }
 
 ProposedTriangles

@@ -30,8 +30,7 @@ public:
   NoiseProbes noiseProbes () override;
   LocalGeometry geometry (LocalPlanes planes, bool with_stars) override;
   std::vector<float> spacing () override;
-  std::unique_ptr<PartWork> parts (const std::vector<Index>& scatter,
-                                   const PartsSettings& settings) override;
+  std::unique_ptr<PartWork> parts (const PartsSettings& settings) override;
   ProposedTriangles triangles () override;
   void keepMesh (MeshOfParts mesh) override { mesh_ = std::move (mesh); }
 

@@ -249,13 +249,10 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
       statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
       report.unused.size ());
   if (!report.scatter.empty ())
-    std::fprintf (to,
-                  "scatter    %s where the cloud is flat at no scale, as in leaves or in parts of "
-                  "few points: "
-                  "%s\n",
+    std::fprintf (to, "scatter    %s on no surface at any scale, such as leaves: %s\n",
                   counted (report.scatter.size (), "point").c_str (),
-                  line.options.scatter == ScatterPolicy::DROP ? "left out"
-                                                              : "connected like the others");
+                  line.options.scatter == ScatterPolicy::KEEP ? "connected like the others"
+                                                              : "left out");
   std::fprintf (to, "triangles  %zu\n", statistics.triangles);
   printShape (to, report);
   printLoopDecisions (to, report);

@@ -51,7 +51,7 @@ class Mesh:
     outliers : numpy.ndarray, shape (k,), int32
         Points that were left out of the mesh as outliers; ascending.
     scatter : numpy.ndarray, shape (k,), int32
-        Points of no surface, such as leaves; left out of the mesh with `scatter="drop"`; ascending.
+        Points of no surface, such as leaves; left out of the mesh but with `scatter="keep"`; ascending.
     non_finite : numpy.ndarray, shape (k,), int32
         Points with a NaN or infinite coordinate, which are in no triangle; ascending.
     duplicates : numpy.ndarray, shape (k, 2), int32

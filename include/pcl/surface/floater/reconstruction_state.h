@@ -131,10 +131,10 @@ public:
   /** \brief Whether points that lie off any surface are left out of the mesh. */
   bool getRemoveOutliers () const;
 
-  /** \brief What becomes of points around which the cloud is flat at no scale, such as leaves and
-   * grass; default KEEP. getScatterIndices() has them. */
+  /** \brief What becomes of regions that are no surface at any scale, such as leaves and grass;
+   * default AUTO: left out of a surface. getScatterIndices() has their points. */
   void setScatterPolicy (ScatterPolicy policy);
-  /** \brief What becomes of points around which the cloud is flat at no scale. */
+  /** \brief What becomes of regions that are no surface at any scale. */
   ScatterPolicy getScatterPolicy () const;
 
   /** \brief Whether points are connected as they lie when projected on local planes, where noise is
@@ -314,8 +314,8 @@ public:
   /** \brief Points left out of the mesh because they lie off any surface; ascending. */
   pcl::Indices getOutlierIndices () const;
 
-  /** \brief Points around which the cloud is flat at no scale, such as leaves; ascending. With
-   * ScatterPolicy::DROP they are left out of the mesh. */
+  /** \brief Points of regions that are no surface at any scale, such as leaves; ascending. They
+   * are left out of the mesh, but with ScatterPolicy::KEEP. */
   pcl::Indices getScatterIndices () const;
 
   /** \brief Points with a NaN or infinite coordinate; ascending. */

@@ -104,6 +104,7 @@ enum class FindingId
   COINCIDENT_POINTS,    ///< many points coincide
   GROSS_OUTLIERS,       ///< points left out: over a thousand times as far away as all others
   OUTLIERS,             ///< points left out: off any surface
+  SCATTER,              ///< points left out: on no surface at any scale, such as leaves
   NOISE,                ///< points are noisy, and were connected by their places on local planes
   COORDINATES_IN_FLOAT, ///< coordinates are coarse: stored in 32 bits far from the origin
   COORDINATES_ROUNDED,  ///< coordinates are coarse: rounded when they were stored
@@ -196,9 +197,9 @@ struct Statistics
   std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
   std::size_t working_points = 0;    ///< distinct finite points without outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
-  std::size_t scatter_points = 0;    ///< points around which the cloud is not flat at any scale,
-                                     ///< such as leaves. Not searched in a view, in fewer than 320
-                                     ///< points, and without denoising if scatter is kept
+  std::size_t scatter_points = 0; ///< points of regions that are no surface at any scale, such as
+                                  ///< leaves. Not searched in a view, in fewer than 320 points,
+                                  ///< and without denoising if scatter is kept
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
                       ///< surface, in local spacings; below 0.15 it counts as 0. Not for views
   double noise_quantile_90 = 0.0;   ///< noise that 90 % of the points do not exceed
@@ -271,7 +272,7 @@ struct Report
   std::vector<std::uint32_t> unused;     ///< finite points in no triangle, except duplicates and
                                          ///< outliers; includes points cut off; ascending
   std::vector<std::uint32_t> scatter;    ///< points on no surface (see Statistics::scatter_points);
-                                         ///< left out of the mesh on request; ascending
+                                         ///< left out unless it is to be kept; ascending
   std::vector<std::uint32_t> outliers;   ///< outliers, left out of the mesh; ascending
   std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate; ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),
