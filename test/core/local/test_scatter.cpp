@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scatter: what is no surface is found, whatever its kind, and no point of a surface is.
+#include "points/point_samples.h"
+
+#include <pcl/surface/floater/reconstruct.h>
+
+#include <gtest/gtest.h>
+
+namespace pcl::floater {
+namespace {
+using samples::Positions;
+
+// Strewn into a box, into a ball with the most in the middle, into clumps, on small leaves, and a
+// jittered lattice.
+enum class Strewn
+{
+  BOX,
+  BALL,
+  CLUMPS,
+  LEAVES,
+  LATTICE,
+  COUNT
+};
+
+Positions
+strewn (Strewn kind, std::size_t count, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  const auto normal = [&] {
+    return Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
+  };
+  Positions positions = samples::randomPoints (count, seed);
+  const Positions centres = samples::randomPoints (count / 8, seed + 1);
+  const auto side = static_cast<std::size_t> (std::cbrt (static_cast<double> (count)));
+  Eigen::Vector3d along, across;
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Vector3d& p = positions[i];
+    if (kind == Strewn::BALL)
+      p = normal ();
+    else if (kind == Strewn::CLUMPS)
+      p = centres[i % (count / 100)] + 0.05 * normal ();
+    else if (kind == Strewn::LEAVES) {
+      if (i % 8 == 0) {
+        along = normal ().normalized ();
+        across = along.cross (normal ()).normalized ();
+      }
+      p = centres[i / 8] + 0.01 * (random.normal () * along + random.normal () * across);
+    }
+    else if (kind == Strewn::LATTICE)
+      p = Eigen::Vector3d (static_cast<double> (i % side), static_cast<double> (i / side % side),
+                           static_cast<double> (i / side / side)) +
+          0.02 * normal ();
+  }
+  return positions;
+}
+
+Report
+reportOn (const Positions& positions, ScatterPolicy policy = ScatterPolicy::KEEP)
+{
+  Options options;
+  options.threads = 1;
+  options.scatter = policy;
+  options.view.use = ViewUse::NEVER;
+  options.remove_self_intersections = options.flip_edges = false; // nothing to be seen here
+  return reconstruct (positions, options).report;
+}
+
+// Points on and around a sphere of radius 1, far enough apart that neither sees the other.
+Positions
+sphereAndBush (std::size_t on_sphere, std::size_t in_bush)
+{
+  Positions positions = samples::surface (SurfaceKind::SPHERE, on_sphere, 0.0);
+  for (const Eigen::Vector3d& p : strewn (Strewn::BOX, in_bush, 4))
+    positions.emplace_back (0.3 * p + Eigen::Vector3d (2.0, 0.0, 0.0));
+  return positions;
+}
+
+TEST (Scatter, IsFoundWhateverItsKind)
+{
+  for (std::size_t kind = 0; kind < static_cast<std::size_t> (Strewn::COUNT); ++kind)
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      SCOPED_TRACE (kind);
+      const std::size_t found =
+          reportOn (strewn (static_cast<Strewn> (kind), 8000, seed)).scatter.size ();
+      EXPECT_GE (found, 8000U * 97 / 100);
+    }
+}
+
+TEST (Scatter, NoPointOfASurfaceIsHoweverNoisy)
+{
+  for (const double noise : {0.0, 0.3, 1.0})
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      SCOPED_TRACE (noise);
+      Positions plane = samples::randomPoints (8000, seed);
+      RandomStream random (seed);
+      for (Eigen::Vector3d& p : plane)
+        p.z () = noise / std::sqrt (8000.0) * random.normal ();
+      EXPECT_TRUE (reportOn (plane).scatter.empty ());
+    }
+  EXPECT_TRUE (reportOn (samples::surface (SurfaceKind::SPHERE, 400, 0.0)).scatter.empty ());
+}
+
+// Walls that are thinner than their spacing look uneven, but their stars agree.
+TEST (Scatter, ThinWallsAreNone)
+{
+  for (const double thickness : {0.5, 1.0, 2.0}) {
+    Positions wall;
+    for (int x = 0; x < 60; ++x)
+      for (int y = 0; y < 60; ++y)
+        for (const double z : {0.0, thickness})
+          wall.emplace_back (x + 0.31 * (y % 3) + (z > 0.0 ? 0.5 : 0.0), y, z);
+    EXPECT_TRUE (reportOn (wall).scatter.empty ()) << thickness;
+  }
+}
+
+TEST (Scatter, IsLeftOutUnlessItIsToBeKept)
+{
+  const Positions positions = sphereAndBush (6000, 1500);
+  const Report kept = reportOn (positions, ScatterPolicy::KEEP);
+  EXPECT_GE (kept.scatter.size (), 1450U);
+  EXPECT_GE (kept.scatter.front (), 6000U); // all of the bush
+  EXPECT_EQ (kept.statistics.scatter_points, kept.scatter.size ());
+  EXPECT_GT (kept.statistics.used_points, 7000U);
+  const auto isTold = [] (const Report& report) {
+    return std::any_of (report.findings.begin (), report.findings.end (),
+                        [] (const Finding& f) { return f.id == FindingId::SCATTER; });
+  };
+  EXPECT_FALSE (isTold (kept));
+  for (const ScatterPolicy policy : {ScatterPolicy::AUTO, ScatterPolicy::DROP}) {
+    const Report report = reportOn (positions, policy);
+    EXPECT_EQ (report.scatter, kept.scatter);
+    EXPECT_EQ (report.statistics.working_points + report.scatter.size () + report.outliers.size (),
+               positions.size ());
+    EXPECT_LE (report.statistics.used_points, report.statistics.working_points);
+    EXPECT_EQ (isTold (report), policy == ScatterPolicy::AUTO); // the other was asked for
+  }
+}
+
+TEST (Scatter, SmallBushesStay)
+{
+  EXPECT_TRUE (reportOn (sphereAndBush (6000, 120)).scatter.empty ());
+}
+
+TEST (Scatter, ACloudOfNothingElseIsDegenerate)
+{
+  const Report report = reportOn (strewn (Strewn::BOX, 4000, 1), ScatterPolicy::AUTO);
+  EXPECT_NE (report.status, RunStatus::SUCCESS);
+  EXPECT_NE (report.message.find ("the cloud is no surface: 4000 points"), std::string::npos)
+      << report.message;
+}
+
+} // namespace
+} // namespace pcl::floater
