@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cloud_recipe.h"
+#include "attack.h"
 
-#include "hard_shapes.h"
 #include "random_stream.h"
 
 #include <Eigen/Geometry>
@@ -10,51 +9,228 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
+#include <random>
+#include <vector>
 
 namespace pcl::floater::fuzz {
 namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
+constexpr double TURN = 6.283185307179586;
+
+double
+real (std::size_t number)
+{
+  return static_cast<double> (number);
+}
+
+double
+fraction (std::size_t i, std::size_t n)
+{
+  return real (i) / real (std::max<std::size_t> (n, 1));
+}
+
+std::size_t
+rootOf (double number)
+{
+  return static_cast<std::size_t> (std::sqrt (number));
+}
+
+Vector3d
+normalVector (RandomStream& random)
+{
+  return Vector3d (random.normal (), random.normal (), random.normal ());
+}
+
+// Points that are made from their numbers.
+template <typename Make>
 Points
-makeRaw (std::size_t count, ByteSource& bytes)
+makeEach (std::size_t count, Make&& makePoint)
 {
   Points points;
-  for (std::size_t i = 0; i < count && !bytes.isEmpty (); ++i) {
-    const double x = bytes.anyDouble ();
-    const double y = bytes.anyDouble ();
-    points.emplace_back (x, y, bytes.anyDouble ());
+  for (std::size_t i = 0; i < count; ++i)
+    points.push_back (makePoint (i));
+  return points;
+}
+
+Points
+makeLine (std::size_t count, RandomStream& random)
+{
+  const Vector3d step = normalVector (random);
+  const double growth = random.below (2) == 0 ? 1.0 : 1.0 + 0.2 * random.uniform ();
+  Points points;
+  double at = 0.0, length = 1.0;
+  for (std::size_t i = 0; i < count; ++i, at += length, length *= growth)
+    points.emplace_back (at * step);
+  return points;
+}
+
+// Points on a sphere: in circles of latitude, or at random. All stars are co-circular in some way.
+Points
+makeSphere (std::size_t count, RandomStream& random)
+{
+  const std::size_t round = random.below (2) == 0 ? 0 : 3 + random.below (30);
+  return makeEach (count, [&] (std::size_t i) -> Vector3d {
+    const double u = round == 0 ? random.uniform () : fraction (i % round, round);
+    const double v = round == 0 ? random.uniform ()
+                                : fraction (i / round, std::max<std::size_t> (count / round, 1));
+    const double z = 2.0 * v - 1.0;
+    const double r = std::sqrt (std::max (0.0, 1.0 - z * z));
+    return {r * std::cos (TURN * u), r * std::sin (TURN * u), z};
+  });
+}
+
+// The faces of a box on a lattice, without its inside.
+Points
+makeBox (std::size_t count, RandomStream& random)
+{
+  const std::size_t side = rootOf (fraction (count, 6)) + 2;
+  const double thin = random.below (2) == 0 ? 1.0 : 0.02;
+  Points points;
+  for (std::size_t i = 0; i < side * side * side && points.size () < count; ++i) {
+    const std::array<std::size_t, 3> at{i % side, i / side % side, i / side / side};
+    if (std::any_of (at.begin (), at.end (),
+                     [side] (std::size_t c) { return c == 0 || c == side - 1; }))
+      points.emplace_back (real (at[0]), real (at[1]), thin * real (at[2]));
   }
   return points;
+}
+
+// Shapes about 1 in size.
+constexpr std::size_t SHAPES = 13;
+
+Points
+makeShape (std::size_t kind, std::size_t count, RandomStream& random)
+{
+  const auto isOneOfTwo = [&random] { return random.below (2) == 0; };
+  const auto randomPoint = [&random] (std::size_t /*i*/) -> Vector3d {
+    return Vector3d (random.uniform (), random.uniform (), random.uniform ());
+  };
+  switch (kind) {
+  case 0: { // a grid
+    const std::size_t width = 1 + random.below (rootOf (real (count)) + 1);
+    const double aspect = isOneOfTwo () ? 1.0 : std::pow (10.0, 4.0 * random.uniform ());
+    return makeEach (count, [&] (std::size_t i) -> Vector3d {
+      const std::size_t row = i / width;
+      return {aspect * real (row), real (i % width), 0.0};
+    });
+  }
+  case 1: { // a disc, flat or bent
+    const double bend = isOneOfTwo () ? 0.0 : 3.0 * random.uniform ();
+    return makeEach (count, [&] (std::size_t) -> Vector3d {
+      const double r = std::sqrt (random.uniform ());
+      const double angle = TURN * random.uniform ();
+      return {r * std::cos (angle), r * std::sin (angle), bend * r * r};
+    });
+  }
+  case 2:
+    return makeSphere (count, random);
+  case 3:
+    return makeLine (count, random);
+  case 4: { // circles, one over the other
+    const std::size_t rings = 1 + random.below (4);
+    return makeEach (count, [&] (std::size_t i) -> Vector3d {
+      const double angle = TURN * fraction (i / rings, count / rings);
+      return {std::cos (angle), std::sin (angle), 0.1 * real (i % rings)};
+    });
+  }
+  case 5:
+    return makeEach (count, randomPoint);
+  case 6: { // few places with many points: equal, or apart by the last bits only
+    const Points places = makeEach (1 + random.below (12), randomPoint);
+    const double apart = isOneOfTwo () ? 0.0 : std::pow (10.0, -17.0 + 6.0 * random.uniform ());
+    return makeEach (count, [&] (std::size_t) -> Vector3d {
+      return places[random.below (places.size ())] + apart * normalVector (random);
+    });
+  }
+  case 7: { // a hub with all others around it
+    const double height = isOneOfTwo () ? 0.0 : random.normal ();
+    return makeEach (std::max<std::size_t> (count, 1), [&] (std::size_t i) -> Vector3d {
+      const double angle = i == 0 ? 0.0 : TURN * fraction (i - 1, count - 1);
+      return i == 0 ? Vector3d (0.0, 0.0, height)
+                    : Vector3d (std::cos (angle), std::sin (angle), 0.0);
+    });
+  }
+  case 8: { // sheets that touch, cross, or lie closer together than their points
+    const std::size_t sheets = 2 + random.below (3);
+    const double gap =
+        random.below (3) == 0 ? 0.0 : std::pow (10.0, -3.0 + 4.0 * random.uniform ());
+    const double tilt = isOneOfTwo () ? 0.0 : random.uniform ();
+    const std::size_t width = 1 + rootOf (fraction (count, sheets));
+    return makeEach (count, [&] (std::size_t i) -> Vector3d {
+      const double x = real (i / sheets % width);
+      const std::size_t row = i / sheets / width;
+      return {x, real (row), real (i % sheets) * (gap + tilt * x)};
+    });
+  }
+  case 9:
+    return makeBox (count, random);
+  case 10: { // a spike: circles that become smaller towards a tip, down to the last bits
+    const std::size_t round = 3 + random.below (10);
+    const double shrink = 0.3 + 0.65 * random.uniform ();
+    return makeEach (count, [&] (std::size_t i) -> Vector3d {
+      const double ring = real (i / round), radius = std::pow (shrink, ring);
+      const double angle = TURN * fraction (i % round, round);
+      return {radius * std::cos (angle), radius * std::sin (angle), ring};
+    });
+  }
+  case 11: { // a one-sided strip
+    const std::size_t across = 2 + random.below (6);
+    const std::size_t along = std::max<std::size_t> (count / across, 1);
+    return makeEach (count, [&] (std::size_t i) -> Vector3d {
+      const double u = TURN * fraction (i / across, along);
+      const double v = fraction (i % across, across - 1) - 0.5;
+      const double r = 1.0 + 0.5 * v * std::cos (0.5 * u);
+      return {r * std::cos (u), r * std::sin (u), 0.5 * v * std::sin (0.5 * u)};
+    });
+  }
+  default: { // what a depth camera at the origin sees: rays in rows, coarse depths, steps
+    const std::size_t width = 2 + rootOf (real (count));
+    const double step = isOneOfTwo () ? 1e-4 : 0.05;
+    const double edge = random.uniform () - 0.5;
+    return makeEach (count, [&] (std::size_t i) -> Vector3d {
+      const double x = fraction (i % width, width) - 0.5, y = fraction (i / width, width) - 0.5;
+      const double depth = (x + 0.3 * y > edge ? 3.0 : 1.0 + 0.2 * x) + 0.01 * random.normal ();
+      const double z = std::max (step, step * std::round (depth / step));
+      return {x * z, y * z, z};
+    });
+  }
+  }
 }
 
 Points
 makePart (std::size_t count, ByteSource& bytes)
 {
-  const std::size_t kind = bytes.below (HARD_SHAPES + 1);
-  if (kind == HARD_SHAPES)
-    return makeRaw (count, bytes);
-  RandomStream random (bytes.byte ());
-  Points points = makeHardShape (kind, count, random);
-  const std::size_t jitter = bytes.below (8);
-  if (jitter > 3) {
-    const double size = std::pow (10.0, -static_cast<double> (jitter - 3));
-    for (Vector3d& p : points)
-      p += size * Vector3d (random.normal (), random.normal (), random.normal ());
+  const std::size_t kind = bytes.below (SHAPES + 1);
+  Points points;
+  if (kind == SHAPES) { // raw coordinates
+    for (std::size_t i = 0; i < count && !bytes.isEmpty (); ++i) {
+      const double x = bytes.anyDouble ();
+      const double y = bytes.anyDouble ();
+      points.emplace_back (x, y, bytes.anyDouble ());
+    }
+    return points;
   }
+  RandomStream random (bytes.byte ());
+  points = makeShape (kind, count, random);
+  const std::size_t jitter = bytes.below (8);
+  if (jitter > 3)
+    for (Vector3d& p : points)
+      p += std::pow (10.0, -real (jitter - 3)) * normalVector (random);
   // Placed along the axes as often as not, so that coordinates tie.
   const std::size_t place = bytes.below (4);
   const double scale = bytes.isOneIn (4) ? std::pow (10.0, 8.0 * random.uniform () - 4.0) : 1.0;
-  const Vector3d shift = (place & 1U) != 0U ? Vector3d (3.0 * random.normal (),
-                                                        3.0 * random.normal (), random.normal ())
-                                            : Vector3d::Zero ();
-  const Eigen::Quaterniond turn =
-      (place & 2U) != 0U
-          ? Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), 1.0)
-                .normalized ()
-          : Eigen::Quaterniond::Identity ();
+  Vector3d shift = Vector3d::Zero ();
+  if ((place & 1U) != 0U)
+    shift = Vector3d (3.0 * random.normal (), 3.0 * random.normal (), random.normal ());
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity ();
+  if ((place & 2U) != 0U)
+    turn = Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), 1.0)
+               .normalized ();
   for (Vector3d& p : points)
     p = scale * (turn * p) + shift;
   return points;
@@ -71,20 +247,21 @@ spoil (Points& points, ByteSource& bytes, RandomStream& random)
     return p[static_cast<Eigen::Index> (random.below (3))];
   };
   const std::size_t spikes = 1 + random.below (1 + points.size () / 4);
-  switch (bytes.below (16)) {
+  switch (const std::size_t kind = bytes.below (16); kind) {
   case 8:
-    for (std::size_t i = 0; i < spikes; ++i)
-      anyOf (any ()) = std::numeric_limits<double>::quiet_NaN ();
-    break;
   case 9:
-    for (std::size_t i = 0; i < spikes; ++i)
-      anyOf (any ()) = (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::infinity ();
-    break;
   case 10:
-    for (std::size_t i = 0; i < spikes; ++i) {
-      const Vector3d copy = any ();
-      any () = copy;
-    }
+    for (std::size_t i = 0; i < spikes; ++i)
+      if (kind == 8) {
+        anyOf (any ()) = std::numeric_limits<double>::quiet_NaN ();
+      }
+      else if (kind == 9) {
+        anyOf (any ()) = (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::infinity ();
+      }
+      else {
+        const Vector3d copy = any ();
+        any () = copy;
+      }
     break;
   case 11: // outliers, near and far
     for (std::size_t i = 0; i < 3; ++i)
@@ -131,42 +308,42 @@ decodeLimit (ByteSource& bytes)
   return kind == 15 ? bytes.anyDouble () : 0.5 * static_cast<double> (kind * kind);
 }
 
-void
-decodeDiscOptions (ByteSource& bytes, std::size_t points, Options& options)
+DiscOptions
+decodeDiscOptions (ByteSource& bytes, std::size_t points)
 {
-  options.disc.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
-  options.disc.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
-  options.disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
-  options.disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
-  options.disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
   constexpr std::array<Solver, 4> SOLVERS{Solver::UMFPACK, Solver::SUPERLU, Solver::BICGSTAB_ILUT,
                                           Solver::GAUSS_SEIDEL};
   constexpr std::array<Ordering, 5> ORDERINGS{Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS,
                                               Ordering::REVERSE_CUTHILL_MCKEE, Ordering::NATURAL};
-  options.disc.solver.method = SOLVERS[bytes.below (SOLVERS.size ())];
-  options.disc.solver.ordering = ORDERINGS[bytes.below (ORDERINGS.size ())];
-  options.disc.boundary.cluster_k = static_cast<int> (bytes.below (40));
-  options.disc.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
-  options.disc.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;
+  DiscOptions disc;
+  disc.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
+  disc.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
+  disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
+  disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
+  disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
+  disc.solver.method = SOLVERS[bytes.below (SOLVERS.size ())];
+  disc.solver.ordering = ORDERINGS[bytes.below (ORDERINGS.size ())];
+  disc.boundary.cluster_k = static_cast<int> (bytes.below (40));
+  disc.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
+  disc.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;
   if (bytes.isOneIn (4)) {
     const std::size_t length = bytes.below (24);
     for (std::size_t i = 0; i < length; ++i)
-      options.disc.boundary.loop.push_back (static_cast<std::uint32_t> (bytes.below (points + 2)));
+      disc.boundary.loop.push_back (static_cast<std::uint32_t> (bytes.below (points + 2)));
   }
+  return disc;
 }
 
-} // namespace
-
+// Plain defaults are what users have, so they come most often.
 Options
 decodeOptions (ByteSource& bytes, std::size_t points)
 {
   Options options;
-  // Plain defaults are what users have, so they come most often.
   const std::size_t kind = bytes.below (8);
   options.topology = kind < 4 ? Topology::AUTO : kind < 6 ? Topology::SURFACE : Topology::DISC;
   options.threads = static_cast<int> (1 + bytes.below (2));
   if (options.topology == Topology::DISC)
-    decodeDiscOptions (bytes, points, options);
+    options.disc = decodeDiscOptions (bytes, points);
   if (kind < 3)
     return options;
   const std::uint8_t switches = bytes.byte ();
@@ -201,6 +378,19 @@ decodeOptions (ByteSource& bytes, std::size_t points)
   options.trimming.minimum_component_size = static_cast<int> (bytes.below (12));
   options.facing = static_cast<Facing> (switches % 5U);
   return options;
+}
+
+} // namespace
+
+double
+ByteSource::anyDouble ()
+{
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < sizeof bits; ++i)
+    bits = bits << 8U | byte ();
+  double number;
+  std::memcpy (&number, &bits, sizeof number);
+  return number;
 }
 
 Attack
@@ -242,6 +432,18 @@ decodeAttack (ByteSource& bytes, std::size_t most)
           points.empty () ? Eigen::Vector3f (Eigen::Vector3f::UnitZ ())
                           : Eigen::Vector3f (points[p % points.size ()].cast<float> ()));
   return attack;
+}
+
+Attack
+randomAttack (std::uint64_t seed, std::size_t most)
+{
+  constexpr std::size_t ENOUGH = 4096; // more bytes than a recipe takes, but for raw points
+  std::mt19937_64 engine (seed);
+  std::array<std::uint8_t, ENOUGH> bytes{};
+  for (std::uint8_t& byte : bytes)
+    byte = static_cast<std::uint8_t> (engine ());
+  ByteSource source (bytes.data (), bytes.size ());
+  return decodeAttack (source, most);
 }
 
 } // namespace pcl::floater::fuzz

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzz target: each line of the bytes is an argument of the tool. Parsed and checked, not run.
-#include "fuzz_target.h"
-
 #include "command_line.h"
 #include "options/check_options.h"
 
 #include "atomic_file.h"
 #include "cloud.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -38,7 +38,7 @@ parse (std::vector<std::string> words)
 
 } // namespace
 
-int
+extern "C" int
 LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size)
 {
   // The help is printed thousands of times.

@@ -1,22 +1,69 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzz target: the bytes are a file of the format that FUZZED_FORMAT of the environment names;
-// table: text with a point in each line.
-#include "fuzz_target.h"
-#include "reader_target.h"
+// table: text with a point in each line. A file is either a cloud or a ReadError with a message.
+#include "cloud_reader.h"
 
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace pcl::floater::fuzz {
+namespace pcl::floater {
+namespace {
+[[noreturn]] void
+fail (const char* fault)
+{
+  std::fprintf (stderr, "fault: %s\n", fault);
+  std::abort ();
+}
+
+/// Reads every value of a cloud, as the tool does when it writes a mesh. Ends the program if the
+/// cloud does not hold together.
+void
+useCloud (Cloud& cloud)
+{
+  if (cloud.size () == 0 || cloud.size () != cloud.rows)
+    fail ("the cloud has no points, or not those of its rows");
+  const std::vector<Eigen::Vector3d> positions = cloud.positions ();
+  std::size_t values = 0, numbers = 0;
+  for (const Field& field : cloud.fields)
+    for (std::size_t row = 0; row < cloud.rows; ++row)
+      visitType (field.type, [&] (auto tag) {
+        for (std::size_t c = 0; c < field.count; ++c) {
+          ++values;
+          numbers +=
+              std::isnan (static_cast<double> (field.value<decltype (tag)> (row, c))) ? 0 : 1;
+        }
+      });
+  if (numbers > values) // each has been read
+    fail ("there are more numbers than values");
+  colorFields (cloud);
+  normalFields (cloud);
+  std::size_t finite = 0;
+  for (const Eigen::Vector3d& position : positions)
+    finite += position.allFinite () ? 1 : 0;
+  Triangles none;
+  if (removeNonFinitePoints (cloud, none) + finite != positions.size ())
+    fail ("the points that are not finite are not those that were left out");
+  for (std::size_t point = 0; point < finite; ++point)
+    if (!cloud.position (point).allFinite ())
+      fail ("a point that is left is not finite");
+}
+
 using Parse = std::function<Cloud (const FileBytes&)>;
 
 /// The cloud of a mesh. Ends the program if the mesh does not hold together.
-static Cloud
-withCorners (Cloud cloud, const Triangles& triangles)
+template <typename ParseMesh>
+Cloud
+withCorners (ParseMesh&& parseMesh)
 {
+  Triangles triangles;
+  Cloud cloud = parseMesh (triangles);
   for (const auto& triangle : triangles)
     for (const std::uint32_t corner : triangle)
       if (corner >= cloud.rows)
@@ -24,7 +71,7 @@ withCorners (Cloud cloud, const Triangles& triangles)
   return cloud;
 }
 
-static const std::map<std::string, std::vector<Parse>> FORMATS{
+const std::map<std::string, std::vector<Parse>> FORMATS{
     {"pcd",
      {[] (const FileBytes& file) { return parsePcd (file, false); },
       [] (const FileBytes& file) { return parsePcd (file, true); }}},
@@ -32,14 +79,10 @@ static const std::map<std::string, std::vector<Parse>> FORMATS{
      {[] (const FileBytes& file) { return parsePly (file, false); },
       [] (const FileBytes& file) { return parsePly (file, true); },
       [] (const FileBytes& file) {
-        Triangles triangles;
-        Cloud cloud = parsePly (file, false, &triangles);
-        return withCorners (std::move (cloud), triangles);
+        return withCorners ([&] (Triangles& mesh) { return parsePly (file, false, &mesh); });
       }}},
     {"vtk", {[] (const FileBytes& file) {
-       Triangles triangles;
-       Cloud cloud = parseVtk (file, triangles);
-       return withCorners (std::move (cloud), triangles);
+       return withCorners ([&] (Triangles& mesh) { return parseVtk (file, mesh); });
      }}},
     {"obj", {[] (const FileBytes& file) { return parseObj (file); }}},
     {"stl", {[] (const FileBytes& file) { return parseStl (file); }}},
@@ -48,7 +91,7 @@ static const std::map<std::string, std::vector<Parse>> FORMATS{
      {[] (const FileBytes& file) { return parseTable (file, false); },
       [] (const FileBytes& file) { return parseTable (file, true); }}}};
 
-static const std::vector<Parse>&
+const std::vector<Parse>&
 chosenFormat ()
 {
   const char* const name = std::getenv ("FUZZED_FORMAT");
@@ -57,14 +100,26 @@ chosenFormat ()
     fail ("FUZZED_FORMAT names no format");
   return found->second;
 }
-} // namespace pcl::floater::fuzz
 
-int
+} // namespace
+} // namespace pcl::floater
+
+extern "C" int
 LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size)
 {
-  namespace fuzz = pcl::floater::fuzz;
-  static const std::vector<fuzz::Parse>& format = fuzz::chosenFormat ();
-  for (const fuzz::Parse& parse : format)
-    fuzz::readBytes (data, size, parse);
+  using namespace pcl::floater;
+  static const std::vector<Parse>& format = chosenFormat ();
+  if (size == 0)
+    return 0; // readCloud refuses an empty file
+  for (const Parse& parse : format)
+    try {
+      const FileBytes file (std::string_view (reinterpret_cast<const char*> (data), size));
+      Cloud cloud = parse (file);
+      useCloud (cloud);
+    }
+    catch (const ReadError& error) {
+      if (*error.what () == '\0')
+        fail ("an error has no message");
+    }
   return 0;
 }

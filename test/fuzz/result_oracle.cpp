@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "result_oracle.h"
+#include "attack.h"
 
 #include "mesh_oracle.h"
 
@@ -27,92 +27,72 @@ findFaultOfFailure (const Result& result)
   return "";
 }
 
-// What has become of each selected point, by its cloud index.
-class Fates
+std::string
+named (std::uint32_t point)
 {
-public:
-  explicit Fates (const Input& input)
-  {
-    for (std::size_t i = 0; i < input.cloud_index.size (); ++i)
-      position_[input.cloud_index[i]] = input.positions[i];
-  }
+  return "point " + std::to_string (point);
+}
 
-  bool isSelected (std::uint32_t index) const { return position_.count (index) != 0; }
+// Largest distance of two points that count as equal: rounding of the positions while they are
+// centred and scaled.
+double
+equalityOf (const std::vector<Eigen::Vector3d>& positions)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : positions)
+    if (position.allFinite ())
+      box.extend (position);
+  return 2.0 * std::numeric_limits<double>::epsilon () *
+         (0.5 * box.max () - 0.5 * box.min ()).stableNorm ();
+}
 
-  const Eigen::Vector3d& position (std::uint32_t index) const { return position_.at (index); }
-
-  /// Largest distance of two points that count as equal: rounding of the positions while they are
-  /// centred and scaled.
-  double equality () const
-  {
-    Eigen::AlignedBox3d box;
-    for (const auto& [index, position] : position_)
-      if (position.allFinite ())
-        box.extend (position);
-    return 2.0 * std::numeric_limits<double>::epsilon () *
-           (0.5 * box.max () - 0.5 * box.min ()).stableNorm ();
-  }
-
-  /// \return a fault, or nothing
-  std::string give (std::uint32_t index, const char* fate)
-  {
-    if (!isSelected (index))
-      return "point " + std::to_string (index) + " is " + fate + ", but was not selected";
-    const auto [before, is_first] = fate_.emplace (index, fate);
-    return is_first ? ""
-                    : "point " + std::to_string (index) + " is " + fate + " and " + before->second;
-  }
-
-  bool isGiven (std::uint32_t index) const { return fate_.count (index) != 0; }
-
-  std::string findForgotten () const
-  {
-    for (const auto& [index, unused] : position_)
-      if (fate_.count (index) == 0)
-        return "nothing is said of point " + std::to_string (index);
-    return "";
-  }
-
-private:
-  std::map<std::uint32_t, Eigen::Vector3d> position_;
-  std::map<std::uint32_t, const char*> fate_;
-};
-
+// Each selected point has become one of what the report lists, and only one.
 std::string
 findFaultOfPoints (const Input& input, const Result& result, const std::set<std::uint32_t>& used)
 {
   const Report& report = result.report;
-  Fates fates (input);
+  std::map<std::uint32_t, Eigen::Vector3d> position;
+  for (std::size_t i = 0; i < input.cloud_index.size (); ++i)
+    position[input.cloud_index[i]] = input.positions[i];
+  std::map<std::uint32_t, const char*> fate;
   std::string fault;
-  const auto giveAll = [&] (const auto& indices, const char* fate) {
-    for (const std::uint32_t index : indices)
-      if (fault.empty ())
-        fault = fates.give (index, fate);
+  const auto give = [&] (std::uint32_t point, const char* its_fate) {
+    if (!fault.empty ())
+      return;
+    const auto [before, is_first] = fate.emplace (point, its_fate);
+    if (position.count (point) == 0)
+      fault = named (point) + " is " + its_fate + ", but was not selected";
+    else if (!is_first)
+      fault = named (point) + " is " + its_fate + " and " + before->second;
+  };
+  const auto giveAll = [&] (const auto& points, const char* their_fate) {
+    if (fault.empty () && !std::is_sorted (points.begin (), points.end ()))
+      fault = "a list of points is not ascending";
+    for (const std::uint32_t point : points)
+      give (point, their_fate);
   };
   giveAll (used, "in the mesh");
   giveAll (report.unused, "unused");
   giveAll (report.outliers, "an outlier");
   // Scatter is connected like all else, or left out as a whole.
-  if (!report.scatter.empty () && !fates.isGiven (report.scatter.front ()))
+  if (!report.scatter.empty () && fate.count (report.scatter.front ()) == 0)
     giveAll (report.scatter, "scatter");
   giveAll (report.non_finite, "not finite");
-  const double equality = fates.equality ();
+  const double equality = equalityOf (input.positions);
   for (const auto& [point, equal] : report.duplicates) {
-    if (fault.empty ())
-      fault = fates.give (point, "a duplicate");
-    if (fault.empty () &&
-        !(fates.isSelected (equal) &&
-          (fates.position (point) - fates.position (equal)).stableNorm () <= equality))
-      fault = "point " + std::to_string (point) + " is no duplicate of " + std::to_string (equal);
+    give (point, "a duplicate");
+    if (fault.empty () && (position.count (equal) == 0 ||
+                           (position[point] - position[equal]).stableNorm () > equality))
+      fault = named (point) + " is no duplicate of " + std::to_string (equal);
   }
-  if (fault.empty ())
-    fault = fates.findForgotten ();
-  for (const std::uint32_t index : used)
-    if (fault.empty () && !fates.position (index).allFinite ())
-      fault = "point " + std::to_string (index) + " of the mesh is not finite";
-  for (const auto* list : {&report.unused, &report.outliers, &report.scatter, &report.non_finite})
-    if (fault.empty () && !std::is_sorted (list->begin (), list->end ()))
-      fault = "a list of points is not ascending";
+  for (const auto& [point, unused] : position)
+    if (fault.empty () && fate.count (point) == 0)
+      fault = "nothing is said of " + named (point);
+  for (const std::uint32_t point : used)
+    if (fault.empty () && !position[point].allFinite ())
+      fault = named (point) + " of the mesh is not finite";
+  if (fault.empty () && !std::is_sorted (report.scatter.begin (), report.scatter.end ()))
+    fault = "a list of points is not ascending";
   const Statistics& counts = report.statistics;
   if (fault.empty () &&
       (counts.selected_points != input.positions.size () || counts.used_points != used.size () ||
@@ -152,7 +132,7 @@ findFaultOfFigures (const Input& input, const Result& result, const samples::Top
     for (const auto& triangle : result.triangles)
       for (const std::uint32_t corner : triangle)
         if (!report.parameters[corner].allFinite ())
-          return "point " + std::to_string (corner) + " of the mesh has no parameters";
+          return named (corner) + " of the mesh has no parameters";
   return "";
 }
 

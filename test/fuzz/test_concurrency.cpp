@@ -13,9 +13,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
+#include <chrono>
 #include <cstdlib>
-#include <mutex>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -54,54 +54,37 @@ polygonsOf (Floater& floater, const Cloud::Ptr& cloud)
   return all;
 }
 
-// What a thread of the next test does.
-struct Task
-{
-  SurfaceKind kind;
-  Topology topology;
-  unsigned int threads;
-};
-
 TEST (Concurrency, EightObjectsInEightThreads)
 {
-  std::vector<Task> tasks;
+  std::vector<std::function<std::vector<pcl::Indices> ()>> runs;
   for (const unsigned int threads : {1U, 2U})
     for (const auto& [kind, topology] : {std::pair{SurfaceKind::HEIGHT_FIELD, Topology::DISC},
                                          std::pair{SurfaceKind::FINGER, Topology::DISC},
                                          std::pair{SurfaceKind::TORUS, Topology::SURFACE},
                                          std::pair{SurfaceKind::CUT_OUT, Topology::AUTO}})
-      tasks.push_back ({kind, topology, threads});
-  const auto run = [] (const Task& task) {
-    Floater floater;
-    floater.setTopology (task.topology);
-    floater.setNumberOfThreads (task.threads);
-    return polygonsOf (floater, makeCloud (task.kind, 1500));
-  };
+      runs.emplace_back ([threads, kind = kind, topology = topology] {
+        Floater floater;
+        floater.setTopology (topology);
+        floater.setNumberOfThreads (threads);
+        return polygonsOf (floater, makeCloud (kind, 1500));
+      });
   std::vector<std::vector<pcl::Indices>> expected;
-  for (const Task& task : tasks)
-    expected.push_back (run (task));
-  std::vector<std::size_t> wrong (tasks.size (), 0);
+  for (const auto& run : runs)
+    expected.push_back (run ());
+  std::vector<std::size_t> wrong (runs.size (), 0);
   std::vector<std::thread> threads;
-  for (std::size_t t = 0; t < tasks.size (); ++t)
+  for (std::size_t t = 0; t < runs.size (); ++t)
     threads.emplace_back ([&, t] {
       for (int round = 0; round < 3; ++round)
-        wrong[t] += expected[t].empty () || run (tasks[t]) != expected[t] ? 1 : 0;
+        wrong[t] += expected[t].empty () || runs[t]() != expected[t] ? 1 : 0;
     });
   for (std::thread& thread : threads)
     thread.join ();
-  EXPECT_EQ (wrong, std::vector<std::size_t> (tasks.size (), 0));
+  EXPECT_EQ (wrong, std::vector<std::size_t> (runs.size (), 0));
 }
 
-// Moments of a run at which it is cancelled: 2 or more, as many as PCL_FLOATER_MOMENTS asks for.
-int
-momentsWanted ()
-{
-  constexpr int USUAL = 40, FEWEST = 2;
-  const char* const wanted = std::getenv ("PCL_FLOATER_MOMENTS");
-  return wanted == nullptr ? USUAL : std::max (FEWEST, std::atoi (wanted));
-}
-
-// Another thread waits until a fraction of the run is done, and cancels it then.
+// Another thread waits until a fraction of the run is done, and cancels it then: at 2 moments or more,
+// as many as PCL_FLOATER_MOMENTS asks for.
 TEST (Concurrency, CancelledFromAnotherThread)
 {
   pcl::console::setVerbosityLevel (pcl::console::L_ALWAYS); // a failure is expected
@@ -109,26 +92,24 @@ TEST (Concurrency, CancelledFromAnotherThread)
   Floater plain;
   const std::vector<pcl::Indices> expected = polygonsOf (plain, cloud);
   std::size_t cancelled = 0;
-  const int moments = momentsWanted ();
+  const char* const wanted = std::getenv ("PCL_FLOATER_MOMENTS");
+  const int moments = wanted == nullptr ? 40 : std::max (2, std::atoi (wanted));
   for (int moment = 0; moment < moments; ++moment) {
-    std::mutex mutex;
-    std::condition_variable changed;
-    double done = -1.0;
+    const double wanted_fraction = moment / (moments - 1.0);
+    const auto rest = [] { std::this_thread::sleep_for (std::chrono::microseconds (50)); };
+    std::atomic<double> done{-1.0};
     std::atomic<bool> is_cancelled{false};
     Floater floater;
     floater.setProgressCallback ([&] (double fraction) {
-      std::unique_lock<std::mutex> lock (mutex);
       done = fraction;
-      changed.notify_one ();
-      if (fraction >= moment / (moments - 1.0)) // so that the flag is set before the run goes on
-        changed.wait (lock, [&] { return is_cancelled.load (); });
+      while (fraction >= wanted_fraction && !is_cancelled) // is set before the run goes on
+        rest ();
     });
     floater.setCancelledCallback ([&] { return is_cancelled.load (); });
     std::thread canceller ([&] {
-      std::unique_lock<std::mutex> lock (mutex);
-      changed.wait (lock, [&] { return done >= moment / (moments - 1.0); });
+      while (done < wanted_fraction)
+        rest ();
       is_cancelled = true;
-      changed.notify_one ();
     });
     const std::vector<pcl::Indices> polygons = polygonsOf (floater, cloud);
     canceller.join ();

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds that are hard on a reconstruction: no result is wrong.
-#include "random_attack.h"
-#include "result_oracle.h"
+#include "attack.h"
 
 #include "samples.h"
 #include "surfaces.h"

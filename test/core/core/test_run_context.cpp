@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -72,6 +71,8 @@ TEST (RunMonitor, StepsAndLoops)
   run.beginStage (Stage::WORKING_SET);
   EXPECT_EQ (recorder.done, 0.0);
   run.beginStage (Stage::NEIGHBORS);
+  run.beginStage (Stage::NEIGHBORS); // is running already
+  EXPECT_EQ (recorder.stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS}));
   const double begin = recorder.done;
   EXPECT_GT (begin, 0.0);
   run.beginStep (0.5);
@@ -82,6 +83,14 @@ TEST (RunMonitor, StepsAndLoops)
     EXPECT_GT (half, begin);
     ProgressLoop inner (run, 10); // moves nothing
     inner.reach (10);
+    const int questions = recorder.questions;
+    std::thread ([&] { // neither does one of another thread, and it calls nothing back
+      ProgressLoop elsewhere (run, 10);
+      waitUntilAPollIsDue ();
+      elsewhere.reach (10);
+    })
+        .join ();
+    EXPECT_EQ (recorder.questions, questions);
     EXPECT_EQ (recorder.now (), half);
   }
   const double middle = recorder.now ();
@@ -104,33 +113,6 @@ TEST (RunMonitor, StepsAndLoops)
   EXPECT_EQ (recorder.done, 1.0);
 }
 
-TEST (RunMonitor, BooksTimeByStage)
-{
-  constexpr double LEAST = 0.02;
-  const auto work = [] { std::this_thread::sleep_for (std::chrono::milliseconds (20)); };
-  Recorder recorder;
-  const RunContext run (1, &recorder.monitor);
-  work (); // before any stage
-  run.beginStage (Stage::NEIGHBORS);
-  work ();
-  run.beginStage (Stage::NEIGHBORS); // is running already
-  run.beginStage (Stage::FLIPS);
-  work ();
-  recorder.monitor.stopClock ();
-  work (); // after all stages
-  const Statistics& statistics = recorder.statistics;
-  double sum = 0.0;
-  for (std::size_t stage = 0; stage < statistics.seconds.size (); ++stage) {
-    const bool has_run = stage == static_cast<std::size_t> (Stage::NEIGHBORS) ||
-                         stage == static_cast<std::size_t> (Stage::FLIPS);
-    EXPECT_EQ (statistics.seconds[stage] >= LEAST, has_run);
-    EXPECT_EQ (statistics.seconds[stage] > 0.0, has_run);
-    sum += statistics.seconds[stage];
-  }
-  EXPECT_NEAR (statistics.total_seconds, sum, 1e-9);
-  EXPECT_EQ (recorder.stages, (std::vector<Stage>{Stage::NEIGHBORS, Stage::FLIPS}));
-}
-
 TEST (RunMonitor, IsWatchedIfItMayCallBackWithinAStage)
 {
   Statistics statistics;
@@ -138,38 +120,6 @@ TEST (RunMonitor, IsWatchedIfItMayCallBackWithinAStage)
   EXPECT_FALSE (RunMonitor ({[] (Stage) {}, {}, {}}, statistics).isWatched ());
   EXPECT_TRUE (RunMonitor ({{}, [] (double) {}, {}}, statistics).isWatched ());
   EXPECT_TRUE (RunMonitor ({{}, {}, [] { return false; }}, statistics).isWatched ());
-}
-
-TEST (RunMonitor, CallsBackOnItsOwnThreadOnly)
-{
-  Recorder recorder;
-  const RunContext run (2, &recorder.monitor);
-  run.beginStage (Stage::NEIGHBORS);
-  const int questions = recorder.questions;
-  const double done = recorder.done;
-  const auto useElsewhere = [&] {
-    ProgressLoop loop (run, 100);
-    waitUntilAPollIsDue ();
-    loop.reach (50);
-    run.poll ();
-  };
-  std::thread (useElsewhere).join ();
-  EXPECT_EQ (recorder.questions, questions);
-  EXPECT_EQ (recorder.done, done);
-  EXPECT_EQ (recorder.now (), done) << "the other thread has moved it";
-  // A cancellation is seen by the other thread, too.
-  recorder.is_cancelled = true;
-  EXPECT_THROW (recorder.now (), Cancelled);
-  bool is_cancelled = false;
-  std::thread ([&] {
-    try {
-      useElsewhere ();
-    }
-    catch (const Cancelled&) {
-      is_cancelled = true;
-    }
-  }).join ();
-  EXPECT_TRUE (is_cancelled);
 }
 
 TEST (RunContext, WithinAStageNothingIsCalledBack)
@@ -202,20 +152,6 @@ TEST (RunContext, WithinAStageNothingIsCalledBack)
   ProgressLoop loop (part);
   EXPECT_THROW (loop.reach (1), Cancelled);
   EXPECT_THROW (part.beginStage (Stage::STARS), Cancelled);
-}
-
-TEST (RunContext, WithoutAMonitorIsANumberOfThreads)
-{
-  const RunContext run = 5;
-  EXPECT_EQ (run.threads (), 5);
-  EXPECT_GE (RunContext (0).threads (), 1);
-  run.beginStage (Stage::SOLVE);
-  run.beginStep (0.5);
-  run.setMethod (Topology::DISC);
-  run.poll ();
-  ProgressLoop loop (run.withinStage (), 1000);
-  for (int i = 0; i < 1000; ++i)
-    loop.next ();
 }
 
 } // namespace

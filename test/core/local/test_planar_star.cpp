@@ -85,57 +85,39 @@ openingAngleByBruteForce (const Neighbors& neighbors)
   return widest;
 }
 
-void
-rotateToSmallest (std::vector<Index>& cycle)
+// A closed star may begin anywhere: then from its smallest point on.
+std::vector<Index>
+pointsOf (Star star)
 {
-  std::rotate (cycle.begin (), std::min_element (cycle.begin (), cycle.end ()), cycle.end ());
+  if (!star.open)
+    std::rotate (star.points.begin (), std::min_element (star.points.begin (), star.points.end ()),
+                 star.points.end ());
+  return star.points;
 }
 
-// \return 1 if the star is open
-std::size_t
-expectDelaunay (const Neighbors& neighbors)
-{
-  Star star = make (neighbors);
-  Star expected = byCgal (neighbors);
-  EXPECT_EQ (star.open, expected.open);
-  EXPECT_NEAR (star.opening_angle, openingAngleByBruteForce (neighbors), 1e-7);
-  if (!star.open) { // a closed star may begin anywhere
-    rotateToSmallest (star.points);
-    rotateToSmallest (expected.points);
-  }
-  EXPECT_EQ (star.points, expected.points);
-  return star.open ? 1 : 0;
-}
-
-TEST (PlanarStar, RandomNeighborhoodsAreDelaunay)
+// In half of the rounds in any direction, in half of them in a sector of up to 216 degrees.
+TEST (PlanarStar, IsDelaunay)
 {
   RandomStream random (1);
   std::size_t open = 0;
-  for (int sample = 0; sample < 12000 && !HasFailure (); ++sample) {
-    Neighbors neighbors (3 + random.below (25));
-    for (Index i = 0; i < neighbors.size (); ++i)
-      neighbors[i] = {{random.normal (), random.normal ()}, i};
-    open += expectDelaunay (neighbors);
-  }
-  EXPECT_GT (open, 500U);
-}
-
-TEST (PlanarStar, NeighborhoodsAtABorderAreDelaunay)
-{
-  RandomStream random (2);
-  std::size_t open = 0;
-  for (int sample = 0; sample < 8000 && !HasFailure (); ++sample) {
+  constexpr int ROUNDS = 20000;
+  for (int round = 0; round < ROUNDS && !HasFailure (); ++round) {
     const double turn = 2.0 * PI * random.uniform ();
-    const double width = 1.2 * PI * random.uniform ();
-    Neighbors neighbors (3 + random.below (20));
+    const double width = (round % 2 == 0 ? 2.0 : 1.2 * random.uniform ()) * PI;
+    Neighbors neighbors (3 + random.below (25));
     for (Index i = 0; i < neighbors.size (); ++i) {
       const double angle = turn + width * random.uniform ();
       const double length = 0.1 + random.uniform ();
       neighbors[i] = {{length * std::cos (angle), length * std::sin (angle)}, i};
     }
-    open += expectDelaunay (neighbors);
+    const Star star = make (neighbors), expected = byCgal (neighbors);
+    EXPECT_EQ (star.open, expected.open);
+    EXPECT_NEAR (star.opening_angle, openingAngleByBruteForce (neighbors), 1e-7);
+    EXPECT_EQ (pointsOf (star), pointsOf (expected));
+    open += star.open ? 1 : 0;
   }
-  EXPECT_GT (open, 5000U);
+  EXPECT_GT (open, ROUNDS / 4U);
+  EXPECT_LT (open, ROUNDS * 3U / 4U);
 }
 
 // On a grid the corners of each cell lie on one circle, but for rounding after it was turned,
@@ -171,81 +153,91 @@ TEST (PlanarStar, GridPointsAreSurroundedByTheirDirectNeighbors)
   }
 }
 
-TEST (PlanarStar, OfNeighborsInOneDirectionTheNearestCounts)
+struct SmallStar
 {
-  const Star star = make (at ({{3, 0}, {1, 0}, {2, 0}, {0, 2}, {0, 1}, {-1, -1}, {-5, -5}}));
-  EXPECT_FALSE (star.open);
-  std::vector<Index> points = star.points;
-  rotateToSmallest (points);
-  EXPECT_EQ (points, (std::vector<Index>{1, 4, 5}));
-  // One direction, but for rounding, at the ray where sorting by angle begins.
-  const Star across = make (at ({{2, 1e-13}, {1, -1e-14}, {3, -1e-13}, {-1, 1}, {-1, -1}}));
-  EXPECT_FALSE (across.open);
-  points = across.points;
-  rotateToSmallest (points);
-  EXPECT_EQ (points, (std::vector<Index>{1, 3, 4}));
-}
+  std::vector<Eigen::Vector2d> neighbors;
+  std::vector<Index> star;
+  bool is_open;
+  double opening_angle = 0.0; ///< 0: not checked
+};
 
-TEST (PlanarStar, AHalfPlaneIsOpen)
+TEST (PlanarStar, OfFewNeighborsOnLinesAndInHalfPlanes)
 {
-  const Star above = make (at ({{1, 0}, {0, 1}, {-1, 0}, {2, 1}, {-1, 2}}));
-  EXPECT_TRUE (above.open);
-  EXPECT_NEAR (above.opening_angle, PI, 1e-7);
-  EXPECT_EQ (above.points.front (), 0U);
-  EXPECT_EQ (above.points.back (), 2U);
-  // A little more or less than half a turn, by rounding.
-  for (const double tilt : {1e-15, -1e-15})
-    EXPECT_TRUE (make (at ({{1, tilt}, {0, 1}, {-1, 0}})).open);
-  // Clearly less.
-  EXPECT_FALSE (make (at ({{1, -1e-3}, {0, 1}, {-1, -1e-3}})).open);
-  EXPECT_TRUE (make (at ({{1, 1e-3}, {0, 1}, {-1, 1e-3}})).open);
-}
-
-TEST (PlanarStar, AllNeighborsOnOneLine)
-{
+  const double half = PI, whole = 2.0 * PI;
+  std::vector<SmallStar> cases{
+      // Of neighbours in one direction the nearest counts; in the second row it is one direction but
+      // for rounding, at the ray where sorting by angle begins.
+      {{{3, 0}, {1, 0}, {2, 0}, {0, 2}, {0, 1}, {-1, -1}, {-5, -5}}, {1, 4, 5}, false},
+      {{{2, 1e-13}, {1, -1e-14}, {3, -1e-13}, {-1, 1}, {-1, -1}}, {1, 3, 4}, false},
+      // Half a plane; a little more or less than half by rounding; clearly less and more.
+      {{{1, 0}, {0, 1}, {-1, 0}, {2, 1}, {-1, 2}}, {0, 1, 2}, true, half},
+      {{{1, 1e-15}, {0, 1}, {-1, 0}}, {0, 1, 2}, true, half},
+      {{{1, -1e-15}, {0, 1}, {-1, 0}}, {0, 1, 2}, true, half},
+      {{{1, -1e-3}, {0, 1}, {-1, -1e-3}}, {0, 1, 2}, false},
+      {{{1, 1e-3}, {0, 1}, {-1, 1e-3}}, {0, 1, 2}, true},
+      // One line, on one side only; few.
+      {{{3, 3}, {1, 1}, {2, 2}}, {1}, true, whole},
+      {{}, {}, true, whole},
+      {{{-0.5, 2.0}}, {0}, true, whole},
+      {{{1, 0}, {0, 1}}, {0, 1}, true, 1.5 * PI},
+      {{{0, 1}, {1, 0}}, {1, 0}, true, 1.5 * PI}};
+  for (const double nearby : {1e-6, 1e-10, 1e-14}) // a very close neighbour stays
+    cases.push_back ({{{0, nearby}, {1, 0.1}, {0.2, 1}, {-1, 0.1}}, {1, 0, 3}, true});
+  for (std::size_t i = 0; i < cases.size (); ++i) {
+    SCOPED_TRACE (i);
+    const Star star = make (at (cases[i].neighbors));
+    EXPECT_EQ (star.open, cases[i].is_open);
+    EXPECT_EQ (pointsOf (star), cases[i].star);
+    if (cases[i].opening_angle != 0.0) {
+      EXPECT_NEAR (star.opening_angle, cases[i].opening_angle, 1e-7);
+    }
+  }
   const Star both_sides = make (at ({{-1, -2}, {1, 2}, {2, 4}, {-3, -6}}));
   EXPECT_TRUE (both_sides.open);
   EXPECT_EQ (std::set<Index> (both_sides.points.begin (), both_sides.points.end ()),
              (std::set<Index>{0, 1}));
-  EXPECT_NEAR (both_sides.opening_angle, PI, 1e-7);
-  const Star one_side = make (at ({{3, 3}, {1, 1}, {2, 2}}));
-  EXPECT_TRUE (one_side.open);
-  EXPECT_EQ (one_side.points, (std::vector<Index>{1}));
-  EXPECT_NEAR (one_side.opening_angle, 2.0 * PI, 1e-12);
-}
-
-TEST (PlanarStar, FewNeighbors)
-{
-  const Star none = make ({});
-  EXPECT_TRUE (none.open);
-  EXPECT_TRUE (none.points.empty ());
-  EXPECT_DOUBLE_EQ (none.opening_angle, 2.0 * PI);
-  const Star one = make (at ({{-0.5, 2.0}}));
-  EXPECT_TRUE (one.open);
-  EXPECT_EQ (one.points, (std::vector<Index>{0}));
-  EXPECT_NEAR (one.opening_angle, 2.0 * PI, 1e-12);
-  for (const auto& order : {std::array<int, 2>{0, 1}, std::array<int, 2>{1, 0}}) {
-    Neighbors two = at ({{1, 0}, {0, 1}});
-    const Star corner =
-        make ({two[static_cast<std::size_t> (order[0])], two[static_cast<std::size_t> (order[1])]});
-    EXPECT_TRUE (corner.open);
-    EXPECT_EQ (corner.points, (std::vector<Index>{0, 1}));
-    EXPECT_NEAR (corner.opening_angle, 1.5 * PI, 1e-7);
+  EXPECT_NEAR (both_sides.opening_angle, half, 1e-7);
+  for (const double nearby : {1e-6, 1e-10, 1e-14}) {
+    const Star star = make (at ({{nearby, 0}, {0.1, 1}, {-1, 0.3}, {-0.2, -1}, {1, -0.1}}));
+    EXPECT_FALSE (star.open);
+    EXPECT_EQ (pointsOf (star).front (), 0U) << nearby;
+    EXPECT_GE (star.points.size (), 3U);
   }
 }
 
-TEST (PlanarStar, AVeryCloseNeighborStays)
+TEST (PlanarStarOfAll, GoesRoundAndBeginsAfterTheGap)
 {
-  for (const double nearby : {1e-6, 1e-10, 1e-14}) {
-    const Neighbors ring = at ({{nearby, 0}, {0.1, 1}, {-1, 0.3}, {-0.2, -1}, {1, -0.1}});
-    Star star = make (ring);
-    EXPECT_FALSE (star.open);
-    EXPECT_NE (std::find (star.points.begin (), star.points.end (), 0U), star.points.end ())
-        << nearby;
-    EXPECT_GE (star.points.size (), 3U);
-    const Star open = make (at ({{0, nearby}, {1, 0.1}, {0.2, 1}, {-1, 0.1}}));
-    EXPECT_TRUE (open.open);
-    EXPECT_EQ (open.points, (std::vector<Index>{1, 0, 3})) << nearby;
+  RandomStream random (5);
+  for (int round = 0; round < 200; ++round) {
+    // Directions of a grid, several in one; in half of the rounds on one side only.
+    Neighbors neighbors;
+    for (Index i = 0; i < 30; ++i) {
+      const double x = static_cast<double> (random.below (7)) - 3.0;
+      const double y = static_cast<double> (random.below (7)) - 3.0;
+      if ((x != 0.0 || y != 0.0) && (round % 2 == 0 || y > 0.0))
+        neighbors.push_back ({{x, y}, i});
+    }
+    const std::size_t count = neighbors.size ();
+    ASSERT_GE (count, 5U);
+    PlanarStar star;
+    Neighbors delaunay = neighbors;
+    const bool open = star.order (neighbors);
+    EXPECT_EQ (neighbors.size (), count);
+    const double widest = star.openingAngle ();
+    EXPECT_EQ (open, star.make (delaunay));
+    EXPECT_EQ (widest, star.openingAngle ());
+    EXPECT_TRUE (open || round % 2 == 0);
+    double turn = 0.0;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const Eigen::Vector2d &a = neighbors[i].offset, &b = neighbors[i + 1].offset;
+      const double angle = std::atan2 (a.x () * b.y () - a.y () * b.x (), a.dot (b));
+      EXPECT_GE (angle, 0.0);
+      turn += angle;
+    }
+    EXPECT_LT (turn, 6.3);
+    if (open) {
+      EXPECT_NEAR (turn + widest, 2.0 * PI, 1e-12);
+    }
   }
 }
 

@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clouds and an oracle for the tests of neighbours, noise and outliers.
+// Clouds, and neighbours by trying all points.
 #pragma once
 
-#include "points/neighbors.h"
+#include "points/kd_tree.h"
 #include "points/points.h"
 #include "samples.h"
 #include "surfaces.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater::samples {
@@ -37,58 +34,50 @@ placed (Positions cloud, const Eigen::Vector3d& place, double scale = 1.0)
   return cloud;
 }
 
+inline Positions
+joined (Positions a, const Positions& b)
+{
+  a.insert (a.end (), b.begin (), b.end ());
+  return a;
+}
+
+/// Points of a grid in z = 0, `spacing` apart, each moved by up to `jitter` spacings in x and y.
+inline Positions
+jitteredGrid (int columns, int rows, double spacing, double jitter, RandomStream& random)
+{
+  Positions points;
+  for (int x = 0; x < columns; ++x)
+    for (int y = 0; y < rows; ++y) {
+      const double dx = jitter * random.uniform (), dy = jitter * random.uniform ();
+      points.emplace_back (spacing * (x + dx), spacing * (y + dy), 0.0);
+    }
+  return points;
+}
+
+inline Eigen::Vector3d
+normalVector (RandomStream& random)
+{
+  const double x = random.normal (), y = random.normal ();
+  return {x, y, random.normal ()};
+}
+
 inline Points
 workingPoints (const Positions& positions)
 {
   return makePoints (positions, indices (positions.size ()), 1);
 }
 
-/// A search of the caller that tries all points. It answers with the point itself among the neighbours and,
-/// within a radius, with one that is too far away.
-class BruteForceSearch : public NeighborSearch
+/// The k nearest points, nearest first, by trying all.
+inline std::vector<Neighbor>
+nearestByTryingAll (const Positions& points, const Eigen::Vector3d& query, std::size_t k)
 {
-public:
-  explicit BruteForceSearch (Positions cloud) : cloud_ (std::move (cloud)) {}
-
-  void build (const std::vector<std::uint32_t>& cloud_indices) override
-  {
-    EXPECT_TRUE (std::is_sorted (cloud_indices.begin (), cloud_indices.end ()));
-    chosen = cloud_indices;
-  }
-
-  void nearest (std::uint32_t cloud_index, int k,
-                std::vector<std::uint32_t>& cloud_indices) override
-  {
-    EXPECT_TRUE (std::binary_search (chosen.begin (), chosen.end (), cloud_index));
-    std::vector<std::pair<double, Index>> all;
-    for (const Index q : chosen)
-      all.emplace_back ((cloud_[q] - cloud_[cloud_index]).squaredNorm (), q);
-    std::sort (all.begin (), all.end ());
-    all.resize (std::min (all.size (), static_cast<std::size_t> (k)));
-    cloud_indices.clear ();
-    for (const auto& neighbor : all)
-      for (int copy = 0; copy < answers_each; ++copy)
-        cloud_indices.push_back (neighbor.second);
-    std::sort (cloud_indices.begin (), cloud_indices.end ());
-  }
-
-  bool within (std::uint32_t cloud_index, double radius,
-               std::vector<std::uint32_t>& cloud_indices) override
-  {
-    cloud_indices.clear ();
-    for (const Index q : chosen)
-      if ((cloud_[q] - cloud_[cloud_index]).norm () <= radius)
-        cloud_indices.push_back (q);
-    cloud_indices.push_back (chosen[(cloud_index + 17) % chosen.size ()]);
-    return knows_radii;
-  }
-
-  std::vector<std::uint32_t> chosen;
-  int answers_each = 1;
-  bool knows_radii = false;
-
-private:
-  Positions cloud_;
-};
+  std::vector<Neighbor> all;
+  for (Index p = 0; p < points.size (); ++p)
+    all.push_back ({(points[p] - query).squaredNorm (), p});
+  const std::size_t count = std::min (k, all.size ());
+  std::partial_sort (all.begin (), all.begin () + static_cast<std::ptrdiff_t> (count), all.end ());
+  all.resize (count);
+  return all;
+}
 
 } // namespace pcl::floater::samples

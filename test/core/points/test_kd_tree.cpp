@@ -1,27 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The tree against trying all points, and the sequential search against the tree.
 #include "points/kd_tree.h"
 
-#include "samples.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
 namespace pcl::floater {
 namespace {
+using samples::indices;
 using samples::Positions;
 
-std::vector<Neighbor>
-byBruteForce (const Positions& points, const Eigen::Vector3d& query)
-{
-  std::vector<Neighbor> all;
-  for (std::size_t p = 0; p < points.size (); ++p)
-    all.push_back ({(points[p] - query).squaredNorm (), static_cast<Index> (p)});
-  std::sort (all.begin (), all.end ());
-  return all;
-}
-
 void
-expectEqual (const std::vector<Neighbor>& found, const std::vector<Neighbor>& expected,
+expectFound (const std::vector<Neighbor>& found, const std::vector<Neighbor>& expected,
              std::size_t count)
 {
   ASSERT_EQ (found.size (), count);
@@ -50,20 +42,21 @@ expectCollected (const KdTree& tree, const Eigen::Vector3d& query, double radius
 
 // Queries at the points themselves, between them and outside of their box.
 void
-compareTree (const KdTree& tree, const Positions& points, std::size_t queries, std::uint64_t seed)
+expectRightTree (const KdTree& tree, const Positions& points)
 {
-  RandomStream random (seed);
+  RandomStream random (points.size ());
   std::vector<Neighbor> found;
-  for (std::size_t i = 0; i < queries; ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t> (points.size (), 60); ++i) {
     Eigen::Vector3d query = points[random.below (points.size ())];
     if (i % 3 == 1)
       query = 0.5 * (query + points[random.below (points.size ())]);
     if (i % 3 == 2)
-      query += 3.0 * Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
-    const std::vector<Neighbor> expected = byBruteForce (points, query);
-    for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{21}}) {
+      query += 3.0 * samples::normalVector (random);
+    const std::vector<Neighbor> expected =
+        samples::nearestByTryingAll (points, query, points.size ());
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{21}}) {
       tree.nearest (query, k, found);
-      expectEqual (found, expected, std::min (k, points.size ()));
+      expectFound (found, expected, std::min (k, points.size ()));
     }
     // Radii that end exactly at a point, and between points.
     const double farthest = std::sqrt (expected[expected.size () / 3].sqr_distance);
@@ -73,77 +66,97 @@ compareTree (const KdTree& tree, const Positions& points, std::size_t queries, s
           std::find_if (expected.begin (), expected.end (), [radius] (const Neighbor& neighbor) {
             return neighbor.sqr_distance > radius * radius;
           });
-      expectEqual (found, expected, static_cast<std::size_t> (beyond - expected.begin ()));
+      expectFound (found, expected, static_cast<std::size_t> (beyond - expected.begin ()));
       expectCollected (tree, query, radius, found);
     }
   }
 }
 
 void
-compare (const Positions& points, std::size_t queries, std::uint64_t seed)
+expectSameInSequence (const KdTree& tree, const Positions& points,
+                      const std::vector<Index>& queries)
 {
-  for (const PointOrder order : {PointOrder::ANY, PointOrder::ALONG_CURVE})
-    compareTree (KdTree (points, 1, order), points, queries, seed);
+  for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{21}}) {
+    std::vector<Neighbor> expected;
+    std::size_t next = 0;
+    SequentialSearch (tree, points, k)
+        .search (queries, [&] (std::size_t i, const std::vector<Neighbor>& found) {
+          ASSERT_EQ (i, next++);
+          tree.nearest (points[queries[i]], k, expected);
+          expectFound (found, expected, expected.size ());
+        });
+    EXPECT_EQ (next, queries.size ());
+  }
 }
 
-TEST (KdTree, RandomPoints)
+// Along the points, along x, with jumps, in any order, and for none.
+void
+expectRightSearches (const Positions& points)
 {
-  compare (samples::randomPoints (3000, 1), 150, 2);
+  const KdTree tree (points);
+  expectRightTree (tree, points);
+  expectRightTree (KdTree (points, 1, PointOrder::ALONG_CURVE), points);
+  std::vector<Index> along_x = indices (points.size ()), some;
+  std::sort (along_x.begin (), along_x.end (),
+             [&] (Index a, Index b) { return points[a].x () < points[b].x (); });
+  for (Index p = 0; p < points.size (); ++p)
+    if (p % 3 == 0 || p / 700 % 2 == 0)
+      some.push_back (p);
+  for (const std::vector<Index>& queries : {indices (points.size ()), along_x, some,
+                                            samples::permutation (points.size (), 2), indices (0)})
+    expectSameInSequence (tree, points, queries);
+}
+
+// Rows of a grid in z = 0, one after the other, so that each point is beside the one before.
+Positions
+toAndFro (int side, double step)
+{
+  Positions points;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      points.emplace_back (step * (y % 2 == 0 ? x : side - 1 - x), step * y, 0.0);
+  return points;
+}
+
+TEST (KdTree, FindsTheSameAsTryingAll)
+{
+  Positions cube, line, uneven = samples::randomPoints (3000, 9), rough = toAndFro (70, 0.01);
+  for (const Index i : samples::permutation (1331, 4)) // ties go by index
+    cube.emplace_back (i % 11, i / 11 % 11, i / 121);  // NOLINT (bugprone-integer-division)
+  for (const Index i : samples::permutation (500, 6))
+    line.emplace_back (0.1 * i, -0.2 * i, 0.3 * i);
+  for (Eigen::Vector3d& p : uneven)
+    p = p.array ().pow (8.0);
+  RandomStream random (1);
+  for (Eigen::Vector3d& p : rough)
+    p += 0.003 * samples::normalVector (random);
+  Positions equal (100, Eigen::Vector3d (1, 2, 3));
+  equal.resize (130, Eigen::Vector3d (1, 2, 4));
+  // The squares of the last distances are no normal numbers.
+  const std::vector<Positions> clouds{samples::randomPoints (3000, 1),
+                                      cube,
+                                      line,
+                                      equal,
+                                      uneven,
+                                      rough,
+                                      toAndFro (60, 1.0 / 64.0),
+                                      toAndFro (20, 1e-161)};
+  for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud) {
+    SCOPED_TRACE (cloud);
+    expectRightSearches (clouds[cloud]);
+  }
 }
 
 TEST (KdTree, AnySmallNumberOfPoints)
 {
   for (std::size_t count = 1; count <= 50; ++count)
-    compare (samples::randomPoints (count, count), 12, 3);
-}
-
-TEST (KdTree, TiesOnAGridGoByIndex)
-{
-  Positions grid;
-  for (int x = 0; x < 11; ++x)
-    for (int y = 0; y < 11; ++y)
-      for (int z = 0; z < 11; ++z)
-        grid.emplace_back (x, y, z);
-  Positions shuffled;
-  for (const Index i : samples::permutation (grid.size (), 4))
-    shuffled.push_back (grid[i]);
-  compare (shuffled, 150, 5);
-}
-
-TEST (KdTree, PointsOnALine)
-{
-  Positions line;
-  for (const Index i : samples::permutation (500, 6))
-    line.emplace_back (0.1 * i, -0.2 * i, 0.3 * i);
-  compare (line, 60, 7);
-}
-
-TEST (KdTree, EqualPoints)
-{
-  Positions points (100, Eigen::Vector3d (1, 2, 3));
-  points.resize (130, Eigen::Vector3d (1, 2, 4));
-  compare (points, 30, 8);
-}
-
-TEST (KdTree, UnevenDensity)
-{
-  Positions points = samples::randomPoints (1500, 9);
-  for (Eigen::Vector3d& p : points)
-    p = p.array ().pow (8.0);
-  compare (points, 150, 10);
-}
-
-TEST (KdTree, EmptyTreeAndZeroNeighbors)
-{
+    expectRightSearches (samples::randomPoints (count, count));
   std::vector<Neighbor> found (3);
   const KdTree empty ({});
   empty.nearest (Eigen::Vector3d::Zero (), 5, found);
   EXPECT_TRUE (found.empty ());
   found.resize (3);
   empty.within (Eigen::Vector3d::Zero (), 5.0, found);
-  EXPECT_TRUE (found.empty ());
-  found.resize (3);
-  KdTree (samples::randomPoints (30, 11)).nearest (Eigen::Vector3d::Zero (), 0, found);
   EXPECT_TRUE (found.empty ());
 }
 

@@ -1,47 +1,248 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Neighbour lists after points were removed.
+// Neighbours against trying all points: in blocks, by a tree, by the caller's search, of some points,
+// and after points were removed.
 #include "points/neighbors.h"
 
 #include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <utility>
+
 namespace pcl::floater {
 namespace {
-using samples::BruteForceSearch;
+using samples::indices;
+using samples::joined;
+using samples::placed;
 using samples::Positions;
+using samples::surface;
 using samples::workingPoints;
 
-// Chooses each point with the same probability, and all points of the cloud from `first_sure` on.
-std::vector<Index>
-chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)
+constexpr int NEIGHBORS = 20;
+constexpr double RADIUS = 2.5;
+
+/// The k nearest of each point; or, with a radius in spacings, at least 6 and at most 200 of those in a
+/// ball.
+CsrLists
+listsByTryingAll (const Positions& positions, const Rows& rows, std::size_t k, double radius = 0.0)
 {
-  RandomStream random (seed);
-  std::vector<Index> removed;
-  for (Index p = 0; p < points.size (); ++p)
-    if (random.uniform () < share || points.cloud_index[p] >= first_sure)
-      removed.push_back (p);
-  return removed;
+  CsrLists lists;
+  lists.offsets.push_back (0);
+  for (std::size_t i = 0; i < rows.size (); ++i) {
+    std::vector<Neighbor> others = samples::nearestByTryingAll (positions, positions[rows[i]], 202);
+    others.erase (std::find_if (others.begin (), others.end (),
+                                [&] (const Neighbor& other) { return other.point == rows[i]; }));
+    double reach = 0.0;
+    for (std::size_t n = 0; n < std::min<std::size_t> (others.size (), 6); ++n)
+      reach += radius * std::sqrt (others[n].sqr_distance) / 6.0;
+    for (std::size_t n = 0; n < others.size (); ++n)
+      if (radius == 0.0 ? n < k : n < 6 || (n < 200 && others[n].sqr_distance <= reach * reach))
+        lists.ids.push_back (others[n].point);
+    lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
+  }
+  return lists;
 }
 
-// Expects that lists which are renewed after the removal of points are those that a search finds.
-// \return the points that are left
-Points
-expectRenewed (const Points& all, const std::vector<Index>& removed,
-               const NeighborSettings& settings)
+void
+expectSame (const CsrLists& found, const CsrLists& expected)
 {
-  CsrLists before = findNeighbors (all, settings, 1);
-  Points left = all;
-  removePoints (left, removed);
-  const CsrLists expected = findNeighbors (left, settings, 1);
-  for (const int threads : {1, 3}) {
-    const CsrLists renewed = renewNeighbors (left, removed, before, settings, threads);
-    EXPECT_EQ (renewed.rows (), left.size ());
-    EXPECT_EQ (renewed.offsets, expected.offsets);
-    EXPECT_EQ (renewed.ids, expected.ids);
+  EXPECT_EQ (found.rows (), expected.rows ());
+  EXPECT_TRUE (found.offsets == expected.offsets || expected.rows () == 0);
+  EXPECT_EQ (found.ids, expected.ids);
+}
+
+/// Two tori, three small clusters far away, each of fewer points than a point has neighbours, and
+/// single points at all distances: halos of an even width are too narrow.
+Positions
+scattered ()
+{
+  Positions points = joined (surface (SurfaceKind::TORUS, 2500),
+                             placed (surface (SurfaceKind::TORUS, 800), {150.0, 0.0, 20.0}, 0.2));
+  for (int cluster = 0; cluster < 3; ++cluster)
+    points =
+        joined (points, placed (samples::randomPoints (9, 7U + static_cast<unsigned> (cluster)),
+                                300.0 * Eigen::Vector3d::Unit (cluster)));
+  for (int i = 1; i <= 12; ++i)
+    points.emplace_back (100.0 * std::cos (i), 100.0 * std::sin (i), 3.0 * i * i);
+  return points;
+}
+
+/// Some of the points: many, one, or none.
+std::vector<std::vector<Index>>
+someOf (std::size_t points)
+{
+  std::vector<Index> many;
+  for (Index p = 5; p < points; p += 1 + p % 13)
+    many.push_back (p);
+  return {many, std::vector<Index> (std::min<std::size_t> (points, 1), 0), {}};
+}
+
+/// Denser at one side.
+Positions
+plane (std::size_t count)
+{
+  Positions points = samples::randomPoints (count, 1);
+  for (Eigen::Vector3d& p : points)
+    p = {40.0 * p.x () * p.x (), 40.0 * p.y (), 0.0};
+  return points;
+}
+
+/// Points with a neighbour beyond the halo of their block. For these the block has to be cut again.
+std::size_t
+countBeyondTheHalo (const Positions& positions, const CsrLists& neighbors, std::size_t blocks)
+{
+  const BlockCutter cutter (positions, blocks, 1);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cutter.blocks (); ++i) {
+    const double halo = cutter.cut (i, {}).halo;
+    for (Index p = cutter.first (i); p < cutter.last (i); ++p) {
+      const Row row = neighbors.row (p);
+      count += (positions[row[row.size () - 1]] - positions[p]).norm () > halo ? 1 : 0;
+    }
   }
-  return left;
+  return count;
+}
+
+TEST (NearestNeighbors, DoNotDependOnBlocks)
+{
+  std::vector<Positions> clouds;
+  for (const Positions& cloud :
+       {scattered (), surface (SurfaceKind::HEIGHT_FIELD, 3000, 0.0, 50.0),
+        surface (SurfaceKind::FOLDED_SHEET, 2000), surface (SurfaceKind::SPHERE, 2000, 0.3),
+        samples::randomPoints (700, 3)})
+    clouds.push_back (workingPoints (cloud).positions);
+  for (const std::size_t few : {0U, 1U, 2U, 5U, 20U, 21U, 30U})
+    clouds.push_back (samples::randomPoints (few, 6));
+  // The squares of such distances underflow to 0: all points of a crowd are equally near, and their
+  // order is that of their indices. So a point is not always among its own k + 1 results.
+  Positions crowd = samples::randomPoints (200, 8);
+  for (int i = 0; i < 60; ++i)
+    crowd.emplace_back (-1e-170 * i, 0.0, 0.0);
+  clouds.push_back (crowd);
+  for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud) {
+    const Positions& positions = clouds[cloud];
+    const Rows all = Rows::all (positions.size ());
+    const CsrLists expected = listsByTryingAll (positions, all, NEIGHBORS);
+    for (const std::size_t blocks : {1U, 2U, 5U, 64U}) {
+      SCOPED_TRACE (testing::Message () << "cloud " << cloud << ", " << blocks << " blocks");
+      expectSame (findNearestNeighbors (positions, all, NEIGHBORS, blocks, 2), expected);
+      for (const std::vector<Index>& some : someOf (positions.size ()))
+        expectSame (findNearestNeighbors (positions, Rows::of (some), NEIGHBORS, blocks, 2),
+                    listsByTryingAll (positions, Rows::of (some), NEIGHBORS));
+    }
+    if (cloud == 0) { // so some blocks are cut again
+      EXPECT_GT (countBeyondTheHalo (positions, expected, 16), 0U);
+    }
+  }
+}
+
+TEST (BallNeighbors, AreTheSixNearestAndUpToTwoHundredInABall)
+{
+  // A crowd, a point with a ball that holds all of it, and a few with balls of few.
+  Positions crowded = placed (samples::randomPoints (1000, 3), {0, 0, 0}, 1e-3);
+  crowded.emplace_back (-1.0, 0.0, 0.0);
+  crowded.emplace_back (1.0, 0.0, 0.0);
+  for (int i = 0; i < 5; ++i)
+    crowded.emplace_back (1.0 + 1e-9 * (i + 1), 1e-9 * i * i, 0.0);
+  std::set<std::size_t> lengths;
+  for (const Positions& cloud : {plane (1500), plane (4), crowded}) {
+    const Points points = workingPoints (cloud);
+    const Rows all = Rows::all (points.size ());
+    const CsrLists balls = findBallNeighbors (points.positions, all, RADIUS, 2);
+    expectSame (balls, listsByTryingAll (points.positions, all, 0, RADIUS));
+    for (Index p = 0; p < points.size (); ++p)
+      lengths.insert (balls.row (p).size ());
+  }
+  for (const std::size_t length : {3U, 6U, 20U, 200U})
+    EXPECT_EQ (lengths.count (length), 1U) << length;
+}
+
+/// A search of the caller that tries all points. Its answers are unordered, have repetitions, the point
+/// itself, points that are not in the set, indices beyond the cloud, and within a radius one that is too
+/// far away.
+class BruteForceSearch : public NeighborSearch
+{
+public:
+  explicit BruteForceSearch (Positions cloud) : cloud_ (std::move (cloud)) {}
+
+  void build (const std::vector<std::uint32_t>& cloud_indices) override
+  {
+    EXPECT_TRUE (std::is_sorted (cloud_indices.begin (), cloud_indices.end ()));
+    chosen = cloud_indices;
+    positions_.clear ();
+    unknown_ = {static_cast<Index> (cloud_.size ()), NONE};
+    for (Index i = 0; i < cloud_.size (); ++i)
+      if (std::binary_search (chosen.begin (), chosen.end (), i))
+        positions_.push_back (cloud_[i]);
+      else
+        unknown_.push_back (i);
+  }
+
+  void nearest (std::uint32_t cloud_index, int k,
+                std::vector<std::uint32_t>& cloud_indices) override
+  {
+    EXPECT_TRUE (std::binary_search (chosen.begin (), chosen.end (), cloud_index));
+    answer (cloud_index, static_cast<std::size_t> (k), KdTree::EVERYWHERE, cloud_indices);
+  }
+
+  bool within (std::uint32_t cloud_index, double radius,
+               std::vector<std::uint32_t>& cloud_indices) override
+  {
+    answer (cloud_index, positions_.size (), radius, cloud_indices);
+    cloud_indices.push_back (chosen[(cloud_index + 17) % chosen.size ()]);
+    return knows_radii;
+  }
+
+  std::vector<std::uint32_t> chosen;
+  bool knows_radii = false;
+
+private:
+  void answer (Index cloud_index, std::size_t k, double radius, std::vector<Index>& answers) const
+  {
+    answers = unknown_;
+    for (const Neighbor& other : samples::nearestByTryingAll (positions_, cloud_[cloud_index], k))
+      if (std::sqrt (other.sqr_distance) <= radius)
+        answers.insert (answers.end (), 2, chosen[other.point]);
+    std::reverse (answers.begin (), answers.end ());
+  }
+
+  Positions cloud_, positions_;
+  std::vector<std::uint32_t> unknown_;
+};
+
+TEST (CallerSearch, FindsTheSameAmongTheWorkingPoints)
+{
+  for (const std::size_t count : {0U, 1U, 2U, 5U, 20U, 21U, 600U}) {
+    SCOPED_TRACE (count);
+    Positions cloud = plane (count);
+    if (count == 600) {
+      cloud[5] = cloud[3];
+      cloud[599] = cloud[3];
+      cloud[17].x () = std::numeric_limits<double>::quiet_NaN ();
+      cloud[0].z () = std::numeric_limits<double>::infinity ();
+    }
+    const Points points = workingPoints (cloud);
+    for (const bool knows_radii : {true, false}) {
+      BruteForceSearch search (cloud);
+      search.knows_radii = knows_radii;
+      CallerSearch caller (points, search);
+      std::vector<Index> wanted = points.cloud_index;
+      std::sort (wanted.begin (), wanted.end ());
+      EXPECT_EQ (search.chosen, wanted);
+      const auto expectFound = [&] (const Rows& rows) {
+        expectSame (searchNearestNeighbors (caller, rows, NEIGHBORS, 1),
+                    listsByTryingAll (points.positions, rows, NEIGHBORS));
+        expectSame (searchBallNeighbors (caller, rows, RADIUS, 2),
+                    listsByTryingAll (points.positions, rows, 0, RADIUS));
+      };
+      expectFound (Rows::all (points.size ()));
+      for (const std::vector<Index>& some : someOf (points.size ()))
+        expectFound (Rows::of (some));
+    }
+  }
 }
 
 // The k nearest in one block and in several, and balls.
@@ -61,91 +262,78 @@ TEST (FindNeighbors, TheTreeOfAllPointsIsHandedOut)
   const Points points = workingPoints (samples::randomPoints (1500, 1));
   std::optional<KdTree> tree;
   for (const NeighborSettings& settings : allSettings ()) {
-    const CsrLists alone = findNeighbors (points, settings, 1);
-    const CsrLists with_tree = findNeighbors (points, settings, 2, &tree);
-    EXPECT_EQ (with_tree.offsets, alone.offsets);
-    EXPECT_EQ (with_tree.ids, alone.ids);
     const bool is_ball = settings.options.kind == Neighborhood::BALL_DELAUNAY;
+    expectSame (findNeighbors (points, settings, 2, &tree),
+                listsByTryingAll (points.positions, Rows::all (points.size ()),
+                                  static_cast<std::size_t> (settings.options.k),
+                                  is_ball ? settings.options.ball_radius : 0.0));
     ASSERT_EQ (tree.has_value (), settings.blocks == 0 && !is_ball);
     if (!tree)
       continue;
     std::vector<Neighbor> found;
-    tree->nearest (points.positions[7], 2, found);
-    ASSERT_EQ (found.size (), 2U);
+    tree->nearest (points.positions[7], 1, found);
+    ASSERT_EQ (found.size (), 1U);
     EXPECT_EQ (found[0].point, 7U);
-    EXPECT_EQ (found[1].point, alone.row (7)[0]);
   }
 }
 
-TEST (RenewNeighbors, OfRandomPoints)
+// Chooses each point with the same probability, and all points of the cloud from `first_sure` on.
+std::vector<Index>
+chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)
 {
-  const Points points = workingPoints (samples::randomPoints (1500, 1));
-  for (const NeighborSettings& settings : allSettings ())
-    for (const double share : {0.0, 0.001, 0.02, 0.3, 0.9})
-      for (std::uint64_t seed = 1; seed <= 3; ++seed)
-        expectRenewed (points, chooseRemoved (points, share, points.size (), seed), settings);
+  RandomStream random (seed);
+  std::vector<Index> removed;
+  for (Index p = 0; p < points.size (); ++p)
+    if (random.uniform () < share || points.cloud_index[p] >= first_sure)
+      removed.push_back (p);
+  return removed;
 }
 
-// A grid is full of equal distances, where indices decide which points are the neighbours.
-TEST (RenewNeighbors, OfAGridWithTies)
+// Expects that lists which are renewed after the removal of points are those that a search finds.
+void
+expectRenewed (const Positions& cloud, const std::vector<double>& shares, std::size_t first_sure,
+               bool by_caller = false)
 {
-  Positions grid;
-  for (const Index i : samples::permutation (1000, 2))
-    grid.emplace_back (i % 10, i / 10 % 10, i / 100); // NOLINT (bugprone-integer-division)
-  const Points points = workingPoints (grid);
-  for (const NeighborSettings& settings : allSettings ())
-    for (const double share : {0.01, 0.2})
-      for (std::uint64_t seed = 1; seed <= 3; ++seed)
-        expectRenewed (points, chooseRemoved (points, share, points.size (), seed), settings);
-}
-
-// Without the outermost points the bounding box is smaller, and the positions are scaled again.
-TEST (RenewNeighbors, WhereTheBoxShrinks)
-{
-  for (const bool on_grid : {false, true}) {
-    Positions cloud;
-    for (int x = 0; x < 30; ++x)
-      for (int y = 0; y < 30; ++y)
-        cloud.emplace_back (x, y, 0.0);
-    RandomStream random (3);
-    for (Eigen::Vector3d& p : cloud)
-      if (!on_grid)
-        p += 0.3 * Eigen::Vector3d (random.uniform (), random.uniform (), random.uniform ());
-    const std::size_t surface = cloud.size ();
-    cloud.emplace_back (15.3, 14.8, 700.0);
-    cloud.emplace_back (-90.0, 14.8, 3.0);
-    cloud.emplace_back (15.1, 500.0, -33.0);
-    const Points points = workingPoints (cloud);
-    for (const NeighborSettings& settings : allSettings ())
-      for (const double share : {0.0, 0.05}) {
-        const std::vector<Index> removed = chooseRemoved (points, share, surface, 4);
-        const Points left = expectRenewed (points, removed, settings);
-        EXPECT_LT (left.scale, 0.1 * points.scale);
+  const Points all = workingPoints (cloud);
+  BruteForceSearch search (cloud);
+  for (NeighborSettings settings : allSettings ()) {
+    settings.search = by_caller ? &search : nullptr;
+    const CsrLists before = findNeighbors (all, settings, 1);
+    for (const double share : shares)
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const std::vector<Index> removed = chooseRemoved (all, share, first_sure, seed);
+        Points left = all;
+        removePoints (left, removed);
+        if (first_sure < cloud.size ()) { // the box shrinks, and positions are scaled again
+          EXPECT_LT (left.scale, 0.1 * all.scale);
+        }
+        const CsrLists expected = findNeighbors (left, settings, 1);
+        for (const int threads : {1, 3})
+          expectSame (renewNeighbors (left, removed, before, settings, threads), expected);
       }
   }
 }
 
-TEST (RenewNeighbors, ByTheCallersSearch)
+TEST (RenewNeighbors, FindsTheSameAsANewSearch)
 {
-  Positions cloud = samples::randomPoints (400, 5);
-  cloud.emplace_back (20.0, 0.0, 0.0);
-  BruteForceSearch search (cloud);
-  for (NeighborSettings settings : allSettings ()) {
-    settings.search = &search;
-    const Points points = workingPoints (cloud);
-    expectRenewed (points, chooseRemoved (points, 0.05, 400, 6), settings);
-  }
-}
-
-TEST (RenewNeighbors, OfFewPoints)
-{
-  for (const std::size_t count : {1U, 2U, 5U, 12U, 25U}) {
-    const Points points = workingPoints (samples::randomPoints (count, count));
-    for (const NeighborSettings& settings : allSettings ()) {
-      expectRenewed (points, chooseRemoved (points, 0.3, count, 7), settings);
-      expectRenewed (points, samples::indices (count), settings);
-    }
-  }
+  const auto expectRenewedAll = [] (const Positions& cloud, const std::vector<double>& shares) {
+    expectRenewed (cloud, shares, cloud.size ());
+  };
+  expectRenewedAll (samples::randomPoints (1500, 1), {0.0, 0.001, 0.02, 0.3, 0.9});
+  for (const std::size_t count : {1U, 2U, 5U, 12U, 25U})
+    expectRenewedAll (samples::randomPoints (count, count), {0.3, 1.0});
+  // A grid is full of equal distances, where indices decide which points are the neighbours.
+  Positions grid;
+  for (const Index i : samples::permutation (1000, 2))
+    grid.emplace_back (i % 10, i / 10 % 10, i / 100); // NOLINT (bugprone-integer-division)
+  expectRenewedAll (grid, {0.01, 0.2});
+  RandomStream random (3);
+  for (const double jitter : {0.0, 0.3})
+    expectRenewed (joined (samples::jitteredGrid (30, 30, 1.0, jitter, random),
+                           {{15.3, 14.8, 700.0}, {-90.0, 14.8, 3.0}, {15.1, 500.0, -33.0}}),
+                   {0.0, 0.05}, 900);
+  expectRenewed (joined (samples::randomPoints (400, 5), Positions{{60.0, 0.0, 0.0}}), {0.05}, 400,
+                 true);
 }
 
 } // namespace

@@ -7,8 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pcl::floater {
 namespace {
+using samples::jitteredGrid;
+using samples::joined;
+using samples::normalVector;
+using samples::placed;
 using samples::Positions;
 using samples::surface;
 
@@ -17,25 +23,38 @@ struct Cloud
   Points points;
   CsrLists neighbors;
 
-  explicit Cloud (const Positions& positions, int k = 20)
-      : points (makePoints (positions, samples::indices (positions.size ()), 1)),
-        neighbors (findNearestNeighbors (points.positions, Rows::all (points.size ()), k, 1, 1))
+  explicit Cloud (const Positions& positions)
+      : points (samples::workingPoints (positions)),
+        neighbors (findNearestNeighbors (points.positions, Rows::all (points.size ()), 20, 1, 1))
   {
   }
 
-  Noise noise (int threads = 1) const
+  Noise noise () const { return measureNoise (points.positions, neighbors, {}, 1); }
+  double share (std::size_t count) const
   {
-    return measureNoise (points.positions, neighbors, {}, threads);
+    return static_cast<double> (count) / static_cast<double> (points.size ());
   }
-  double noisyShare () const
+  double noisyShare () const { return share (noise ().noisy_points); }
+  Positions projected () const
   {
-    return static_cast<double> (noise ().noisy_points) / static_cast<double> (points.size ());
-  }
-  Positions projected (int threads = 1) const
-  {
-    return projectNoisyPoints (points.positions, neighbors, noise (threads), {}, threads);
+    return projectNoisyPoints (points.positions, neighbors, noise (), {}, 1);
   }
 };
+
+/// Factor by which projection changes the root mean square of a deviation.
+template <typename Deviation>
+double
+changeByProjection (const Cloud& cloud, Deviation&& deviationAt)
+{
+  const Positions projected = cloud.projected ();
+  double before = 0.0, after = 0.0;
+  for (std::size_t p = 0; p < projected.size (); ++p) {
+    const Points& points = cloud.points;
+    before += std::pow (deviationAt (points.centre + points.scale * points.positions[p]), 2);
+    after += std::pow (deviationAt (points.centre + points.scale * projected[p]), 2);
+  }
+  return std::sqrt (after / before);
+}
 
 TEST (Noise, TellsStrongNoiseFromNone)
 {
@@ -55,65 +74,27 @@ TEST (Noise, TellsStrongNoiseFromNone)
 
 TEST (Noise, IsStrongWhereStarsOfNoisyPointsDisagree)
 {
-  const NoiseLimits limits;
   Noise noise;
   noise.at_point.assign (100, 0.0F);
-  const std::vector<float> agreeing (100, 1.0F), disagreeing (100, 0.8F);
-  EXPECT_FALSE (isStrong (noise, disagreeing, limits));
-  const auto makeNoisy = [&noise] (std::size_t count) {
-    std::fill_n (noise.at_point.begin (), count, 1.0F);
-    noise.noisy_points = count;
+  const auto isStrongIf = [&noise] (std::size_t noisy, float agreement) {
+    std::fill_n (noise.at_point.begin (), noisy, 1.0F);
+    noise.noisy_points = noisy;
+    return isStrong (noise, std::vector<float> (100, agreement), {});
   };
-  makeNoisy (17);
-  EXPECT_FALSE (isStrong (noise, disagreeing, limits));
-  makeNoisy (18);
-  EXPECT_TRUE (isStrong (noise, disagreeing, limits));
-  makeNoisy (100);
-  EXPECT_FALSE (isStrong (noise, agreeing, limits));
-}
-
-// A slope whose heights are rounded to whole steps, 2.5 spacings apart: flat terraces.
-Positions
-terraces ()
-{
-  RandomStream random (3);
-  Positions positions;
-  for (int x = 0; x < 80; ++x)
-    for (int y = 0; y < 80; ++y) {
-      const double height = 0.4 * x + 0.3 * random.normal ();
-      positions.emplace_back (x, y, 2.5 * std::round (height / 2.5));
-    }
-  return positions;
-}
-
-TEST (Noise, QuantizedDepthIsNoise)
-{
-  const Cloud cloud (terraces ());
-  EXPECT_GT (cloud.noisyShare (), 0.6);
-  const Positions projected = cloud.projected ();
-  // Of the standard deviation of a step, 0.29, at least half is gone.
-  double before = 0.0, after = 0.0;
-  for (std::size_t p = 0; p < projected.size (); ++p) {
-    const auto off = [&cloud] (const Eigen::Vector3d& position) {
-      const Eigen::Vector3d q = cloud.points.centre + cloud.points.scale * position;
-      return q.z () - 0.4 * q.x ();
-    };
-    before += std::pow (off (cloud.points.positions[p]), 2);
-    after += std::pow (off (projected[p]), 2);
-  }
-  EXPECT_LT (after, 0.25 * before);
+  EXPECT_FALSE (isStrongIf (0, 0.8F));
+  EXPECT_FALSE (isStrongIf (17, 0.8F));
+  EXPECT_TRUE (isStrongIf (18, 0.8F));
+  EXPECT_FALSE (isStrongIf (100, 1.0F));
 }
 
 TEST (Noise, ThinSheetsAreNone)
 {
   for (const double gap : {1.5, 2.0, 3.0, 5.0}) {
     SCOPED_TRACE (gap);
-    RandomStream random (4);
-    Positions sheets; // one over the other, their points not
-    for (int x = 0; x < 60; ++x)
-      for (int y = 0; y < 60; ++y)
-        for (const double z : {0.0, gap})
-          sheets.emplace_back (x + 0.5 * random.uniform (), y + 0.5 * random.uniform (), z);
+    RandomStream random (4); // one over the other, their points not
+    const Positions sheets =
+        joined (jitteredGrid (60, 60, 1.0, 0.5, random),
+                placed (jitteredGrid (60, 60, 1.0, 0.5, random), {0.0, 0.0, gap}));
     EXPECT_FALSE (reconstruct (samples::asInput (sheets), {}).report.denoised);
   }
 }
@@ -147,16 +128,19 @@ TEST (Noise, DegenerateClouds)
   }
 }
 
-// Root mean square distance to the unit sphere.
-double
-offSphere (const Positions& positions, const Points& points)
+// A slope whose heights are rounded to whole steps, 2.5 spacings apart: flat terraces. Of the standard
+// deviation of a step, 0.29, at least half is gone.
+TEST (Projection, QuantizedDepthIsNoise)
 {
-  double sum = 0.0;
-  for (const Eigen::Vector3d& p : positions) {
-    const double off = (points.centre + points.scale * p).norm () - 1.0;
-    sum += off * off;
-  }
-  return std::sqrt (sum / static_cast<double> (positions.size ()));
+  RandomStream random (3);
+  Positions terraces = jitteredGrid (80, 80, 1.0, 0.0, random);
+  for (Eigen::Vector3d& p : terraces)
+    p.z () = 2.5 * std::round ((0.4 * p.x () + 0.3 * random.normal ()) / 2.5);
+  const Cloud cloud (terraces);
+  EXPECT_GT (cloud.noisyShare (), 0.6);
+  EXPECT_LT (
+      changeByProjection (cloud, [] (const Eigen::Vector3d& p) { return p.z () - 0.4 * p.x (); }),
+      0.5);
 }
 
 TEST (Projection, TakesMostOfTheNoiseOut)
@@ -165,22 +149,19 @@ TEST (Projection, TakesMostOfTheNoiseOut)
   Positions sphere = surface (SurfaceKind::SPHERE, 4000, 0.0);
   const double spacing = std::sqrt (4.0 * samples::PI / 4000.0);
   for (Eigen::Vector3d& p : sphere)
-    p = p.normalized () +
-        0.4 * spacing * Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
-  const Cloud cloud (sphere);
-  EXPECT_LT (offSphere (cloud.projected (), cloud.points),
-             0.5 * offSphere (cloud.points.positions, cloud.points));
-  EXPECT_EQ (cloud.projected (3), cloud.projected (1));
+    p = p.normalized () + 0.4 * spacing * normalVector (random);
+  EXPECT_LT (changeByProjection (Cloud (sphere),
+                                 [] (const Eigen::Vector3d& p) { return p.norm () - 1.0; }),
+             0.5);
 }
 
 TEST (Projection, AnotherSheetDoesNotPull)
 {
   RandomStream random (2);
   Positions sheets; // 8 spacings apart, each with noise of 0.4
-  for (int x = 0; x < 50; ++x)
-    for (int y = 0; y < 50; ++y)
-      for (const double z : {0.0, 8.0})
-        sheets.emplace_back (x + 0.2 * random.uniform (), y, z + 0.4 * random.normal ());
+  for (const double z : {0.0, 8.0})
+    for (const Eigen::Vector3d& p : jitteredGrid (50, 50, 1.0, 0.2, random))
+      sheets.emplace_back (p.x (), p.y (), z + 0.4 * random.normal ());
   const Cloud cloud (sheets);
   EXPECT_GT (cloud.noisyShare (), 0.6);
   for (const Eigen::Vector3d& projected : cloud.projected ()) {

@@ -7,48 +7,150 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace pcl::floater {
 namespace {
+using samples::asInput;
+using samples::indices;
+using samples::jitteredGrid;
+using samples::joined;
+using samples::ON_A_MAP;
+using samples::placed;
 using samples::Positions;
 using samples::surface;
+using IndexList = std::vector<Index>;
+
+constexpr double LARGEST_FLOAT = std::numeric_limits<float>::max ();
+constexpr double LARGEST = std::numeric_limits<double>::max ();
+
+IndexList
+lastOf (const Positions& positions, std::size_t count)
+{
+  const IndexList all = indices (positions.size ());
+  return {all.end () - static_cast<std::ptrdiff_t> (count), all.end ()};
+}
+
+void
+expectGross (const Positions& cloud, const IndexList& isolated, const IndexList& unbearable)
+{
+  const GrossOutliers found = findGrossOutliers (cloud, 1);
+  EXPECT_EQ (found.isolated, isolated);
+  EXPECT_EQ (found.unbearable, unbearable);
+}
+
+TEST (GrossOutliers, AreOrdersOfMagnitudeAway)
+{
+  const Positions cloud = joined (placed (surface (SurfaceKind::TORUS, 1000), ON_A_MAP),
+                                  {{1e10, 0, 0}, {0, 0, 0}, {5e5, 5.5e6, -1e8}, {0, 0, 0}});
+  expectGross (cloud, lastOf (cloud, 4), {});
+  // Those that double precision cannot hold; some would be an object of their own.
+  Positions far = surface (SurfaceKind::TORUS, 1000);
+  for (int i = 0; i < 50; ++i)
+    far.emplace_back (LARGEST_FLOAT, i % 7, i);
+  far.emplace_back (LARGEST, -LARGEST, 0.0);
+  far.emplace_back (-LARGEST, 0.0, 0.0);
+  expectGross (far, {}, lastOf (far, 52));
+  // Pixels without depth are (0, 0, 0): equal points, which are one point, even if they are most.
+  expectGross (joined (joined (Positions (3000, Eigen::Vector3d (0, 0, 0)),
+                               placed (surface (SurfaceKind::HEIGHT_FIELD, 1000), ON_A_MAP)),
+                       Positions{{1e11, 0, 0}}),
+               {4000}, {});
+}
+
+TEST (GrossOutliers, ObjectsAndWidePartsAreNone)
+{
+  const Positions torus = surface (SurfaceKind::TORUS, 2000);
+  const Positions terrain = surface (SurfaceKind::HEIGHT_FIELD, 2000);
+  const Eigen::Vector3d here (0, 0, 0), there (-3e7, 1e7, 2e7);
+  // A terrain around it that is a thousand times as wide and has a tenth of the points, and one
+  // that is ten thousand times as wide.
+  std::vector<Positions> clouds{
+      joined (torus, placed (surface (SurfaceKind::HEIGHT_FIELD, 200), here, 3e3)),
+      joined (torus, placed (terrain, here, 1e4)), joined (terrain, torus)};
+  // Objects a million times their size apart, alike and not.
+  for (const std::size_t points : {60U, 500U, 2000U})
+    for (const double scale : {0.1, 1.0, 10.0})
+      clouds.push_back (
+          joined (torus, placed (surface (SurfaceKind::TORUS, points), there, scale)));
+  // Few or equal points.
+  clouds.insert (clouds.end (),
+                 {{},
+                  {{0, 0, 0}, {1, 0, 0}, {0, 1e30, 0}},
+                  Positions (100, Eigen::Vector3d (3, 4, 5)),
+                  Positions (100, Eigen::Vector3d (NAN, 0, 0)),
+                  joined (Positions (100, Eigen::Vector3d (3, 4, 5)), Positions{{1e10, 0, 0}})});
+  for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud) {
+    SCOPED_TRACE (cloud);
+    expectGross (clouds[cloud], {}, {});
+  }
+}
+
+// The whole way: the mesh is that of the cloud without them. Other outliers are added to the list.
+TEST (GrossOutliers, LeaveTheMeshAsItIs)
+{
+  const Positions strays{{1e10, 2, 3}, {LARGEST_FLOAT, 0, 0}, {0, 0, 0}, {-LARGEST, LARGEST, 0}};
+  const Positions clean = placed (surface (SurfaceKind::HEIGHT_FIELD, 3000), ON_A_MAP);
+  const Positions with_outlier =
+      joined (clean, Positions{ON_A_MAP + Eigen::Vector3d (20, 20, 200)});
+  for (const Positions& usual : {clean, with_outlier}) {
+    const Positions cloud = joined (usual, strays);
+    const Result expected = reconstruct (asInput (usual), {});
+    const Result result = reconstruct (asInput (cloud), {});
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    EXPECT_EQ (result.triangles, expected.triangles);
+    EXPECT_EQ (samples::topologyOf (result.triangles).vertices, 3000U);
+    EXPECT_EQ (result.report.outliers, lastOf (cloud, cloud.size () - 3000));
+    EXPECT_EQ (result.report.statistics.outlier_points, cloud.size () - 3000);
+    EXPECT_EQ (result.report.statistics.working_points, 3000U);
+    ASSERT_EQ (result.report.warnings.size (), expected.report.warnings.size () + 1);
+    EXPECT_EQ (result.report.warnings.front (),
+               "4 points are over a thousand times as far away as all others, among them point " +
+                   std::to_string (usual.size ()) + ": they were left out");
+  }
+}
+
+TEST (GrossOutliers, StayIfOutliersAreToStayOrAreAQuarter)
+{
+  Options options;
+  options.remove_outliers = false;
+  const Positions torus = surface (SurfaceKind::TORUS, 3000);
+  const Result failed =
+      reconstruct (asInput (joined (torus, Positions{{LARGEST_FLOAT, 0, 0}})), options);
+  EXPECT_EQ (failed.report.status, RunStatus::DEGENERATE);
+  EXPECT_NE (failed.report.message.find ("point 3000"), std::string::npos);
+  EXPECT_TRUE (failed.triangles.empty ());
+  // Double precision can hold these.
+  const Result result =
+      reconstruct (asInput (joined (torus, {{1e8, 2e8, 0}, {-1e10, 0, 1e9}})), options);
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+  const samples::Topology topology = samples::topologyOf (result.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_GE (topology.vertices, 3000U);
+  EXPECT_TRUE (result.report.outliers.empty ());
+  const Positions far = placed (surface (SurfaceKind::TORUS, 1800), {0, 0, 0}, 1e30);
+  const Result quarter = reconstruct (asInput (joined (torus, far)), {});
+  EXPECT_EQ (quarter.report.status, RunStatus::DEGENERATE);
+  EXPECT_NE (quarter.report.message.find ("double precision"), std::string::npos);
+}
 
 // The outliers in cloud indices.
-std::vector<Index>
+IndexList
 outliersOf (const Positions& positions, int k = 20, int threads = 1)
 {
-  Points points = makePoints (positions, samples::indices (positions.size ()), threads);
+  Points points = samples::workingPoints (positions);
   const CsrLists neighbors =
       findNearestNeighbors (points.positions, Rows::all (points.size ()), k, 1, threads);
   return removePoints (points, findOutliers (points.positions, neighbors, threads));
 }
 
-// A square of `side` by `side` points, about 1 apart.
+// A square of points about 1 apart.
 Positions
-square (int side, double jitter, std::uint64_t seed)
+square (int side, std::uint64_t seed)
 {
   RandomStream random (seed);
-  Positions points;
-  for (int x = 0; x < side; ++x)
-    for (int y = 0; y < side; ++y)
-      points.emplace_back (x + jitter * random.uniform (), y + jitter * random.uniform (), 0.0);
-  return points;
-}
-
-// A round lump of points about 0.3 from its centre.
-void
-addLump (Positions& positions, const Eigen::Vector3d& centre, std::size_t count,
-         RandomStream& random)
-{
-  for (std::size_t i = 0; i < count; ++i)
-    positions.emplace_back (
-        centre + 0.3 * Eigen::Vector3d (random.normal (), random.normal (), random.normal ()));
-}
-
-std::vector<Index>
-lastOf (const Positions& positions, std::size_t count)
-{
-  const std::vector<Index> all = samples::indices (positions.size ());
-  return {all.end () - static_cast<std::ptrdiff_t> (count), all.end ()};
+  return jitteredGrid (side, side, 1.0, 0.4, random);
 }
 
 TEST (Outliers, NoneOnSurfaces)
@@ -70,40 +172,21 @@ TEST (Outliers, NoneWhereTheDensityChangesAbruptly)
       for (const double jitter : {0.0, 0.3}) {
         SCOPED_TRACE (testing::Message () << ratio << ' ' << upright << ' ' << jitter);
         RandomStream random (3);
-        Positions points;
-        for (int x = 1; x < 30; ++x)
-          for (int y = 0; y < 90; ++y)
-            points.emplace_back (-x + jitter * random.uniform (), y + jitter * random.uniform (),
-                                 0.0);
-        for (int x = 1; x < 8; ++x)
-          for (int y = 0; y * ratio < 90.0; ++y) {
-            const double away = ratio * (x + jitter * random.uniform ());
-            const double along = ratio * (y + jitter * random.uniform ());
-            points.emplace_back (upright ? 0.0 : away, along, upright ? away : 0.0);
-          }
-        EXPECT_TRUE (outliersOf (points).empty ());
+        const Positions dense =
+            placed (jitteredGrid (29, 90, 1.0, jitter, random), {-29.0, 0.0, 0.0});
+        Positions sparse = placed (
+            jitteredGrid (7, static_cast<int> (std::ceil (90.0 / ratio)), ratio, jitter, random),
+            {ratio, 0.0, 0.0});
+        for (Eigen::Vector3d& p : sparse)
+          if (upright)
+            std::swap (p.x (), p.z ());
+        EXPECT_TRUE (outliersOf (joined (dense, sparse)).empty ());
       }
-}
-
-TEST (Outliers, NoneOnConesAndCubes)
-{
-  Positions cones;
-  for (int x = 0; x < 60; ++x)
-    for (int y = 0; y < 60; ++y)
-      cones.emplace_back (x, y, std::max (0.0, 6.0 - 2.0 * std::hypot (x % 20 - 10, y % 20 - 10)));
-  EXPECT_TRUE (outliersOf (cones).empty ());
-  Positions cube;
-  for (int x = 0; x <= 5; ++x)
-    for (int y = 0; y <= 5; ++y)
-      for (int z = 0; z <= 5; ++z)
-        if (x % 5 == 0 || y % 5 == 0 || z % 5 == 0)
-          cube.emplace_back (x, y, z);
-  EXPECT_TRUE (outliersOf (cube).empty ());
 }
 
 TEST (Outliers, FlyingPixels)
 {
-  Positions points = square (60, 0.4, 1);
+  Positions points = square (60, 1);
   RandomStream random (7);
   std::size_t flying = 0;
   for (int x = 5; x < 60; x += 10)
@@ -114,37 +197,32 @@ TEST (Outliers, FlyingPixels)
   EXPECT_EQ (outliersOf (points, 20, 3), lastOf (points, flying));
   EXPECT_EQ (outliersOf (points, 30), lastOf (points, flying));
   // The points of a whole second sheet at that height are no outliers.
-  const Positions other = square (60, 0.4, 2);
-  for (const Eigen::Vector3d& p : other)
-    points.emplace_back (p + Eigen::Vector3d (0.0, 0.0, 2.5));
-  for (const Index p : outliersOf (points))
-    EXPECT_LT (p, points.size () - other.size ());
+  const std::size_t before = points.size ();
+  for (const Index p : outliersOf (joined (points, placed (square (60, 2), {0.0, 0.0, 2.5}))))
+    EXPECT_LT (p, before);
 }
 
-TEST (Outliers, SmallClustersFarAway)
+TEST (Outliers, SmallClustersFarAwayButNotSmallComponents)
 {
+  const Positions sheet = square (50, 1);
   for (const std::size_t count : {1U, 2U, 4U, 7U}) {
     SCOPED_TRACE (count);
     RandomStream random (count);
-    Positions points = square (50, 0.4, 1);
-    addLump (points, {25.0, 25.0, 20.0}, count, random);
-    addLump (points, {80.0, 25.0, 0.0}, count, random); // in the plane of the sheet
-    addLump (points, {-500.0, -300.0, 0.0}, count, random);
+    Positions points = sheet;
+    // Round lumps of points, the second in the plane of the sheet.
+    for (const Eigen::Vector3d& centre :
+         Positions{{25.0, 25.0, 20.0}, {80.0, 25.0, 0.0}, {-500.0, -300.0, 0.0}})
+      for (std::size_t i = 0; i < count; ++i)
+        points.emplace_back (centre + 0.3 * samples::normalVector (random));
     EXPECT_EQ (outliersOf (points), lastOf (points, 3 * count));
   }
-}
-
-TEST (Outliers, SmallComponentsStay)
-{
-  for (const std::size_t count : {10U, 15U, 20U})
+  for (const int rows : {3, 4, 5}) // of 4 points
     for (const double size : {1.0, 10.0, 100.0}) {
-      SCOPED_TRACE (testing::Message () << count << ' ' << size);
-      Positions points = square (50, 0.4, 1);
-      RandomStream random (count);
-      for (std::size_t i = 0; i < count; ++i)
-        points.emplace_back (100.0 + size * (static_cast<double> (i % 4) + 0.3 * random.uniform ()),
-                             size * (static_cast<double> (i / 4) + 0.3 * random.uniform ()), 7.0);
-      EXPECT_TRUE (outliersOf (points).empty ());
+      SCOPED_TRACE (testing::Message () << rows << ' ' << size);
+      RandomStream random (3);
+      EXPECT_TRUE (outliersOf (joined (sheet, placed (jitteredGrid (4, rows, size, 0.3, random),
+                                                      {100.0, 0.0, 7.0})))
+                       .empty ());
     }
 }
 
@@ -158,33 +236,8 @@ TEST (Outliers, DegenerateClouds)
         line.emplace_back (static_cast<double> (i), 0.0, 0.0);
       EXPECT_TRUE (outliersOf (line, k).empty ());
     }
-  Positions few = square (4, 0.2, 1);
-  few.emplace_back (0.0, 0.0, 1e3);
-  EXPECT_TRUE (outliersOf (few).empty ()); // too few points
-}
-
-TEST (Outliers, AreReportedAndLeftOut)
-{
-  Positions points = square (30, 0.3, 1);
-  points.emplace_back (15.2, 15.1, 5.0);
-  points.emplace_back (15.2, 15.1, -40.0);
-  points.emplace_back (15.2, 15.1, -40.0); // a duplicate
-  Options options;
-  for (const Topology topology : {Topology::SURFACE, Topology::DISC}) {
-    options.topology = topology;
-    const Result result = reconstruct (samples::asInput (points), options);
-    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-    EXPECT_EQ (result.report.outliers, (std::vector<Index>{900, 901}));
-    EXPECT_EQ (result.report.statistics.outlier_points, 2U);
-    EXPECT_EQ (result.report.statistics.working_points, 900U);
-    EXPECT_FALSE (result.report.warnings.empty ());
-    EXPECT_EQ (samples::topologyOf (result.triangles).vertices, 900U);
-  }
-  options.topology = Topology::SURFACE;
-  options.remove_outliers = false;
-  const Result all = reconstruct (samples::asInput (points), options);
-  EXPECT_TRUE (all.report.outliers.empty ());
-  EXPECT_EQ (all.report.statistics.working_points, 902U);
+  const Positions too_few = joined (square (4, 1), Positions{{0.0, 0.0, 1e3}});
+  EXPECT_TRUE (outliersOf (too_few).empty ());
 }
 
 } // namespace
