@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh with the colours of its points and normals of its triangles, for MeshLab, CloudCompare or Blender.
+// A mesh with the colours of its points and normals of its triangles, for MeshLab, CloudCompare or
+// Blender.
 #include "sample_clouds.h"
 
 #include <pcl/io/ply_io.h>
