@@ -209,7 +209,8 @@ class Surfaces(Case):
                 (self.generate("hemisphere", "--points", 600, name="empty_blocks.ply"), [(3, 64)]),
                 (write_ply(self.path("few.ply"), few), [(2, 3)]),
                 (self.terrain(9000), [(2, 5), (3, 64)]),
-                (self.terrain(9000), [(2, 5)], "--remove-outliers", "off", "-k", "6", "--holes", "close-all", "--normals"),
+                (self.terrain(9000), [(2, 5)], "--remove-outliers", "off", "-k", "6", "--holes", "close-all",
+                 "--normals"),
                 (write_ply(self.path("bush.ply"), terrain_points(6000) + bush), [(2, 5)], "--scatter", "drop"),
                 (write_ply(self.path("rows.ply"), rows), [(2, 5)]),
                 (write_scan(self.path("scan.pcd")), [(2, 5)])]:
@@ -484,12 +485,7 @@ class Parts(Case):
         self.ok(groups[7][0])
         done = {f.name: f.stat().st_mtime_ns for f in work.glob("finish.*")}
         self.assertEqual(len(done), 1)
-        # What is damaged is told, and what is finished is not done again.
-        part = work / "mesh.0.bin"
-        saved = part.read_bytes()
-        part.write_bytes(saved[:-1000])
-        self.expect_failure(self.step("join"), WORK, "mesh.0.bin", "is truncated")
-        part.write_bytes(saved)
+        # What is finished is not done again.
         outcome = self.ok(self.command("--blocks", 2, *self.limit, self.cloud, mesh))
         self.assertIn("mesh: 0 parts done, 2 finished before", outcome.stderr)
         self.assertTrue(mesh.read_bytes() == self.mesh)
@@ -583,16 +579,6 @@ class Disk(Case):
                 self.assertNotIn("blocks done", outcome.stderr)
                 self.assertTrue(again.read_bytes() == expected)
                 self.assertEqual(left, sorted(f.name for f in self.path("work").iterdir()))
-
-    def test_join_that_was_ended_begins_with_the_blocks(self):
-        cloud = self.generate("torus", "--points", 20000)
-        self.plan(cloud)
-        self.steps_of_blocks()
-        self.expect_failure(self.limited(200, "--step", "join", "--free-disk"), OUTPUT, "cannot write", "mesh.bin")
-        self.assertFalse(self.path("work").joinpath("neighbors.0.bin").exists())
-        self.expect_failure(self.step("join"), WORK, "neighbors.0.bin", "run the step that makes it")
-        self.ok(self.command("--blocks", 3, cloud, self.path("mesh.ply")))
-        self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
 
 
 class Restart(Case):
@@ -691,7 +677,8 @@ class Errors(Case):
             outcome = run(start + self.command(line, mesh))
             self.expect_failure(outcome, RECONSTRUCTION, "on one line")
             self.expect_failure(run(start + self.command(self.cloud, missing, mesh, work="other")), INPUT, str(missing))
-            self.expect_failure(run(start + self.command(self.cloud, mesh, work="cloud.ply/work")), OUTPUT, "work folder")
+            outcome = run(start + self.command(self.cloud, mesh, work="cloud.ply/work"))
+            self.expect_failure(outcome, OUTPUT, "work folder")
             outcome = run(start + self.command(self.cloud, "/no/such/folder/mesh.ply", work="third"))
             self.expect_failure(outcome, OUTPUT, "/no/such/folder")
         shutil.rmtree(self.path("work"))
@@ -706,10 +693,16 @@ class Errors(Case):
         for name in ["points.bin", "neighbors.1.bin", "outliers.bin", "stars.2.bin", "mesh.bin", "manifest.json"]:
             file = self.path("work") / name
             good = file.read_bytes()
+            places = []
+            if name == "points.bin":  # in the head, in the table of arrays, and in each array
+                arrays = range(struct.unpack_from("<I", good, 12)[0])
+                places = [20] + [48 + 48 * i + 24 for i in arrays]
+                places += [struct.unpack_from("<Q", good, 48 + 48 * i + 40)[0] for i in arrays]
             faults = [(good[:len(good) - 3] + bytes([good[-3] ^ 4]) + good[-2:], "damaged"),
                       (good[:len(good) // 2], "truncated"),
                       (good + b"x", "grown"),
-                      (good[:20] + bytes([good[20] ^ 1]) + good[21:], "damaged"),
+                      *((good[:at] + bytes([good[at] ^ 1]) + good[at + 1:], "damaged")
+                        for at in places if at < len(good)),
                       (good[:8] + struct.pack("<I", 99) + good[12:], "format version 99"),
                       (b"PLY" + good[3:], "no file of this program"),
                       (b"", "truncated")]
@@ -728,26 +721,6 @@ class Errors(Case):
                     self.expect_no_mesh()
             file.write_bytes(good)
         self.assertEqual(self.again().returncode, 0)
-
-    def test_any_changed_bit_is_seen(self):
-        self.finish()
-        file = self.path("work") / "planes.1.bin"
-        good = file.read_bytes()
-        # All but what fills the space between arrays: the head of 48 bytes, the table, and the arrays.
-        arrays = struct.unpack_from("<I", good, 12)[0]
-        places = list(range(48 + 48 * arrays))
-        for i in range(arrays):
-            element, count, offset = struct.unpack_from("<3Q", good, 48 + 48 * i + 24)
-            places += range(offset, offset + element * count)
-        self.assertGreater(len(places), 0.95 * len(good))
-        numbers = random.Random(5)
-        for _ in range(60):
-            bad = bytearray(good)
-            place = numbers.choice(places)
-            bad[place] ^= 1 << numbers.randrange(8)
-            file.write_bytes(bad)
-            self.expect_failure(self.step("planes", "--block", 1), WORK, str(file))
-        self.assertEqual(file.read_bytes(), bytes(bad))  # it is not made anew either
 
     def test_file_that_does_not_get_to_the_disk(self):
         """An error of fsync. The file is not there then, and is made again."""
@@ -797,7 +770,10 @@ class Errors(Case):
         self.plan(self.cloud)
         expect_full(100, "neighbors.1.bin", "--step", "neighbors", "--block", 1)
         self.steps_of_blocks()
-        expect_full(100, "mesh.bin", "--step", "join")
+        expect_full(100, "mesh.bin", "--step", "join", "--free-disk")
+        # Then, the files of the blocks are there no longer.
+        self.expect_failure(self.step("join"), WORK, "neighbors.0.bin", "run the step that makes it")
+        self.steps_of_blocks()
         self.ok(self.command("--step", "join"))
         expect_full(300, "mesh.ply", "--step", "write")
         self.ok(self.command("--step", "write"))
