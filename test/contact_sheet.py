@@ -26,26 +26,10 @@ def counted(number, what):
     return f"{number:,} {what}{'' if number == 1 else 's'}"
 
 
-def share_of_long(mesh):
-    """Share of the area in triangles with an edge above 20 times the median edge at either end."""
-    corners = mesh.points[mesh.triangles]
-    lengths = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
-    starts = mesh.triangles.ravel()
-    order = np.lexsort((lengths.ravel(), starts))
-    points, first, counts = np.unique(starts[order], return_index=True, return_counts=True)
-    median = np.zeros(len(mesh.points))
-    median[points] = lengths.ravel()[order][first + counts // 2]
-    ends = np.maximum(median[mesh.triangles], median[np.roll(mesh.triangles, -1, axis=1)])
-    areas = np.linalg.norm(mesh.normals, axis=1)
-    return areas[(lengths > 20 * ends).any(axis=1)].sum() / areas.sum()
-
-
 def figures(mesh):
     """Lines of a caption, with their colours."""
     lines = [(f"{counted(mesh.components, 'component')}, {counted(len(mesh.loops), 'loop')}, genus {mesh.genus}, "
               f"{counted(mesh.folds, 'fold')}", INK)]
-    if share_of_long(mesh) > 0:
-        lines.append((f"{100 * share_of_long(mesh):.2g} % of the area in triangles over 20 spacings long", INK))
     return lines + ([] if mesh.manifold else [("not an oriented manifold", REFUSAL)])
 
 

@@ -20,26 +20,24 @@ STRING = re.compile(r"std::(?:__cxx11::)?basic_string<char, std::char_traits<cha
 ALLOCATOR = ", std::allocator<"
 
 
+def exported(library):
+    nm = os.environ.get("NM", "nm")
+    lines = subprocess.run([nm, "-D", "-C", "--defined-only", library], check=True, text=True,
+                           stdout=subprocess.PIPE).stdout.splitlines()
+    names = [line.split(maxsplit=2)[2] for line in lines if len(line.split(maxsplit=2)) == 3]
+    return {readable(name) for name in names if OURS.match(name)}
+
+
 def readable(name):
     """The name without the default arguments of the standard library's templates."""
     name = STRING.sub("std::string", name)
     while ALLOCATOR in name:
         first = name.index(ALLOCATOR)
         last = first + len(ALLOCATOR)
-        depth = 1
-        while depth > 0:
-            depth += {"<": 1, ">": -1}.get(name[last], 0)
+        while name[first:last].count("<") > name[first:last].count(">"):
             last += 1
         name = name[:first] + name[last:]
     return re.sub(r"\s+>", ">", name)
-
-
-def exported(library):
-    nm = os.environ.get("NM", "nm")
-    lines = subprocess.run([nm, "-D", "-C", "--defined-only", library], check=True, text=True,
-                           stdout=subprocess.PIPE).stdout.splitlines()
-    names = {line.split(maxsplit=2)[2] for line in lines if len(line.split(maxsplit=2)) == 3}
-    return {readable(name) for name in names if OURS.match(name)}
 
 
 def main():
@@ -56,13 +54,9 @@ def main():
         wanted = {line.rstrip("\n") for line in file if line.strip()}
     if not wanted:
         sys.exit(f"{path}: no symbols")
-    for name in sorted(found - wanted):
-        print(f"not in the list: {name}")
     missing = sorted(wanted - found)
-    for name in missing:
-        print(f"no longer exported: {name}", file=sys.stderr)
-    print(f"exported symbols: {len(wanted)} wanted, {len(missing)} missing, "
-          f"{len(found - wanted)} not in the list")
+    print(*(f"not in the list: {name}" for name in sorted(found - wanted)),
+          *(f"no longer exported: {name}" for name in missing), sep="\n")
     return 1 if missing else 0
 
 

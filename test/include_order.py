@@ -4,6 +4,7 @@
 """Checks the order of the folders in src/: a file includes only from its own folder and from those
 before it, and no chain of includes leads back to where it began. Also checks that each folder of
 test/core is one of src/."""
+import graphlib
 import pathlib
 import re
 import sys
@@ -39,22 +40,10 @@ def main():
         wrong += [f"src/{name} includes {i}, which comes after it"
                   for i in includes[name] if rank(i) > rank(name)]
 
-    done = set()
-    for start in includes:  # depth first; a file that is on the way already closes a cycle
-        way, waiting = [], [(start, 0)]
-        while waiting:
-            name, depth = waiting.pop()
-            del way[depth:]
-            if name in way:
-                wrong.append("cycle: " + " -> ".join(way[way.index(name):] + [name]))
-                continue
-            if name in done:
-                continue
-            way.append(name)
-            waiting += [(i, depth + 1) for i in includes[name]]
-        done.update(way)
-        done.add(start)
-
+    try:
+        graphlib.TopologicalSorter(includes).prepare()
+    except graphlib.CycleError as error:
+        wrong.append("cycle: " + " -> ".join(error.args[1]))
     folders = {d.name for d in src.iterdir() if d.is_dir()}
     wrong += [f"test/core/{d.name} mirrors no folder of src"
               for d in (root / "test" / "core").iterdir() if d.is_dir() and d.name not in folders]

@@ -24,8 +24,8 @@ library=(libpcl-dev libopenmpi-dev openmpi-bin zlib1g-dev libxxhash-dev pybind11
 for argument in "$@"; do
   case "$argument" in
     --tools-only) library=() ;;
-    # Files are read back with VTK; pcl_viewer draws on a display without a screen.
-    --tests) packages+=(libgtest-dev libgmock-dev libvtk9-dev pcl-tools libgl1-mesa-dri xvfb pkg-config
+    # Files are read back with VTK.
+    --tests) packages+=(libgtest-dev libgmock-dev libvtk9-dev pkg-config
                          python3 python3-pytest python3-pip python3-setuptools python3-venv python3-wheel
                          python3-scipy python3-matplotlib) ;;
     --benchmarks) packages+=(python3 python3-numpy python3-scipy python3-matplotlib) ;;

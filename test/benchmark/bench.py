@@ -38,11 +38,13 @@ def parser(doc):
 
 def run(command, seconds=0):
     """Ends it after so many seconds, 0: never, and raises TimeoutError. The peak memory of a process is at least that
-    of the one that started it, so that a small one comes between."""
+    of the one that started it, so that a small one comes between. The result has user_seconds, too."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     limit = ["timeout", "--foreground", "--kill-after=10", str(seconds)]
     done = subprocess.run([*limit, *map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode in (124, 137):
         raise TimeoutError
+    done.user_seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     return done
 
 
@@ -90,13 +92,10 @@ class Tools:
         report = pathlib.Path(f"{mesh}.json")
         for old in (report, pathlib.Path(mesh)):
             old.unlink(missing_ok=True)
-        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         done = run([self.program("reconstruct"), "--quiet", "--report", report, *options, cloud, mesh], seconds)
         if not report.exists():
             fail(f"{cloud}: no report, exit code {done.returncode}: {done.stderr.strip()}")
-        result = json.loads(report.read_text())
-        result["user_seconds"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-        return result
+        return dict(json.loads(report.read_text()), user_seconds=done.user_seconds)
 
     def picture(self, *arguments):
         subprocess.run([self.program("picture"), *map(str, arguments)], check=True)

@@ -24,38 +24,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <stdexcept>
 
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
-using Polygons = std::vector<std::array<std::size_t, 3>>;
-using Stages = std::vector<std::pair<const char*, double>>; // seconds since the begin, at the end
-
-double
-now ()
-{
-  return std::chrono::duration<double> (std::chrono::steady_clock::now ().time_since_epoch ())
-      .count ();
-}
-
-rusage
-usage ()
-{
-  rusage used{};
-  ::getrusage (RUSAGE_SELF, &used);
-  return used;
-}
-
-double
-cpuSeconds ()
-{
-  const rusage used = usage ();
-  return static_cast<double> (used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-         1e-6 * static_cast<double> (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-}
 
 #ifdef PEER_GP3
+using Polygons = std::vector<std::array<pcl::index_t, 3>>;
+
 // Mean over the points of their mean distance to the six nearest others.
 double
 meanSpacing (const pcl::PointCloud<pcl::PointXYZ>& cloud,
@@ -73,15 +49,26 @@ meanSpacing (const pcl::PointCloud<pcl::PointXYZ>& cloud,
   return sum / (static_cast<double> (cloud.size ()) * NEIGHBORS);
 }
 
+// The points in the form that the method takes; making that form is not measured.
+pcl::PointCloud<pcl::PointXYZ>::Ptr
+formOf (const Positions& positions)
+{
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud (new pcl::PointCloud<pcl::PointXYZ>);
+  for (const Eigen::Vector3d& p : positions) {
+    pcl::PointXYZ point;
+    point.getVector3fMap () = p.cast<float> ();
+    cloud->push_back (point);
+  }
+  return cloud;
+}
+
 Polygons
-greedyProjection (const pcl::PointCloud<pcl::PointXYZ>::Ptr& cloud, unsigned threads,
-                  Stages& stages)
+triangulate (const pcl::PointCloud<pcl::PointXYZ>::Ptr& cloud, unsigned threads)
 {
   constexpr double RADIUS = 5.0; // in spacings
   const pcl::search::KdTree<pcl::PointXYZ>::Ptr tree (new pcl::search::KdTree<pcl::PointXYZ>);
   tree->setInputCloud (cloud);
   const double spacing = meanSpacing (*cloud, *tree);
-  stages.emplace_back ("spacing", now ());
 
   pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation (threads);
   estimation.setInputCloud (cloud);
@@ -91,7 +78,6 @@ greedyProjection (const pcl::PointCloud<pcl::PointXYZ>::Ptr& cloud, unsigned thr
   estimation.compute (normals);
   const pcl::PointCloud<pcl::PointNormal>::Ptr joined (new pcl::PointCloud<pcl::PointNormal>);
   pcl::concatenateFields (*cloud, normals, *joined);
-  stages.emplace_back ("normals", now ());
 
   pcl::GreedyProjectionTriangulation<pcl::PointNormal> gp3;
   gp3.setSearchRadius (RADIUS * spacing);
@@ -103,81 +89,62 @@ greedyProjection (const pcl::PointCloud<pcl::PointXYZ>::Ptr& cloud, unsigned thr
   gp3.setNormalConsistency (false);
   gp3.setInputCloud (joined);
   gp3.setSearchMethod (pcl::make_shared<pcl::search::KdTree<pcl::PointNormal>> ());
-  pcl::PolygonMesh mesh;
-  gp3.reconstruct (mesh);
-  stages.emplace_back ("triangles", now ());
+  std::vector<pcl::Vertices> polygons;
+  gp3.reconstruct (polygons);
   Polygons triangles;
-  for (const pcl::Vertices& polygon : mesh.polygons)
-    triangles.push_back ({static_cast<std::size_t> (polygon.vertices[0]),
-                          static_cast<std::size_t> (polygon.vertices[1]),
-                          static_cast<std::size_t> (polygon.vertices[2])});
+  for (const pcl::Vertices& polygon : polygons)
+    triangles.push_back ({polygon.vertices[0], polygon.vertices[1], polygon.vertices[2]});
   return triangles;
 }
-
-// The method with its points in the form that it takes; making that form is not measured.
-std::function<Polygons (Stages&)>
-makeMethod (const Positions& positions, unsigned threads)
-{
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud (new pcl::PointCloud<pcl::PointXYZ>);
-  for (const Eigen::Vector3d& p : positions) {
-    pcl::PointXYZ point;
-    point.getVector3fMap () = p.cast<float> ();
-    cloud->push_back (point);
-  }
-  return [cloud, threads] (Stages& stages) { return greedyProjection (cloud, threads, stages); };
-}
 #else
-std::function<Polygons (Stages&)>
-makeMethod (const Positions& positions, unsigned /*threads*/)
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Polygons = std::vector<std::array<std::size_t, 3>>;
+
+std::vector<Kernel::Point_3>
+formOf (const Positions& positions)
 {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_3> points;
   for (const Eigen::Vector3d& p : positions)
     points.emplace_back (p.x (), p.y (), p.z ());
-  return [points = std::move (points)] (Stages& /*none*/) {
-    constexpr double RADIUS_RATIO = 5.0, BETA = 0.52;
-    Polygons facets;
-    CGAL::advancing_front_surface_reconstruction (points.begin (), points.end (),
-                                                  std::back_inserter (facets), RADIUS_RATIO, BETA);
-    return facets;
-  };
+  return points;
 }
+
+Polygons
+triangulate (const std::vector<Kernel::Point_3>& points, unsigned /*threads*/)
+{
+  constexpr double RADIUS_RATIO = 5.0, BETA = 0.52;
+  Polygons facets;
+  CGAL::advancing_front_surface_reconstruction (points.begin (), points.end (),
+                                                std::back_inserter (facets), RADIUS_RATIO, BETA);
+  return facets;
+}
+
 #endif
 
 void
 run (const std::string& file, unsigned threads)
 {
-  std::function<Polygons (Stages&)> method;
-  std::size_t points = 0;
-  {
-    pcl::floater::Cloud cloud = pcl::floater::readCloud (file);
-    cloud.fields.clear ();
-    pcl::floater::Triangles none;
-    pcl::floater::removeNonFinitePoints (cloud, none);
-    points = cloud.size ();
-    method = makeMethod (cloud.positions (), threads);
-  }
-  Stages stages;
-  const double cpu_before = cpuSeconds (), begin = now ();
-  const Polygons triangles = method (stages);
-  const double seconds = now () - begin, cpu = cpuSeconds () - cpu_before;
+  pcl::floater::Cloud cloud = pcl::floater::readCloud (file);
+  cloud.fields.clear ();
+  pcl::floater::Triangles none;
+  pcl::floater::removeNonFinitePoints (cloud, none);
+  std::vector<bool> is_used (cloud.size (), false);
+  const auto points = formOf (cloud.positions ());
+  cloud = {};
+  const auto begin = std::chrono::steady_clock::now ();
+  const auto triangles = triangulate (points, threads);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now () - begin;
   if (triangles.empty ())
     throw std::runtime_error ("there is no triangle");
-  std::vector<bool> is_used (points, false);
   for (const auto& triangle : triangles)
-    for (const std::size_t p : triangle)
-      is_used.at (p) = true;
+    for (const auto p : triangle)
+      is_used.at (static_cast<std::size_t> (p)) = true;
+  rusage used{};
+  ::getrusage (RUSAGE_SELF, &used);
   std::printf (
-      "{\"seconds\": %.6f, \"cpu_seconds\": %.6f, \"peak_bytes\": %ld, \"triangles\": %zu, "
-      "\"used_points\": %td, \"stages\": {",
-      seconds, cpu, 1024 * usage ().ru_maxrss, triangles.size (),
+      "{\"seconds\": %.6f, \"peak_bytes\": %ld, \"triangles\": %zu, \"used_points\": %td}\n",
+      seconds.count (), 1024 * used.ru_maxrss, triangles.size (),
       std::count (is_used.begin (), is_used.end (), true));
-  double before = begin;
-  for (const auto& [stage, end] : stages) {
-    std::printf ("%s\"%s\": %.6f", before == begin ? "" : ", ", stage, end - before);
-    before = end;
-  }
-  std::printf ("}}\n");
 }
 
 } // namespace

@@ -4,7 +4,8 @@
 """How time and memory grow with the points: pcl_floater, pcl::GreedyProjectionTriangulation, CGAL's advancing front.
 
 Writes floater_result/scaling/report.md in the working directory, with charts, tables as CSV files, and runs.json,
-which has all runs. Prints seconds and memory side by side. The methods run in turn, each run in a process of its own.
+which has all runs, with the seconds of their stages. Prints seconds and memory side by side. The methods run in turn,
+each run in a process of its own.
 CLOUD: point clouds (.pcd, .ply or .obj); default: some of the folder PCL_FLOATER_DATA, if it exists
 """
 import json
@@ -40,7 +41,9 @@ def run_once(tools, method, cloud, folder, arguments):
                     "used_points": report["statistics"]["used_points"], "stages": stages}
         done = bench.run([tools.build / f"test/benchmark/pcl_floater_{method}", cloud, arguments.threads],
                          arguments.time_limit)
-        return json.loads(done.stdout) if done.returncode == 0 else {"outcome": f"failed ({done.returncode})"}
+        if done.returncode != 0:
+            return {"outcome": f"failed ({done.returncode})"}
+        return dict(json.loads(done.stdout), cpu_seconds=done.user_seconds)
     except TimeoutError:
         return {"outcome": f"over {arguments.time_limit} s"}
 
@@ -50,10 +53,8 @@ def median(runs):
     bad = [run for run in runs if "outcome" in run]
     if bad:
         return bad[0]
-    result = {name: statistics.median(run[name] for run in runs) for name in runs[0] if name != "stages"}
-    result["stages"] = {name: statistics.median(run["stages"].get(name, 0) for run in runs)
-                        for name in runs[0]["stages"]}
-    return dict(result, runs=len(runs))
+    return {"runs": len(runs), **{name: statistics.median(run[name] for run in runs)
+                                  for name in runs[0] if name != "stages"}}
 
 
 def measure(tools, surface, cloud, points, file, folder, arguments, given_up):
@@ -89,8 +90,8 @@ def write_report(all_of_them, arguments):
     report.add("# How time and memory grow with the number of points")
     report.add(
         "Each run is a process of its own, the methods take turns; figures are medians of the repeated runs. Time: "
-        "from the points in memory to the triangles in memory. CPU seconds: of the processors; of floater with reading "
-        "and writing. Memory: the largest resident set of the process, with libraries and points.")
+        "from the points in memory to the triangles in memory. CPU seconds: user time of the process, with "
+        "reading and writing. Memory: the largest resident set of the process, with libraries and points.")
     report.add(
         "floater: `pcl_floater_reconstruct`, all defaults; floater-disc: the same with `--topology disc`. gp3: "
         "`pcl::GreedyProjectionTriangulation`, mu 2.5, 100 neighbours, surface angle 45, angles 10 to 120 degrees, "
@@ -125,18 +126,9 @@ def write_report(all_of_them, arguments):
             report.chart(f"{chart}_{surface}", {method: ([one["points"] for one in some], [figure(one) for one in some])
                                                 for method, some in of.items() if some}, quantity)
         for method, some in of.items():
-            names = [name for name in (some[0]["stages"] if some else ())
-                     if any(one["stages"].get(name) for one in some)]
-            if not names:
-                continue
-            exponents.append([surface, method] + [exponent(some, lambda one, key=key: one[key])
-                                                  for key in ("seconds", "cpu_seconds", "peak_bytes")])
-            report.add(f"### {surface}, {method}: seconds by stage")
-            report.table(f"stages_{surface}_{method}", ["cloud", "points", *names],
-                         [[one["cloud"], f"{one['points']:,}", *(f"{one['stages'].get(name, 0):.4f}" for name in names)]
-                          for one in some] +
-                         [["exponent", "", *(exponent(some, lambda one, name=name: one["stages"].get(name, 0))
-                                             for name in names)]])
+            if some:
+                exponents.append([surface, method] + [exponent(some, lambda one, key=key: one[key])
+                                                      for key in ("seconds", "cpu_seconds", "peak_bytes")])
     report.add("## Exponents\n\np of the power law c N^p nearest to the figures.")
     report.table("exponents", ["surface", "method", "time", "CPU time", "memory"], exponents)
     print(bench.markdown(*side))

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Setters and getters of FloaterReconstruction: what is set arrives in the run, and wrong values are refused.
+// Setters and getters of FloaterReconstruction: what is set arrives in the run, and wrong values
+// are refused.
 #include "mesh_check.h"
 
 #include <cmath>
@@ -81,9 +82,6 @@ TEST_F (FloaterClass, ASetterChangesItsOwnParameter)
       EXPECT_EQ (choice.state (copy), expected);
     }
   }
-  const Class floater;
-  EXPECT_EQ (floater.getReport ().status, RunStatus::NOT_RUN);
-  EXPECT_FALSE (floater.getMeshCheck ().done);
 }
 
 TEST_F (FloaterClass, ParametersChangeTheRun)
@@ -97,15 +95,8 @@ TEST_F (FloaterClass, ParametersChangeTheRun)
   EXPECT_EQ (floater.getUnusedIndices ().size (), floater.getStatistics ().trimmed_points);
   floater.setMaximumEdgeLength (0.0);
 
-  DiscOptions options;
-  options.weighting = Weighting::UNIFORM;
-  floater.setDiscOptions (options);
   floater.setTopology (Topology::DISC);
-  runWell (floater);
-  const std::vector<Eigen::Vector2d> uniform = floater.getParameters ();
-  floater.setDiscOptions ({});
-  runWell (floater);
-  EXPECT_NE (floater.getParameters (), uniform);
+  DiscOptions options;
   options.solver.method = Solver::GAUSS_SEIDEL;
   options.solver.max_iterations = 20;
   floater.setDiscOptions (options);

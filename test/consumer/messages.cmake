@@ -17,8 +17,7 @@ endfunction ()
 # expect (<text> <argument>...): the configuration fails, and its message has the text.
 function (expect text)
   file (REMOVE_RECURSE "${WORK_DIR}/missing")
-  configure (result output -S "${CMAKE_CURRENT_LIST_DIR}/missing" -B "${WORK_DIR}/missing"
-             "-Dpcl_floater_DIR=${package_dir}" ${ARGN})
+  configure (result output -S "${WORK_DIR}/source" -B "${WORK_DIR}/missing" "-Dpcl_floater_DIR=${package_dir}" ${ARGN})
   string (FIND "${output}" "${text}" place)
   if (result EQUAL 0 OR place EQUAL -1)
     message (FATAL_ERROR "find_package ended with ${result} and does not say '${text}': ${output}")
@@ -27,6 +26,13 @@ function (expect text)
 endfunction ()
 
 file (REMOVE_RECURSE "${WORK_DIR}")
+file (WRITE "${WORK_DIR}/source/CMakeLists.txt"
+      "cmake_minimum_required (VERSION 3.18)\nproject (pcl_floater_missing LANGUAGES NONE)\n"
+      "find_package (pcl_floater \${VERSION} REQUIRED COMPONENTS \${COMPONENTS})\n")
+# A PCL of another minor version.
+file (WRITE "${WORK_DIR}/source/PCLConfig.cmake" "set (PCL_FOUND TRUE)\n")
+file (WRITE "${WORK_DIR}/source/PCLConfigVersion.cmake"
+      "set (PACKAGE_VERSION 1.99.0)\nset (PACKAGE_VERSION_COMPATIBLE TRUE)\n")
 set (config_to_install)
 if (CONFIG)
   set (config_to_install --config "${CONFIG}")
@@ -45,7 +51,7 @@ get_filename_component (package_dir "${config_file}" DIRECTORY)
 expect ("the component tools of pcl_floater is not installed" -DCOMPONENTS=tools)
 expect ("pcl_floater has no component viewer" "-DCOMPONENTS=viewer")
 expect ("compatible with requested version \"0.1\"" -DCOMPONENTS=library -DVERSION=0.1) # of another major version
-expect ("but PCL 1.99.0 was found in" -DCOMPONENTS=library "-DPCL_DIR=${CMAKE_CURRENT_LIST_DIR}/missing")
+expect ("but PCL 1.99.0 was found in" -DCOMPONENTS=library "-DPCL_DIR=${WORK_DIR}/source")
 
 configure (result output -S "${CMAKE_CURRENT_LIST_DIR}/parent" -B "${WORK_DIR}/parent" ${CACHE})
 if (NOT result EQUAL 0)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is refused, and in which words; and how a run fails."""
+"""What arrives, what is refused, and in which words; and how a run fails."""
+import inspect
 import pickle
 import subprocess
 import sys
@@ -12,18 +13,51 @@ import pytest
 SQUARE = np.zeros((9, 3))
 
 
+# A value of each option that is not its default. That it arrives is enough here: what it does is tested in the core.
+VALUES = dict(
+    threads=1, blocks=3, method="tw385", topology="disc", holes="close-all", kept_loops=3, largest_hole=2.5,
+    largest_hole_length=2.5, viewpoint=[10, 10, 100], facing="up", max_edge=9.5, max_edge_ratio=9.5, min_component=10,
+    remove_outliers=False, scatter="drop", denoise=False, flips=False, uncross=False, open_crossings=True, neighbors=12,
+    neighborhood="ball-delaunay", ball_radius=3.5, sheet_filter=False, boundary="two-segments", opening_angle=120.5,
+    cluster_tolerance=0.5, cluster_neighbors=5, domain="square", sides=3, spacing="uniform", weights="uniform",
+    solver="bicgstab-ilut", ordering="metis", tolerance=1e-6, max_iterations=7, ilut_fill=7, ilut_drop=0.5)
+BESIDES = {"normals", "use_input_normals", "sensor_origin", "loop", "strict", "progress"}
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_option_arrives(terrain_points, name):
+    default = pcl_floater.reconstruct(terrain_points, threads=2).report["options"]
+    options = pcl_floater.reconstruct(terrain_points, **{"threads": 2, name: VALUES[name]}).report["options"]
+    changed = {other: options[other] for other in options if options[other] != default[other]}
+    assert changed.pop(name) == VALUES[name] and (name == "method" or not changed)
+
+
+def test_what_is_no_option_arrives(terrain_points):
+    assert set(inspect.signature(pcl_floater.reconstruct).parameters) == {"points", *VALUES, *BESIDES}
+    rim = [*range(0, 30), *range(59, 899, 30), *range(899, 869, -1), *range(840, 0, -30)]
+    assert set(pcl_floater.reconstruct(terrain_points, loop=np.array(rim)).loop) == set(rim)
+    down = np.tile([[0.5, 0.0, -1.0]], (len(terrain_points), 1))
+    for arguments in {}, dict(normals=down), dict(normals=down, use_input_normals=True):
+        mesh = pcl_floater.reconstruct(terrain_points, **arguments)
+        a, b, c = (terrain_points[mesh.triangles[:, corner]] for corner in range(3))
+        assert ((np.cross(b - a, c - a)[:, 2] > 0) == (not arguments)).mean() > 0.9
+        assert mesh.report["options"]["use_input_normals"] == ("use_input_normals" in arguments)
+    u, v = np.meshgrid(np.linspace(-0.5, 0.5, 48), np.linspace(-0.4, 0.4, 40))
+    depth = np.where((abs(u) < 0.2) & (abs(v) < 0.2), 4.0, 6.0) + u  # of a box before a wall
+    scan = np.stack([u * depth, v * depth, depth], -1).reshape(-1, 3) + [1.0, 2.0, 3.0]
+    viewpoint = pcl_floater.reconstruct(scan, sensor_origin=(1, 2, 3)).report["viewpoint"]
+    assert viewpoint["place"] == pytest.approx([1, 2, 3])
+
+
 @pytest.mark.parametrize("points, kind, text", [
     (np.zeros((5, 3), int), TypeError, "points must be an array of float32 or float64, not int64; "
                                        "numpy.asarray(points, float) converts it"),
-    (np.zeros((5, 3), np.longdouble), TypeError, "float128"),
     (np.zeros((5, 3), ">f4"), TypeError, "not >f4"),
-    (None, TypeError, "not object"),
     ("scan.pcd", TypeError, "not <U8"),
     (np.zeros(5, [("x", "f4"), ("y", "f4"), ("z", "f4")]), TypeError,
      "points is an array with the fields x, y, z; use numpy.column_stack"),
     (np.ma.zeros((5, 3)), TypeError, "points is a masked array, whose mask would be lost"),
     (np.zeros((5, 4)), ValueError, r"points must have the shape (n, 3) or (rows, columns, 3), not (5, 4)"),
-    (np.zeros(3), ValueError, "not (3,)"),
     (np.zeros((2, 2, 5, 3)), ValueError, "not (2, 2, 5, 3)"),
     (1.5, ValueError, "not ()"),
 ])
@@ -42,7 +76,6 @@ def test_wrong_points(points, kind, text):
     (dict(facing="normals"), ValueError, "the points have no normals"),
     (dict(sensor_origin=(1, 2)), ValueError, "sensor_origin must be three numbers, not (1, 2)"),
     (dict(sensor_origin=(1, 2, np.nan)), ValueError, "sensor_origin must have finite coordinates"),
-    (dict(sensor_origin="here"), TypeError, "sensor_origin must be three numbers, not 'here'"),
     (dict(topology="ring"), ValueError, "topology must be one of 'auto', 'disc', 'surface', not 'ring'"),
     (dict(holes="close_all"), ValueError, "'close-all'"),
     (dict(viewpoint=None), TypeError, "'none' says that the cloud is no single scan"),
@@ -50,10 +83,8 @@ def test_wrong_points(points, kind, text):
     (dict(viewpoint=(1, 2, np.inf)), ValueError, "viewpoint must have finite coordinates"),
     (dict(neighbors=5), ValueError, "neighbors must be from 6 to 200"),
     (dict(neighbors=20.0), TypeError, "neighbors must be a whole number, not 20.0"),
-    (dict(neighbors=True), TypeError, "neighbors must be a whole number, not True"),
     (dict(threads=2**31), ValueError, "threads must be a number of 32 bits"),
     (dict(max_edge=False), TypeError, "max_edge must be a number, not False"),
-    (dict(holes="by-size"), ValueError, "holes by size need"),
     (dict(holes="by-size", largest_hole=1, largest_hole_length=1), ValueError, "give one of them"),
     (dict(denoise=1), TypeError, "denoise must be True or False, not 1"),
     (dict(strict="yes"), TypeError, "strict must be True or False, not 'yes'"),
@@ -62,7 +93,6 @@ def test_wrong_points(points, kind, text):
     (dict(loop=[[0, 1, 2]]), ValueError, "not an array of the shape (1, 3)"),
     (dict(loop=[0.0, 1.0, 2.0]), TypeError, "loop must be a list of whole numbers, not of float64"),
     (dict(loop=[0, -1, 2]), ValueError, "loop has an index that is negative, or too large"),
-    (dict(loop=[0, 1, 2**32]), ValueError, "loop has an index that is negative, or too large"),
     (dict(thread=1), TypeError, "thread"),
 ])
 def test_wrong_arguments(arguments, kind, text):
@@ -70,11 +100,6 @@ def test_wrong_arguments(arguments, kind, text):
         pcl_floater.reconstruct(SQUARE, **arguments)
     assert not isinstance(raised.value, pcl_floater.FloaterError)
     assert text in str(raised.value)
-
-
-def test_only_the_points_have_no_name():
-    with pytest.raises(TypeError):
-        pcl_floater.reconstruct(SQUARE, SQUARE)
 
 
 def test_more_points_than_indices_can_number():

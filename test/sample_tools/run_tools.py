@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs pcl_floater_generate and pcl_floater_picture as a user would: files, exit codes, messages.
+"""Runs the tools for samples and pictures, the quick start and the contact sheet as a user would: files, exit codes,
+messages.
 
-Usage: run_tools.py pcl_floater_generate pcl_floater_picture
+Usage: run_tools.py pcl_floater_generate pcl_floater_picture BUILD_FOLDER CLASS
+CLASS: of tests, below; the scripts take the programs of BUILD_FOLDER
 """
 
+import json
 import os
+import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -14,7 +19,8 @@ import tempfile
 import unittest
 import zlib
 
-GENERATE, PICTURE = sys.argv[1:]
+GENERATE, PICTURE, BUILD = sys.argv[1:4]
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 CORNERS = (0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
 TRIANGLES = (3, 0, 1, 2, 3, 0, 2, 3)
@@ -43,13 +49,14 @@ SQUARE_PLY = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproper
 NO_MESH = SQUARE[:SQUARE.index("POLYGONS")]
 
 
-class Tools(unittest.TestCase):
+class Case(unittest.TestCase):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
 
     def path(self, name):
-        return os.path.join(self.temporary.name, name)
+        return os.path.join(self.folder, name)
 
     def write(self, name, text):
         with open(self.path(name), "wb") as file:
@@ -60,14 +67,17 @@ class Tools(unittest.TestCase):
         with open(self.path(name), "rb") as file:
             return file.read()
 
-    def check(self, code, *command, says=""):
-        """Runs a command; checks its exit code, its message, and that no temporary file is left."""
-        done = subprocess.run(command, capture_output=True, text=True, timeout=1800)
-        self.assertEqual(done.returncode, code, done.stderr)
+    def check(self, code, *command, says="", **environment):
+        """Runs a command; checks its exit code, its message, and that no temporary file is left. Returns its output."""
+        done = subprocess.run(command, capture_output=True, text=True, timeout=1800, cwd=self.folder,
+                              env={**os.environ, **environment})
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         self.assertIn(says, done.stdout + done.stderr)
-        self.assertFalse([name for name in os.listdir(self.temporary.name) if "tmp" in name])
-        return done
+        self.assertFalse([name for name in os.listdir(self.folder) if "tmp" in name])
+        return done.stdout
 
+
+class Generate(Case):
     def test_generate_writes_the_same_points_as_pcd_and_ply(self):
         for name in ("a.pcd", "b.pcd", "a.ply"):
             self.check(0, GENERATE, "torus", self.path(name), "--points", "777", "--noise", "0.1")
@@ -81,16 +91,12 @@ class Tools(unittest.TestCase):
         self.assertLess(max(map(abs, struct.unpack(f"<{777 * 3}f", points))), 30)
 
     def test_generate_refuses_bad_command_lines(self):
-        cloud = self.path("a.pcd")
-        self.check(1, GENERATE, says="required")
-        self.check(1, GENERATE, "torus", says="required")
-        self.check(1, GENERATE, "cube", cloud, says="cube")
-        self.check(1, GENERATE, "torus", self.path("a.xyz"), says=".pcd or .ply")
-        self.check(1, GENERATE, "torus", cloud, "--size", "3", says="--size")
-        self.check(1, GENERATE, "torus", cloud, "--points", "-5", says="--points")
-        self.check(1, GENERATE, "torus", cloud, "--points", "many", says="--points")
-        self.check(1, GENERATE, "torus", cloud, "--noise", "-1", says="noise")
-        self.assertFalse(os.path.exists(cloud))
+        for arguments, says in (("", "required"), ("torus", "required"), ("cube a.pcd", "cube"),
+                                ("torus a.xyz", ".pcd or .ply"), ("torus a.pcd --size 3", "--size"),
+                                ("torus a.pcd --points -5", "--points"), ("torus a.pcd --points many", "--points"),
+                                ("torus a.pcd --noise -1", "noise")):
+            self.check(1, GENERATE, *arguments.split(), says=says)
+        self.assertEqual(os.listdir(self.folder), [])
         self.check(0, GENERATE, "--help", says="Exit codes")
 
     def test_generate_tells_where_it_cannot_write(self):
@@ -98,6 +104,8 @@ class Tools(unittest.TestCase):
         os.mkdir(self.path("folder.pcd"))
         self.check(4, GENERATE, "torus", self.path("folder.pcd"), says="folder.pcd")
 
+
+class Picture(Case):
     def picture(self, code, *arguments, says=""):
         self.check(code, PICTURE, *arguments, says=says)
 
@@ -230,5 +238,72 @@ class Tools(unittest.TestCase):
         self.picture(4, self.write("square.vtk", SQUARE), self.path("no/out.png"), says="no/out.png")
 
 
+class Quickstart(Case):
+    def quickstart(self, code, *arguments, says=""):
+        return self.check(code, ROOT / "tools/quickstart.sh", *arguments, says=says)
+
+    def files(self):
+        result = self.path("floater_result")
+        return set(os.listdir(result)) if os.path.isdir(result) else set()
+
+    def points(self):
+        """Number of points of the mesh."""
+        return int(re.search(rb"^POINTS (\d+) ", self.read("floater_result/mesh.vtk"), re.MULTILINE)[1])
+
+    def test_clouds_take_the_place_of_each_other(self):
+        said = self.quickstart(0, "--build", BUILD, says="tum_rabbit.pcd")
+        made = {"mesh.vtk", "report.json", "picture.png"}
+        self.assertEqual(self.files(), made)
+        for name in made:
+            self.assertIn(name, said)
+            self.assertGreater(len(self.read(f"floater_result/{name}")), 1000)
+        self.assertEqual(self.points(), 10429)
+        report = json.loads(self.read("floater_result/report.json"))
+        self.assertEqual(report["warnings"], [])
+        check = report["check"]
+        self.assertEqual((check["components"], len(check["loops"]), check["genus"]), (1, 1, 0))
+
+        sheet = "".join(f"v {i % 30} {i // 30} {0.3 * ((i * i + i // 30) % 7) / 7}\n" for i in range(900))
+        self.quickstart(0, self.write("sheet.obj", sheet), "--build", BUILD, says="sheet.obj")
+        self.assertEqual(self.files(), made)
+        self.assertEqual(self.points(), 900)
+        self.assertIn("sheet.obj", json.dumps(json.loads(self.read("floater_result/report.json"))["input"]))
+
+        self.quickstart(2, "--build", BUILD, self.write("broken.pcd", "no cloud\n"), says="broken.pcd")
+        self.assertEqual(self.files(), set())  # nothing of an earlier cloud
+
+    def test_wrong_command_lines_are_refused(self):
+        self.quickstart(0, "--help", says="Usage")
+        for arguments, says in ((["--unknown"], "Usage"), (["a.pcd", "b.pcd"], "Usage"),
+                                (["--build"], "needs a folder"), ([""], "name of the cloud is empty"),
+                                ([self.folder], "cannot read"), (["none.pcd"], "none.pcd")):
+            self.quickstart(1, *arguments, says=says)
+        self.assertEqual(self.files(), set())
+
+
+class ContactSheet(Case):
+    def test_shows_a_mesh_and_the_reason_for_none(self):
+        script = ROOT / "test/contact_sheet.py"
+        os.mkdir(self.path("data"))
+        self.check(0, GENERATE, "height-field", self.path("data/good.pcd"), "--points", "500")
+        self.write("data/line.obj", "".join(f"v {i} 0 0\n" for i in range(30)))
+        said = self.check(0, script, "--build", BUILD, PCL_FLOATER_DATA=self.path("data"))
+        good, line = said.index("good\n"), said.index("line\n")
+        self.assertLess(good, line)
+        self.assertIn("500 points", said[good:line])
+        self.assertIn("1 component, 1 loop, genus 0, 0 folds", said[good:line])
+        self.assertIn("DEGENERATE", said[line:])
+        picture = self.read("floater_result/contact_sheet.png")
+        self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertGreater(min(struct.unpack(">II", picture[16:24])), 400)
+        self.assertGreater(len(picture), 10000)
+        self.check(1, script, "--build", BUILD, "none.pcd", says="none.pcd")
+
+
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    # contact_sheet.py is run by this interpreter of Debian.
+    if sys.argv[4] == "ContactSheet" and subprocess.run(
+            ["/usr/bin/python3", "-c", "import matplotlib, numpy, scipy"], stderr=subprocess.DEVNULL).returncode != 0:
+        print("NumPy, SciPy or Matplotlib is missing")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -47,14 +47,10 @@ class EverySurface : public testing::TestWithParam<SurfaceKind>
 {
 };
 
-TEST_P (EverySurface, HasAsManyPointsAsAskedFor)
+TEST_P (EverySurface, HasAsManyPointsAsAskedForAndTheSameForTheSameSeedOnly)
 {
   for (const std::size_t points : {1000U, 1001U, 1499U})
     EXPECT_EQ (generateSurface (specOf (GetParam (), points)).size (), points);
-}
-
-TEST_P (EverySurface, IsTheSameForTheSameSeedOnly)
-{
   SurfaceSpec spec = specOf (GetParam ());
   spec.noise = 0.1;
   const Points first = generateSurface (spec);
@@ -108,39 +104,31 @@ INSTANTIATE_TEST_SUITE_P (Kinds, EverySurface, testing::ValuesIn (surfaceKinds (
                             return name;
                           });
 
-TEST (Surfaces, SphereLiesOnASphereOfOneUnitOfAreaPerPoint)
+// Of 1500 points, with a unit of area each.
+TEST (Surfaces, PointsLieOnThem)
 {
-  const double radius = std::sqrt (1500.0 / (4.0 * PI));
-  for (const Eigen::Vector3d& p : generateSurface (specOf (SurfaceKind::SPHERE)))
-    EXPECT_NEAR (p.norm (), radius, TOLERANCE);
-}
-
-TEST (Surfaces, HemisphereIsTheUpperHalf)
-{
-  const double radius = std::sqrt (1500.0 / (2.0 * PI));
-  for (const Eigen::Vector3d& p : generateSurface (specOf (SurfaceKind::HEMISPHERE))) {
-    EXPECT_NEAR (p.norm (), radius, TOLERANCE);
-    EXPECT_GT (p.z (), -0.5);
-  }
-}
-
-TEST (Surfaces, FingerIsACylinderUnderAHemisphere)
-{
-  SurfaceSpec spec = specOf (SurfaceKind::FINGER);
-  spec.length = 6.0;
-  const double radius = std::sqrt (1500.0 / (2.0 * PI * (1.0 + spec.length)));
-  for (const Eigen::Vector3d& p : generateSurface (spec)) {
-    const double above = std::max (0.0, p.z () - spec.length * radius);
-    EXPECT_NEAR (std::hypot (p.x (), p.y (), above), radius, TOLERANCE);
-    EXPECT_GT (p.z (), -0.5);
-  }
-}
-
-TEST (Surfaces, TorusLiesOnATorus)
-{
-  const double small = std::sqrt (1500.0 / (10.0 * PI * PI));
-  for (const Eigen::Vector3d& p : generateSurface (specOf (SurfaceKind::TORUS)))
-    EXPECT_NEAR (std::hypot (std::hypot (p.x (), p.y ()) - 2.5 * small, p.z ()), small, TOLERANCE);
+  const double sphere = std::sqrt (1500.0 / (4.0 * PI)),
+               hemisphere = std::sqrt (1500.0 / (2.0 * PI)),
+               finger = std::sqrt (1500.0 / (2.0 * PI * (1.0 + 6.0))),
+               tube = std::sqrt (1500.0 / (10.0 * PI * PI));
+  const auto check = [] (SurfaceKind kind, bool is_upper_half, const auto& off) {
+    SCOPED_TRACE (surfaceName (kind));
+    SurfaceSpec spec = specOf (kind);
+    spec.length = 6.0;
+    for (const Eigen::Vector3d& p : generateSurface (spec)) {
+      EXPECT_NEAR (off (p), 0.0, TOLERANCE);
+      EXPECT_TRUE (!is_upper_half || p.z () > -0.5);
+    }
+  };
+  using Point = Eigen::Vector3d;
+  check (SurfaceKind::SPHERE, false, [=] (const Point& p) { return p.norm () - sphere; });
+  check (SurfaceKind::HEMISPHERE, true, [=] (const Point& p) { return p.norm () - hemisphere; });
+  check (SurfaceKind::FINGER, true, [=] (const Point& p) { // a cylinder under a hemisphere
+    return std::hypot (p.x (), p.y (), std::max (0.0, p.z () - 6.0 * finger)) - finger;
+  });
+  check (SurfaceKind::TORUS, false, [=] (const Point& p) {
+    return std::hypot (std::hypot (p.x (), p.y ()) - 2.5 * tube, p.z ()) - tube;
+  });
 }
 
 TEST (Surfaces, FoldedSheetHasItsGap)
@@ -187,27 +175,25 @@ TEST (Surfaces, KnowTheirTopology)
 
 TEST (Surfaces, RefuseWhatMakesNoSense)
 {
-  const auto refuses = [] (SurfaceKind kind, auto change) {
+  const double nan = std::numeric_limits<double>::quiet_NaN ();
+  const auto refuses = [] (auto SurfaceSpec::*member, auto value, SurfaceKind kind) {
     SurfaceSpec spec = specOf (kind);
     EXPECT_TRUE (surfaceSpecError (spec).empty ());
-    change (spec);
-    EXPECT_FALSE (surfaceSpecError (spec).empty ());
+    spec.*member = value;
+    EXPECT_FALSE (surfaceSpecError (spec).empty ()) << value;
     EXPECT_THROW (generateSurface (spec), std::invalid_argument);
   };
-  const double nan = std::numeric_limits<double>::quiet_NaN ();
-  using Spec = SurfaceSpec;
-  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.points = MIN_SURFACE_POINTS - 1; });
-  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.density_ratio = 0.9; });
-  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.density_ratio = 101.0; });
-  refuses (SurfaceKind::SPHERE, [nan] (Spec& spec) { spec.density_ratio = nan; });
-  refuses (SurfaceKind::SPHERE, [] (Spec& spec) { spec.noise = -0.1; });
-  refuses (SurfaceKind::SPHERE, [nan] (Spec& spec) { spec.noise = nan; });
-  refuses (SurfaceKind::FINGER, [] (Spec& spec) { spec.length = -1.0; });
-  refuses (SurfaceKind::FINGER, [] (Spec& spec) { spec.length = 1000.0; });
-  refuses (SurfaceKind::FOLDED_SHEET, [] (Spec& spec) { spec.gap = 0.0; });
-  refuses (SurfaceKind::FOLDED_SHEET, [] (Spec& spec) { spec.gap = 100.0; });
-  refuses (SurfaceKind::CUT_OUT, [] (Spec& spec) { spec.holes = -1; });
-  refuses (SurfaceKind::CUT_OUT, [] (Spec& spec) { spec.holes = 200; });
+  refuses (&SurfaceSpec::points, MIN_SURFACE_POINTS - 1, SurfaceKind::SPHERE);
+  for (const double ratio : {0.9, 101.0, nan})
+    refuses (&SurfaceSpec::density_ratio, ratio, SurfaceKind::SPHERE);
+  for (const double noise : {-0.1, nan})
+    refuses (&SurfaceSpec::noise, noise, SurfaceKind::SPHERE);
+  for (const double length : {-1.0, 1000.0})
+    refuses (&SurfaceSpec::length, length, SurfaceKind::FINGER);
+  for (const double gap : {0.0, 100.0})
+    refuses (&SurfaceSpec::gap, gap, SurfaceKind::FOLDED_SHEET);
+  for (const int holes : {-1, 200})
+    refuses (&SurfaceSpec::holes, holes, SurfaceKind::CUT_OUT);
 }
 
 } // namespace
