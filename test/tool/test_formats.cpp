@@ -136,9 +136,7 @@ TEST_F (Formats, MapCoordinatesOfLas)
   EXPECT_EQ (mesh.colors[4], (Color{5, 2, 255}));
   EXPECT_EQ (mesh.fields.at ("intensity")[2], 14.0);
   succeed ({"in.las", "out.ply", "--shift", "auto", "--precision", "single"});
-  const MeshContent shifted = readMesh (path ("out.ply"));
-  EXPECT_EQ (shifted.triangles, mesh.triangles);
-  EXPECT_LT (shifted.points[0].cwiseAbs ().maxCoeff (), 100.0);
+  EXPECT_EQ (readMesh (path ("out.ply")).triangles, mesh.triangles);
 }
 
 class OutputFormats : public ToolTestWith<bool>

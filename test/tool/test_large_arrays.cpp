@@ -19,7 +19,6 @@
 #include <functional>
 #include <new>
 #include <numeric>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -345,23 +344,23 @@ TEST (LargeArrays, Sizes)
   EXPECT_EQ (leastMemory (0, 1.0), leastMemory (0));
 }
 
-/// Two threads fill and read three times as much as the limit.
-void
-expectBelowLimit (bool has_pool)
+/// Two threads fill and read three times as much as the limit. The first arrays are in the pool,
+/// which is then found to be too small.
+TEST (LargeArrays, ResidentSetStaysBelowTheLimit)
 {
-  constexpr std::size_t LIMIT = 240 * MEGABYTE;
+  if (IS_SANITIZED)
+    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
+  constexpr std::size_t LIMIT = 240 * MEGABYTE, COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
   constexpr int ARRAYS = 50;
-  constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
   std::ofstream ("/proc/self/clear_refs") << 5; // resets the peak
   if (memoryStatus ("VmHWM") > LIMIT / 2)
     GTEST_SKIP () << "the memory of earlier tests cannot be separated";
   const MemoryLimit limit (LIMIT, SCRATCH.path);
-  std::optional<ArrayPool> pool;
-  if (has_pool) {
-    const std::size_t in_memory = limit.residentSet ().poolInMemory ();
-    const std::size_t in_file = limit.residentSet ().poolInFile ();
-    EXPECT_GT (in_memory + in_file, LIMIT / 4 * 3);
-    pool.emplace (in_memory, in_file);
+  const std::size_t in_memory = limit.residentSet ().poolInMemory ();
+  const std::size_t in_file = limit.residentSet ().poolInFile ();
+  EXPECT_GT (in_memory + in_file, LIMIT / 4 * 3);
+  const ArrayPool pool (in_memory, in_file);
+  {
     const std::vector<char> fits (in_memory - POOL_ALIGNMENT, 'a');
     const std::vector<char> fits_too (in_file - POOL_ALIGNMENT, 'b');
     EXPECT_TRUE (areAllInPool ());
@@ -381,17 +380,8 @@ expectBelowLimit (bool has_pool)
   };
   runThreads (2, work, [] { std::this_thread::yield (); });
   EXPECT_EQ (wrong, 0U);
-  EXPECT_GT (scratchUse ().bytes, (has_pool ? 2 : 3) * LIMIT);
+  EXPECT_GT (scratchUse ().bytes, 2 * LIMIT);
   EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
-}
-
-/// The first arrays of the second run are in the pool, which is then found to be too small.
-TEST (LargeArrays, ResidentSetStaysBelowTheLimit)
-{
-  if (IS_SANITIZED)
-    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
-  expectBelowLimit (false);
-  expectBelowLimit (true);
 }
 
 } // namespace
