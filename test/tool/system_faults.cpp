@@ -119,14 +119,7 @@ open (const char* path, int flags, ...)
 }
 
 int
-open64 (const char* path, int flags, ...)
-{
-  std::va_list more;
-  va_start (more, flags);
-  const auto mode = (flags & O_CREAT) != 0 ? va_arg (more, mode_t) : 0U;
-  va_end (more);
-  return open (path, flags, mode);
-}
+open64 (const char* path, int flags, ...) __attribute__ ((alias ("open")));
 
 int
 rename (const char* from, const char* to)
@@ -149,9 +142,7 @@ mmap (void* address, std::size_t size, int protection, int flags, int file, off_
 
 void*
 mmap64 (void* address, std::size_t size, int protection, int flags, int file, off64_t offset)
-{
-  return mmap (address, size, protection, flags, file, offset);
-}
+    __attribute__ ((alias ("mmap")));
 
 int
 fchmod (int file, mode_t mode)

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every input format gives the same mesh, and every output format holds it to the last bit.
-#include "mesh_files.h"
-#include "sample.h"
+// Every input format gives the same mesh, and every output format holds it to the last bit, with
+// normals and texture coordinates if these are asked for.
 #include "tool_runner.h"
 
-#include <gmock/gmock.h>
+#include <Eigen/Geometry>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,45 +17,18 @@
 
 namespace pcl::floater {
 namespace {
-struct InputCase
-{
-  std::string name;
-  bool is_double;
-  std::string file; ///< tells the format
-  int kind;         ///< PcdKind or PlyKind
-};
-
-std::ostream&
-operator<< (std::ostream& stream, const InputCase& value)
-{
-  return stream << value.name;
-}
-
-std::vector<InputCase>
-inputCases ()
-{
-  std::vector<InputCase> cases;
-  for (const bool is_double : {false, true}) {
-    const std::string suffix = is_double ? "Double" : "Float";
-    cases.push_back ({"PcdAscii" + suffix, is_double, "in.pcd", static_cast<int> (PcdKind::ASCII)});
-    cases.push_back (
-        {"PcdBinary" + suffix, is_double, "in.pcd", static_cast<int> (PcdKind::BINARY)});
-    if (READS_COMPRESSED)
-      cases.push_back (
-          {"PcdCompressed" + suffix, is_double, "in.pcd", static_cast<int> (PcdKind::COMPRESSED)});
-    cases.push_back ({"PlyAscii" + suffix, is_double, "in.ply", static_cast<int> (PlyKind::ASCII)});
-    cases.push_back (
-        {"PlyLittle" + suffix, is_double, "in.ply", static_cast<int> (PlyKind::LITTLE)});
-    cases.push_back ({"PlyBig" + suffix, is_double, "in.ply", static_cast<int> (PlyKind::BIG)});
-  }
-  cases.push_back ({"Obj", true, "in.obj", 0});
-  return cases;
-}
-
 std::vector<double>
 asDoubles (const std::vector<float>& values)
 {
   return {values.begin (), values.end ()};
+}
+
+void
+expectSameFloats (const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b)
+{
+  ASSERT_EQ (a.size (), b.size ());
+  for (std::size_t i = 0; i < a.size (); ++i)
+    EXPECT_EQ (a[i].cast<float> (), b[i].cast<float> ());
 }
 
 /// Checks that all points are used, no others, and that there are about two triangles per point.
@@ -69,44 +44,100 @@ expectDisc (const MeshContent& mesh, std::size_t size)
   EXPECT_EQ (*used.rbegin (), size - 1);
 }
 
-class InputFormats : public ToolTestWith<InputCase>
-{
-};
+using Formats = ToolTest;
 
-TEST_P (InputFormats, PointsAndFieldsComeBack)
+/// Text with all fields in each line.
+std::string
+tableText (const Sample& sample)
 {
-  const InputCase& input = GetParam ();
-  const Sample sample = makeSample (input.is_double);
-  if (input.file == "in.pcd")
-    writePcd (path (input.file), sample, static_cast<PcdKind> (input.kind));
-  else
-    writeFile (input.file, input.file == "in.ply"
-                               ? plyText (sample, static_cast<PlyKind> (input.kind))
-                               : objText (sample));
-  const Outcome outcome = run ({input.file, "out.ply"});
-  ASSERT_EQ (outcome.code, 0) << outcome.err;
-  const MeshContent mesh = readPly (path ("out.ply"));
-  EXPECT_EQ (mesh.is_double, input.is_double);
-  EXPECT_EQ (mesh.points, sample.points);
-  EXPECT_EQ (mesh.colors, sample.colors);
-  EXPECT_EQ (mesh.normals, sample.normals);
-  if (input.file == "in.obj")
-    EXPECT_THAT (mesh.fields, testing::IsEmpty ());
-  else
-    EXPECT_EQ (mesh.fields.at ("intensity"), asDoubles (sample.intensities));
-  expectDisc (mesh, sample.size ());
-  const bool has_list = input.file == "in.ply";
-  EXPECT_EQ (outcome.err.find ("the list 'marks'") != std::string::npos, has_list);
-  EXPECT_EQ (outcome.err.find ("written as doubles") != std::string::npos, input.is_double);
-  const bool has_face = input.file != "in.pcd";
-  EXPECT_EQ (outcome.err.find ("1 face of the input file was left out") != std::string::npos,
-             has_face);
-  EXPECT_EQ (std::count (outcome.err.begin (), outcome.err.end (), '\n'),
-             (has_list ? 1 : 0) + (input.is_double ? 1 : 0) + (has_face ? 1 : 0));
+  std::ostringstream text;
+  text << std::setprecision (17) << "x,y,z,red,green,blue,nx,ny,nz,intensity\n";
+  for (std::size_t i = 0; i < sample.size (); ++i) {
+    for (const double coordinate : sample.points[i])
+      text << coordinate << ',';
+    for (const int channel : sample.colors[i])
+      text << channel << ',';
+    for (const float coordinate : sample.normals[i])
+      text << coordinate << ',';
+    text << sample.intensities[i] << '\n';
+  }
+  return text.str ();
 }
 
-INSTANTIATE_TEST_SUITE_P (All, InputFormats, testing::ValuesIn (inputCases ()),
-                          [] (const auto& instance) { return instance.param.name; });
+TEST_F (Formats, PointsAndFieldsOfEveryInputComeBack)
+{
+  for (const bool is_double : {false, true}) {
+    const Sample sample = makeSample (is_double);
+    std::vector<std::pair<std::string, std::string>> inputs; // file and bytes
+    for (const PcdKind kind : readPcdKinds ()) {
+      writePcd (path ("in.pcd"), sample, kind);
+      inputs.emplace_back ("in.pcd", readFile ("in.pcd"));
+    }
+    for (const PlyKind kind : {PlyKind::ASCII, PlyKind::LITTLE, PlyKind::BIG})
+      inputs.emplace_back ("in.ply", plyText (sample, kind));
+    inputs.emplace_back ("in.obj", objText (sample));
+    for (const std::string name : {"in.xyz", "in.txt", "in.csv", "in.asc", "IN.XYZ"})
+      inputs.emplace_back (name, tableText (sample));
+    inputs.emplace_back ("in.pts", std::to_string (sample.size ()) + "\n" + tableText (sample));
+    std::vector<std::array<std::size_t, 3>> triangles; // of the first
+    for (const auto& [file, bytes] : inputs) {
+      SCOPED_TRACE (bytes.substr (0, 60) + " in " + file);
+      writeFile (file, bytes);
+      const std::string warnings = succeed ({file, "out.ply"}).err;
+      const MeshContent mesh = readMesh (path ("out.ply"));
+      EXPECT_EQ (mesh.is_double, is_double);
+      EXPECT_EQ (mesh.points, sample.points);
+      EXPECT_EQ (mesh.colors, sample.colors);
+      EXPECT_EQ (mesh.normals, sample.normals);
+      if (file == "in.obj")
+        EXPECT_THAT (mesh.fields, IsEmpty ());
+      else
+        EXPECT_EQ (mesh.fields.at ("intensity"), asDoubles (sample.intensities));
+      expectDisc (mesh, sample.size ());
+      triangles = triangles.empty () ? mesh.triangles : triangles;
+      EXPECT_EQ (mesh.triangles, triangles);
+      const bool has_list = file == "in.ply", has_face = has_list || file == "in.obj";
+      const auto isTold = [&warnings] (const std::string& what) {
+        return warnings.find (what) != std::string::npos;
+      };
+      EXPECT_EQ (isTold ("the list 'marks'"), has_list);
+      EXPECT_EQ (isTold ("written as doubles"), is_double);
+      EXPECT_EQ (isTold ("1 face of the input file was left out"), has_face);
+      EXPECT_EQ (std::count (warnings.begin (), warnings.end (), '\n'),
+                 (has_list ? 1 : 0) + (is_double ? 1 : 0) + (has_face ? 1 : 0));
+    }
+  }
+}
+
+TEST_F (Formats, MapCoordinatesOfLas)
+{
+  LasFile file;
+  file.format = 7;
+  file.minor = 4;
+  file.scale = {0.001, 0.001, 0.001};
+  file.offset = {654321.0, 5123456.0, 0.0};
+  for (const Eigen::Vector3d& p : makeSample (false).points) {
+    const Eigen::Vector3d steps = (1000.0 * p).array ().round ();
+    file.points.push_back ({static_cast<std::int32_t> (steps.x ()),
+                            static_cast<std::int32_t> (steps.y ()),
+                            static_cast<std::int32_t> (steps.z ())});
+    const auto red = static_cast<std::uint16_t> (256 * (file.points.size () % 200));
+    file.colors.push_back ({red, 512, 65535});
+  }
+  writeFile ("in.las", lasBytes (file));
+  succeed ({"in.las", "out.vtk", "--strict"});
+  const MeshContent mesh = readMesh (path ("out.vtk"));
+  EXPECT_TRUE (mesh.is_double);
+  ASSERT_EQ (mesh.points.size (), file.points.size ());
+  for (std::size_t p = 0; p < mesh.points.size (); ++p)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ (mesh.points[p][axis],
+                 file.points[p][static_cast<std::size_t> (axis)] * 0.001 + file.offset[axis]);
+  EXPECT_EQ (mesh.colors[4], (Color{5, 2, 255}));
+  EXPECT_EQ (mesh.fields.at ("intensity")[2], 14.0);
+  succeed ({"in.las", "out.ply", "--shift", "auto", "--precision", "single"});
+  EXPECT_EQ (readMesh (path ("out.ply")).triangles, mesh.triangles);
+}
 
 class OutputFormats : public ToolTestWith<bool>
 {
@@ -118,45 +149,36 @@ protected:
 
   MeshContent reconstructTo (const std::string& name) const
   {
-    const Outcome outcome = run ({"in.pcd", name});
-    EXPECT_EQ (outcome.code, 0) << outcome.err;
+    succeed ({"in.pcd", name});
     return readMesh (path (name));
   }
 
   Sample sample_;
 };
 
-// What the formats hold.
-struct Held
-{
-  std::string file;
-  bool has_fields; ///< all of them; otherwise colours and normals
-  std::string begin;
-};
-
 TEST_P (OutputFormats, HoldTheCloudAndTheSameTriangles)
 {
   const MeshContent vtk = reconstructTo ("out.vtk");
   expectDisc (vtk, sample_.size ());
-  for (const Held& held :
-       {Held{"out.vtk", true, "# vtk"}, Held{"out.ply", true, "ply\n"},
-        Held{"out.obj", false, "# "}, Held{"out.off", false, "CNOFF\n# written by"},
-        Held{"out.glb", false, "glTF"}}) {
-    SCOPED_TRACE (held.file);
-    if (held.file == "out.glb" && sample_.is_double)
+  const std::map<std::string, std::string> begins{{"out.vtk", "# vtk"},
+                                                  {"out.ply", "ply\n"},
+                                                  {"out.obj", "# "},
+                                                  {"out.off", "CNOFF\n# written by"},
+                                                  {"out.glb", "glTF"}};
+  for (const auto& [file, begin] : begins) {
+    SCOPED_TRACE (file);
+    if (file == "out.glb" && sample_.is_double)
       continue; // see FormatsOfFloatsAreRefused
-    const MeshContent mesh = reconstructTo (held.file);
-    EXPECT_EQ (readFile (held.file).rfind (held.begin, 0), 0U);
+    const MeshContent mesh = reconstructTo (file);
+    EXPECT_THAT (readFile (file), StartsWith (begin));
     EXPECT_EQ (mesh.triangles, vtk.triangles);
     EXPECT_EQ (mesh.colors, sample_.colors);
     EXPECT_EQ (mesh.normals, sample_.normals);
-    ASSERT_EQ (mesh.points.size (), sample_.size ());
-    for (std::size_t i = 0; i < sample_.size (); ++i)
-      if (sample_.is_double)
-        EXPECT_EQ (mesh.points[i], sample_.points[i]);
-      else
-        EXPECT_EQ (mesh.points[i].cast<float> (), sample_.points[i].cast<float> ());
-    if (held.has_fields) {
+    expectSameFloats (mesh.points, sample_.points);
+    if (sample_.is_double) {
+      EXPECT_EQ (mesh.points, sample_.points);
+    }
+    if (file == "out.vtk" || file == "out.ply") {
       EXPECT_EQ (mesh.is_double, sample_.is_double);
       EXPECT_EQ (mesh.fields,
                  (decltype (mesh.fields){{"intensity", asDoubles (sample_.intensities)}}));
@@ -164,15 +186,20 @@ TEST_P (OutputFormats, HoldTheCloudAndTheSameTriangles)
   }
 }
 
-TEST_P (OutputFormats, PclReadsVtkWithColors)
+TEST_P (OutputFormats, PclReadsPlyAndVtk)
 {
-  const MeshContent mesh = reconstructTo ("out.vtk");
-  const MeshContent pcl_mesh = readVtkWithPcl (path ("out.vtk"));
-  EXPECT_EQ (pcl_mesh.triangles, mesh.triangles);
-  EXPECT_EQ (pcl_mesh.colors, sample_.colors);
-  ASSERT_EQ (pcl_mesh.points.size (), sample_.size ());
-  for (std::size_t i = 0; i < sample_.size (); ++i)
-    EXPECT_EQ (pcl_mesh.points[i].cast<float> (), sample_.points[i].cast<float> ());
+  if (sample_.is_double)
+    return; // PCL's reader of PLY takes doubles for 0 in points of floats
+  for (const std::string file : {"out.ply", "out.vtk"}) {
+    SCOPED_TRACE (file);
+    const MeshContent mesh = reconstructTo (file), pcl_mesh = loadWithPcl (path (file));
+    EXPECT_EQ (pcl_mesh.triangles, mesh.triangles);
+    EXPECT_EQ (pcl_mesh.colors, sample_.colors);
+    expectSameFloats (pcl_mesh.points, sample_.points);
+    if (file == "out.ply") {
+      EXPECT_EQ (pcl_mesh.normals, sample_.normals);
+    }
+  }
 }
 
 // The points of the sample in doubles are nearer to each other than 32-bit floats so far out.
@@ -186,11 +213,9 @@ TEST_P (OutputFormats, FormatsOfFloatsAreRefused)
       EXPECT_EQ (run ({"in.pcd", file}).err, "");
       continue;
     }
-    expectFailure ({"in.pcd", file}, 4, name + " holds 32-bit floats");
-    const Outcome shifted = run ({"in.pcd", file, "--shift", "600000,5000000,100"});
-    EXPECT_EQ (shifted.code, 0);
-    EXPECT_NE (shifted.err.find (name + " holds single precision"), std::string::npos)
-        << shifted.err;
+    expectFailure ({"in.pcd", file}, OUTPUT_FAILED, name + " holds 32-bit floats");
+    EXPECT_THAT (succeed ({"in.pcd", file, "--shift", "600000,5000000,100"}).err,
+                 HasSubstr (name + " holds single precision"));
     EXPECT_EQ (readMesh (path (file)).triangles.size (), vtk.triangles.size ());
     EXPECT_EQ (readFile (file).find ("\"shift\":\"600000 5000000 100\"") == std::string::npos,
                file == "out.stl");
@@ -215,8 +240,84 @@ TEST_P (OutputFormats, FormatsOfFloatsAreRefused)
   EXPECT_EQ (20 + numberAt (12) + 8 + numberAt (20 + numberAt (12)), bytes.size ());
 }
 
+TEST_P (OutputFormats, ParameterizationIsTheMeshInThePlane)
+{
+  for (const std::string extension : {"vtk", "ply", "obj", "stl", "off"}) {
+    const std::string flat_name = "flat." + extension;
+    succeed ({"in.pcd", "out.vtk", "--quiet", "--parameterization", flat_name});
+    const MeshContent flat = readMesh (path (flat_name)), mesh = readMesh (path ("out.vtk"));
+    EXPECT_EQ (flat.triangles.size (), mesh.triangles.size ());
+    for (const Eigen::Vector3d& p : flat.points) {
+      EXPECT_EQ (p.z (), 0.0);
+      EXPECT_LE (p.head<2> ().norm (), 1.0 + 1e-6);
+    }
+    if (extension != "stl") {
+      EXPECT_EQ (flat.triangles, mesh.triangles);
+      EXPECT_EQ (flat.colors, sample_.colors);
+      EXPECT_TRUE (flat.normals.empty ());
+    }
+  }
+}
+
+// As vertexNormals () has them, by the simplest means.
+std::vector<Eigen::Vector3d>
+normalsOf (const MeshContent& mesh)
+{
+  std::vector<Eigen::Vector3d> normals (mesh.points.size (), Eigen::Vector3d::Zero ());
+  for (const auto& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d& corner = mesh.points[triangle[i]];
+      const Eigen::Vector3d u = (mesh.points[triangle[(i + 1) % 3]] - corner).normalized ();
+      const Eigen::Vector3d v = (mesh.points[triangle[(i + 2) % 3]] - corner).normalized ();
+      normals[triangle[i]] += std::acos (u.dot (v)) * u.cross (v).normalized ();
+    }
+  for (Eigen::Vector3d& normal : normals)
+    normal.normalize (); // leaves zero as it is
+  return normals;
+}
+
+TEST_P (OutputFormats, NormalsOfTheMeshAreInEveryFormatThatHasThem)
+{
+  sample_.points[5].x () = std::nan ("");           // is left out
+  sample_.points[9] += Eigen::Vector3d (0, 0, 1e4); // is in no triangle
+  sample_.normals.assign (sample_.size (), Eigen::Vector3f (0.0F, 1.0F, 0.0F));
+  writePcd (path ("in.pcd"), sample_, PcdKind::BINARY);
+  const MeshContent plain = reconstructTo ("plain.ply");
+  EXPECT_THAT (plain.normals, testing::Each (sample_.normals[0])); // of the input
+  const std::vector<Eigen::Vector3d> expected = normalsOf (plain);
+  for (const std::string file : {"out.ply", "out.vtk", "out.obj", "out.off"}) {
+    SCOPED_TRACE (file);
+    succeed ({"in.pcd", file, "--normals", "--report", "r.json"});
+    const MeshContent mesh = readMesh (path (file));
+    EXPECT_EQ (mesh.triangles, plain.triangles);
+    EXPECT_EQ (mesh.colors, plain.colors);
+    if (file == "out.ply" || file == "out.vtk") {
+      EXPECT_EQ (mesh.fields, plain.fields);
+    }
+    ASSERT_EQ (mesh.normals.size (), sample_.size () - 1);
+    for (std::size_t p = 0; p < mesh.normals.size (); ++p)
+      EXPECT_LT ((mesh.normals[p].cast<double> () - expected[p]).norm (), 1e-6);
+    EXPECT_EQ (mesh.normals[8], Eigen::Vector3f (0.0F, 0.0F, 0.0F));
+    EXPECT_TRUE (Json::parse (readFile ("r.json")).at ("output").at ("normals"));
+  }
+}
+
+// The flat mesh has none: they are those of the surface in space.
+TEST_F (CommandLineTest, NormalsOfPointsThatHadNone)
+{
+  succeed ({"in.pcd", "out.ply", "--normals", "--parameterization", "flat.ply"});
+  EXPECT_EQ (readMesh (path ("out.ply")).normals.size (), sample_.size ());
+  EXPECT_TRUE (readMesh (path ("flat.ply")).normals.empty ());
+  EXPECT_THAT (succeed ({"in.pcd", "out.stl", "--normals"}).err,
+               HasSubstr ("no effect: --normals; STL has normals of triangles only"));
+}
+
+INSTANTIATE_TEST_SUITE_P (All, OutputFormats, testing::Bool (), [] (const auto& instance) {
+  return instance.param ? "Double" : "Float";
+});
+
 // Points in no triangle and equal points are vertices, too; normals are unit vectors.
-TEST_F (ToolTest, GlbHoldsEveryPoint)
+TEST_F (Formats, GlbHoldsEveryPoint)
 {
   Sample sample = makeSample (false);
   sample.points.push_back (sample.points[3]);
@@ -228,62 +329,34 @@ TEST_F (ToolTest, GlbHoldsEveryPoint)
   sample.normals[1] = Eigen::Vector3f (0, 0, 0);
   sample.normals[2].x () = std::nanf ("");
   writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
-  ASSERT_EQ (run ({"in.pcd", "out.glb"}).code, 0);
-  const MeshContent mesh = readGlb (path ("out.glb"));
+  succeed ({"in.pcd", "out.glb"});
+  const MeshContent mesh = readMesh (path ("out.glb"));
   EXPECT_EQ (mesh.points, sample.points);
   EXPECT_LT ((mesh.normals.at (0) - Eigen::Vector3f (0.0F, 0.6F, -0.8F)).norm (), 1e-6F);
   for (const std::size_t p : {std::size_t{1}, std::size_t{2}, sample.points.size () - 1})
     EXPECT_EQ (mesh.normals.at (p), Eigen::Vector3f (0, 0, 1));
 }
 
-TEST_P (OutputFormats, ParameterizationIsTheMeshInThePlane)
+// Doubles that floats hold are written as floats: most programs with PCL read these only.
+TEST_F (Formats, PrecisionIsThatNeededOrAskedFor)
 {
-  for (const std::string extension : {"vtk", "ply", "obj", "stl", "off"}) {
-    const std::string flat_name = "flat." + extension;
-    ASSERT_EQ (run ({"in.pcd", "out.vtk", "--quiet", "--parameterization", flat_name}).code, 0);
-    const MeshContent flat = readMesh (path (flat_name));
-    EXPECT_EQ (flat.triangles.size (), readMesh (path ("out.vtk")).triangles.size ());
-    for (const Eigen::Vector3d& p : flat.points) {
-      EXPECT_EQ (p.z (), 0.0);
-      EXPECT_LE (p.head<2> ().norm (), 1.0 + 1e-6);
-    }
-    if (extension != "stl") {
-      EXPECT_EQ (flat.triangles, readMesh (path ("out.vtk")).triangles);
-      EXPECT_EQ (flat.colors, sample_.colors);
-      EXPECT_TRUE (flat.normals.empty ());
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P (All, OutputFormats, testing::Bool (), [] (const auto& instance) {
-  return instance.param ? "Double" : "Float";
-});
-
-using Formats = ToolTest;
-
-/// A sample whose coordinates 32-bit floats hold, in a file that says double.
-void
-writeFloatsAsDoubles (const std::string& file, const Sample& sample)
-{
-  Sample wide = sample;
-  wide.is_double = true;
-  writePcd (file, wide, PcdKind::BINARY);
-}
-
-// PCL's reader of PLY takes doubles for 0 in points of floats.
-TEST_F (Formats, PclReadsPlyIntoItsPoints)
-{
-  const Sample sample = makeSample (false);
-  writeFloatsAsDoubles (path ("in.pcd"), sample);
+  Sample sample = makeSample (false);
+  sample.is_double = true;
+  writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
   writeFile ("in.obj", objText (sample));
   for (const std::string input : {"in.pcd", "in.obj"}) {
-    const Outcome outcome = run ({input, "out.ply"});
-    EXPECT_EQ (outcome.err.find ("written as doubles"), std::string::npos) << outcome.err;
-    const std::vector<Eigen::Vector3f> points = loadPlyIntoPoints (path ("out.ply"));
-    ASSERT_EQ (points.size (), sample.size ());
-    for (std::size_t i = 0; i < points.size (); ++i)
-      EXPECT_EQ (points[i], sample.points[i].cast<float> ());
+    EXPECT_THAT (succeed ({input, "out.ply"}).err, Not (HasSubstr ("written as doubles")));
+    EXPECT_EQ (loadWithPcl (path ("out.ply")).points, sample.points);
   }
+  succeed ({"in.pcd", "wide.ply", "--precision", "double", "--strict"});
+  EXPECT_TRUE (readMesh (path ("wide.ply")).is_double);
+  EXPECT_EQ (readMesh (path ("wide.ply")).points, sample.points);
+  const Sample map = makeSample (true);
+  writePcd (path ("map.pcd"), map, PcdKind::BINARY);
+  succeed ({"map.pcd", "map.ply", "--precision", "single"});
+  const MeshContent rounded = readMesh (path ("map.ply"));
+  EXPECT_FALSE (rounded.is_double);
+  expectSameFloats (rounded.points, map.points);
 }
 
 // An OBJ file has no types: decimals that a float prints are floats.
@@ -298,55 +371,30 @@ TEST_F (Formats, ShortDecimalsOfObjAreFloats)
     writeFile ("in.obj", text.str ());
   };
   writeWith (0.0);
-  ASSERT_EQ (run ({"in.obj", "out.ply"}).code, 0);
-  EXPECT_EQ (loadPlyIntoPoints (path ("out.ply"))[21], Eigen::Vector3f (0.1F, 0.1F, 0.0F));
+  succeed ({"in.obj", "out.ply"});
+  EXPECT_EQ (loadWithPcl (path ("out.ply")).points[21].cast<float> (),
+             Eigen::Vector3f (0.1F, 0.1F, 0.0F));
   writeWith (5'500'000.0); // of so many digits a float keeps the first ones only
-  ASSERT_EQ (run ({"in.obj", "out.ply"}).code, 0);
-  EXPECT_TRUE (readPly (path ("out.ply")).is_double);
+  succeed ({"in.obj", "out.ply"});
+  EXPECT_TRUE (readMesh (path ("out.ply")).is_double);
   Sample tenths = makeSample (false); // which are doubles where a file says so
   tenths.is_double = true;
   for (Eigen::Vector3d& p : tenths.points)
     p = (10.0 * p).array ().round () / 10.0;
   writePcd (path ("tenths.pcd"), tenths, PcdKind::BINARY);
-  ASSERT_EQ (run ({"tenths.pcd", "out.ply"}).code, 0);
-  EXPECT_TRUE (readPly (path ("out.ply")).is_double);
-}
-
-TEST_F (Formats, PrecisionIsThatAskedFor)
-{
-  const Sample sample = makeSample (false);
-  writeFloatsAsDoubles (path ("in.pcd"), sample);
-  ASSERT_EQ (run ({"in.pcd", "wide.ply", "--precision", "double", "--strict"}).code, 0);
-  EXPECT_TRUE (readPly (path ("wide.ply")).is_double);
-  EXPECT_EQ (readPly (path ("wide.ply")).points, sample.points);
-  const Sample map = makeSample (true);
-  writePcd (path ("map.pcd"), map, PcdKind::BINARY);
-  ASSERT_EQ (run ({"map.pcd", "map.ply", "--precision", "single"}).code, 0);
-  const MeshContent rounded = readPly (path ("map.ply"));
-  EXPECT_FALSE (rounded.is_double);
-  for (std::size_t i = 0; i < map.size (); ++i)
-    EXPECT_EQ (rounded.points[i].cast<float> (), map.points[i].cast<float> ());
-  EXPECT_EQ (run ({"map.pcd", "map.ply", "--precision", "half"}).code, 1);
+  succeed ({"tenths.pcd", "out.ply"});
+  EXPECT_TRUE (readMesh (path ("out.ply")).is_double);
 }
 
 TEST_F (Formats, OffNamesWhatItHolds)
 {
   writeFile ("plain.pcd", pcdText (makeSample (false).points));
-  ASSERT_EQ (run ({"plain.pcd", "plain.off"}).code, 0);
+  succeed ({"plain.pcd", "plain.off"});
   EXPECT_EQ (readFile ("plain.off").rfind ("OFF\n", 0), 0U);
-  ASSERT_EQ (run ({"plain.pcd", "plain.off", "--normals", "--shift", "1,2,3"}).code, 0);
+  succeed ({"plain.pcd", "plain.off", "--normals", "--shift", "1,2,3"});
   EXPECT_EQ (readFile ("plain.off")
                  .rfind ("NOFF\n# written by pcl_floater_reconstruct\n# shift 1 2 3\n", 0),
              0U);
-}
-
-TEST_F (Formats, OutputCanBeInput)
-{
-  const Sample sample = makeSample (true);
-  writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
-  ASSERT_EQ (run ({"in.pcd", "a.ply"}).code, 0);
-  ASSERT_EQ (run ({"a.ply", "b.ply"}).code, 0);
-  EXPECT_EQ (readFile ("a.ply"), readFile ("b.ply"));
 }
 
 TEST_F (Formats, FieldsOfEveryTypeAreKept)
@@ -367,8 +415,8 @@ TEST_F (Formats, FieldsOfEveryTypeAreKept)
   const std::map<std::string, double> expected{
       {"a", -128},          {"b", 255},          {"c", -32768},          {"d", 65535},
       {"e", -2147483648.0}, {"f", 4294967295.0}, {"g", 1234567890123.0}, {"alpha", 7}};
-  ASSERT_EQ (run ({"in.pcd", "out.vtk"}).code, 0);
-  const MeshContent vtk = readVtk (path ("out.vtk"));
+  succeed ({"in.pcd", "out.vtk"});
+  const MeshContent vtk = readMesh (path ("out.vtk"));
   for (const auto& [name, value] : expected)
     EXPECT_THAT (vtk.fields.at (name),
                  testing::AllOf (testing::SizeIs (sample.size ()), testing::Each (value)))
@@ -377,16 +425,177 @@ TEST_F (Formats, FieldsOfEveryTypeAreKept)
   EXPECT_EQ (vtk.fields.at ("h")[0], 0.1);
   EXPECT_TRUE (std::isnan (vtk.fields.at ("h")[1]));
   EXPECT_EQ (vtk.fields.at ("h")[2], -std::numeric_limits<double>::infinity ());
-  EXPECT_EQ (vtk.colors.at (5), (std::array<std::uint8_t, 3>{200, 100, 5}));
+  EXPECT_EQ (vtk.colors.at (5), (Color{200, 100, 5}));
 
-  const Outcome outcome = run ({"in.pcd", "out.ply"});
-  ASSERT_EQ (outcome.code, 0);
-  EXPECT_NE (outcome.err.find ("the field 'g' was written as double"), std::string::npos)
-      << outcome.err;
-  const MeshContent ply = readPly (path ("out.ply"));
+  EXPECT_THAT (succeed ({"in.pcd", "out.ply"}).err,
+               HasSubstr ("the field 'g' was written as double"));
+  const MeshContent ply = readMesh (path ("out.ply"));
   EXPECT_EQ (ply.fields.at ("g").at (7), 1234567890123.0);
   EXPECT_EQ (ply.fields.at ("h_0").at (7), 0.1);
   EXPECT_EQ (ply.fields.at ("d").at (7), 65535);
+}
+
+// A closed body, so that there are seams: points of an ellipsoid, coloured by place.
+Sample
+colouredBody ()
+{
+  Sample sample;
+  const int count = 900;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - 2.0 * (i + 0.5) / count, angle = 2.399963 * i;
+    const double radius = std::sqrt (1.0 - z * z);
+    const std::array<double, 3> unit{radius * std::cos (angle), radius * std::sin (angle), z};
+    sample.points.emplace_back (unit[0], unit[1], 1.3 * z);
+    sample.colors.emplace_back ();
+    for (std::size_t c = 0; c < 3; ++c)
+      sample.colors.back ()[c] = static_cast<std::uint8_t> (127.5 * (unit[c] + 1.0));
+    sample.normals.push_back (sample.points.back ().normalized ().cast<float> ());
+    sample.intensities.push_back (static_cast<float> (i));
+  }
+  return sample;
+}
+
+double
+signedArea (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+{
+  return (b - a).x () * (c - a).y () - (b - a).y () * (c - a).x ();
+}
+
+class TextureFiles : public ToolTest
+{
+protected:
+  TextureFiles () { writeFile ("in.ply", plyText (sample_, PlyKind::LITTLE)); }
+
+  Sample sample_ = colouredBody ();
+};
+
+TEST_F (TextureFiles, ObjHasCoordinatesOfCorners)
+{
+  EXPECT_THAT (succeed ({"--uv", "in.ply", "out.obj"}).out, HasSubstr ("\ntexture    "));
+  EXPECT_EQ (names (), (std::set<std::string>{"in.ply", "out.mtl", "out.obj"}));
+  const MeshContent obj = readMesh (path ("out.obj"));
+  EXPECT_EQ (obj.points.size (), sample_.size ()); // none is doubled
+  EXPECT_GT (obj.coordinates.size (), obj.points.size ());
+  EXPECT_EQ (obj.material_file, "out.mtl");
+  EXPECT_EQ (obj.material, "surface");
+  EXPECT_THAT (readFile ("out.mtl"), HasSubstr ("newmtl surface\n"));
+  EXPECT_THAT (readFile ("out.mtl"), Not (HasSubstr ("map_Kd")));
+  ASSERT_FALSE (obj.corners.empty ());
+  for (const auto& c : obj.corners)
+    EXPECT_GT (signedArea (obj.coordinates.at (c[0]), obj.coordinates.at (c[1]),
+                           obj.coordinates.at (c[2])),
+               0.0);
+  succeed ({"in.ply", "plain.obj"});
+  EXPECT_EQ (readMesh (path ("plain.obj")).triangles, obj.triangles);
+}
+
+TEST_F (TextureFiles, PlyAndVtkHaveVerticesOnSeamsDoubled)
+{
+  succeed ({"--uv", "in.ply", "out.obj"});
+  succeed ({"--uv", "in.ply", "out.vtk"});
+  const Json texture = report ({"--uv"}, "in.ply");
+  const MeshContent obj = readMesh (path ("out.obj")), ply = readMesh (path ("out.ply")),
+                    vtk = readMesh (path ("out.vtk"));
+  EXPECT_EQ (ply.points.size (), obj.coordinates.size ());
+  EXPECT_EQ (texture["output"]["vertices"], ply.points.size ());
+  EXPECT_GT (texture["texture"]["charts"], 1);
+  EXPECT_EQ (texture["texture"]["flipped"], 0);
+  EXPECT_TRUE (texture["texture"]["file"].is_null ());
+  EXPECT_LT (texture["texture"]["stretch"], 1.1);
+  EXPECT_EQ (vtk.triangles, ply.triangles);
+  EXPECT_EQ (vtk.colors, ply.colors);
+  ASSERT_EQ (vtk.coordinates.size (), ply.points.size ());
+  ASSERT_EQ (ply.triangles.size (), obj.triangles.size ());
+  for (std::size_t t = 0; t < ply.triangles.size (); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t vertex = ply.triangles[t][i], point = obj.triangles[t][i];
+      EXPECT_EQ (ply.points[vertex], ply.points[point]);
+      EXPECT_EQ (ply.colors[vertex], ply.colors[point]);
+      const Eigen::Vector2d uv (ply.fields.at ("s")[vertex], ply.fields.at ("t")[vertex]);
+      EXPECT_LT ((uv - obj.coordinates[obj.corners[t][i]]).norm (), 1e-7);
+      EXPECT_EQ (vtk.coordinates[vertex], uv);
+    }
+  // A disc is one chart.
+  writeFile ("sheet.ply", plyText (makeSample (false), PlyKind::LITTLE));
+  EXPECT_EQ (report ({"--uv", "--topology", "disc"}, "sheet.ply")["texture"]["charts"], 1);
+}
+
+// Points that are left out of the file, and points without triangle.
+TEST_F (TextureFiles, PointsThatAreLeftOut)
+{
+  Sample sample = sample_;
+  sample.points[3].x () = std::nan ("");
+  sample.points[40].z () = std::nan ("");
+  sample.points[100] = Eigen::Vector3d (50.0, 0.0, 0.0);
+  writeFile ("holes.ply", plyText (sample, PlyKind::LITTLE));
+  succeed ({"--uv", "holes.ply", "out.ply"});
+  const MeshContent ply = readMesh (path ("out.ply"));
+  for (const auto& t : ply.triangles) {
+    std::array<Eigen::Vector2d, 3> uv;
+    for (std::size_t i = 0; i < 3; ++i) {
+      uv[i] = {ply.fields.at ("s")[t[i]], ply.fields.at ("t")[t[i]]};
+      EXPECT_GE (uv[i].minCoeff (), 0.0);
+    }
+    EXPECT_GT (signedArea (uv[0], uv[1], uv[2]), 0.0);
+    EXPECT_LT ((ply.points[t[0]] - ply.points[t[1]]).norm (), 0.5);
+  }
+  EXPECT_EQ (ply.fields.at ("s")[98], -1.0); // the point far away, two places on
+}
+
+TEST_F (TextureFiles, ColoursAreBaked)
+{
+  std::filesystem::create_directories (path ("images"));
+  succeed ({"--texture", "images/colours.png", "in.ply", "out.obj"});
+  EXPECT_THAT (readFile ("out.mtl"), HasSubstr ("map_Kd images/colours.png\n"));
+  const MeshContent obj = readMesh (path ("out.obj"));
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName (path ("images/colours.png").c_str ());
+  reader->Update ();
+  vtkImageData* image = reader->GetOutput ();
+  const int side = image->GetDimensions ()[0];
+  EXPECT_EQ (image->GetDimensions ()[1], side);
+  EXPECT_GE (side, 256);
+  // In the middle of each triangle, the mean of the colours of its corners. VTK counts rows from
+  // below, as v does.
+  for (std::size_t t = 0; t < obj.triangles.size (); ++t) {
+    Eigen::Vector2d uv = Eigen::Vector2d::Zero ();
+    Eigen::Vector3d expected = Eigen::Vector3d::Zero ();
+    for (std::size_t i = 0; i < 3; ++i) {
+      uv += obj.coordinates[obj.corners[t][i]] / 3.0;
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        expected[static_cast<Eigen::Index> (channel)] +=
+            sample_.colors[obj.triangles[t][i]][channel] / 3.0;
+    }
+    const int x = static_cast<int> (uv.x () * side), y = static_cast<int> (uv.y () * side);
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR (image->GetScalarComponentAsDouble (x, y, 0, channel), expected[channel], 8.0);
+  }
+  // Its size can be chosen; the same command gives the same bytes.
+  const std::string first = readFile ("images/colours.png");
+  succeed ({"-j1", "--texture", "images/colours.png", "in.ply", "out.obj"});
+  EXPECT_EQ (readFile ("images/colours.png"), first);
+  succeed ({"--texture", "small.png", "--texture-size", "100", "in.ply", "out.vtk"});
+  reader->SetFileName (path ("small.png").c_str ());
+  reader->Update ();
+  EXPECT_EQ (reader->GetOutput ()->GetDimensions ()[0], 100);
+}
+
+TEST_F (TextureFiles, AllOrNothing)
+{
+  // The image does not fit: no file is new, and none is changed.
+  writeFile ("out.mtl", "old");
+  expectFailure ({"--texture", "big.png", "--texture-size", "2048", "in.ply", "out.obj"},
+                 OUTPUT_FAILED, "cannot write", {100000});
+  EXPECT_EQ (readFile ("out.mtl"), "old");
+  succeed ({"--texture", "new.png", "in.ply", "out.obj"});
+  EXPECT_NE (readFile ("out.mtl"), "old");
+}
+
+TEST_F (TextureFiles, WhatIsToldAndRefused)
+{
+  EXPECT_THAT (succeed ({"--texture", "my colours.png", "in.ply", "out.obj"}).err,
+               HasSubstr ("has a space in it"));
+  expectFailure ({"--uv", "in.ply", "out.stl"}, USAGE, "without texture coordinates");
 }
 
 } // namespace

@@ -1,87 +1,123 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that is ended by a signal leaves no files.
-#include "command_line_test.h"
+// A run that is ended by a signal leaves no files. --max-memory and --scratch: the mesh is the same
+// as without them, and no files are left.
+#include "tool_runner.h"
 
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <sstream>
 
 namespace pcl::floater {
 namespace {
-// A bent sheet, so large that its mesh takes several writes.
-std::vector<Eigen::Vector3d>
-manyPoints ()
+std::string
+mapsOf (int process)
 {
-  constexpr int WIDTH = 250;
-  constexpr double STEP = 0.37;
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < WIDTH; ++i)
-    for (int j = 0; j < WIDTH; ++j)
-      points.emplace_back (i + 0.3 * std::sin (7.0 * j), j + 0.3 * std::sin (5.0 * i),
-                           10.0 * std::sin (STEP * i / 10) * std::cos (STEP * j / 10));
-  return points;
+  std::ostringstream maps;
+  maps << std::ifstream ("/proc/" + std::to_string (process) + "/maps").rdbuf ();
+  return maps.str ();
 }
 
-class Interruption : public ToolTestWith<int>
+class Interruption : public ToolTest
 {
 protected:
-  Interruption ()
+  void makeCloud (int side) const
   {
-    writeFile ("in.pcd", pcdText (manyPoints ()));
-    writeFile ("out.obj", "what was there before");
+    writePcd (path ("in.pcd"), makeSample (false, side), PcdKind::BINARY);
   }
 
-  bool isWriting () const
+  /// Sends a signal when is_time (id of the process) is true: the run must end by that signal, and
+  /// leave nothing. It may end by itself before that is noticed; then it is run again.
+  void endsWhen (const std::function<bool (int)>& is_time, int signal_number,
+                 const std::vector<std::string>& options = {}) const
   {
+    SCOPED_TRACE (signal_number);
+    std::vector<std::string> arguments{"in.pcd", "out.obj"};
+    arguments.insert (arguments.end (), options.begin (), options.end ());
+    Outcome outcome;
+    for (int tries = 10; tries > 0 && outcome.code != -signal_number; --tries) {
+      writeFile ("out.obj", "what was there before");
+      outcome = interrupt (arguments, signal_number, is_time);
+      ASSERT_TRUE (outcome.code == 0 || outcome.code == -signal_number) << outcome.err;
+    }
+    ASSERT_EQ (outcome.code, -signal_number) << "the moment was never noticed";
+    EXPECT_EQ (outcome.out, "");
+    EXPECT_EQ (names (), (std::set<std::string>{"in.pcd", "out.obj"}));
+    EXPECT_EQ (readFile ("out.obj"), "what was there before");
+  }
+};
+
+TEST_F (Interruption, LeavesNoPartOfAFile)
+{
+  makeCloud (250); // so large that its mesh takes several writes
+  const auto is_at_work = [] (int process) {
+    return mapsOf (process).find ("/in.pcd") != std::string::npos;
+  };
+  const auto is_writing = [this] (int) {
     const std::set<std::string> all = names ();
     return std::any_of (all.begin (), all.end (), [] (const std::string& name) {
       return name.rfind (".pcl_floater.", 0) == 0;
     });
+  };
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+    endsWhen (is_at_work, signal_number);
+    endsWhen (is_writing, signal_number);
   }
-
-  /// Whether the input file is mapped.
-  static bool isReading (int process)
-  {
-    std::ifstream maps ("/proc/" + std::to_string (process) + "/maps");
-    for (std::string line; std::getline (maps, line);)
-      if (line.find ("/in.pcd") != std::string::npos)
-        return true;
-    return false;
-  }
-
-  /// Sends the signal when is_time (id of the process) is true: the run must end by that signal,
-  /// and leave nothing. It may end by itself before that is noticed; then it is run again.
-  void endsWhen (const std::function<bool (int)>& is_time) const
-  {
-    constexpr int TRIES = 10;
-    for (int i = 0; i < TRIES; ++i) {
-      const Outcome outcome = interrupt ({"in.pcd", "out.obj"}, GetParam (), is_time);
-      if (outcome.code == 0) {
-        writeFile ("out.obj", "what was there before");
-        continue;
-      }
-      EXPECT_EQ (outcome.code, -GetParam ());
-      EXPECT_EQ (outcome.out, "");
-      EXPECT_EQ (names (), (std::set<std::string>{"in.pcd", "out.obj"}));
-      EXPECT_EQ (readFile ("out.obj"), "what was there before");
-      return;
-    }
-    FAIL () << "the moment was never noticed";
-  }
-};
-
-TEST_P (Interruption, AtWorkEndsTheRun)
-{
-  endsWhen ([this] (int process) { return isReading (process); });
 }
 
-TEST_P (Interruption, WhileWritingLeavesNoPartOfAFile)
+TEST_F (Interruption, LeavesNoScratchFile)
 {
-  endsWhen ([this] (int) { return isWriting (); });
+  makeCloud (200);
+  const auto has_scratch = [this] (int process) {
+    const std::string maps = mapsOf (process);
+    const std::size_t at = maps.find (std::filesystem::canonical (path (".")).string ());
+    return at != std::string::npos && maps.find ("(deleted)", at) != std::string::npos;
+  };
+  for (const int signal_number : {SIGINT, SIGTERM, SIGKILL})
+    endsWhen (has_scratch, signal_number, {"--max-memory", "60M"});
 }
 
-INSTANTIATE_TEST_SUITE_P (Signals, Interruption, testing::Values (SIGINT, SIGTERM, SIGHUP));
+using MaxMemory = Interruption;
+
+/// With the smallest limit that the tool accepts for this cloud.
+TEST_F (MaxMemory, SameMeshBelowTheLimit)
+{
+  makeCloud (350);
+  std::filesystem::create_directory (path ("scratch"));
+  const std::string refusal = run ({"in.pcd", "none.ply", "--max-memory", "52M"}).err;
+  const std::string before = "122500 points; use ";
+  const std::size_t at = refusal.find (before), end = refusal.find ("M or more");
+  ASSERT_TRUE (at != std::string::npos && end != std::string::npos) << refusal;
+  const std::string megabytes = refusal.substr (at + before.size (), end - at - before.size ());
+  const std::size_t limit = std::stoul (megabytes) * 1'000'000;
+
+  EXPECT_EQ (report ({"--topology", "surface"}).at ("memory_limit"), Json ());
+  const std::string free = readFile ("out.ply");
+  const Json limited = report (
+      {"--topology", "surface", "--max-memory", megabytes + "M", "--scratch", "scratch"}, "in.pcd");
+  EXPECT_EQ (readFile ("out.ply"), free);
+  EXPECT_TRUE (std::filesystem::is_empty (path ("scratch")));
+  const Json& used = limited.at ("memory_limit");
+  EXPECT_EQ (used.at ("bytes"), limit);
+  EXPECT_EQ (used.at ("scratch"), "scratch");
+  EXPECT_GT (used.at ("scratch_peak_bytes"), 1'000'000);
+  EXPECT_GT (used.at ("dropped_bytes"), 1'000'000);
+  if (!IS_SANITIZED) {
+    EXPECT_LT (limited.at ("peak_memory_bytes"), limit);
+  }
+}
+
+/// A limit on file sizes stands for a full disk.
+TEST_F (MaxMemory, ScratchFolderThatCannotBeUsed)
+{
+  makeCloud (300);
+  for (const std::string folder : {"missing", "in.pcd", "/proc/self"})
+    expectFailure ({"in.pcd", "out.ply", "--max-memory", "2G", "--scratch", folder}, OUTPUT_FAILED,
+                   "cannot use the scratch folder '" + folder + "': ");
+  expectFailure ({"in.pcd", "out.ply", "--max-memory", "60M"}, INTERNAL_ERROR,
+                 "no room in the scratch folder '.': File too large", {1 << 20});
+}
 
 } // namespace
 } // namespace pcl::floater

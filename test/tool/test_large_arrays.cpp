@@ -16,10 +16,9 @@
 #include <csignal>
 #include <cstdint>
 #include <fstream>
-#include <memory>
+#include <functional>
 #include <new>
 #include <numeric>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -58,28 +57,29 @@ dropAll ()
     dropped += dropNextChunk ();
 }
 
-class LargeArrays : public testing::Test
+template <typename T>
+void
+expectAll (const std::vector<T>& array, T value)
 {
-protected:
-  static void SetUpTestSuite ()
+  EXPECT_EQ (std::count (array.begin (), array.end (), value),
+             static_cast<std::ptrdiff_t> (array.size ()));
+}
+
+/// The folder of all tests: arrays of one may outlive it.
+struct ScratchFolder
+{
+  std::string path =
+      (std::filesystem::temp_directory_path () / "pcl_floater_test.XXXXXX").string ();
+
+  ScratchFolder ()
   {
-    std::string name =
-        (std::filesystem::temp_directory_path () / "pcl_floater_test.XXXXXX").string ();
-    if (!::mkdtemp (name.data ()))
+    if (!::mkdtemp (path.data ()))
       throw std::runtime_error ("cannot make a temporary folder");
-    folder_ = name;
   }
-
-  static void TearDownTestSuite ()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all (folder_, ignored);
-  }
-
-  static std::filesystem::path folder_; // shared by all tests: arrays of one may outlive it
+  ~ScratchFolder () { std::filesystem::remove (path); }
 };
 
-std::filesystem::path LargeArrays::folder_;
+const ScratchFolder SCRATCH;
 
 /// Writes all bytes, to detect an array that is too short or not writable.
 void
@@ -93,55 +93,41 @@ expectUsable (void* pointer, std::size_t size, std::size_t alignment)
 }
 
 /// Sizes below and above all limits, none of them a multiple of the page size.
-std::vector<std::size_t>
-someSizes ()
-{
-  return {1, 100, LARGE_ARRAY - 1, LARGE_ARRAY + 1, 9 * LARGE_ARRAY + 7};
-}
-
 void
 useAllForms ()
 {
   const std::size_t usual = alignof (std::max_align_t);
-  for (const std::size_t size : someSizes ()) {
+  for (const std::size_t size :
+       {std::size_t{1}, std::size_t{100}, LARGE_ARRAY - 1, LARGE_ARRAY + 1, 9 * LARGE_ARRAY + 7}) {
     SCOPED_TRACE (size);
-    void* pointer = ::operator new (size);
-    expectUsable (pointer, size, usual);
-    ::operator delete (pointer);
-    pointer = ::operator new[] (size);
-    expectUsable (pointer, size, usual);
-    ::operator delete[] (pointer);
-    pointer = ::operator new (size, std::nothrow);
-    expectUsable (pointer, size, usual);
-    ::operator delete (pointer, size);
-    pointer = ::operator new[] (size, std::nothrow);
-    expectUsable (pointer, size, usual);
-    ::operator delete[] (pointer, size);
+    const auto use = [size] (void* pointer, std::size_t alignment) {
+      expectUsable (pointer, size, alignment);
+      return pointer;
+    };
+    ::operator delete (use (::operator new (size), usual));
+    ::operator delete[] (use (::operator new[] (size), usual));
+    ::operator delete (use (::operator new (size, std::nothrow), usual), size);
+    ::operator delete[] (use (::operator new[] (size, std::nothrow), usual), size);
     for (const std::size_t alignment : {std::size_t{64}, std::size_t{4096}, 4 * MEGABYTE}) {
       const std::align_val_t aligned{alignment};
-      pointer = ::operator new (size, aligned);
-      expectUsable (pointer, size, alignment);
-      ::operator delete (pointer, aligned);
-      pointer = ::operator new[] (size, aligned);
-      expectUsable (pointer, size, alignment);
-      ::operator delete[] (pointer, size, aligned);
-      pointer = ::operator new (size, aligned, std::nothrow);
-      expectUsable (pointer, size, alignment);
-      ::operator delete (pointer, aligned, std::nothrow);
+      ::operator delete (use (::operator new (size, aligned), alignment), aligned);
+      ::operator delete[] (use (::operator new[] (size, aligned), alignment), size, aligned);
+      ::operator delete (use (::operator new (size, aligned, std::nothrow), alignment), aligned,
+                         std::nothrow);
     }
   }
   ::operator delete (nullptr);
   ::operator delete (::operator new (0));
 }
 
-TEST_F (LargeArrays, AllFormsOfNewAndDelete)
+TEST (LargeArrays, AllFormsOfNewAndDelete)
 {
   useAllForms ();
   {
     const ArrayPool pool (100 * LARGE_ARRAY);
     useAllForms ();
   }
-  keepLargeArraysIn (folder_);
+  keepLargeArraysIn (SCRATCH.path);
   useAllForms ();
   {
     const ArrayPool pool (5 * LARGE_ARRAY); // into which some do not fit
@@ -150,22 +136,22 @@ TEST_F (LargeArrays, AllFormsOfNewAndDelete)
   EXPECT_EQ (scratchUse ().bytes, 0U);
 }
 
-TEST_F (LargeArrays, SizesBeyondAllMemoryAreRefused)
+TEST (LargeArrays, SizesBeyondAllMemoryAreRefused)
 {
   const volatile std::size_t most = PTRDIFF_MAX;
   if (!IS_SANITIZED) { // the malloc of a sanitizer would end the program
     EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
     EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
   }
-  keepLargeArraysIn (folder_);
+  keepLargeArraysIn (SCRATCH.path);
   EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
   EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
   EXPECT_EQ (scratchUse ().bytes, 0U);
 }
 
-TEST_F (LargeArrays, ScratchFilesHaveNoNamesAndGoWithTheirArrays)
+TEST (LargeArrays, ScratchFilesHaveNoNamesAndGoWithTheirArrays)
 {
-  keepLargeArraysIn (folder_);
+  keepLargeArraysIn (SCRATCH.path);
   {
     const std::vector<char> small (LARGE_ARRAY / 2, 'a');
     EXPECT_EQ (scratchUse ().bytes, 0U);
@@ -175,67 +161,61 @@ TEST_F (LargeArrays, ScratchFilesHaveNoNamesAndGoWithTheirArrays)
     EXPECT_GT (scratchUse ().bytes, 8 * LARGE_ARRAY);
     std::vector<char> ().swap (other);
     EXPECT_LT (scratchUse ().bytes, 4 * LARGE_ARRAY);
-    EXPECT_TRUE (std::filesystem::is_empty (folder_));
+    EXPECT_TRUE (std::filesystem::is_empty (SCRATCH.path));
   }
   EXPECT_EQ (scratchUse ().bytes, 0U);
   EXPECT_EQ (dropNextChunk (), 0U);
 }
 
-TEST_F (LargeArrays, DroppedPagesComeBack)
+/// Calls work (t) in several threads, and meanwhile() until all have ended.
+void
+runThreads (int count, const std::function<void (int)>& work,
+            const std::function<void ()>& meanwhile)
 {
-  constexpr std::size_t COUNT = 64 * MEGABYTE / sizeof (std::uint64_t);
-  std::vector<std::uint64_t> before (COUNT / 8); // from malloc: dropping its pages would lose them
-  std::iota (before.begin (), before.end (), 7U);
-  keepLargeArraysIn (folder_);
-  std::vector<std::uint64_t> numbers (COUNT);
-  std::iota (numbers.begin (), numbers.end (), 3U);
-  const std::size_t full = memoryStatus ("VmRSS");
-  dropAll ();
-  EXPECT_LT (memoryStatus ("VmRSS"), full - 60 * MEGABYTE);
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < numbers.size (); ++i)
-    wrong += numbers[i] == i + 3 ? 0 : 1;
-  for (std::size_t i = 0; i < before.size (); ++i)
-    wrong += before[i] == i + 7 ? 0 : 1;
-  EXPECT_EQ (wrong, 0U);
+  std::atomic<int> at_work{count};
+  std::vector<std::thread> threads;
+  threads.reserve (static_cast<std::size_t> (count));
+  for (int t = 0; t < count; ++t)
+    threads.emplace_back ([&, t] {
+      work (t);
+      --at_work;
+    });
+  while (at_work > 0)
+    meanwhile ();
+  for (std::thread& thread : threads)
+    thread.join ();
 }
 
 /// In every round each thread adds one to all its numbers, while pages are dropped continuously and
 /// other arrays are made and freed.
-TEST_F (LargeArrays, NothingIsLostWhileThreadsWrite)
+TEST (LargeArrays, NothingIsLostWhileThreadsWrite)
 {
   constexpr std::size_t COUNT = 12 * MEGABYTE / sizeof (std::uint32_t);
   constexpr int THREADS = 3, ROUNDS = 6;
-  keepLargeArraysIn (folder_);
+  // From malloc: dropping its pages would lose them.
+  const std::vector<std::uint32_t> before (COUNT, 7);
+  keepLargeArraysIn (SCRATCH.path);
   std::vector<std::vector<std::uint32_t>> arrays (THREADS, std::vector<std::uint32_t> (COUNT, 0));
-  std::atomic<int> at_work{THREADS};
-  std::vector<std::thread> threads;
-  threads.reserve (THREADS);
-  for (int t = 0; t < THREADS; ++t)
-    threads.emplace_back ([&arrays, &at_work, t] {
-      for (int round = 0; round < ROUNDS; ++round) {
-        std::vector<std::uint32_t> copy (arrays[t]);
-        for (std::uint32_t& number : copy)
-          ++number;
-        arrays[t].swap (copy);
-      }
-      --at_work;
-    });
+  const auto work = [&arrays] (int t) {
+    for (int round = 0; round < ROUNDS; ++round) {
+      std::vector<std::uint32_t> copy (arrays[t]);
+      for (std::uint32_t& number : copy)
+        ++number;
+      arrays[t].swap (copy);
+    }
+  };
   std::size_t chunks = 0;
-  while (at_work > 0)
-    chunks += dropNextChunk () > 0 ? 1 : 0;
-  for (std::thread& thread : threads)
-    thread.join ();
+  runThreads (THREADS, work, [&chunks] { chunks += dropNextChunk () > 0 ? 1 : 0; });
   EXPECT_GT (chunks, 10U);
   EXPECT_GT (scratchUse ().dropped, 10 * MEGABYTE);
   for (const std::vector<std::uint32_t>& array : arrays)
-    EXPECT_EQ (std::count (array.begin (), array.end (), std::uint32_t{ROUNDS}),
-               static_cast<std::ptrdiff_t> (COUNT));
+    expectAll (array, std::uint32_t{ROUNDS});
+  expectAll (before, std::uint32_t{7});
 }
 
-TEST_F (LargeArrays, PoolIsInMemoryAndThenInOneFile)
+TEST (LargeArrays, PoolIsInMemoryAndThenInOneFile)
 {
-  keepLargeArraysIn (folder_);
+  keepLargeArraysIn (SCRATCH.path);
   {
     const std::vector<char> before (LARGE_ARRAY, 'a');
     const ArrayPool pool (4 * LARGE_ARRAY);
@@ -252,15 +232,15 @@ TEST_F (LargeArrays, PoolIsInMemoryAndThenInOneFile)
     const std::vector<char> fourth (2 * LARGE_ARRAY, 'e'); // does not fit
     EXPECT_EQ (scratchUse ().bytes, 8 * LARGE_ARRAY);
     EXPECT_FALSE (areAllInPool ());
-    for (const auto& [array, value] : {std::pair (&first, 'b'), std::pair (&second, 'c'),
-                                       std::pair (&third, 'd'), std::pair (&fourth, 'e')})
-      EXPECT_EQ (std::count (array->begin (), array->end (), value),
-                 static_cast<std::ptrdiff_t> (array->size ()));
+    expectAll (first, 'b');
+    expectAll (second, 'c');
+    expectAll (third, 'd');
+    expectAll (fourth, 'e');
   }
   EXPECT_EQ (scratchUse ().bytes, 0U);
 }
 
-TEST_F (LargeArrays, PoolUsesMemoryAgainUntilItEnds)
+TEST (LargeArrays, PoolUsesMemoryAgainUntilItEnds)
 {
   if (IS_SANITIZED)
     GTEST_SKIP () << "a sanitizer's own memory is resident, too";
@@ -288,12 +268,12 @@ TEST_F (LargeArrays, PoolUsesMemoryAgainUntilItEnds)
     EXPECT_GT (memoryStatus ("VmRSS"), before + 3 * SIZE - MEGABYTE);
   }
   EXPECT_LT (memoryStatus ("VmRSS"), before + SIZE + 8 * MEGABYTE);
-  EXPECT_EQ (std::count (longest.begin (), longest.end (), 'l'), std::ptrdiff_t{SIZE});
+  expectAll (longest, 'l');
   {
     // The range of the last pool is still in use, and this one has no other.
     const ArrayPool pool (4 * SIZE);
     const std::vector<char> more (SIZE, 'm');
-    EXPECT_EQ (std::count (longest.begin (), longest.end (), 'l'), std::ptrdiff_t{SIZE});
+    expectAll (longest, 'l');
     EXPECT_TRUE (areAllInPool ());
   }
   std::vector<char> ().swap (longest);
@@ -302,53 +282,27 @@ TEST_F (LargeArrays, PoolUsesMemoryAgainUntilItEnds)
 }
 
 /// Arrays of several threads must not overlap, in a pool and beside it.
-TEST_F (LargeArrays, PoolOfSeveralThreads)
+TEST (LargeArrays, PoolOfSeveralThreads)
 {
-  keepLargeArraysIn (folder_);
+  keepLargeArraysIn (SCRATCH.path);
   constexpr int THREADS = 4, ROUNDS = 200;
   const ArrayPool pool (6 * MEGABYTE, 4 * MEGABYTE);
-  std::atomic<std::size_t> wrong{0};
-  std::vector<std::thread> threads;
-  threads.reserve (THREADS);
-  for (int t = 0; t < THREADS; ++t)
-    threads.emplace_back ([&wrong, t] {
-      for (int round = 0; round < ROUNDS; ++round) {
-        const std::vector<int> one ((1 + (t + round) % 3) * MEGABYTE / sizeof (int), t);
-        const std::vector<int> other (MEGABYTE / sizeof (int), round);
-        const auto ones = static_cast<std::size_t> (std::count (one.begin (), one.end (), t));
-        wrong += one.size () - ones;
-        wrong += static_cast<std::size_t> (
-            std::count_if (other.begin (), other.end (), [round] (int i) { return i != round; }));
-      }
-    });
-  for (std::thread& thread : threads)
-    thread.join ();
-  EXPECT_EQ (wrong, 0U);
+  const auto work = [] (int t) {
+    for (int round = 0; round < ROUNDS; ++round) {
+      const std::vector<int> one ((1 + (t + round) % 3) * MEGABYTE / sizeof (int), t);
+      const std::vector<int> other (MEGABYTE / sizeof (int), round);
+      expectAll (one, t);
+      expectAll (other, round);
+    }
+  };
+  runThreads (THREADS, work, [] { std::this_thread::yield (); });
   EXPECT_EQ (scratchUse ().bytes, 4 * MEGABYTE);
 }
 
-TEST_F (LargeArrays, FolderThatCannotBeUsed)
-{
-  const auto message = [] (const std::filesystem::path& folder) -> std::string {
-    try {
-      keepLargeArraysIn (folder);
-      return "";
-    }
-    catch (const WriteError& error) {
-      return error.what ();
-    }
-  };
-  EXPECT_THAT (message (folder_ / "missing"), HasSubstr ("No such file or directory"));
-  EXPECT_THAT (message (folder_ / "missing"), HasSubstr ((folder_ / "missing").string ()));
-  std::ofstream (folder_ / "file") << "text";
-  EXPECT_THAT (message (folder_ / "file"), HasSubstr ("Not a directory"));
-  EXPECT_EQ (message (folder_), "");
-}
-
 /// A limit on file sizes stands for a full disk.
-TEST_F (LargeArrays, NoRoomIsBadAllocAndIsDescribed)
+TEST (LargeArrays, NoRoomIsBadAllocAndIsDescribed)
 {
-  keepLargeArraysIn (folder_);
+  keepLargeArraysIn (SCRATCH.path);
   const std::vector<char> first (4 * LARGE_ARRAY, 'a');
   ASSERT_EQ (scratchUse ().bytes, 4 * LARGE_ARRAY);
   const auto before = std::signal (SIGXFSZ, SIG_IGN);
@@ -362,12 +316,12 @@ TEST_F (LargeArrays, NoRoomIsBadAllocAndIsDescribed)
   ASSERT_EQ (::setrlimit (RLIMIT_FSIZE, &limit), 0);
   std::signal (SIGXFSZ, before);
   EXPECT_THAT (largeArrayFailure (),
-               HasSubstr ("no room in the scratch folder '" + folder_.string () + "': File too"));
+               HasSubstr ("no room in the scratch folder '" + SCRATCH.path + "': File too"));
   EXPECT_THAT (largeArrayFailure (), HasSubstr ("it holds 4 MB, and 9 MB more are needed"));
   EXPECT_NO_THROW (std::vector<char> (9 * LARGE_ARRAY));
 }
 
-TEST_F (LargeArrays, Sizes)
+TEST (LargeArrays, Sizes)
 {
   const std::vector<std::pair<std::string, std::size_t>> good{
       {"0", 0},       {"123456789", 123456789},  {"500M", 500'000'000}, {"2g", 2'000'000'000},
@@ -377,12 +331,11 @@ TEST_F (LargeArrays, Sizes)
     EXPECT_TRUE (parseSize (word, bytes)) << word;
     EXPECT_EQ (bytes, expected) << word;
   }
+  std::size_t unchanged = 1;
   for (const std::string word :
-       {"", "G", "-1", "-1G", "1GG", "1 G", "2GB", "many", "nan", "inf", "1e30", "9999999999T"}) {
-    std::size_t bytes = 1;
-    EXPECT_FALSE (parseSize (word, bytes)) << word;
-    EXPECT_EQ (bytes, 1U) << word;
-  }
+       {"", "G", "-1", "-1G", "1GG", "1 G", "2GB", "many", "nan", "inf", "1e30", "9999999999T"})
+    EXPECT_FALSE (parseSize (word, unchanged)) << word;
+  EXPECT_EQ (unchanged, 1U);
   EXPECT_EQ (formatSize (500'000'000), "500M");
   EXPECT_EQ (formatSize (500'000'001), "501M");
   EXPECT_GT (leastMemory (0), 10 * MEGABYTE);
@@ -391,23 +344,23 @@ TEST_F (LargeArrays, Sizes)
   EXPECT_EQ (leastMemory (0, 1.0), leastMemory (0));
 }
 
-/// Two threads fill and read three times as much as the limit.
-void
-expectBelowLimit (const std::filesystem::path& folder, bool has_pool)
+/// Two threads fill and read three times as much as the limit. The first arrays are in the pool,
+/// which is then found to be too small.
+TEST (LargeArrays, ResidentSetStaysBelowTheLimit)
 {
-  constexpr std::size_t LIMIT = 240 * MEGABYTE;
+  if (IS_SANITIZED)
+    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
+  constexpr std::size_t LIMIT = 240 * MEGABYTE, COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
   constexpr int ARRAYS = 50;
-  constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
   std::ofstream ("/proc/self/clear_refs") << 5; // resets the peak
   if (memoryStatus ("VmHWM") > LIMIT / 2)
     GTEST_SKIP () << "the memory of earlier tests cannot be separated";
-  const MemoryLimit limit (LIMIT, folder);
-  std::optional<ArrayPool> pool;
-  if (has_pool) {
-    const std::size_t in_memory = limit.residentSet ().poolInMemory ();
-    const std::size_t in_file = limit.residentSet ().poolInFile ();
-    EXPECT_GT (in_memory + in_file, LIMIT / 4 * 3);
-    pool.emplace (in_memory, in_file);
+  const MemoryLimit limit (LIMIT, SCRATCH.path);
+  const std::size_t in_memory = limit.residentSet ().poolInMemory ();
+  const std::size_t in_file = limit.residentSet ().poolInFile ();
+  EXPECT_GT (in_memory + in_file, LIMIT / 4 * 3);
+  const ArrayPool pool (in_memory, in_file);
+  {
     const std::vector<char> fits (in_memory - POOL_ALIGNMENT, 'a');
     const std::vector<char> fits_too (in_file - POOL_ALIGNMENT, 'b');
     EXPECT_TRUE (areAllInPool ());
@@ -425,21 +378,10 @@ expectBelowLimit (const std::filesystem::path& folder, bool has_pool)
         errors += arrays[a][i] == a + i ? 0 : 1;
     wrong += errors;
   };
-  std::thread other (work, 0);
-  work (1);
-  other.join ();
+  runThreads (2, work, [] { std::this_thread::yield (); });
   EXPECT_EQ (wrong, 0U);
-  EXPECT_GT (scratchUse ().bytes, (has_pool ? 2 : 3) * LIMIT);
+  EXPECT_GT (scratchUse ().bytes, 2 * LIMIT);
   EXPECT_LT (memoryStatus ("VmHWM"), LIMIT);
-}
-
-/// The first arrays of the second run are in the pool, which is then found to be too small.
-TEST_F (LargeArrays, ResidentSetStaysBelowTheLimit)
-{
-  if (IS_SANITIZED)
-    GTEST_SKIP () << "a sanitizer's own memory is resident, too";
-  expectBelowLimit (folder_, false);
-  expectBelowLimit (folder_, true);
 }
 
 } // namespace

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tool_runner.h"
 
-#include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,73 +32,14 @@ makeFolder ()
   return name;
 }
 
-/// Makes the standard input a pipe that another process writes a file into.
-bool
-pipeInto (const std::string& file)
+/// A word for the shell.
+std::string
+quoted (std::string word)
 {
-  const std::string bytes = readWhole (file);
-  std::array<int, 2> ends{};
-  if (::pipe (ends.data ()) != 0)
-    return false;
-  const pid_t writer = ::fork ();
-  if (writer == 0) {
-    ::close (ends[0]);
-    for (std::size_t done = 0; done < bytes.size ();) {
-      const ssize_t put = ::write (ends[1], bytes.data () + done, bytes.size () - done);
-      if (put <= 0)
-        ::_exit (1);
-      done += static_cast<std::size_t> (put);
-    }
-    ::_exit (0);
-  }
-  return writer > 0 && ::close (ends[1]) == 0 && ::dup2 (ends[0], STDIN_FILENO) >= 0 &&
-         ::close (ends[0]) == 0;
-}
-
-/// In the child: never returns.
-[[noreturn]] void
-become (const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-        const std::filesystem::path& logs, const Surroundings& surroundings)
-{
-  std::vector<char*> argv;
-  std::string tool = RECONSTRUCT_TOOL;
-  argv.push_back (tool.data ());
-  std::vector<std::string> copies = arguments;
-  for (std::string& copy : copies)
-    argv.push_back (copy.data ());
-  argv.push_back (nullptr);
-  const auto redirect = [] (const std::filesystem::path& name, int to) {
-    const int file = ::open (name.c_str (), O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0600);
-    return file >= 0 && ::dup2 (file, to) >= 0;
-  };
-  const auto limitTo = [] (auto resource, const std::optional<std::size_t>& most) {
-    const rlimit limit{most.value_or (0), most.value_or (0)};
-    return !most || ::setrlimit (resource, &limit) == 0;
-  };
-  constexpr int NOT_STARTED = 127;
-  const std::filesystem::path out = surroundings.standard_output.empty ()
-                                        ? logs / "out"
-                                        : std::filesystem::path (surroundings.standard_output);
-  const std::filesystem::path err = surroundings.standard_error.empty ()
-                                        ? logs / "err"
-                                        : std::filesystem::path (surroundings.standard_error);
-  if (!redirect (out, STDOUT_FILENO) || !redirect (err, STDERR_FILENO) ||
-      ::chdir (folder.c_str ()) != 0 || !limitTo (RLIMIT_FSIZE, surroundings.file_limit) ||
-      !limitTo (RLIMIT_AS, surroundings.address_limit))
-    ::_exit (NOT_STARTED);
-  if (!surroundings.standard_input.empty () && !pipeInto (surroundings.standard_input))
-    ::_exit (NOT_STARTED);
-  std::array<int, 2> ends{};
-  if (surroundings.has_closed_pipe &&
-      (::pipe (ends.data ()) != 0 || ::dup2 (ends[1], STDOUT_FILENO) < 0 || ::close (ends[0]) != 0))
-    ::_exit (NOT_STARTED);
-  for (const auto& [variable, value] : surroundings.environment)
-    ::setenv (variable.c_str (), value.c_str (), 1);
-  constexpr unsigned LONG_ENOUGH = 1500; // seconds, for what hangs
-  if (surroundings.address_limit || !surroundings.environment.empty ())
-    ::alarm (LONG_ENOUGH);
-  ::execv (tool.c_str (), argv.data ());
-  ::_exit (NOT_STARTED);
+  const std::string quote = "'\\''";
+  for (std::size_t at = 0; (at = word.find ('\'', at)) != std::string::npos; at += quote.size ())
+    word.replace (at, 1, quote);
+  return " '" + word + "'";
 }
 
 } // namespace
@@ -137,34 +76,69 @@ ToolTest::names () const
   return result;
 }
 
-Outcome
-ToolTest::run (const std::vector<std::string>& arguments,
-               std::optional<std::size_t> file_limit) const
+int
+ToolTest::start (const std::vector<std::string>& arguments, const Surroundings& surroundings) const
 {
-  Surroundings surroundings;
-  surroundings.file_limit = file_limit;
-  return runIn (surroundings, arguments);
+  constexpr std::size_t BLOCK = 512, KILOBYTE = 1024; // units of ulimit
+  const std::string &out = surroundings.standard_output, &err = surroundings.standard_error;
+  std::string script = "cd" + quoted (folder_);
+  if (surroundings.file_limit)
+    script += " && ulimit -f " + std::to_string ((*surroundings.file_limit + BLOCK - 1) / BLOCK);
+  if (surroundings.address_limit)
+    script += " && ulimit -v " + std::to_string (*surroundings.address_limit / KILOBYTE);
+  if (surroundings.standard_input.empty ())
+    script += " && exec env";
+  else
+    script += " && cat" + quoted (surroundings.standard_input) + " | env";
+  for (const auto& [variable, value] : surroundings.environment)
+    script += quoted (variable + "=" + value);
+  script += quoted (RECONSTRUCT_TOOL);
+  for (const std::string& argument : arguments)
+    script += quoted (argument);
+  if (!surroundings.has_closed_pipe)
+    script += " >" + quoted (out.empty () ? (logs_ / "out").string () : out);
+  script += " 2>" + quoted (err.empty () ? (logs_ / "err").string () : err);
+
+  const pid_t child = ::fork ();
+  if (child != 0)
+    return child;
+  std::array<int, 2> ends{};
+  if (!surroundings.has_closed_pipe ||
+      (::pipe (ends.data ()) == 0 && ::dup2 (ends[1], STDOUT_FILENO) >= 0 &&
+       ::close (ends[0]) == 0))
+    ::execl ("/bin/sh", "sh", "-c", script.c_str (), nullptr);
+  ::_exit (1);
 }
 
 Outcome
-ToolTest::runIn (const Surroundings& surroundings, const std::vector<std::string>& arguments) const
+ToolTest::run (const std::vector<std::string>& arguments, const Surroundings& surroundings) const
 {
-  const pid_t child = ::fork ();
-  if (child == 0)
-    become (arguments, folder_, logs_, surroundings);
   int status = 0;
-  return child > 0 && ::waitpid (child, &status, 0) == child ? outcomeOf (status) : Outcome ();
+  const pid_t child = start (arguments, surroundings);
+  return ::waitpid (child, &status, 0) == child ? outcomeOf (status) : Outcome ();
+}
+
+Outcome
+ToolTest::succeed (const std::vector<std::string>& arguments) const
+{
+  Outcome outcome = run (arguments);
+  EXPECT_EQ (outcome.code, 0) << outcome.err;
+  return outcome;
+}
+
+Json
+ToolTest::report (std::vector<std::string> options, const std::string& input) const
+{
+  options.insert (options.begin (), {input, "out.ply", "--report", "out.json"});
+  succeed (options);
+  return Json::parse (readFile ("out.json"));
 }
 
 Outcome
 ToolTest::interrupt (const std::vector<std::string>& arguments, int signal,
                      const std::function<bool (int)>& is_time) const
 {
-  const pid_t child = ::fork ();
-  if (child == 0)
-    become (arguments, folder_, logs_, {});
-  if (child < 0)
-    return {};
+  const pid_t child = start (arguments, {});
   int status = 0;
   pid_t ended = 0;
   while (ended == 0 && !is_time (child))
@@ -179,26 +153,20 @@ ToolTest::interrupt (const std::vector<std::string>& arguments, int signal,
 Outcome
 ToolTest::outcomeOf (int status) const
 {
-  Outcome outcome;
-  if (WIFEXITED (status))
-    outcome.code = WEXITSTATUS (status);
-  else if (WIFSIGNALED (status))
-    outcome.code = -WTERMSIG (status);
-  outcome.out = readWhole (logs_ / "out");
-  outcome.err = readWhole (logs_ / "err");
-  return outcome;
+  const int code = WIFEXITED (status) ? WEXITSTATUS (status) : -WTERMSIG (status);
+  return {code, readWhole (logs_ / "out"), readWhole (logs_ / "err")};
 }
 
 void
 ToolTest::expectFailure (const std::vector<std::string>& arguments, int code,
-                         const std::string& cause, std::optional<std::size_t> file_limit) const
+                         const std::string& cause, const Surroundings& surroundings) const
 {
+  SCOPED_TRACE (testing::PrintToString (arguments));
   const std::set<std::string> before = names ();
-  const Outcome outcome = run (arguments, file_limit);
+  const Outcome outcome = run (arguments, surroundings);
   EXPECT_EQ (outcome.code, code) << outcome.err;
-  EXPECT_NE (outcome.err.find (cause), std::string::npos)
-      << "no '" << cause << "' in: " << outcome.err;
-  EXPECT_EQ (outcome.err.rfind ("pcl_floater_reconstruct: ", 0), 0U) << outcome.err;
+  EXPECT_THAT (outcome.err, StartsWith ("pcl_floater_reconstruct: "));
+  EXPECT_THAT (outcome.err, HasSubstr (cause));
   EXPECT_EQ (outcome.out, "");
   EXPECT_EQ (names (), before);
 }

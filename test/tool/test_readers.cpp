@@ -1,0 +1,699 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the readers make of the bytes of a file: clouds, warnings, and messages. Clouds that stay in
+// their file.
+#include "atomic_file.h"
+#include "cloud_reader.h"
+#include "tool_runner.h"
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <random>
+#include <sstream>
+
+namespace pcl::floater {
+namespace {
+const std::string BYTE_ORDER_MARK = "\xef\xbb\xbf";
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN ();
+constexpr std::int32_t LARGEST = std::numeric_limits<std::int32_t>::max ();
+
+class Readers : public ToolTest
+{
+protected:
+  Cloud read (const std::string& file, const std::string& bytes) const
+  {
+    writeFile (file, bytes);
+    return readCloud (path (file));
+  }
+
+  std::string errorOf (const std::string& file, const std::string& bytes) const
+  {
+    try {
+      read (file, bytes);
+    }
+    catch (const ReadError& error) {
+      return error.what ();
+    }
+    return "none";
+  }
+};
+
+std::vector<double>
+valuesOf (const Field& field, std::size_t rows)
+{
+  std::vector<double> values;
+  for (std::size_t row = 0; row < rows; ++row)
+    values.push_back (field.asDouble (row));
+  return values;
+}
+
+/// Names and values of all fields, such as "red 255 0, green 0 1".
+std::string
+fieldsOf (const Cloud& cloud)
+{
+  constexpr int DIGITS = 15;
+  std::ostringstream text;
+  text << std::setprecision (DIGITS);
+  for (const Field& field : cloud.fields) {
+    text << (&field == &cloud.fields.front () ? "" : ", ") << field.name;
+    for (const double value : valuesOf (field, cloud.rows))
+      text << ' ' << value;
+  }
+  return text.str ();
+}
+
+/// A file of two points.
+struct Readable
+{
+  std::string file; ///< tells the format
+  std::string bytes;
+  std::string fields;   ///< as fieldsOf has them
+  std::string warnings; ///< a part of each, in lines
+};
+
+std::string
+pcd (const std::string& fields, const std::string& header, const std::string& rows)
+{
+  return "FIELDS " + fields + "\n" + header + "WIDTH 2\nHEIGHT 1\nDATA ascii\n" + rows;
+}
+
+const std::string XYZ_FLOATS = "SIZE 4 4 4\nTYPE F F F\n";
+
+std::vector<Readable>
+readablePcds ()
+{
+  const std::string rows = "1 2 3\n4 5 6\n", missing = "taken for floats of 4 bytes";
+  const std::string colors = "SIZE 4 4 4 4 4\nTYPE F F F U U\n";
+  const std::array<float, 6> numbers{1, 2, 3, 4, 5, 6};
+  const std::string binary (reinterpret_cast<const char*> (numbers.data ()), sizeof numbers);
+  const std::string repeated = pcd ("x y z i i i_2 x", "SIZE 4 4 4 4 4 4 4\nTYPE F F F F F F F\n",
+                                    "1 2 3 10 20 30 40\n4 5 6 11 21 31 41\n");
+  // 0x010203 and 0x01020304
+  const std::string rgb = pcd ("x y z rgb rgba", colors, "1 2 3 66051 16909060\n4 5 6 0 0\n");
+  const std::string rgba = pcd ("x y z rgba rgb", colors, "1 2 3 16909060 66051\n4 5 6 0 0\n");
+  const std::string capital = pcd ("X x y z", "SIZE 4 4 4 4\nTYPE F F F F\n", "9 1 2 3\n9 4 5 6\n");
+  return {{"a.pcd", pcd ("x y z", XYZ_FLOATS, rows), "", ""},
+          {"a.pcd", BYTE_ORDER_MARK + pcd ("x y z", XYZ_FLOATS, rows), "", ""},
+          {"a.pcd", pcd ("x y z", "", rows), "", missing},
+          {"a.pcd", pcd ("x y z", "COUNT 1 1 1\n", rows), "", missing},
+          {"a.pcd", pcd ("x y z", "SIZE 4 4 4\n", rows), "", missing},
+          {"a.pcd", pcd ("x y z", "TYPE F F F\n", rows), "", missing},
+          {"a.pcd", "FIELDS x y z\nWIDTH 2\nHEIGHT 1\nDATA binary\n" + binary, "", missing},
+          {"a.pcd", pcd ("X Y Z", XYZ_FLOATS, rows), "", ""},
+          {"a.pcd", capital, "X 9 9", ""},
+          {"a.pcd", repeated, "i 10 11, i_3 20 21, i_2 30 31, x_2 40 41",
+           "two fields 'i': the second was renamed 'i_3'\ntwo fields 'x': the second was renamed "
+           "'x_2'"},
+          {"a.pcd", rgb, "red 1 0, green 2 0, blue 3 0", "colour twice: the field 'rgba'"},
+          {"a.pcd", rgba, "red 2 0, green 3 0, blue 4 0, alpha 1 0", "the field 'rgb'"}};
+}
+
+std::string
+ply (const std::string& properties, const std::string& faces, const std::string& rows)
+{
+  return "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+         "property float z\n" +
+         properties + "element face " + faces +
+         "\nproperty list uchar int vertex_indices\nend_header\n" + rows;
+}
+
+std::vector<Readable>
+readablePlys ()
+{
+  const std::string rows = "1 2 3\n4 5 6\n";
+  const std::string repeated =
+      ply ("property int a\nproperty int a\n", "0", "1 2 3 7 8\n4 5 6 9 10\n");
+  return {{"a.ply", BYTE_ORDER_MARK + ply ("", "0", rows), "", ""},
+          {"a.ply", ply ("", "2", rows), "", "2 faces of the input file were left out"},
+          {"a.ply", repeated, "a 7 9, a_2 8 10", "two fields 'a'"}};
+}
+
+std::vector<Readable>
+readableObjs ()
+{
+  const std::string points = "v 1.5 2 -3\nv 4 5e-3 0.1\n", half = points + "vn 0.5 0 1\n";
+  const std::string normals = points + "vn 0.1 0 1\nvn 0.2 0 1\n", face = "1 face of the input";
+  const std::string lines_that_go_on =
+      "# c:\\\nv 1.5 \\\n2 \\\r\n  -3\nv 4 5e-3 .1\nvn 0 0 1\nvn 0 1 0\nf 1//1 \\\n 2//2 1//1\n";
+  const std::string bytes = "v 1.5 2 -3 255 0 7 # a comment\nv 4 5e-3 0.1 0 1 128\n";
+  const std::string as_given = "nx 0.1 0.2, ny 0 0, nz 1 1", swapped = "nx 0.2 0.1, ny 0 0, nz 1 1";
+  return {{"a.obj", BYTE_ORDER_MARK + points, "", ""},
+          {"a.obj", "v 1.5 2 -3\nv 4 5e-3 0.1\\\n", "", ""},
+          {"a.obj", bytes, "red 255 0, green 0 1, blue 7 128", "were taken for 0 to 255"},
+          {"a.obj", lines_that_go_on, "nx 0 0, ny 0 1, nz 1 0", face},
+          {"a.obj", normals, as_given, ""},
+          {"a.obj", normals + "f 1//2 2/7/1 1//2\n", swapped, face},
+          {"a.obj", normals + "f -2//-1 -1//-2 -2//-1\n", swapped, face},
+          {"a.obj", half + "f 1//1 2//1 1//1\n", "nx 0.5 0.5, ny 0 0, nz 1 1", face},
+          {"a.obj", half + "f 1//1 2 2\n", "nx 0.5 nan, ny 0 nan, nz 1 nan", face},
+          // At a sharp edge a point has several.
+          {"a.obj", normals + "f 1//1 2//1 2//2\n", "nx 0.1 0.1, ny 0 0, nz 1 1",
+           "1 point had several normals\n" + face},
+          {"a.obj", half, "", "1 normal for 2 points"}};
+}
+
+/// Rows of a table: what comes after the coordinates of either point.
+std::string
+table (const std::string& first, const std::string& second)
+{
+  return "1.5 2 -3 " + first + "\n4 5e-3 0.1 " + second + "\n";
+}
+
+/// Text with a point in each line.
+std::vector<Readable>
+readableTables ()
+{
+  const std::string points = "1.5 2 -3\n4 5e-3 0.1\n", commas = "read as decimal points";
+  const std::string rgb_header = "x y z r g b\n", skipped = "Made by a scanner\n\x01\x02\nno. of\n";
+  std::vector<Readable> all{
+      {"a.xyz", "1,5;2;-3\n4;0,005;0,1\n", "", commas},
+      {"a.xyz", "1,5 2,0 -3,0\n4,0 0,005 0,1\n", "", commas},
+      {"a.xyz", "1\n" + points, "", "promises 1 points, but there are 2"},
+      {"a.xyz", skipped + points, "",
+       "3 lines at the beginning of the input file are no points "
+       "and were left out: 'Made by"},
+      // Columns without names are guessed.
+      {"a.xyz", table ("0.5", "0.75"), "intensity 0.5 0.75", "have no names"},
+      {"a.xyz", table ("0.5", "0.75"), "intensity 0.5 0.75", "4 for the intensity"},
+      {"a.xyz", table ("255 0 7", "1 2 3"), "red 255 1, green 0 2, blue 7 3", "4 to 6 for colours"},
+      {"a.xyz", table ("0 0 1", "0 -1 0"), "nx 0 0, ny 0 -1, nz 1 0", "4 to 6 for normals"},
+      {"a.xyz", table ("255 0 7 0.5", "1 2 3 -9"),
+       "red 255 1, green 0 2, blue 7 3, intensity 0.5 -9", "7 for the intensity"},
+      {"a.xyz", table ("-9 255 0 7", "0.5 1 2 3"),
+       "intensity -9 0.5, red 255 1, green 0 2, blue 7 3", "5 to 7 for colours"},
+      {"a.pts", table ("9 255 0 7", "5 1 2 3"), "intensity 9 5, red 255 1, green 0 2, blue 7 3",
+       "5 to 7 for colours"},
+      {"a.xyz", table ("9 255 0 7", "5 1 2 3"), "red 9 5, green 255 1, blue 0 2, intensity 7 3",
+       "4 to 6 for colours"},
+      {"a.xyz", table ("0 0 1 255 0 7", "0 -1 0 1 2 3"),
+       "nx 0 0, ny 0 -1, nz 1 0, red 255 1, green 0 2, blue 7 3",
+       "4 to 6 for normals, 7 to 9 for colours"},
+      {"a.xyz", table ("255 0 7 0 0 1", "1 2 3 0 -1 0"),
+       "red 255 1, green 0 2, blue 7 3, nx 0 0, ny 0 -1, nz 1 0",
+       "4 to 6 for colours, 7 to 9 for normals"},
+      {"a.xyz", table ("0.5 300", "0.75 -1"), "column_4 0.5 0.75, column_5 300 -1",
+       "4 for another field"},
+      {"a.xyz", table ("256 0 7", "1 2 3"), "column_4 256 1, column_5 0 2, column_6 7 3",
+       "6 for another field"},
+      // Colours of every scale.
+      {"a.txt", rgb_header + table ("0 0.5 1", "0.2 0 0"), "red 0 51, green 128 0, blue 255 0", ""},
+      {"a.txt", rgb_header + table ("0 65535 257", "0 0 0"), "red 0 0, green 255 0, blue 1 0",
+       "16 bits"},
+      {"a.txt", rgb_header + table ("-1 65535 257", "0 0 0"), "red -1 0, green 65535 0, blue 257 0",
+       "kept as other fields"},
+      // No alpha without a colour.
+      {"a.csv", "x,y,z,class,a\n1.5,2,-3,tree,\n4,5e-3,0.1,grass 2,7\n", "a nan 7",
+       "column 4 of the input file, 'class',"},
+      {"a.asc", "x y z t t\n" + table ("1 2", "3 4"), "t 1 3, t_2 2 4", "two fields 't'"},
+      // Floats where these hold the digits.
+      {"a.asc",
+       "x y z time short exact huge\n" +
+           table ("413456.123456 0.1 0.1000000014901161193847656 1e300",
+                  "413456.123457 12345.678 -0.5 nan"),
+       "time 413456.123456 413456.123457, short 0.100000001490116 12345.677734375, exact "
+       "0.100000001490116 -0.5, huge 1e+300 nan",
+       ""}};
+  for (const std::string& text :
+       {points, std::string ("1.5\t2\t-3\r\n4\t5e-3\t.1\r\n"),
+        std::string ("  1.5   2  -3  \n\n4 5e-3 0.1"), std::string ("1.5,2,-3\n4,5e-3,0.1\n"),
+        std::string ("1.5, 2, -3,\n4, 5E-3, +0.1,\n"), std::string ("1.5;2;-3\n4;0.005;0.1\n"),
+        BYTE_ORDER_MARK + points, std::string ("# text\n//\n% more\n1.5 2 -3\n#\n4 5e-3 0.1\n"),
+        std::string ("\"1.5\",\"2\",\"-3\"\n\"4\",\"5e-3\",\"0.1\"\n"), "2\n" + points,
+        std::string ("1\n1.5 2 -3\n1\n4 5e-3 0.1\n"), // two scans in one file
+        // Comments that are no header, and one that is.
+        "# x y z are in metres\n" + points, "# the axes x , y , z\n" + points,
+        std::string ("# columns: y x z\n2 1.5 -3\n5e-3 4 0.1\n")})
+    all.push_back ({"a.xyz", text, "", ""});
+  for (const std::string header :
+       {"red,green,blue,x,y,z,label,Intensity\n", "R;G;B;X;Y;Z;label;I\n",
+        "//R G B X Y Z label Scalar_Intensity\n",
+        "# red green blue X[m] Y[m] Z[m] Label intensity\n",
+        "\xef\xbb\xbf\"Red\",\"Green\",\"Blue\",\"Easting\",\"Northing\",\"Height (m)\",\"label\","
+        "\"reflectance\"\r\n"})
+    for (const char separator : {' ', ',', ';'}) {
+      std::string rows = "255 0 7 1.5 2 -3 12 0.25\n0 1 2 4 5e-3 0.1 -1 0.5\n";
+      std::replace (rows.begin (), rows.end (), ' ', separator);
+      all.push_back ({"a.csv", header + rows,
+                      "red 255 0, green 0 1, blue 7 2, label 12 -1, intensity 0.25 0.5", ""});
+    }
+  return all;
+}
+
+TEST_F (Readers, FilesOfTwoPoints)
+{
+  std::vector<Readable> all = readablePcds ();
+  for (const auto& more : {readablePlys (), readableObjs (), readableTables ()})
+    all.insert (all.end (), more.begin (), more.end ());
+  for (const Readable& expected : all) {
+    SCOPED_TRACE (expected.file + ": " + expected.bytes);
+    const Cloud cloud = read (expected.file, expected.bytes);
+    const bool has_types = expected.file == "a.pcd" || expected.file == "a.ply";
+    EXPECT_EQ (cloud.positions (),
+               has_types ? (std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}})
+                         : (std::vector<Eigen::Vector3d>{{1.5, 2.0, -3.0}, {4.0, 5.0e-3, 0.1}}));
+    EXPECT_EQ (cloud.single_precision, has_types);
+    EXPECT_EQ (cloud.are_decimals, !has_types);
+    EXPECT_EQ (fieldsOf (cloud), expected.fields);
+    std::istringstream parts (expected.warnings);
+    std::size_t count = 0;
+    for (std::string part; std::getline (parts, part); ++count)
+      EXPECT_THAT (cloud.warnings, testing::Contains (HasSubstr (part)));
+    EXPECT_EQ (cloud.warnings.size (), count) << testing::PrintToString (cloud.warnings);
+  }
+}
+
+TEST_F (Readers, RowsOfAnOrganizedCloudAreTold)
+{
+  const std::string text = "FIELDS x y z\n" + XYZ_FLOATS + "WIDTH 3\nHEIGHT 2\nDATA ascii\n" +
+                           "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n2 1 0\n";
+  EXPECT_THAT (read ("a.pcd", text).warnings,
+               ElementsAre (HasSubstr ("organized in 2 rows of 3 points")));
+}
+
+TEST_F (Readers, PointsThatAreNotFiniteAreLeftOut)
+{
+  Cloud cloud = read ("a.xyz", "1.5 2 -3\nnan 0 0\n4 5e-3 0.1\n1 inf 0\n");
+  EXPECT_EQ (cloud.size (), 4U);
+  Triangles none;
+  EXPECT_EQ (removeNonFinitePoints (cloud, none), 2U);
+  EXPECT_EQ (cloud.position (1), Eigen::Vector3d (4.0, 5.0e-3, 0.1));
+}
+
+using Facets = std::vector<std::array<std::array<float, 3>, 3>>;
+
+std::string
+stlBytes (const Facets& facets, const std::string& header = "a mesh")
+{
+  std::string bytes (84 + 50 * facets.size (), '\0');
+  bytes.replace (0, header.size (), header);
+  putNumber (bytes, 80, static_cast<std::uint32_t> (facets.size ()));
+  for (std::size_t f = 0; f < facets.size (); ++f)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        putNumber (bytes, 84 + 50 * f + 12 * (corner + 1) + 4 * axis, facets[f][corner][axis]);
+  return bytes;
+}
+
+const Facets SQUARE{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+                    {{{1, 0, -0.0F}, {1, 1, 0.5F}, {0, 1, 0}}}};
+
+const std::string SQUARE_TEXT =
+    "solid name\n facet normal 0 0 0\n  outer loop\n   vertex 0 0 0\r\n   vertex 1 0 0\n"
+    "   vertex 0 1 0\n  endloop\n endfacet\n facet normal 0 0 0\n  outer loop\n"
+    "   vertex 1 0 -0\n   vertex 1 1 0.5\n   vertex 0 1 0\n  endloop\n endfacet\nendsolid name\n";
+
+TEST_F (Readers, EqualCornersOfStlAreOnePoint)
+{
+  for (const std::string& bytes :
+       {stlBytes (SQUARE), stlBytes (SQUARE, "solid, but binary"), SQUARE_TEXT}) {
+    const Cloud cloud = read ("a.stl", bytes);
+    EXPECT_EQ (cloud.positions (),
+               (std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}}));
+    EXPECT_EQ (cloud.are_decimals, bytes == SQUARE_TEXT);
+    EXPECT_EQ (cloud.single_precision, bytes != SQUARE_TEXT);
+    EXPECT_THAT (cloud.warnings, ElementsAre (HasSubstr ("2 faces of the input file were left")));
+  }
+  EXPECT_THAT (read ("a.stl", stlBytes (SQUARE) + std::string (120, 'x')).warnings,
+               ElementsAre (HasSubstr ("2 faces"), HasSubstr ("more data than the 2 facets")));
+  const float nan = std::nanf (""); // the tool leaves such a corner out
+  EXPECT_EQ (read ("a.stl", stlBytes ({{{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+                                       {{{nan, 0, 0}, {1, 0, 0}, {2, 2, 0}}}}))
+                 .size (),
+             4U);
+}
+
+TEST_F (Readers, ManyPointsOfStlStayInTheirOrder)
+{
+  Facets facets;
+  std::vector<Eigen::Vector3d> points;
+  std::set<std::array<float, 3>> seen;
+  for (int i = 0; i < 5000; ++i) {
+    facets.emplace_back ();
+    for (int k = 0; k < 3; ++k) {
+      const std::array<float, 3> corner{static_cast<float> (i % 70 + k % 2),
+                                        static_cast<float> (i / 70 + k / 2), 0.0F};
+      facets.back ()[static_cast<std::size_t> (k)] = corner;
+      if (seen.insert (corner).second)
+        points.emplace_back (corner[0], corner[1], corner[2]);
+    }
+  }
+  EXPECT_EQ (read ("a.stl", stlBytes (facets)).positions (), points);
+}
+
+LasFile
+lasFile (int minor = 2, int format = 0)
+{
+  LasFile file;
+  file.minor = minor;
+  file.format = format;
+  file.scale = {0.01, 0.001, 0.5};
+  file.offset = {500000.0, 5500000.0, -10.0};
+  file.points = {{0, 1, -2}, {LARGEST, -LARGEST - 1, 3}, {7, 7, 7}};
+  file.colors = {{0x1234, 0, 0xFFFF}, {255, 256, 257}, {0, 0, 0}};
+  return file;
+}
+
+TEST_F (Readers, EveryVersionAndPointFormatOfLas)
+{
+  for (int minor = 0; minor <= 4; ++minor)
+    for (int format = 0; format <= 10; ++format) {
+      SCOPED_TRACE ("1." + std::to_string (minor) + ", format " + std::to_string (format));
+      LasFile file = lasFile (minor, format);
+      file.extra_bytes = static_cast<std::size_t> (format % 3);
+      file.variable_records = static_cast<std::size_t> (minor % 3);
+      const Cloud cloud = read ("a.las", lasBytes (file));
+      ASSERT_EQ (cloud.size (), 3U);
+      EXPECT_FALSE (cloud.single_precision);
+      EXPECT_THAT (cloud.warnings, IsEmpty ());
+      const std::vector<Eigen::Vector3d> positions = cloud.positions ();
+      for (std::size_t p = 0; p < 3; ++p)
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+          const double expected =
+              file.points[p][static_cast<std::size_t> (axis)] * file.scale[axis] +
+              file.offset[axis];
+          EXPECT_EQ (positions[p][axis], expected);
+          EXPECT_EQ (cloud.position (p)[axis], expected);
+        }
+      EXPECT_EQ (cloud.find ("intensity")->value<std::uint16_t> (2), 14);
+      const FieldTriple colors = colorFields (cloud);
+      ASSERT_EQ (colors[0] != nullptr, (std::set<int>{2, 3, 5, 7, 8, 10}).count (format) == 1);
+      if (colors[0] != nullptr) {
+        EXPECT_THAT (valuesOf (*colors[0], 3), ElementsAre (0x12, 0, 0));
+        EXPECT_THAT (valuesOf (*colors[1], 3), ElementsAre (0, 1, 0));
+        EXPECT_THAT (valuesOf (*colors[2], 3), ElementsAre (0xFF, 1, 0));
+      }
+    }
+}
+
+TEST_F (Readers, OddLasFiles)
+{
+  LasFile file = lasFile (2, 2); // colours that were written as 8 bits
+  file.colors = {{255, 0, 3}, {1, 2, 3}, {0, 0, 0}};
+  const Cloud bright = read ("bright.las", lasBytes (file));
+  EXPECT_THAT (valuesOf (*colorFields (bright)[0], 3), ElementsAre (255, 1, 0));
+  file.colors.assign (3, {0, 0, 0});
+  const Cloud black = read ("black.las", lasBytes (file));
+  EXPECT_EQ (colorFields (black)[0], nullptr);
+  EXPECT_THAT (black.warnings, ElementsAre (HasSubstr ("all colours of the input file are black")));
+  // The number of 32 bits is 0 where it does not hold all points, and in files of the new formats.
+  std::string bytes = lasBytes (lasFile (4));
+  putNumber (bytes, 107, std::uint32_t{0});
+  EXPECT_EQ (read ("a.las", bytes).size (), 3U);
+  putNumber (bytes, 107, std::uint32_t{3});
+  putNumber (bytes, 247, std::uint64_t{0});
+  EXPECT_EQ (read ("a.las", bytes).size (), 3U);
+  putNumber (bytes, 247, std::uint64_t{2});
+  EXPECT_EQ (read ("a.las", bytes).size (), 2U);
+  // A scale that takes a coordinate beyond all numbers makes a point that is left out.
+  file.scale = {1e300, 1.0, 1.0};
+  Cloud far = read ("far.las", lasBytes (file));
+  Triangles none;
+  EXPECT_EQ (removeNonFinitePoints (far, none), 1U);
+}
+
+struct BadFile
+{
+  std::string file, bytes, cause;
+};
+
+template <typename T>
+BadFile
+lasWith (std::size_t at, T number, const std::string& cause)
+{
+  std::string bytes = lasBytes (lasFile ());
+  putNumber (bytes, at, number);
+  return {"a.las", bytes, cause};
+}
+
+std::vector<BadFile>
+badFiles ()
+{
+  const std::string typed = "FIELDS x y z\n" + XYZ_FLOATS, two = "WIDTH 2\nHEIGHT 1\n";
+  const std::string many = "WIDTH 4000000000\nHEIGHT 4000000000\nPOINTS 16000000000000000000\n";
+  const std::string zeros (12, '\0'), sizes ("\x05\0\0\0\x18\0\0\0", 8);
+  const std::string ascii = typed + two + "DATA ascii\n", compressed = "DATA binary_compressed\n";
+  const std::string vertex = "property float x\nproperty float y\nproperty float z\nend_header\n";
+  const std::string two_vertices = "ply\nformat ascii 1.0\nelement vertex 2\n" + vertex;
+  const std::string points = "v 0 0 0\nv 1 0 0\nvn 0 0 1\n", las = lasBytes (lasFile ());
+  std::string lying = stlBytes (SQUARE), absurd_las = lasBytes (lasFile (4)), garbage;
+  putNumber (lying, 80, std::uint32_t{4294967295U});
+  std::string short_las = absurd_las;
+  putNumber (short_las, 94, std::uint16_t{227});
+  putNumber (absurd_las, 247, std::numeric_limits<std::uint64_t>::max ());
+  for (int i = 0; i < 1100; ++i)
+    garbage += "no point\n";
+  return {
+      {"a.pcd", "", "empty"},
+      {"a.pcd", "hello world\n", "line 1: this is not a line of a PCD header"},
+      {"a.pcd", std::string (100, '\xfe'), "this is not a line of a PCD header"},
+      {"a.pcd", typed + two, "truncated"},
+      {"a.pcd", ascii + "0.00000 0.00000 0.00000\n", "only 1"},
+      {"a.pcd", ascii + "0 0 0\n0 1   \n    \n", "line 8: it has fewer values"},
+      {"a.pcd", ascii + "0 0 0\n0 1 2 3\n", "line 8: it has more values"},
+      {"a.pcd", ascii + "0 0 0\n0 1 high\n", "line 8: 'high' is not a number"},
+      {"a.pcd", ascii + "0 0 0\n0 1 2x\n", "line 8: '2x' is not a number"},
+      {"a.pcd", typed + two + "DATA binary\n" + zeros, "truncated"},
+      {"a.pcd", typed + many + "DATA binary\n" + zeros, "truncated"},
+      {"a.pcd", typed + many + "DATA ascii\n0 0 0\n", "truncated"},
+      {"a.pcd", typed + many + compressed + sizes + "abcde", "truncated"},
+      {"a.pcd", typed + two + compressed + sizes + "ab", "truncated"},
+      {"a.pcd", typed + two + compressed + "\x05", "truncated"},
+      {"a.pcd", typed + two + compressed + sizes + "\xff\xff\xff\xff\xff",
+       READS_COMPRESSED ? "damaged" : "liblzf"},
+      {"a.pcd", typed + "WIDTH 18446744073709551615\nHEIGHT 2\nDATA ascii\n", "is too large"},
+      {"a.pcd", typed + two + "DATA hex\n00\n", "'hex'"},
+      {"a.pcd", typed + two + "VIEWPOINT 1 2 north 1 0 0 0\nDATA ascii\n0 0 0\n1 1 1\n", "north"},
+      {"a.pcd", typed + "WIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA ascii\n", "no points"},
+      {"a.pcd", typed + "WIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA ascii\n", "POINTS is 5"},
+      {"a.pcd", typed + "WIDTH -3\nHEIGHT 1\nDATA ascii\n", "'-3' is not a number"},
+      {"a.pcd", pcd ("a y z", XYZ_FLOATS, "0 0 0\n1 1 1\n"),
+       "no coordinate 'x' (fields of the file: a, y, z)"},
+      {"a.pcd", pcd ("x y z", "SIZE 4 4 3\nTYPE F F Q\n", "0 0 0\n1 1 1\n"), "TYPE Q and SIZE 3"},
+      {"a.pcd", pcd ("x y z", "SIZE 4 4\nTYPE F F F\n", "0 0 0\n"), "differ in length"},
+      {"a.pcd", pcd ("x y z", XYZ_FLOATS + "COUNT 1 1 -20\n", ""), "'-20'"},
+      {"a.ply", "plywood\n", "not a PLY file"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 2\n", "truncated"},
+      {"a.ply", "ply\nelement vertex 2\n" + vertex, "no format line"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement face 0\n" + vertex, "no element 'vertex'"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty quad x\n" + vertex,
+       "line 4: 'quad' is not a type of PLY"},
+      {"a.ply", "ply\nformat binary 1.0\nelement vertex 2\n" + vertex, "'binary' is not a format"},
+      {"a.ply", two_vertices + "0.00000 0.00000 0.00000\n", "only 1"},
+      {"a.ply", two_vertices + "0 0 0\n0 high 1\n", "line 9: 'high' is not a number"},
+      {"a.ply", "ply\nformat binary_big_endian 1.0\nelement vertex 2\n" + vertex + zeros,
+       "truncated"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 18446744073709551615\n" + vertex + "0 0 0\n",
+       "truncated"},
+      {"a.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 1\n"
+       "property list uint double marks\n" +
+           vertex + std::string (16, '\xff'),
+       "truncated"},
+      {"a.ply", "ply\nformat ascii 1.0\nelement vertex 0\n" + vertex, "no points"},
+      {"a.ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+       "end_header\n0 0\n",
+       "no coordinate 'z'"},
+      {"a.obj", "# nothing\nf 1 2 3\n", "no points"},
+      {"a.obj", "v 1 \\\n2 3\n\nv 4 high 6\n", "line 4: 'high' is not a number"},
+      {"a.obj", "v 0 0 0\nv 1 2\n", "line 2: a point has 3, 4 or 6 numbers"},
+      {"a.obj", "v 0 0 0 256 255 255\n", "a colour must be from 0 to 1"},
+      {"a.obj", points + "f 1//2\n", "a face names point 1 and normal 2"},
+      {"a.obj", points + "f 3//1\n", "a face names point 3 and normal 1"},
+      {"a.obj", points + "f 0//1\n", ""},
+      {"a.obj", points + "f -3//1\n", ""},
+      {"a.obj", points + "f 1//x\n", ""},
+      {"a.stl", "hello", "too short for a binary STL file"},
+      {"a.stl", std::string (200, 'x'), "promises"},
+      {"a.stl", lying, "promises 4294967295 facets, but the file has only 2"},
+      {"a.stl", stlBytes ({}), "no points"},
+      {"a.stl", "solid a\nendsolid a\n", "no points"},
+      {"a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 high 2\n",
+       "line 4: 'high' is not a number"},
+      {"a.stl", "solid a\nvertex 1 2 3\nendsolid\n", "after a whole facet"},
+      {"a.las", "lasf" + las.substr (4), "does not begin with 'LASF'"},
+      {"a.las", las.substr (0, 100), "its header is truncated"},
+      lasWith (24, std::uint8_t{2}, "version 2.2 of LAS"),
+      lasWith (25, std::uint8_t{5}, "version 1.5 of LAS"),
+      lasWith (94, std::uint16_t{226}, "its header has 226 bytes"),
+      {"a.las", short_las, "its header has 227 bytes, fewer than the 375"},
+      lasWith (96, std::uint32_t{100}, "the points begin at byte 100"),
+      lasWith (96, std::uint32_t{4000000000U}, "the points begin at byte 4000000000"),
+      lasWith (104, std::uint8_t{0x80}, "laszip -i a.laz -o a.las, or pdal translate"),
+      lasWith (104, std::uint8_t{0x41}, "compressed"),
+      lasWith (104, std::uint8_t{11}, "its points are of format 11; 0 to 10"),
+      lasWith (105, std::uint16_t{19}, "each point 19 bytes, fewer than the 20"),
+      lasWith (107, std::uint32_t{0}, "no points"),
+      lasWith (107, std::uint32_t{4},
+               "promises 4 points of 20 bytes each, but the file has only 3"),
+      {"a.las", absurd_las, "promises 18446744073709551615 points"},
+      lasWith (131, 0.0, "the scale or the offset"),
+      lasWith (139, NOT_A_NUMBER, "the scale or the offset"),
+      lasWith (171, -std::numeric_limits<double>::infinity (), "the scale or the offset"),
+      {"a.laz", las, "it is compressed (LAZ), which cannot be read; decompress it: laszip -i"},
+      {"a.xyz", "hello\n",
+       "it has no points: no line has three numbers, x, y and z; it begins with 'hello'"},
+      {"a.xyz", "1 2\n3 4\n", "no line has three numbers"},
+      {"a.xyz", std::string (1000, '\xfe'), "no line has three numbers"},
+      {"a.xyz", std::string (100000, '1') + " 2 3\n", "no line has three"},
+      {"a.xyz", "x y z r\n1 2\n", "no line has three numbers"},
+      {"a.xyz", "7\n", "no line has three numbers"},
+      {"a.xyz", garbage + "1 2 3\n", "no line of the first 1000 has three"},
+      {"a.xyz", "x y z\nx y z\n", "in the columns that its header names"},
+      {"a.xyz", "x y z a\n1 2 3\n", "in the columns that its header names"},
+      {"a.asc", "ncols 3\nnrows 2\nxllcorner 0\n1 2 3\n4 5 6\n", "a grid of heights (ESRI ASCII)"},
+      {"a.xyz", "1 2 3\n4 5\n", "line 2: it does not have 3 columns"},
+      {"a.xyz", "1 2 3\n4 5 6 7\n", "line 2: it does not have 3 columns"},
+      {"a.csv", "1,2,3,4\n5,6\n", "line 2: it does not have 4 columns"},
+      {"a.xyz", "1 2 3\n4 5 high\n", "line 2: 'high' is not a number"},
+      {"a.xyz", "1 2 3\n4 5 6x\n", "line 2: '6x' is not a number"},
+      {"a.csv", "x,y,z,a\n1,2,3,4\n1,2,3,high\n", "line 3: 'high' is not a number"},
+      {"a.pts", "3\n1 2 3\n4 5 6\n", "promises 3 points, but the file has only 2"},
+      {"a.pts", "18446744073709551615\n1.5 2 -3\n", "has only 1"},
+      {"a.xyz", std::string ("\xff\xfe\x31\0 \0", 6), "UTF-16"}};
+}
+
+TEST_F (Readers, FilesThatCannotBeRead)
+{
+  for (const BadFile& bad : badFiles ()) {
+    SCOPED_TRACE (bad.bytes.substr (0, 300));
+    const std::string error = errorOf (bad.file, bad.bytes);
+    EXPECT_THAT (error, HasSubstr (bad.cause));
+    EXPECT_NE (error, "none");
+  }
+}
+
+/// With the sanitizers, this also finds reads beyond the end of a file.
+TEST_F (Readers, EveryPrefixIsRefusedOrWhole)
+{
+  const Sample sample = makeSample (true, 4);
+  // No prefix shorter than `least` may be read.
+  const auto check = [&] (const std::string& bytes, auto parse, std::size_t least) {
+    std::size_t refused = 0;
+    for (std::size_t length = 0; length <= bytes.size (); ++length) {
+      // A copy, so that a sanitizer notices reads beyond the prefix.
+      const std::vector<char> prefix (bytes.begin (),
+                                      bytes.begin () + static_cast<std::ptrdiff_t> (length));
+      try {
+        const Cloud cloud = parse (FileBytes (std::string_view (prefix.data (), prefix.size ())));
+        EXPECT_GE (length, least);
+        EXPECT_LE (cloud.size (), sample.size ());
+        EXPECT_EQ (cloud.positions ().size (), cloud.size ());
+        for (const Field& field : cloud.fields)
+          EXPECT_EQ (valuesOf (field, cloud.size ()).size (), cloud.size ());
+      }
+      catch (const ReadError& error) {
+        EXPECT_LT (length, bytes.size ()) << error.what ();
+        EXPECT_STRNE (error.what (), "");
+        ++refused;
+      }
+    }
+    EXPECT_GT (refused, 0U);
+  };
+  for (const PcdKind kind : readPcdKinds ()) {
+    writePcd (path ("in.pcd"), sample, kind);
+    const auto parse = [] (const FileBytes& file) { return parsePcd (file, true); };
+    check (readFile ("in.pcd"), parse, 1);
+  }
+  for (const PlyKind kind : {PlyKind::ASCII, PlyKind::LITTLE, PlyKind::BIG})
+    check (
+        plyText (sample, kind), [] (const FileBytes& file) { return parsePly (file, true); }, 1);
+  check (objText (sample), parseObj, 1);
+  const std::string rows =
+      "3\nx y z red green blue label\n1 2 3 4 5 6 a\n7.8 2 3 4 5 6 b\n1 1 1 1 1 1 c\n";
+  check (
+      rows, [] (const FileBytes& file) { return parseTable (file); }, rows.size () - 1);
+  check (stlBytes (SQUARE), parseStl, stlBytes (SQUARE).size ());
+  check (SQUARE_TEXT, parseStl, SQUARE_TEXT.rfind ("endsolid") + 8);
+  for (const int minor : {2, 4}) {
+    const std::string las = lasBytes (lasFile (minor, 3));
+    check (las, parseLas, las.size ());
+  }
+}
+
+TEST (KeptPoints, NumbersAndRowsAreInverse)
+{
+  std::mt19937 random (5);
+  for (const std::size_t rows : {1U, 63U, 64U, 65U, 1000U})
+    for (const unsigned kept_in_ten : {0U, 1U, 5U, 9U, 10U}) {
+      std::vector<bool> keep (rows);
+      for (std::size_t row = 0; row < rows; ++row)
+        keep[row] = random () % 10 < kept_in_ten;
+      const KeptPoints kept (rows, [&keep] (std::size_t row) { return keep[row]; });
+      std::size_t number = 0;
+      for (std::size_t row = 0; row < rows; ++row)
+        if (keep[row]) {
+          EXPECT_EQ (kept.number (static_cast<std::uint32_t> (row)), number);
+          EXPECT_EQ (kept.row (number), row);
+          ++number;
+        }
+      EXPECT_EQ (kept.areAll (), number == rows);
+      EXPECT_EQ (kept.size (), number);
+    }
+}
+
+// Points with an intensity and nothing else, so that all fields can stay in the file.
+class MappedCloud : public ToolTest
+{
+protected:
+  MappedCloud () { writeFile ("in.ply", plyText (sample_, PlyKind::LITTLE, true)); }
+
+  const Sample sample_ = makeSample (true);
+};
+
+TEST_F (MappedCloud, BinaryFieldsStayInTheFile)
+{
+  for (const PlyKind kind : {PlyKind::LITTLE, PlyKind::BIG}) {
+    writeFile ("in.ply", plyText (sample_, kind, true));
+    const Cloud cloud = readCloud (path ("in.ply"));
+    EXPECT_EQ (cloud.positions (), sample_.points);
+    cloud.file.giveBack ();
+    EXPECT_EQ (cloud.position (7), sample_.points[7]); // is read from the file again
+    ASSERT_EQ (cloud.fields.size (), 1U);
+    EXPECT_TRUE (isInMappedFile (cloud.fields[0].first.get ()));
+    EXPECT_EQ (cloud.fields[0].value<float> (7), sample_.intensities[7]);
+  }
+}
+
+TEST_F (MappedCloud, FieldsOutliveTheCloud)
+{
+  for (const PcdKind kind : readPcdKinds ()) {
+    writePcd (path ("in.pcd"), sample_, kind);
+    const Field x = readCloud (path ("in.pcd")).coordinates[0];
+    std::filesystem::remove (path ("in.pcd"));
+    for (std::size_t i = 0; i < sample_.size (); ++i)
+      EXPECT_EQ (x.asDouble (i), sample_.points[i].x ());
+  }
+}
+
+TEST_F (MappedCloud, ChangesAreNoticed)
+{
+  const Cloud cloud = readCloud (path ("in.ply"));
+  EXPECT_FALSE (cloud.file.hasChanged ());
+  std::ofstream (path ("in.ply"), std::ios::app) << "more";
+  EXPECT_TRUE (cloud.file.hasChanged ());
+  // A new file of the same name is not a change of the old one.
+  const Cloud again = readCloud (path ("in.ply"));
+  std::filesystem::remove (path ("in.ply"));
+  writeFile ("in.ply", "another");
+  EXPECT_FALSE (again.file.hasChanged ());
+}
+
+TEST_F (MappedCloud, AFileThatShrinksIsAnOrderlyEnd)
+{
+  const auto read = [this] {
+    handleSignals (42);
+    const Cloud cloud = readCloud (path ("in.ply"));
+    const AtomicFile output (path ("out.ply"));
+    std::filesystem::resize_file (path ("in.ply"), 0);
+    cloud.file.giveBack ();
+    return cloud.positions ();
+  };
+  EXPECT_EXIT (read (), testing::ExitedWithCode (42), "the input file was truncated");
+  EXPECT_EQ (names (), std::set<std::string>{"in.ply"});
+}
+
+} // namespace
+} // namespace pcl::floater
