@@ -247,7 +247,7 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutAreaAreFoundAndTold)
   expectWarning (warningsOf (mesh), "1 edge inside the surface is much longer",
                  "15.6 spacings from point 55 (103, -17, 3) to point 73");
 
-  // Three points on a line, up to ten times of the precision of coordinates, or up to a tenth of it.
+  // Three points on a line, up to ten times the precision of coordinates, or up to a tenth of it.
   for (const bool flat : {false, true}) {
     mesh = {{{0, 0, 0}, {0.5, 0, flat ? 1e-8 : 1e-6}, {1, 0, 0}, {0.5, 1, 0}},
             {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};

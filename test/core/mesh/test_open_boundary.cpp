@@ -90,8 +90,8 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
 
 TEST (BoundaryFolds, NothingIsTakenWhereAPartOfAMeshEnds)
 {
-  // The mesh goes on beyond the ends of the strip, but for the first column in the second case: that
-  // is too far from the fold to end it.
+  // The mesh goes on beyond the ends of the strip, but for the first column in the second case:
+  // that is too far from the fold to end it.
   const Mesh mesh = foldedStrip ();
   for (const Index first : {0U, 1U}) {
     TriangleMesh part = connected (mesh);
