@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small meshes of known topology.
+// Small meshes of known topology, and what is expected of any mesh.
 #pragma once
 
+#include "core/geometry.h"
 #include "mesh/check.h"
 #include "samples.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
@@ -33,10 +36,80 @@ pointsAt (const Positions& positions)
 }
 
 inline MeshExamination
-check (const Mesh& mesh, float spacing = 0.1F, int threads = 1)
+check (const Mesh& mesh, float spacing = 0.1F)
 {
   return checkMesh (mesh.triangles, pointsAt (mesh.positions),
-                    std::vector<float> (mesh.positions.size (), spacing), threads);
+                    std::vector<float> (mesh.positions.size (), spacing), 1);
+}
+
+/// The triangles in the same order, with their neighbours. The calling test fails if they are no
+/// oriented manifold.
+inline TriangleMesh
+connected (const Triangles& triangles, std::size_t points)
+{
+  TriangleMesh result;
+  result.triangles = triangles;
+  EXPECT_TRUE (result.connect (points, 1));
+  return result;
+}
+
+inline TriangleMesh
+connected (const Mesh& mesh)
+{
+  return connected (mesh.triangles, mesh.positions.size ());
+}
+
+/// Expects an oriented manifold with the neighbours that connect () finds, and one of its triangles
+/// for every vertex.
+inline void
+expectConsistent (const TriangleMesh& mesh)
+{
+  const TriangleMesh fresh = connected (mesh.triangles, mesh.triangle_of.size ());
+  EXPECT_EQ (mesh.neighbors, fresh.neighbors);
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p) {
+    ASSERT_EQ (mesh.triangle_of[p] == NONE, fresh.triangle_of[p] == NONE);
+    if (mesh.triangle_of[p] != NONE) {
+      const Triangle& t = mesh.triangles[mesh.triangle_of[p]];
+      EXPECT_EQ (std::count (t.begin (), t.end (), p), 1);
+    }
+  }
+  EXPECT_TRUE (topologyOf (mesh.triangles).manifold);
+}
+
+/// Expects the same triangles in the same places, with the same neighbours.
+inline void
+expectSame (const TriangleMesh& mesh, const TriangleMesh& expected)
+{
+  EXPECT_TRUE (mesh.triangles == expected.triangles);
+  EXPECT_TRUE (mesh.neighbors == expected.neighbors);
+  EXPECT_TRUE (mesh.triangle_of == expected.triangle_of);
+}
+
+/// Expects a consistent disc, and returns its boundary.
+inline std::vector<Index>
+expectDisc (const TriangleMesh& mesh, std::size_t vertices)
+{
+  expectConsistent (mesh);
+  const Topology topology = topologyOf (mesh.triangles);
+  EXPECT_EQ (topology.euler, 1);
+  EXPECT_EQ (topology.vertices, vertices);
+  EXPECT_EQ (topology.loops.size (), 1U);
+  return topology.loops.empty () ? std::vector<Index> () : topology.loops.front ();
+}
+
+inline double
+areaOf (const Triangle& t, const Positions& positions)
+{
+  return 0.5 * areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).norm ();
+}
+
+inline double
+areaOf (const Triangles& triangles, const Positions& positions)
+{
+  double area = 0.0;
+  for (const Triangle& t : triangles)
+    area += areaOf (t, positions);
+  return area;
 }
 
 /// A grid of cells, each cut in two; vertex (x, y) is `index (x, y)` at `place (x, y)`.
@@ -60,12 +133,22 @@ grid (Index columns, Index rows, std::size_t points,
   return mesh;
 }
 
+/// A grid whose points are row by row. \param wraps the last column is the first one
+inline Mesh
+cells (Index columns, Index rows, const std::function<Eigen::Vector3d (Index, Index)>& place,
+       bool wraps = false)
+{
+  const Index width = wraps ? columns : columns + 1;
+  return grid (
+      columns, rows, width * (rows + 1),
+      [width] (Index x, Index y) { return y * width + x % width; }, place);
+}
+
 inline Mesh
 sheet (Index side)
 {
-  return grid (
-      side, side, (side + 1) * (side + 1), [side] (Index x, Index y) { return y * (side + 1) + x; },
-      [] (Index x, Index y) { return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.0); });
+  return cells (side, side,
+                [] (Index x, Index y) { return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.0); });
 }
 
 inline Mesh
@@ -85,12 +168,13 @@ torus (Index around, Index across)
 inline Mesh
 annulus (Index around)
 {
-  return grid (
-      around, 4, 5 * around, [=] (Index x, Index y) { return y * around + x % around; },
+  return cells (
+      around, 4,
       [=] (Index x, Index y) {
         const double u = 2.0 * PI * x / around, r = 1.0 - 0.125 * y;
         return Eigen::Vector3d (r * std::cos (u), r * std::sin (u), 0.0);
-      });
+      },
+      true);
 }
 
 inline Mesh
@@ -100,16 +184,67 @@ tetrahedron (double size = 1.0)
           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
+inline void
+append (Mesh& mesh, const Mesh& more, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero ())
+{
+  const auto first = static_cast<Index> (mesh.positions.size ());
+  for (const Eigen::Vector3d& p : more.positions)
+    mesh.positions.emplace_back (p + shift);
+  for (const Triangle& t : more.triangles)
+    mesh.triangles.push_back ({t[0] + first, t[1] + first, t[2] + first});
+}
+
 /// Both meshes, side by side.
 inline Mesh
 beside (Mesh a, const Mesh& b)
 {
-  const auto first = static_cast<Index> (a.positions.size ());
-  for (const Eigen::Vector3d& p : b.positions)
-    a.positions.emplace_back (p + Eigen::Vector3d (5.0, 0.0, 0.0));
-  for (const Triangle& t : b.triangles)
-    a.triangles.push_back ({t[0] + first, t[1] + first, t[2] + first});
+  append (a, b, {5.0, 0.0, 0.0});
   return a;
 }
+
+/// Front becomes back.
+inline void
+turnRound (Mesh& mesh)
+{
+  for (Triangle& t : mesh.triangles)
+    std::swap (t[1], t[2]);
+}
+
+/// Makes two vertices change places in the mesh, but not in space.
+inline void
+exchange (TriangleMesh& mesh, Index p, Index q)
+{
+  for (Triangle& t : mesh.triangles)
+    for (Index& corner : t)
+      corner = corner == p ? q : corner == q ? p : corner;
+  EXPECT_TRUE (mesh.connect (mesh.triangle_of.size (), 1));
+}
+
+/// A jittered sheet above another one, both with their fronts above; the points of the upper one
+/// are the second half.
+struct TwoSheets
+{
+  Positions positions;
+  std::vector<Eigen::Vector3f> normals;
+  CsrLists neighbors; ///< the nearest of each point, by comparing all
+  TriangleMesh mesh;
+
+  TwoSheets (Mesh lower, const Mesh& upper, std::ptrdiff_t nearest)
+  {
+    append (lower, upper);
+    mesh = connected (lower);
+    positions = lower.positions;
+    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
+    neighbors.offsets.push_back (0);
+    for (const Eigen::Vector3d& p : positions) {
+      std::vector<Index> order = indices (positions.size ());
+      std::sort (order.begin (), order.end (), [&] (Index a, Index b) {
+        return (positions[a] - p).squaredNorm () < (positions[b] - p).squaredNorm ();
+      });
+      neighbors.ids.insert (neighbors.ids.end (), order.begin () + 1, order.begin () + 1 + nearest);
+      neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
+    }
+  }
+};
 
 } // namespace pcl::floater::samples

@@ -3,7 +3,7 @@
 // Triangulation of polygons at least cost, and the filling of holes by it.
 #include "mesh/hole_filling.h"
 
-#include "samples.h"
+#include "mesh/known_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -14,12 +14,6 @@ namespace {
 using samples::PI;
 using samples::Positions;
 
-double
-areaOf (const Positions& positions, Index p, Index q, Index r)
-{
-  return 0.5 * (positions[q] - positions[p]).cross (positions[r] - positions[p]).norm ();
-}
-
 // Least area of all triangulations of the corners first to last, by trying all of them.
 double
 leastArea (const Positions& positions, Index first, Index last)
@@ -28,7 +22,7 @@ leastArea (const Positions& positions, Index first, Index last)
     return 0.0;
   double least = std::numeric_limits<double>::infinity ();
   for (Index apex = first + 1; apex < last; ++apex)
-    least = std::min (least, areaOf (positions, first, apex, last) +
+    least = std::min (least, samples::areaOf (Triangle{first, apex, last}, positions) +
                                  leastArea (positions, first, apex) +
                                  leastArea (positions, apex, last));
   return least;
@@ -41,19 +35,17 @@ TEST (PolygonFilling, IsTheBestOfAllTriangulations)
     const Positions positions = samples::randomPoints (corners, corners);
     const std::vector<Triangle> triangles = filling.fill (
         samples::indices (corners),
-        [&] (Index p, Index q, Index r) { return areaOf (positions, p, q, r); },
+        [&] (Index p, Index q, Index r) {
+          return samples::areaOf (Triangle{p, q, r}, positions);
+        },
         [] (Index, Index) { return true; });
     ASSERT_EQ (triangles.size (), corners < 3 ? 0U : corners - 2);
     if (triangles.empty ())
       continue;
-    double area = 0.0;
-    for (const Triangle& t : triangles)
-      area += areaOf (positions, t[0], t[1], t[2]);
-    EXPECT_NEAR (area, leastArea (positions, 0, corners - 1), 1e-12);
-    const samples::Topology topology = samples::topologyOf (triangles);
-    EXPECT_TRUE (topology.manifold);
-    ASSERT_EQ (topology.loops.size (), 1U);
-    EXPECT_EQ (topology.loops.front (), samples::indices (corners));
+    EXPECT_NEAR (samples::areaOf (triangles, positions), leastArea (positions, 0, corners - 1),
+                 1e-12);
+    EXPECT_EQ (samples::expectDisc (samples::connected (triangles, corners), corners),
+               samples::indices (corners));
   }
 }
 
@@ -73,8 +65,8 @@ TEST (PolygonFilling, UsesAllowedEdgesOnly)
   EXPECT_TRUE (filling.fill (square, cost, [] (Index, Index) { return false; }).empty ());
 }
 
-// A flat ring of two rows of points, a circle of radius 1 and one of radius 1.2; its triangles, and
-// its loops with the inner one first.
+// A flat ring of two rows of points, a circle of radius 1.2 and one of radius 1; its triangles, and
+// its loops with the inner one last.
 struct Ring
 {
   Positions positions;
@@ -84,21 +76,24 @@ struct Ring
 
   explicit Ring (Index around)
   {
-    for (const double radius : {1.0, 1.2})
-      for (Index i = 0; i < around; ++i) {
-        const double angle = 2.0 * PI * i / around;
-        positions.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 0.0);
-      }
+    const samples::Mesh ring = samples::cells (
+        around, 1,
+        [=] (Index x, Index y) {
+          const double angle = 2.0 * PI * x / around, radius = y == 0 ? 1.2 : 1.0;
+          return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.0);
+        },
+        true);
+    positions = ring.positions;
     normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    for (Index i = 0; i < around; ++i) {
-      const Index j = (i + 1) % around;
-      mesh.triangles.push_back ({i, around + i, around + j});
-      mesh.triangles.push_back ({i, around + j, j});
-    }
-    EXPECT_TRUE (mesh.connect (positions.size (), 1));
+    mesh = samples::connected (ring);
     loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
                                std::vector<float> (positions.size (), 0.1F), 1);
     EXPECT_EQ (loops.size (), 2U);
+  }
+
+  std::size_t fill (const HoleFillingLimits& limits = {})
+  {
+    return fillHoles (mesh, loops, positions, TriangleCost (positions, normals), limits, 1);
   }
 };
 
@@ -107,24 +102,15 @@ expectFilled (Index around, const HoleFillingLimits& limits)
 {
   SCOPED_TRACE (around);
   Ring ring (around);
-  ring.loops[1].keep_open = true;
-  const TriangleCost cost (ring.positions, ring.normals);
-  EXPECT_EQ (fillHoles (ring.mesh, ring.loops, ring.positions, cost, limits, 1), 1U);
+  ring.loops[0].keep_open = true;
+  EXPECT_EQ (ring.fill (limits), 1U);
   EXPECT_EQ (ring.mesh.triangles.size (), 3 * around - 2);
-  const samples::Topology topology = samples::topologyOf (ring.mesh.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.euler, 1);
-  ASSERT_EQ (topology.loops.size (), 1U);
-  EXPECT_EQ (topology.loops.front ().size (), around);
+  EXPECT_EQ (samples::expectDisc (ring.mesh, 2 * around), samples::indices (around));
   // All faces up, without overlaps: the area is that of the outer polygon.
-  double area = 0.0;
-  for (const Triangle& t : ring.mesh.triangles) {
-    const Eigen::Vector3d normal = (ring.positions[t[1]] - ring.positions[t[0]])
-                                       .cross (ring.positions[t[2]] - ring.positions[t[0]]);
-    EXPECT_GT (normal.z (), 0.0);
-    area += 0.5 * normal.z ();
-  }
-  EXPECT_NEAR (area, 0.5 * around * 1.44 * std::sin (2.0 * PI / around), 1e-9);
+  for (const auto& [a, b, c] : ring.mesh.triangles)
+    EXPECT_GT (areaVector (ring.positions[a], ring.positions[b], ring.positions[c]).z (), 0.0);
+  EXPECT_NEAR (samples::areaOf (ring.mesh.triangles, ring.positions),
+               0.5 * around * 1.44 * std::sin (2.0 * PI / around), 1e-9);
 }
 
 TEST (HoleFilling, FillsLoopsOfAnySize)
@@ -141,64 +127,38 @@ TEST (HoleFilling, LoopsThatAreKeptOpenStay)
   Ring ring (12);
   ring.loops[0].keep_open = ring.loops[1].keep_open = true;
   const TriangleMesh before = ring.mesh;
-  const TriangleCost cost (ring.positions, ring.normals);
-  EXPECT_EQ (fillHoles (ring.mesh, ring.loops, ring.positions, cost, {}, 1), 0U);
-  EXPECT_EQ (ring.mesh.triangles, before.triangles);
+  EXPECT_EQ (ring.fill (), 0U);
+  samples::expectSame (ring.mesh, before);
+}
+
+// Fills a loop of the first points of a mesh, or keeps it open; returns its triangles.
+std::vector<Triangle>
+filled (const std::vector<Triangle>& triangles, std::size_t loop, bool can_be_filled)
+{
+  const Positions positions = {{0, 0, 0}, {1, 0, 0},     {1, 1, 0},
+                               {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  TriangleMesh mesh = samples::connected (triangles, positions.size ());
+  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
+  std::vector<BoundaryLoop> loops (1);
+  loops[0].points = samples::indices (loop);
+  loops[0].length = 4.0;
+  const TriangleCost cost (positions, normals);
+  EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), can_be_filled ? 1U : 0U);
+  EXPECT_EQ (loops[0].keep_open, !can_be_filled);
+  samples::expectConsistent (mesh);
+  return mesh.triangles;
 }
 
 TEST (HoleFilling, ALoopThatCannotBeFilledIsKeptOpen)
 {
   // Both diagonals of the loop of four points are edges of the mesh already.
-  const Positions positions = {{0, 0, 0}, {1, 0, 0},     {1, 1, 0},
-                               {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
-  TriangleMesh mesh;
-  mesh.triangles = {{0, 4, 2}, {1, 5, 3}};
-  ASSERT_TRUE (mesh.connect (positions.size (), 1));
-  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
-  std::vector<BoundaryLoop> loops (1);
-  loops[0].points = {0, 1, 2, 3};
-  loops[0].length = 4.0;
-  const TriangleCost cost (positions, normals);
-  EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), 0U);
-  EXPECT_TRUE (loops[0].keep_open);
-  EXPECT_EQ (mesh.triangles.size (), 2U);
-}
-
-// Its loop could be filled by the same triangle only, seen from behind: no manifold.
-TEST (HoleFilling, ATriangleOnItsOwnStaysOpen)
-{
-  const Positions positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  for (const Triangle& triangle : {Triangle{0, 1, 2}, Triangle{2, 0, 1}}) {
-    TriangleMesh mesh;
-    mesh.triangles = {triangle};
-    ASSERT_TRUE (mesh.connect (positions.size (), 1));
-    const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
-    std::vector<BoundaryLoop> loops (1);
-    loops[0].points = {0, 1, 2};
-    loops[0].length = 3.4;
-    const TriangleCost cost (positions, normals);
-    EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), 0U);
-    EXPECT_TRUE (loops[0].keep_open);
-    EXPECT_EQ (mesh.triangles.size (), 1U);
-  }
-}
-
-// The other loop of three points: around a point whose three triangles are a cone.
-TEST (HoleFilling, AConeOfThreeTrianglesIsClosed)
-{
-  const Positions positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  TriangleMesh mesh;
-  mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  ASSERT_TRUE (mesh.connect (positions.size (), 1));
-  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
-  std::vector<BoundaryLoop> loops (1);
-  loops[0].points = {0, 1, 2};
-  loops[0].length = 3.4;
-  const TriangleCost cost (positions, normals);
-  EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), 1U);
-  const samples::Topology topology = samples::topologyOf (mesh.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.euler, 2);
+  const std::vector<Triangle> diagonals{{0, 4, 2}, {1, 5, 3}};
+  EXPECT_EQ (filled (diagonals, 4, false), diagonals);
+  // Of a triangle on its own, the same one seen from behind would be no manifold.
+  for (const Triangle& triangle : {Triangle{0, 1, 2}, Triangle{2, 0, 1}})
+    EXPECT_EQ (filled ({triangle}, 3, false), std::vector<Triangle>{triangle});
+  // But around a point whose three triangles are a cone, it closes them.
+  EXPECT_EQ (samples::topologyOf (filled ({{0, 1, 4}, {1, 2, 4}, {2, 0, 4}}, 3, true)).euler, 2);
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which boundary loops are kept open.
+// Sizes of boundary loops, evidence of what they are, and which of them are kept open.
 #include "mesh/loops.h"
 
-#include "core/geometry.h"
+#include "mesh/known_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -12,43 +12,63 @@
 
 namespace pcl::floater {
 namespace {
+using samples::Positions;
+
+TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
+{
+  RandomStream random (5);
+  for (const std::size_t count : {3U, 100U, 256U, 257U, 300U, 1000U, 5001U}) {
+    SCOPED_TRACE (count);
+    Positions positions;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (count);
+      const double radius = 1.0 + 0.3 * std::sin (3.0 * angle) + 0.01 * random.uniform ();
+      positions.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 0.0);
+    }
+    double exact = 0.0;
+    for (const Eigen::Vector3d& p : positions)
+      for (const Eigen::Vector3d& q : positions)
+        exact = std::max (exact, (p - q).norm ());
+    // From each point along the loop to the next one that is measured.
+    const std::size_t stride = (count + 255) / 256;
+    double step = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 1; j <= stride; ++j)
+        step = std::max (step, (positions[(i + j) % count] - positions[i]).norm ());
+    BoundaryLoop loop;
+    loop.points = samples::indices (count);
+    measureLoop (loop, positions, std::vector<float> (count, 0.1F));
+    EXPECT_LE (loop.width, exact);
+    EXPECT_GE (loop.width, count <= 256 ? exact : exact - 2.0 * step);
+  }
+}
+
+TEST (BoundaryLoops, AreFoundInOrderWithTheirComponentsAndSizes)
+{
+  // Two triangles apart from each other; point 3 is no vertex.
+  const Positions positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {9, 9, 9},
+                               {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  const TriangleMesh mesh = samples::connected ({{5, 6, 4}, {0, 1, 2}}, positions.size ());
+  const MeshComponents components = findComponents (mesh, 1);
+  EXPECT_EQ (countPoints (mesh, components), (std::vector<std::size_t>{3, 3}));
+  const std::vector<BoundaryLoop> loops = findBoundaryLoops (
+      mesh, components, positions, {1.0F, 2.0F, 6.0F, 9.0F, 2.0F, 2.0F, 2.0F}, 1);
+  ASSERT_EQ (loops.size (), 2U);
+  EXPECT_EQ (loops[0].points, (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ (loops[0].component, 1U);
+  EXPECT_DOUBLE_EQ (loops[0].length, 12.0);
+  EXPECT_DOUBLE_EQ (loops[0].width, 5.0);
+  EXPECT_DOUBLE_EQ (loops[0].spacing, 3.0);
+  EXPECT_EQ (loops[1].points, (std::vector<Index>{4, 5, 6}));
+  EXPECT_EQ (loops[1].component, 0U);
+}
+
 HoleOptions
 policy (HolePolicy kind)
 {
   HoleOptions holes;
   holes.policy = kind;
   return holes;
-}
-
-// Widths of the loops that are kept open, of loops 1 to 9 wide with spacings of 0.5.
-std::vector<double>
-widthsKept (double largest_hole, LengthUnit length_unit, double unit)
-{
-  std::vector<BoundaryLoop> loops;
-  for (int width = 1; width <= 9; ++width) {
-    BoundaryLoop loop;
-    loop.width = width;
-    loop.spacing = 0.5;
-    loops.push_back (loop);
-  }
-  HoleOptions holes = policy (HolePolicy::BY_SIZE);
-  holes.largest_hole = largest_hole;
-  holes.unit = length_unit;
-  chooseOpenLoops (loops, std::vector<LoopJudgement> (loops.size ()), 1, holes, unit);
-  std::vector<double> widths;
-  for (const BoundaryLoop& loop : loops)
-    if (loop.keep_open)
-      widths.push_back (loop.width);
-  return widths;
-}
-
-TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
-{
-  EXPECT_EQ (widthsKept (14.0, LengthUnit::SPACINGS, 1.0), (std::vector<double>{8.0, 9.0}));
-  EXPECT_EQ (widthsKept (14.0, LengthUnit::SPACINGS, 0.1), (std::vector<double>{8.0, 9.0}));
-  EXPECT_EQ (widthsKept (6.0, LengthUnit::CLOUD, 1.0), (std::vector<double>{7.0, 8.0, 9.0}));
-  EXPECT_EQ (widthsKept (3.0, LengthUnit::CLOUD, 2.0), (std::vector<double>{7.0, 8.0, 9.0}));
-  EXPECT_EQ (widthsKept (14.0, LengthUnit::CLOUD, 1.0), std::vector<double>{});
 }
 
 // A loop of a length, of a component.
@@ -62,16 +82,38 @@ loopOf (double length, Index component = 0)
   return loop;
 }
 
-std::vector<std::size_t>
+using Indices = std::vector<std::size_t>;
+
+Indices
 kept (std::vector<BoundaryLoop> loops, const std::vector<LoopJudgement>& judgements,
-      const HoleOptions& holes)
+      const HoleOptions& holes, double unit = 1.0)
 {
-  chooseOpenLoops (loops, judgements, 2, holes, 1.0);
-  std::vector<std::size_t> indices;
+  chooseOpenLoops (loops, judgements, 2, holes, unit);
+  Indices indices;
   for (std::size_t i = 0; i < loops.size (); ++i)
     if (loops[i].keep_open)
       indices.push_back (i);
   return indices;
+}
+
+TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
+{
+  std::vector<BoundaryLoop> loops (9); // 1 to 9 wide
+  for (std::size_t i = 0; i < loops.size (); ++i) {
+    loops[i].width = static_cast<double> (i + 1);
+    loops[i].spacing = 0.5;
+  }
+  const auto keptAbove = [&loops] (double largest_hole, LengthUnit length_unit, double unit) {
+    HoleOptions holes = policy (HolePolicy::BY_SIZE);
+    holes.largest_hole = largest_hole;
+    holes.unit = length_unit;
+    return kept (loops, std::vector<LoopJudgement> (loops.size ()), holes, unit);
+  };
+  EXPECT_EQ (keptAbove (14.0, LengthUnit::SPACINGS, 1.0), (Indices{7, 8}));
+  EXPECT_EQ (keptAbove (14.0, LengthUnit::SPACINGS, 0.1), (Indices{7, 8}));
+  EXPECT_EQ (keptAbove (6.0, LengthUnit::CLOUD, 1.0), (Indices{6, 7, 8}));
+  EXPECT_EQ (keptAbove (3.0, LengthUnit::CLOUD, 2.0), (Indices{6, 7, 8}));
+  EXPECT_EQ (keptAbove (14.0, LengthUnit::CLOUD, 1.0), Indices{});
 }
 
 TEST (OpenLoops, PoliciesGoByTheOdds)
@@ -81,7 +123,6 @@ TEST (OpenLoops, PoliciesGoByTheOdds)
                                            loopOf (8.0, 1)};
   const std::vector<LoopJudgement> judgements = {
       {5.0, 9.0, false}, {3.0, 40.0, false}, {-2.0, 20.0, false}, {-4.0, 8.0, false}};
-  using Indices = std::vector<std::size_t>;
   EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), (Indices{0, 1}));
   EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)), Indices{});
   EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)), (Indices{1, 3}));
@@ -96,21 +137,16 @@ TEST (OpenLoops, PoliciesGoByTheOdds)
 TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
 {
   const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (90.0), loopOf (40.0)};
-  const std::vector<LoopJudgement> judgements = {
+  std::vector<LoopJudgement> judgements = {
       {-1.0, 10.0, false}, {-2.0, 30.0, false}, {-3.0, 20.0, false}};
   HoleOptions count = policy (HolePolicy::KEEP_COUNT);
   count.kept_loops = 2;
-  EXPECT_EQ (kept (loops, judgements, count), (std::vector<std::size_t>{1, 2}));
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)),
-             (std::vector<std::size_t>{1}));
-}
-
-TEST (OpenLoops, AGapTooDeepToBeFilledStaysOpenUnlessThePolicySaysOtherwise)
-{
-  const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (30.0)};
-  const std::vector<LoopJudgement> judgements = {{-5.0, 0.0, true}, {-5.0, 0.0, false}};
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), (std::vector<std::size_t>{0}));
-  EXPECT_TRUE (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)).empty ());
+  EXPECT_EQ (kept (loops, judgements, count), (Indices{1, 2}));
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)), Indices{1});
+  // A gap too deep to be filled stays open, unless the policy says otherwise.
+  judgements[0].is_too_deep = true;
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), Indices{0});
+  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)), Indices{});
 }
 
 TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)
@@ -135,30 +171,16 @@ struct TriangularSheet
   CsrLists neighbors;              // those that share an edge
   std::vector<Eigen::Vector3f> normals;
 
-  TriangularSheet (int half, double inside)
+  TriangularSheet (Index half, double inside)
   {
-    const int side = 2 * half + 1;
-    std::vector<Index> index (static_cast<std::size_t> (side * side), NONE);
-    const auto at = [&] (int i, int j) -> Index& {
-      return index[static_cast<std::size_t> ((i + half) * side + j + half)];
-    };
-    for (int i = -half; i <= half; ++i)
-      for (int j = -half; j <= half; ++j) {
-        const Eigen::Vector3d p (j + 0.5 * i, std::sqrt (0.75) * i, 0.0);
-        if (p.norm () < inside)
-          continue;
-        at (i, j) = static_cast<Index> (positions.size ());
-        positions.push_back (p);
-      }
-    const auto add = [&] (Index a, Index b, Index c) {
-      if (a != NONE && b != NONE && c != NONE)
-        mesh.triangles.push_back ({a, b, c});
-    };
-    for (int i = -half; i < half; ++i)
-      for (int j = -half; j < half; ++j) {
-        add (at (i, j), at (i, j + 1), at (i + 1, j));
-        add (at (i, j + 1), at (i + 1, j + 1), at (i + 1, j));
-      }
+    samples::Mesh whole = samples::cells (2 * half, 2 * half, [half] (Index x, Index y) {
+      return Eigen::Vector3d (x - 0.5 * y - 0.5 * half, std::sqrt (0.75) * (1.0 * y - half), 0.0);
+    });
+    positions = whole.positions;
+    for (const Triangle& t : whole.triangles)
+      if (std::all_of (t.begin (), t.end (),
+                       [&] (Index p) { return positions[p].norm () >= inside; }))
+        mesh.triangles.push_back (t);
     EXPECT_TRUE (mesh.connect (positions.size (), 1));
     loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
                                std::vector<float> (positions.size (), 1.0F), 1);
@@ -185,7 +207,7 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
 {
   // The six neighbours of the missing point: a regular hexagon of side 1.
   const TriangularSheet sheet (10, 0.5);
-  const LoopEvidence hole = sheet.evidence ()[0];
+  const LoopEvidence hole = sheet.evidence ()[0], border = sheet.evidence ()[1];
   ASSERT_EQ (sheet.loops[0].points.size (), 6U);
   const double area = 1.5 * std::sqrt (3.0);
   EXPECT_NEAR (hole.compactness, 4.0 * PI * area / 36.0, 1e-12);
@@ -195,6 +217,9 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   EXPECT_NEAR (hole.turning, -1.0, 1e-12);
   // A point of the hexagon misses one of six neighbours: a sector of 120 degrees.
   EXPECT_EQ (hole.open_share, 0.0);
+  // The border turns the other way.
+  EXPECT_NEAR (border.turning, 1.0, 1e-9);
+  EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
 }
 
 // Teeth make the loop more than twice as long, and leave the hole nearly as wide.
@@ -218,20 +243,12 @@ TEST (LoopEvidence, ARaggedHoleIsAsDeepAsItIsWide)
   EXPECT_GT (widest (), RADIUS - TOOTH);
 }
 
-TEST (LoopEvidence, TheBorderOfADiscTurnsTheOtherWay)
-{
-  const TriangularSheet sheet (10, 0.5);
-  const LoopEvidence border = sheet.evidence ()[1];
-  EXPECT_NEAR (border.turning, 1.0, 1e-9);
-  EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
-}
-
 TEST (LoopEvidence, GrowthIsThatOfTheEdgesTowardsTheLoop)
 {
   // Distances from the middle to the power of 1/2: edges at the hole are longer than those beyond.
   TriangularSheet sheet (12, 2.5);
   for (Eigen::Vector3d& p : sheet.positions)
-    p *= std::pow (p.norm (), -0.5);
+    p *= std::pow (std::max (p.norm (), 1e-9), -0.5);
   EXPECT_GT (sheet.evidence ()[0].growth, 0.1);
   for (Eigen::Vector3d& p : sheet.positions)
     p *= std::pow (p.norm (), 3.0); // to the power of 2
