@@ -87,23 +87,24 @@ TEST (Gaps, AreRunsOfMissingTrianglesOfAStar)
       findGaps (starOf (long_arm, false), {1.0F, 1.0F, 1.0F, 2.0F, 1.0F}, 1.55, 1).empty ());
 }
 
-// Points of a line, with gaps of 4 and of 3 steps (exact in binary) behind the 3rd and the 9th.
+// Points of a line, with gaps of 4, 3 and 4 steps (exact in binary); the last point is alone.
 TEST (Clusters, OfALineDependOnTheToleranceAndOnTheNumberOfNeighbors)
 {
   Positions positions;
-  for (const int at : {0, 1, 2, 6, 7, 8, 9, 10, 11, 14, 15, 16})
+  for (const int at : {0, 1, 2, 6, 7, 8, 9, 10, 11, 14, 15, 16, 20})
     positions.emplace_back (0.25 * at, 0.0, 0.0);
   const auto clusters = [&] (double tolerance, int k, const std::vector<Index>& boundary_points) {
     return clusterBoundaryPoints (positions, boundary_points, tolerance, k, 1);
   };
-  const std::vector<Index> all = indices (12);
+  const std::vector<Index> all = indices (13);
   // Largest first, then by the smallest point. What is as far as the tolerance is inside.
-  const Clusters apart{{3, 4, 5, 6, 7, 8}, {0, 1, 2}, {9, 10, 11}};
+  const Clusters apart{{3, 4, 5, 6, 7, 8}, {0, 1, 2}, {9, 10, 11}, {12}};
   EXPECT_EQ (clusters (0.25, 4, all), apart);
-  EXPECT_EQ (clusters (0.75, 4, all), (Clusters{{3, 4, 5, 6, 7, 8, 9, 10, 11}, {0, 1, 2}}));
+  EXPECT_EQ (clusters (0.75, 4, all), (Clusters{{3, 4, 5, 6, 7, 8, 9, 10, 11}, {0, 1, 2}, {12}}));
   EXPECT_EQ (clusters (1.0, 4, all), (Clusters{all}));
-  EXPECT_EQ (clusters (0.2499, 4, all).size (), 12U);
-  // The two nearest of each point are on its side of a gap.
+  EXPECT_EQ (clusters (0.2499, 4, all).size (), 13U);
+  // The two nearest of each point but the last are on its side of a gap, and that one comes last:
+  // the densest are first.
   EXPECT_EQ (clusters (1.0, 2, all), apart);
   // Only boundary points are joined, and count.
   EXPECT_EQ (clusters (0.25, 4, {3, 4, 6, 7}), (Clusters{{3, 4}, {6, 7}}));
