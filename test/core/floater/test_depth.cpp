@@ -14,13 +14,10 @@
 
 namespace pcl::floater {
 namespace {
-using samples::asInput;
-using samples::discOptions;
-using samples::Outline;
-using samples::PI;
+using samples::Neighborhoods;
 using samples::Positions;
 
-constexpr double RADIUS = 3.6; // of the fingers, in spacings; 23 points around
+constexpr double TUBE_RADIUS = 3.6; // of the fingers, in spacings; 23 points around
 
 // An open tube with a round tip.
 // \param length over its radius
@@ -29,120 +26,37 @@ finger (double length)
 {
   SurfaceSpec spec;
   spec.kind = SurfaceKind::FINGER;
-  spec.points = static_cast<std::size_t> (2.0 * PI * (1.0 + length) * RADIUS * RADIUS);
+  spec.points = static_cast<std::size_t> (2.0 * PI * (1.0 + length) * TUBE_RADIUS * TUBE_RADIUS);
   spec.length = length;
   return generateSurface (spec);
 }
 
-// Adds rings of points on a tube with a round tip, from one spacing above the ground on.
-void
-addFinger (const Eigen::Vector2d& foot, double length, RandomStream& random, Positions& cloud)
-{
-  const double straight = length * RADIUS, whole = straight + 0.5 * PI * RADIUS;
-  const int rings = static_cast<int> (std::lround (whole));
-  for (int ring = 1; ring <= rings; ++ring) {
-    const double along = whole * ring / rings;
-    const double angle = std::max (0.0, along - straight) / RADIUS;
-    const int count =
-        std::max (1, static_cast<int> (std::lround (2.0 * PI * RADIUS * std::cos (angle))));
-    for (int i = 0; i < count; ++i) {
-      const double turn = 2.0 * PI * (i + 0.5 * (ring % 2) + 0.4 * random.uniform ()) / count;
-      const double r = RADIUS * std::cos (angle);
-      cloud.emplace_back (foot.x () + r * std::cos (turn), foot.y () + r * std::sin (turn),
-                          std::min (along, straight) + RADIUS * std::sin (angle));
-    }
-  }
-}
-
-// A round plate with fingers that stand on a circle.
-// \param lengths of the fingers over their radius
-samples::Sheet
-hand (const std::vector<double>& lengths)
-{
-  const double around = lengths.size () == 1 ? 0.0 : 4.0 * RADIUS;
-  std::vector<Outline> outlines{samples::circle (around + 3.0 * RADIUS, 1.0)};
-  Outline feet;
-  for (std::size_t i = 0; i < lengths.size (); ++i) {
-    const double turn = 2.0 * PI * static_cast<double> (i) / static_cast<double> (lengths.size ());
-    feet.emplace_back (around * std::cos (turn), around * std::sin (turn));
-    outlines.push_back (samples::circle (RADIUS, 1.0));
-    for (Eigen::Vector2d& p : outlines.back ())
-      p += feet.back ();
-  }
-  samples::Sheet sheet = samples::fillOutlines (outlines, 1.0, 0.3, 5);
-  RandomStream random (6);
-  for (std::size_t i = 0; i < lengths.size (); ++i)
-    addFinger (feet[i], lengths[i], random, sheet.positions);
-  return sheet;
-}
-
-// Expects one disc of all points, with short edges.
-void
-expectWholeDisc (const Result& result, const Positions& cloud)
-{
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  const samples::Topology topology = samples::topologyOf (result.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.components, 1U);
-  EXPECT_EQ (topology.euler, 1);
-  EXPECT_EQ (topology.vertices, cloud.size ());
-  EXPECT_TRUE (result.report.unused.empty ());
-  ASSERT_EQ (topology.loops.size (), 1U);
-  EXPECT_EQ (samples::canonicalCycle (topology.loops.front ()),
-             samples::canonicalCycle (result.report.loop));
-  EXPECT_EQ (result.report.statistics.folds, 0U);
-  double longest = 0.0;
-  for (const Triangle& t : result.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      longest = std::max (longest, (cloud[t[i]] - cloud[t[(i + 1) % 3]]).norm ());
-  EXPECT_LT (longest, 3.0); // spacings
-}
-
-TEST (Depth, OpenFingers)
+TEST (Depth, OpenFingersAreDiscsOfAllPointsWithShortEdges)
 {
   for (const double length : {1.0, 10.0, 30.0, 60.0, 100.0}) {
     SCOPED_TRACE (length);
     const Positions cloud = finger (length);
-    const Result result = reconstruct (asInput (cloud), discOptions ());
-    expectWholeDisc (result, cloud);
-    const auto levels = static_cast<double> (result.report.statistics.levels);
-    EXPECT_NEAR (levels, length / 14.0,
+    const Result result = reconstruct (samples::asInput (cloud), samples::discOptions ());
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    const samples::Topology topology = samples::topologyOf (result.triangles);
+    EXPECT_TRUE (topology.manifold && topology.components == 1 && topology.euler == 1);
+    EXPECT_EQ (topology.vertices, cloud.size ());
+    EXPECT_EQ (result.report.statistics.folds, 0U);
+    double longest = 0.0;
+    for (const Triangle& t : result.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        longest = std::max (longest, (cloud[t[i]] - cloud[t[(i + 1) % 3]]).norm ());
+    EXPECT_LT (longest, 3.0); // spacings
+    EXPECT_NEAR (static_cast<double> (result.report.statistics.levels), length / 14.0,
                  length < 12.0 ? 0.9 : 1.5); // each level shrinks by a million
   }
-}
-
-TEST (Depth, FingersOnAPlate)
-{
-  for (const double length : {10.0, 60.0}) {
-    SCOPED_TRACE (length);
-    const samples::Sheet sheet = hand ({length});
-    const Result result = reconstruct (asInput (sheet.positions), discOptions ());
-    expectWholeDisc (result, sheet.positions);
-  }
-}
-
-TEST (Depth, Hand)
-{
-  const samples::Sheet sheet = hand ({20.0, 35.0, 50.0, 40.0, 25.0});
-  const Result result = reconstruct (asInput (sheet.positions), discOptions ());
-  expectWholeDisc (result, sheet.positions);
-  EXPECT_GE (result.report.statistics.levels, 3U);
-}
-
-TEST (Depth, SameForAnyNumberOfThreads)
-{
-  const Positions cloud = finger (40.0);
-  Options options = discOptions ();
-  options.threads = 1;
-  const Result one = reconstruct (asInput (cloud), options);
-  options.threads = 3;
-  EXPECT_EQ (one.triangles, reconstruct (asInput (cloud), options).triangles);
 }
 
 // A flat disc whose parameters are its own places, but pressed together around some centres.
 struct PressedDisc
 {
   static constexpr double RADIUS = 0.25;
+  Neighborhoods made;
   Positions positions;
   std::vector<Index> loop;
   std::vector<Eigen::Vector2d> uv;
@@ -151,10 +65,14 @@ struct PressedDisc
   explicit PressedDisc (const std::vector<Eigen::Vector2d>& centres)
   {
     const samples::Sheet sheet = samples::disc (0.05, 3);
-    positions = sheet.positions;
-    loop = samples::indices (sheet.border);
-    for (const Eigen::Vector3d& p : positions)
-      uv.emplace_back (p.head<2> ());
+    made = samples::makeNeighborhoods (sheet.positions);
+    positions = made.points.positions;
+    loop.resize (sheet.border);
+    for (Index p = 0; p < positions.size (); ++p) {
+      uv.emplace_back (positions[p].head<2> ());
+      if (made.points.cloud_index[p] < sheet.border)
+        loop[made.points.cloud_index[p]] = p;
+    }
     mesh = triangulatePlane (uv, loop);
     for (const Eigen::Vector2d& centre : centres)
       for (Eigen::Vector2d& p : uv)
@@ -162,9 +80,9 @@ struct PressedDisc
           p = centre + 1e-9 * (p - centre);
   }
 
-  std::vector<CollapsedRegion> find () const
+  std::vector<CollapsedRegion> find (const DiscLimits& limits = {}) const
   {
-    return findCollapsedRegions (mesh, uv, positions, loop, 1);
+    return findCollapsedRegions (mesh, uv, positions, loop, 1, limits);
   }
 };
 
@@ -180,37 +98,32 @@ TEST (CollapsedRegions, AreDiscsWithoutChords)
     for (const Index t : region.triangles)
       triangles.push_back (pressed.mesh.triangles[t]);
     const samples::Topology topology = samples::topologyOf (triangles);
-    EXPECT_TRUE (topology.manifold);
-    EXPECT_EQ (topology.components, 1U);
-    EXPECT_EQ (topology.euler, 1);
+    EXPECT_TRUE (topology.manifold && topology.components == 1 && topology.euler == 1);
     ASSERT_EQ (topology.loops.size (), 1U);
     EXPECT_EQ (samples::canonicalCycle (topology.loops.front ()),
                samples::canonicalCycle (region.loop));
     EXPECT_EQ (topology.vertices, region.loop.size () + region.interior.size ());
     // All points that are pressed together, but for the outermost ones.
     const bool left = pressed.positions[region.interior.front ()].x () < 0.0;
-    std::size_t pressed_points = 0;
-    for (const Eigen::Vector3d& p : pressed.positions)
-      pressed_points +=
-          (p.head<2> () - centres[left ? 0 : 1]).norm () < PressedDisc::RADIUS ? 1 : 0;
+    const auto isPressed = [&] (const Eigen::Vector3d& p) {
+      return (p.head<2> () - centres[left ? 0 : 1]).norm () < PressedDisc::RADIUS;
+    };
+    const auto pressed_points = static_cast<std::size_t> (
+        std::count_if (pressed.positions.begin (), pressed.positions.end (), isPressed));
     EXPECT_GE (topology.vertices, pressed_points - 5); // some have no collapsed triangle
-    for (const Index p : region.interior) {
-      EXPECT_LT ((pressed.positions[p].head<2> () - centres[left ? 0 : 1]).norm (),
-                 PressedDisc::RADIUS);
-      EXPECT_TRUE (seen.insert (p).second);
-    }
+    for (const Index p : region.interior)
+      EXPECT_TRUE (isPressed (pressed.positions[p]) && seen.insert (p).second);
     // Outside of the region, only edges of its loop join two points of the loop.
     const std::set<Index> loop (region.loop.begin (), region.loop.end ());
-    for (Index t = 0; t < pressed.mesh.triangles.size (); ++t) {
-      if (std::binary_search (region.triangles.begin (), region.triangles.end (), t))
-        continue;
+    const auto isInRegion = [&] (Index t) {
+      return std::binary_search (region.triangles.begin (), region.triangles.end (), t);
+    };
+    for (Index t = 0; t < pressed.mesh.triangles.size (); ++t)
       for (std::uint8_t side = 0; side < 3; ++side)
-        if (loop.count (pressed.mesh.from ({t, side})) != 0 &&
+        if (!isInRegion (t) && loop.count (pressed.mesh.from ({t, side})) != 0 &&
             loop.count (pressed.mesh.to ({t, side})) != 0) {
-          EXPECT_TRUE (std::binary_search (region.triangles.begin (), region.triangles.end (),
-                                           pressed.mesh.neighbors[t][side]));
+          EXPECT_TRUE (isInRegion (pressed.mesh.neighbors[t][side]));
         }
-    }
   }
 }
 
@@ -238,109 +151,37 @@ TEST (CollapsedRegions, ContainWhatTheyEnclose)
   EXPECT_TRUE (std::binary_search (interior.begin (), interior.end (), middle));
 }
 
-TEST (CollapsedRegions, SearchCanBeCancelled)
+TEST (CollapsedRegions, DependOnTheLimitAndNeverTouchTheBoundary)
 {
-  const PressedDisc pressed ({{0.0, 0.0}});
-  Statistics statistics;
-  RunMonitor monitor ({{}, {}, [] { return true; }}, statistics);
-  EXPECT_THROW (findCollapsedRegions (pressed.mesh, pressed.uv, pressed.positions, pressed.loop,
-                                      RunContext (1, &monitor)),
-                Cancelled);
-}
-
-TEST (CollapsedRegions, DependOnTheLimit)
-{
-  const PressedDisc pressed ({{0.0, 0.0}}); // by a factor of 1e-9
   DiscLimits limits;
-  limits.collapsed_scale = 1e-10;
-  EXPECT_TRUE (
-      findCollapsedRegions (pressed.mesh, pressed.uv, pressed.positions, pressed.loop, 1, limits)
-          .empty ());
-}
-
-TEST (CollapsedRegions, NeverTouchTheBoundary)
-{
+  limits.collapsed_scale = 1e-10; // the disc is pressed by 1e-9
+  EXPECT_TRUE (PressedDisc ({{0.0, 0.0}}).find (limits).empty ());
   const PressedDisc pressed ({{0.9, 0.0}});
   for (const CollapsedRegion& region : pressed.find ())
     for (const std::vector<Index>* part : {&region.loop, &region.interior})
       for (const Index p : *part)
-        EXPECT_GE (p, pressed.loop.size ());
+        EXPECT_EQ (std::count (pressed.loop.begin (), pressed.loop.end (), p), 0);
   EXPECT_TRUE (PressedDisc ({}).find ().empty ());
 }
 
-// A cloud after the stages up to the planar triangulation.
-struct Layout
+// If they can be parameterized: without neighbours they stay as they are.
+TEST (CollapsedRegions, AreLaidOutAgain)
 {
-  samples::Neighborhoods made;
-  std::vector<Index> loop;
-  std::vector<Eigen::Vector2d> uv;
-  TriangleMesh mesh;
-};
-
-Layout
-layOut (const Positions& cloud)
-{
-  Layout layout;
-  layout.made = samples::makeNeighborhoods (cloud);
-  const samples::Neighborhoods& made = layout.made;
-  layout.loop = findBoundary (made.points, made.geometry, {}, 1).loop;
-  layout.uv = parameterize (made.points.positions, made.geometry.neighbors, made.geometry.stars,
-                            layout.loop, {}, 1)
-                  .uv;
-  layout.mesh = triangulatePlane (layout.uv, layout.loop);
-  return layout;
-}
-
-// \return levels
-std::size_t
-layOutAgain (Layout& layout, const CsrLists& neighbors)
-{
-  const samples::Neighborhoods& made = layout.made;
-  return layOutCollapsedRegions (layout.mesh, layout.uv, made.points.positions, neighbors,
-                                 made.geometry.stars.normals, layout.loop, {}, {}, 1);
-}
-
-std::size_t
-missingPoints (const TriangleMesh& mesh)
-{
-  return static_cast<std::size_t> (
-      std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE));
-}
-
-TEST (Depth, PointsThatCoincideGetTriangles)
-{
-  Layout layout = layOut (finger (100.0));
-  const samples::Neighborhoods& made = layout.made;
-  const std::size_t missing = missingPoints (layout.mesh);
-  EXPECT_GT (missing, made.points.positions.size () / 20);
-  const std::size_t levels = layOutAgain (layout, made.geometry.neighbors);
-  EXPECT_GT (levels, 4U);
-  EXPECT_EQ (missingPoints (layout.mesh), 0U);
-  RecordProperty ("missing_before", static_cast<int> (missing));
-  RecordProperty ("levels", static_cast<int> (levels));
-}
-
-TEST (Depth, RegionsThatCannotBeParameterizedStayAsTheyWere)
-{
-  Layout layout = layOut (finger (40.0));
-  const samples::Neighborhoods& made = layout.made;
-  const std::vector<Triangle> before = layout.mesh.triangles;
-  CsrLists none; // no point has a neighbour
-  none.offsets.assign (made.points.positions.size () + 1, 0);
-  EXPECT_EQ (layOutAgain (layout, none), 0U);
-  EXPECT_EQ (layout.mesh.triangles, before);
-}
-
-TEST (Depth, ShallowSurfacesStayAsTheyAre)
-{
-  Layout layout = layOut (finger (4.0));
-  const samples::Neighborhoods& made = layout.made;
-  EXPECT_TRUE (findCollapsedRegions (layout.mesh, layout.uv, made.points.positions, layout.loop, 1)
-                   .empty ());
-  const std::vector<Triangle> before = layout.mesh.triangles;
-  const std::size_t levels = layOutAgain (layout, made.geometry.neighbors);
-  EXPECT_EQ (levels, 0U);
-  EXPECT_EQ (layout.mesh.triangles, before);
+  for (const bool connected : {true, false}) {
+    PressedDisc pressed ({{-0.5, 0.0}, {0.5, 0.1}});
+    const std::vector<Triangle> before = pressed.mesh.triangles;
+    CsrLists none;
+    none.offsets.assign (pressed.positions.size () + 1, 0);
+    const std::size_t levels =
+        layOutCollapsedRegions (pressed.mesh, pressed.uv, pressed.positions,
+                                connected ? pressed.made.geometry.neighbors : none,
+                                pressed.made.geometry.stars.normals, pressed.loop, {}, {}, 1);
+    EXPECT_EQ (levels, connected ? 1U : 0U);
+    EXPECT_EQ (pressed.mesh.triangles.size (), before.size ());
+    if (!connected) {
+      EXPECT_EQ (pressed.mesh.triangles, before);
+    }
+  }
 }
 
 } // namespace

@@ -1,45 +1,221 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What goes into the linear system: weights of stars, the curve on which the loop is laid, and the
+// connection of all points with the loop.
 #include "floater/domain.h"
 
 #include "core/geometry.h"
 #include "floater/own_shape.h"
-#include "random_stream.h"
+#include "floater/weights.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include <limits>
 
 namespace pcl::floater {
 namespace {
+using Places = std::vector<Eigen::Vector2d>;
+
+constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
+                                        Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE};
+
+std::vector<double>
+weigh (const Places& star, Weighting weighting, bool open = false)
+{
+  Stars stars;
+  stars.neighbors.offsets = {0, static_cast<Index> (star.size ())};
+  stars.neighbors.ids = samples::indices (star.size ());
+  stars.offsets_in_plane = star;
+  stars.open = {static_cast<std::uint8_t> (open)};
+  return computeWeights (stars, weighting, 1);
+}
+
+// 3 neighbours or more; distances vary by two orders of magnitude, and no sector is nearly half a
+// turn.
+Places
+randomClosedStar (RandomStream& random, std::size_t most)
+{
+  for (;;) {
+    std::vector<double> angles (3 + random.below (most - 2));
+    for (double& angle : angles)
+      angle = 2.0 * PI * random.uniform ();
+    std::sort (angles.begin (), angles.end ());
+    double widest = angles.front () + 2.0 * PI - angles.back ();
+    for (std::size_t i = 1; i < angles.size (); ++i)
+      widest = std::max (widest, angles[i] - angles[i - 1]);
+    if (widest > PI - 0.05)
+      continue;
+    Places star;
+    for (const double angle : angles)
+      star.push_back (std::pow (10.0, -2.0 * random.uniform ()) *
+                      Eigen::Vector2d (std::cos (angle), std::sin (angle)));
+    return star;
+  }
+}
+
+void
+expectPositiveSummingToOne (const std::vector<double>& weights)
+{
+  double sum = 0.0;
+  for (const double weight : weights) {
+    EXPECT_GT (weight, 0.0);
+    EXPECT_TRUE (std::isfinite (weight));
+    sum += weight;
+  }
+  EXPECT_NEAR (sum, 1.0, 1e-15 * static_cast<double> (weights.size ()));
+}
+
+// Distance of the weighted mean of the neighbours from the centre, relative to the longest offset.
+double
+centreError (const Places& star, const std::vector<double>& weights)
+{
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero ();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < star.size (); ++i) {
+    mean += weights[i] * star[i];
+    longest = std::max (longest, star[i].norm ());
+  }
+  return mean.norm () / longest;
+}
+
+// Equations (2) and (3) of TW 385 as they are printed.
+std::vector<double>
+meanValueAsPrinted (const Places& star, bool open)
+{
+  std::vector<double> weights (star.size (), 0.0);
+  for (std::size_t i = 0; i < star.size () - (open ? 1 : 0); ++i) {
+    const std::size_t j = (i + 1) % star.size ();
+    const double cosine = star[i].dot (star[j]) / (star[i].norm () * star[j].norm ());
+    const double tangent = std::sqrt ((1.0 - cosine) / (1.0 + cosine));
+    weights[i] += tangent / star[i].norm ();
+    weights[j] += tangent / star[j].norm ();
+  }
+  const double sum = std::accumulate (weights.begin (), weights.end (), 0.0);
+  for (double& weight : weights)
+    weight /= sum;
+  return weights;
+}
+
+void
+expectNear (const std::vector<double>& actual, const std::vector<double>& expected,
+            double tolerance)
+{
+  ASSERT_EQ (actual.size (), expected.size ());
+  for (std::size_t i = 0; i < actual.size (); ++i)
+    EXPECT_NEAR (actual[i], expected[i], tolerance) << "neighbour " << i;
+}
+
+TEST (Weights, OfRandomStars)
+{
+  RandomStream random (1);
+  for (int round = 0; round < 1000; ++round) {
+    const Places star = randomClosedStar (random, round % 10 == 0 ? 120 : 12);
+    const Eigen::Rotation2Dd turn (2.0 * PI * random.uniform ());
+    for (const Weighting weighting : ALL_WEIGHTINGS) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      expectPositiveSummingToOne (weigh (star, weighting, true));
+      for (const double scale : {1e-120, 3.0, 1e120}) {
+        Places moved;
+        for (const Eigen::Vector2d& offset : star)
+          moved.emplace_back (turn * (scale * offset));
+        expectNear (weigh (moved, weighting), weights, 1e-9);
+      }
+    }
+    for (const bool open : {false, true})
+      expectNear (weigh (star, Weighting::MEAN_VALUE, open), meanValueAsPrinted (star, open), 1e-9);
+    for (const Weighting weighting : {Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE})
+      EXPECT_LT (centreError (star, weigh (star, weighting)), 1e-9);
+  }
+}
+
+TEST (Weights, OfKnownStars)
+{
+  const Places star{{1.0, 0.0}, {0.0, 2.0}, {-4.0, 0.0}, {0.0, -8.0}};
+  expectNear (weigh (star, Weighting::UNIFORM), {0.25, 0.25, 0.25, 0.25}, 0.0);
+  expectNear (weigh (star, Weighting::INVERSE_DISTANCE),
+              {8.0 / 15.0, 4.0 / 15.0, 2.0 / 15.0, 1.0 / 15.0}, 1e-15);
+  // Each neighbour has 0.8 or 0.2 of the centre, and the opposite one has the rest.
+  expectNear (weigh (star, Weighting::SHAPE_PRESERVING), {0.4, 0.4, 0.1, 0.1}, 1e-9);
+  // Three in one direction share their tangents, so that none of them is left out.
+  const Places shared{{1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
+  expectNear (weigh (shared, Weighting::MEAN_VALUE),
+              {6.0 / 65.0, 3.0 / 65.0, 2.0 / 65.0, 18.0 / 65.0, 18.0 / 65.0, 18.0 / 65.0}, 1e-9);
+  const std::vector<double> preserving = weigh (shared, Weighting::SHAPE_PRESERVING);
+  EXPECT_LT (centreError (shared, preserving), 1e-8);
+  EXPECT_GT (*std::min_element (preserving.begin (), preserving.end ()), 1e-3);
+  // Half a regular octagon: three sectors of 45 degrees. Each end is in one of them, each other
+  // neighbour in two; the gap gives no term.
+  const double half = std::sqrt (0.5);
+  const Places open{{1.0, 0.0}, {half, half}, {0.0, 1.0}, {-half, half}};
+  for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING})
+    expectNear (weigh (open, weighting, true), {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, 1e-15);
+}
+
+// The centre lies on the segment between two neighbours, or by rounding just beside it.
+TEST (Weights, StayFiniteInASectorOfHalfATurn)
+{
+  for (const double lift : {0.0, 1e-17, -1e-17, 1e-12, -1e-12}) {
+    const Places star{{1.0, 0.0}, {0.5, 1.0}, {-0.25, 0.75}, {-2.0, lift}};
+    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
+      const std::vector<double> weights = weigh (star, weighting);
+      expectPositiveSummingToOne (weights);
+      EXPECT_LT (centreError (star, weights), 1e-7) << lift;
+      EXPECT_NEAR (weights[0], 2.0 / 3.0, 1e-7) << lift;
+      EXPECT_NEAR (weights[3], 1.0 / 3.0, 1e-7) << lift;
+      EXPECT_GE (*std::min_element (weights.begin (), weights.end ()), 1e-11) << lift;
+    }
+  }
+}
+
+TEST (Weights, OfDegenerateStarsArePositive)
+{
+  const double huge = 1e200, infinite = std::numeric_limits<double>::infinity ();
+  const std::vector<Places> degenerate{
+      {{1.0, 0.0}},                                       // one neighbour
+      {{1.0, 0.0}, {-1.0, 0.0}},                          // two, opposite
+      {{1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}},               // all in one direction
+      {{1.0, 0.0}, {-1.0, 0.0}, {-2.0, 0.0}},             // all on one line
+      {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}},               // no extent
+      {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, -1.0}}, // one on the centre
+      {{1e-300, 0.0}, {1.0, 1.0}, {-1.0, 0.5}, {0.0, -1.0}},
+      {{1e-200, 0.0}, {0.0, 1e-200}, {-1e-200, -1e-200}}, // squares underflow
+      {{huge, 0.0}, {0.0, huge}, {-huge, -huge}},         // squares overflow
+      {{infinite, 0.0}, {0.0, 1.0}, {-1.0, -1.0}}};
+  for (std::size_t i = 0; i < degenerate.size (); ++i)
+    for (const Weighting weighting : ALL_WEIGHTINGS)
+      for (const bool open : {false, true}) {
+        SCOPED_TRACE (testing::Message () << "star " << i << " weighting "
+                                          << static_cast<int> (weighting) << " open " << open);
+        expectPositiveSummingToOne (weigh (degenerate[i], weighting, open));
+      }
+  EXPECT_TRUE (weigh ({}, Weighting::MEAN_VALUE, true).empty ());
+  EXPECT_TRUE (computeWeights (Stars{}, Weighting::MEAN_VALUE, 2).empty ());
+}
+
 constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
                                   Domain::OWN_SHAPE};
 constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
                                         LoopSpacing::UNIFORM};
-constexpr double LARGEST_BULGE = 2.6e-4; // of a square's side, the largest of all tested here
+constexpr double LARGEST_BULGE = 2.6e-4; // of a square's side
 constexpr int SIDES = 6;
 
-// A loop on a slanted circle, its points at given fractions of a turn.
 struct Loop
 {
   std::vector<Eigen::Vector3d> positions;
   std::vector<Index> points;
 
-  explicit Loop (const std::vector<double>& turns)
+  void add (const Eigen::Vector3d& position)
   {
-    for (std::size_t i = 0; i < turns.size (); ++i) {
-      const double angle = 2.0 * PI * turns[i];
-      positions.emplace_back (0.6 * std::cos (angle), 0.8 * std::cos (angle), std::sin (angle));
-      points.push_back (static_cast<Index> (i));
-    }
+    positions.push_back (position);
+    points.push_back (static_cast<Index> (points.size ()));
   }
-
   std::size_t size () const { return points.size (); }
-  std::vector<Eigen::Vector2d> lay (Domain domain, int sides = SIDES) const
+  Places lay (Domain domain, int sides = SIDES,
+              LoopSpacing spacing = LoopSpacing::CHORD_LENGTH) const
   {
-    return layLoop (positions, points, {domain, sides});
+    return layLoop (positions, points, {domain, sides, spacing});
   }
   double chord (std::size_t i) const
   {
@@ -47,35 +223,60 @@ struct Loop
   }
 };
 
+// A loop on a slanted circle, its points at given fractions of a turn.
 Loop
-evenLoop (std::size_t count)
+roundLoop (const std::vector<double>& turns)
 {
-  std::vector<double> turns (count);
-  for (std::size_t i = 0; i < count; ++i)
-    turns[i] = static_cast<double> (i) / static_cast<double> (count);
-  return Loop (turns);
+  Loop loop;
+  for (const double turn : turns) {
+    const double angle = 2.0 * PI * turn;
+    loop.add ({0.6 * std::cos (angle), 0.8 * std::cos (angle), std::sin (angle)});
+  }
+  return loop;
 }
 
-// Step lengths vary by about two orders of magnitude.
+// A loop in a slanted plane. It goes from corner to corner in `steps` equal steps.
 Loop
-unevenLoop (std::size_t count, std::uint64_t seed)
+slantedLoop (const Places& corners, int steps)
+{
+  const Eigen::Vector3d x = Eigen::Vector3d (2.0, 1.0, -1.0).normalized ();
+  const Eigen::Vector3d y = Eigen::Vector3d (1.0, -1.0, 1.0).normalized ();
+  Loop loop;
+  for (std::size_t c = 0; c < corners.size (); ++c)
+    for (int step = 0; step < steps; ++step) {
+      const Eigen::Vector2d p = corners[c] + (corners[(c + 1) % corners.size ()] - corners[c]) *
+                                                 step / static_cast<double> (steps);
+      loop.add (Eigen::Vector3d (5.0, 6.0, 7.0) + p.x () * x + p.y () * y);
+    }
+  return loop;
+}
+
+// Step lengths are equal, or vary by about two orders of magnitude.
+Loop
+unevenLoop (std::size_t count, std::uint64_t seed, double orders = 2.0)
 {
   RandomStream random (seed);
   std::vector<double> turns (count);
   double sum = 0.0;
   for (double& turn : turns) {
     turn = sum;
-    sum += std::pow (10.0, -2.0 * random.uniform ());
+    sum += std::pow (10.0, -orders * random.uniform ());
   }
   for (double& turn : turns)
     turn /= sum;
-  return Loop (turns);
+  return roundLoop (turns);
+}
+
+Loop
+evenLoop (std::size_t count)
+{
+  return unevenLoop (count, 1, 0.0);
 }
 
 // Expects a left turn at every point, and one turn in all. Differences of nearly equal doubles are
 // exact, so the sign of the cross product is right.
 void
-expectStrictlyConvex (const std::vector<Eigen::Vector2d>& uv)
+expectStrictlyConvex (const Places& uv)
 {
   const std::size_t count = uv.size ();
   double turn = 0.0;
@@ -98,171 +299,75 @@ rightOf (const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Ve
   return cross (point - from, to - from) / (to - from).norm ();
 }
 
-TEST (Domain, CircleByChordLength)
+TEST (Domain, EvenLoopsLieOnRegularPolygons)
 {
-  const Loop loop = unevenLoop (40, 1);
-  const std::vector<Eigen::Vector2d> uv = loop.lay (Domain::CIRCLE);
-  ASSERT_EQ (uv.size (), loop.size ());
-  double total = 0.0;
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    total += loop.chord (i);
-  EXPECT_EQ (uv[0], Eigen::Vector2d (1.0, 0.0));
-  double length = 0.0;
-  for (std::size_t i = 0; i < loop.size (); ++i) {
-    const double angle = 2.0 * PI * length / total;
-    EXPECT_NEAR (uv[i].x (), std::cos (angle), 1e-13);
-    EXPECT_NEAR (uv[i].y (), std::sin (angle), 1e-13);
-    length += loop.chord (i);
-  }
-}
-
-TEST (Domain, SquareByChordLength)
-{
-  const Loop loop = evenLoop (20);
-  const std::vector<Eigen::Vector2d> uv = loop.lay (Domain::SQUARE);
-  const double half = std::sqrt (0.5);
-  const Eigen::Vector2d corners[] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
-  for (std::size_t i = 0; i < 20; ++i) {
-    const Eigen::Vector2d& from = corners[i / 5];
-    const Eigen::Vector2d& to = corners[(i / 5 + 1) % 4];
-    const Eigen::Vector2d expected = from + static_cast<double> (i % 5) / 5.0 * (to - from);
-    EXPECT_LT ((uv[i] - expected).norm (), i % 5 == 0 ? 1e-15 : LARGEST_BULGE) << i;
-    EXPECT_GE (rightOf (from, to, uv[i]), -1e-15) << i;
-  }
-}
-
-TEST (Domain, PolygonCornersAreOnTheUnitCircle)
-{
-  for (const int sides : {3, 5, 6, 40}) {
-    const std::size_t per_side = 4;
+  for (const int sides : {3, 4, 5, 6, 40}) {
+    SCOPED_TRACE (sides);
     const auto corners = static_cast<std::size_t> (sides);
-    const std::vector<Eigen::Vector2d> uv =
-        evenLoop (corners * per_side).lay (Domain::POLYGON, sides);
-    for (std::size_t c = 0; c < corners; ++c) {
-      const Eigen::Vector2d& from = uv[c * per_side];
-      const Eigen::Vector2d& to = uv[(c + 1) % corners * per_side];
-      EXPECT_NEAR (from.norm (), 1.0, 1e-15);
-      EXPECT_NEAR ((to - from).norm (), 2.0 * std::sin (PI / sides), 1e-14);
-      const Eigen::Vector2d& middle = uv[c * per_side + per_side / 2];
-      const double bulge = rightOf (from, to, middle);
-      EXPECT_GT (bulge, 0.0);
-      EXPECT_LT (bulge, 2e-3 * (1.0 - std::cos (PI / sides)));
+    const Places uv =
+        evenLoop (4 * corners).lay (sides == 4 ? Domain::SQUARE : Domain::POLYGON, sides);
+    const auto corner = [&] (std::size_t c) -> Eigen::Vector2d { // the first side is the bottom
+      const double angle = PI * (2.0 * static_cast<double> (c) - 1.0) / sides - 0.5 * PI;
+      return {std::cos (angle), std::sin (angle)};
+    };
+    const double largest_bulge = sides == 4 ? LARGEST_BULGE : 2e-3 * (1.0 - std::cos (PI / sides));
+    for (std::size_t i = 0; i < uv.size (); ++i) {
+      const Eigen::Vector2d from = corner (i / 4), to = corner (i / 4 + 1);
+      const Eigen::Vector2d expected = from + static_cast<double> (i % 4) / 4.0 * (to - from);
+      EXPECT_LT ((uv[i] - expected).norm (), i % 4 == 0 ? 1e-14 : largest_bulge) << i;
+      EXPECT_GE (rightOf (from, to, uv[i]), i % 4 == 0 ? -1e-14 : 1e-9) << i;
     }
-    EXPECT_NEAR (uv[0].y (), uv[per_side].y (), 1e-15) << "the first side is the bottom";
-    EXPECT_LT (uv[0].x (), uv[per_side].x ());
-  }
-}
-
-TEST (Domain, CornersGoToTheNearestLoopPoints)
-{
-  const Loop loop = unevenLoop (60, 2);
-  const std::vector<Eigen::Vector2d> uv = loop.lay (Domain::SQUARE);
-  std::vector<double> lengths{0.0};
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    lengths.push_back (lengths.back () + loop.chord (i));
-  for (int corner = 0; corner < 4; ++corner) {
-    const double wanted = lengths.back () * corner / 4.0;
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < loop.size (); ++i)
-      if (std::abs (lengths[i] - wanted) < std::abs (lengths[nearest] - wanted))
-        nearest = i;
-    const double angle = -0.75 * PI + 0.5 * PI * corner;
-    EXPECT_NEAR (uv[nearest].x (), std::cos (angle), 1e-14) << corner;
-    EXPECT_NEAR (uv[nearest].y (), std::sin (angle), 1e-14) << corner;
   }
 }
 
 TEST (Domain, EveryCornerHasItsOwnPoint)
 {
+  // The nearest along the loop.
+  const Places uv =
+      roundLoop ({0.0, 0.1, 0.24, 0.27, 0.4, 0.52, 0.6, 0.74, 0.77, 0.9}).lay (Domain::SQUARE);
+  for (const std::size_t corner : {0, 2, 5, 7})
+    EXPECT_NEAR (uv[corner].norm (), 1.0, 1e-15);
   // All corners but the first are nearest to the last point, or to the first points.
   const std::vector<double> late{0.0, 0.0001, 0.0002, 0.0003, 0.0004, 0.5};
   const std::vector<double> early{0.0, 0.5, 0.9996, 0.9997, 0.9998, 0.9999};
   for (const auto& turns : {late, early})
     for (const int sides : {3, 4, 5, 6}) {
-      const std::vector<Eigen::Vector2d> uv = Loop (turns).lay (Domain::POLYGON, sides);
-      EXPECT_EQ (std::count_if (uv.begin (), uv.end (),
+      const Places laid = roundLoop (turns).lay (Domain::POLYGON, sides);
+      EXPECT_EQ (std::count_if (laid.begin (), laid.end (),
                                 [] (const auto& p) { return std::abs (p.norm () - 1.0) < 1e-15; }),
                  sides);
-      expectStrictlyConvex (uv);
+      expectStrictlyConvex (laid);
     }
-}
-
-TEST (Domain, ShortLoopsGetFewerCorners)
-{
+  // A short loop gets fewer corners.
   for (const std::size_t count : {3u, 4u, 5u}) {
-    const std::vector<Eigen::Vector2d> uv = unevenLoop (count, 3).lay (Domain::POLYGON, 12);
-    ASSERT_EQ (uv.size (), count);
+    const Places laid = unevenLoop (count, 3).lay (Domain::POLYGON, 12);
     for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_NEAR (uv[i].norm (), 1.0, 1e-15);
-      EXPECT_NEAR ((uv[(i + 1) % count] - uv[i]).norm (),
+      EXPECT_NEAR (laid[i].norm (), 1.0, 1e-15);
+      EXPECT_NEAR ((laid[(i + 1) % count] - laid[i]).norm (),
                    2.0 * std::sin (PI / static_cast<double> (count)), 1e-14);
     }
   }
 }
 
-TEST (Domain, LongLoopsAreStrictlyConvex)
+// Long loops, points that coincide or nearly do, and a single long step.
+TEST (Domain, EveryLoopIsStrictlyConvex)
 {
-  for (const Domain domain : ALL_DOMAINS) {
-    expectStrictlyConvex (evenLoop (3).lay (domain));
-    expectStrictlyConvex (evenLoop (100000).lay (domain));
-    expectStrictlyConvex (unevenLoop (100000, 4).lay (domain));
-  }
-}
-
-TEST (Domain, PointsThatNearlyCoincideGetDistinctParameters)
-{
+  std::vector<Loop> loops{evenLoop (3), evenLoop (100000), unevenLoop (100000, 4),
+                          roundLoop (std::vector<double> (8, 0.0))};
   for (const double gap : {0.0, 1e-16, 1e-14, 1e-12, 1e-9}) {
     std::vector<double> turns (10000); // a hundred groups of a hundred points
-    for (std::size_t i = 0; i < turns.size (); ++i) {
-      const std::size_t group = i / 100;
-      turns[i] = 0.01 * static_cast<double> (group) + gap * static_cast<double> (i % 100);
-    }
-    const Loop loop (turns);
+    for (std::size_t i = 0; i < turns.size (); ++i)
+      turns[i] = 0.01 * static_cast<double> (i / 100) + gap * static_cast<double> (i % 100);
+    loops.push_back (roundLoop (turns));
+  }
+  std::vector<double> short_steps (5000);
+  for (std::size_t i = 0; i < short_steps.size (); ++i)
+    short_steps[i] = 1e-13 * static_cast<double> (i);
+  loops.push_back (roundLoop (short_steps));
+  for (const Loop& loop : loops)
     for (const Domain domain : ALL_DOMAINS)
       expectStrictlyConvex (loop.lay (domain));
-  }
 }
-
-TEST (Domain, OneLongStepAmongShortOnesIsStrictlyConvex)
-{
-  std::vector<double> turns (5000);
-  for (std::size_t i = 0; i < turns.size (); ++i)
-    turns[i] = 1e-13 * static_cast<double> (i);
-  for (const Domain domain : ALL_DOMAINS)
-    expectStrictlyConvex (Loop (turns).lay (domain));
-}
-
-TEST (Domain, ALoopWithoutLengthIsLaidEvenly)
-{
-  const std::vector<Eigen::Vector3d> same (8, Eigen::Vector3d::Ones ());
-  const std::vector<Index> points{0, 1, 2, 3, 4, 5, 6, 7};
-  for (const Domain domain : ALL_DOMAINS)
-    expectStrictlyConvex (layLoop (same, points, {domain, SIDES}));
-}
-
-// A loop in a slanted plane. It goes from corner to corner in `steps` equal steps.
-struct SlantedLoop
-{
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<Index> points;
-
-  SlantedLoop (const std::vector<Eigen::Vector2d>& corners, int steps)
-  {
-    const Eigen::Vector3d x = Eigen::Vector3d (2.0, 1.0, -1.0).normalized ();
-    const Eigen::Vector3d y = Eigen::Vector3d (1.0, -1.0, 1.0).normalized ();
-    for (std::size_t c = 0; c < corners.size (); ++c)
-      for (int step = 0; step < steps; ++step) {
-        const Eigen::Vector2d p = corners[c] + (corners[(c + 1) % corners.size ()] - corners[c]) *
-                                                   step / static_cast<double> (steps);
-        positions.emplace_back (Eigen::Vector3d (5.0, 6.0, 7.0) + p.x () * x + p.y () * y);
-        points.push_back (static_cast<Index> (points.size ()));
-      }
-  }
-  std::vector<Eigen::Vector2d> lay (LoopSpacing spacing = LoopSpacing::CHORD_LENGTH) const
-  {
-    return layLoop (positions, points, {Domain::OWN_SHAPE, 3, spacing});
-  }
-};
 
 TEST (Domain, StepsAreByLengthByItsRootOrEqual)
 {
@@ -276,8 +381,8 @@ TEST (Domain, StepsAreByLengthByItsRootOrEqual)
     double total = 0.0;
     for (std::size_t i = 0; i < loop.size (); ++i)
       total += step (i);
-    const std::vector<Eigen::Vector2d> uv =
-        layLoop (loop.positions, loop.points, {Domain::CIRCLE, SIDES, spacing});
+    const Places uv = loop.lay (Domain::CIRCLE, SIDES, spacing);
+    EXPECT_EQ (uv[0], Eigen::Vector2d (1.0, 0.0));
     double length = 0.0;
     for (std::size_t i = 0; i < loop.size (); ++i) {
       const double angle = 2.0 * PI * length / total;
@@ -286,56 +391,47 @@ TEST (Domain, StepsAreByLengthByItsRootOrEqual)
       length += step (i);
     }
     for (const Domain domain : ALL_DOMAINS)
-      expectStrictlyConvex (layLoop (loop.positions, loop.points, {domain, SIDES, spacing}));
+      expectStrictlyConvex (loop.lay (domain, SIDES, spacing));
   }
 }
 
-// All distances keep their proportions, up to the bulge of the sides.
+// All distances keep their proportions, up to the bulge of the sides, whatever the first point and
+// the orientation of the loop.
 TEST (Domain, OwnShapeOfAConvexLoopIsTheLoop)
 {
-  const SlantedLoop loop ({{0, 0}, {4, 0}, {5, 2}, {3, 4}, {-1, 3}}, 8);
-  const std::vector<Eigen::Vector2d> uv = loop.lay ();
-  expectStrictlyConvex (uv);
-  double farthest = 0.0;
-  for (const Eigen::Vector2d& p : uv)
-    farthest = std::max (farthest, p.norm ());
-  EXPECT_NEAR (farthest, 1.0, 1e-14);
-  const auto distance = [&] (std::size_t i, std::size_t j) {
-    return (loop.positions[i] - loop.positions[j]).norm ();
-  };
-  const double scale = (uv[0] - uv[16]).norm () / distance (0, 16);
-  for (std::size_t i = 0; i < uv.size (); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const bool corners = i % 8 == 0 && j % 8 == 0;
-      EXPECT_NEAR ((uv[i] - uv[j]).norm (), scale * distance (i, j), corners ? 1e-14 : 1e-3);
+  Loop loop = slantedLoop ({{0, 0}, {4, 0}, {5, 2}, {3, 4}, {-1, 3}}, 8);
+  for (const bool reversed : {false, true}) {
+    if (reversed) {
+      std::rotate (loop.points.begin (), loop.points.begin () + 7, loop.points.end ());
+      std::reverse (loop.points.begin (), loop.points.end ());
     }
-}
-
-TEST (Domain, OwnShapeDoesNotDependOnTheFirstPointNorOnTheOrientation)
-{
-  SlantedLoop loop ({{0, 0}, {4, 0}, {5, 2}, {2, 1.5}, {3, 4}, {-1, 3}}, 5);
-  const std::vector<Eigen::Vector2d> uv = loop.lay ();
-  std::rotate (loop.points.begin (), loop.points.begin () + 7, loop.points.end ());
-  const std::vector<Eigen::Vector2d> turned = loop.lay ();
-  std::reverse (loop.points.begin (), loop.points.end ());
-  const std::vector<Eigen::Vector2d> reversed = loop.lay ();
-  const std::size_t count = uv.size ();
-  for (std::size_t i = 0; i < count; ++i)
-    for (const std::size_t other : {0, 5, 13}) {
-      const double expected = (uv[(i + 7) % count] - uv[(other + 7) % count]).norm ();
-      EXPECT_NEAR ((turned[i] - turned[other]).norm (), expected, 1e-12);
-      EXPECT_NEAR ((reversed[count - 1 - i] - reversed[count - 1 - other]).norm (), expected,
-                   1e-12);
+    const Places laid = loop.lay (Domain::OWN_SHAPE);
+    expectStrictlyConvex (laid);
+    Places uv (laid.size ()); // per point
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < laid.size (); ++i) {
+      uv[loop.points[i]] = laid[i];
+      farthest = std::max (farthest, laid[i].norm ());
     }
-  expectStrictlyConvex (reversed);
+    EXPECT_NEAR (farthest, 1.0, 1e-14);
+    const auto distance = [&] (std::size_t i, std::size_t j) {
+      return (loop.positions[i] - loop.positions[j]).norm ();
+    };
+    const double scale = (uv[0] - uv[16]).norm () / distance (0, 16);
+    for (std::size_t i = 0; i < uv.size (); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const bool corners = i % 8 == 0 && j % 8 == 0;
+        EXPECT_NEAR ((uv[i] - uv[j]).norm (), scale * distance (i, j), corners ? 1e-14 : 1e-3);
+      }
+  }
 }
 
 // Points in a bay of the outline go on the side that closes the bay, spaced as on any side.
 TEST (Domain, OwnShapeClosesBays)
 {
-  const SlantedLoop loop ({{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}, 4);
+  const Loop loop = slantedLoop ({{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}, 4);
   for (const LoopSpacing spacing : ALL_SPACINGS) {
-    const std::vector<Eigen::Vector2d> uv = loop.lay (spacing);
+    const Places uv = loop.lay (Domain::OWN_SHAPE, SIDES, spacing);
     expectStrictlyConvex (uv);
     const Eigen::Vector2d side = uv[16] - uv[8]; // from (4, 3) to (0, 3)
     EXPECT_NEAR (side.norm () / (uv[4] - uv[0]).norm (), 1.0, 1e-13);
@@ -346,12 +442,12 @@ TEST (Domain, OwnShapeClosesBays)
 
 TEST (Domain, ALoopWithoutAShapeIsLaidOnTheCircle)
 {
-  const SlantedLoop line ({{0, 0}, {1, 0}, {3, 0}}, 5);
-  for (const Eigen::Vector2d& p : line.lay ())
+  const Loop line = slantedLoop ({{0, 0}, {1, 0}, {3, 0}}, 5);
+  for (const Eigen::Vector2d& p : line.lay (Domain::OWN_SHAPE))
     EXPECT_NEAR (p.norm (), 1.0, 1e-14);
   // A figure of eight still has a hull. Whatever comes out is convex.
-  const SlantedLoop eight ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10);
-  expectStrictlyConvex (eight.lay ());
+  const Loop eight = slantedLoop ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10);
+  expectStrictlyConvex (eight.lay (Domain::OWN_SHAPE));
 }
 
 // A box with walls: of two points one above the other the first is the corner. Points on the sides
@@ -377,7 +473,7 @@ TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
     // Star-shaped outlines, from nearly round to very rough, with up to thousands of points.
     const std::size_t count = 3 + random.below (round % 3 == 0 ? 3000 : 60);
     const double roughness = std::pow (10.0, -8.0 * random.uniform ());
-    std::vector<Eigen::Vector2d> corners;
+    Places corners;
     for (std::size_t i = 0; i < count; ++i) {
       const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (count);
       const double radius = 1.0 + roughness * (random.uniform () - 0.5);
@@ -385,7 +481,100 @@ TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
     }
     SCOPED_TRACE (testing::Message () << round << ": " << count << " points, " << roughness);
     for (const LoopSpacing spacing : ALL_SPACINGS)
-      expectStrictlyConvex (SlantedLoop (corners, 1 + round % 4).lay (spacing));
+      expectStrictlyConvex (
+          slantedLoop (corners, 1 + round % 4).lay (Domain::OWN_SHAPE, SIDES, spacing));
+  }
+}
+
+using Lists = std::vector<std::vector<Index>>;
+using Links = std::vector<std::array<Index, 2>>;
+
+CsrLists
+flatten (const Lists& lists)
+{
+  CsrLists flat;
+  flat.offsets.push_back (0);
+  for (const auto& list : lists) {
+    flat.ids.insert (flat.ids.end (), list.begin (), list.end ());
+    flat.offsets.push_back (static_cast<Index> (flat.ids.size ()));
+  }
+  return flat;
+}
+
+// The definition instead of the algorithm: follows the rows until nothing changes.
+std::vector<std::uint8_t>
+reachableByDefinition (const Lists& rows, const std::vector<Index>& loop)
+{
+  std::vector<std::uint8_t> reachable (rows.size (), 0);
+  for (const Index p : loop)
+    reachable[p] = 1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t p = 0; p < rows.size (); ++p)
+      for (const Index q : rows[p])
+        if (reachable[p] == 0 && reachable[q] != 0) {
+          reachable[p] = 1;
+          changed = true;
+        }
+  }
+  return reachable;
+}
+
+TEST (Reachability, LinksToTheNearest)
+{
+  std::vector<Eigen::Vector3d> positions; // a line of points one apart
+  for (int i = 0; i < 5; ++i)
+    positions.emplace_back (i, 0.0, 0.0);
+  const auto linksOf = [&] (const Lists& nearest, std::size_t most) {
+    DiscLimits limits;
+    limits.links_per_point = most;
+    const Reachability reach =
+        reachLoop (flatten (Lists (5)), flatten (nearest), positions, {0, 1, 2, 3}, 1, limits);
+    EXPECT_EQ (reach.linked_points, 1U);
+    return reach.links;
+  };
+  EXPECT_EQ (linksOf ({{}, {}, {}, {}, {0, 2, 1, 3}}, 3), (Links{{4, 1}, {4, 2}, {4, 3}}));
+  EXPECT_EQ (linksOf ({{}, {}, {}, {}, {0, 2, 1, 3}}, 2), (Links{{4, 2}, {4, 3}}));
+  // In the other direction, too, and once if in both.
+  EXPECT_EQ (linksOf ({{4}, {4}, {}, {}, {}}, 3), (Links{{4, 0}, {4, 1}}));
+  EXPECT_EQ (linksOf ({{4}, {4}, {}, {}, {0, 1}}, 3), (Links{{4, 0}, {4, 1}}));
+  EXPECT_TRUE (reachLoop ({}, {}, {}, {}, 1).reachable.empty ());
+}
+
+// With links, neighbours count in both directions.
+TEST (Reachability, MatchesItsDefinitionOnRandomGraphs)
+{
+  RandomStream random (2);
+  for (int round = 0; round < 50; ++round) {
+    const std::size_t count = 5 + random.below (60);
+    Lists rows (count), nearest (count);
+    for (Lists* lists : {&rows, &nearest})
+      for (auto& list : *lists)
+        for (std::size_t i = random.below (round % 2 == 0 ? 3 : 2); i > 0; --i)
+          list.push_back (static_cast<Index> (random.below (count)));
+    const Reachability reach =
+        reachLoop (flatten (rows), flatten (nearest), samples::randomPoints (count, 1), {0, 1}, 1);
+    Lists both = rows;
+    for (Index p = 0; p < count; ++p)
+      for (const Index q : nearest[p]) {
+        both[p].push_back (q);
+        both[q].push_back (p);
+      }
+    EXPECT_EQ (reach.reachable, reachableByDefinition (both, {0, 1}));
+    const std::vector<std::uint8_t> before = reachableByDefinition (rows, {0, 1});
+    EXPECT_TRUE (std::is_sorted (reach.links.begin (), reach.links.end ()));
+    std::set<Index> linked;
+    for (const auto& [point, neighbor] : reach.links) {
+      EXPECT_EQ (before[point], 0);
+      linked.insert (point);
+      rows[point].push_back (neighbor);
+    }
+    EXPECT_EQ (reach.linked_points, linked.size ());
+    EXPECT_EQ (reachableByDefinition (rows, {0, 1}), reach.reachable);
+    // The whole edge of an unconnected part is linked.
+    for (Index p = 0; p < count; ++p)
+      for (const Index q : both[p])
+        EXPECT_TRUE (before[p] != 0 || before[q] == 0 || linked.count (p) != 0);
   }
 }
 

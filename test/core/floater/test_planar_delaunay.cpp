@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/planar_delaunay.h"
 
-#include "floater/domain.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +10,6 @@
 
 namespace pcl::floater {
 namespace {
-using samples::PI;
 using Places = std::vector<Eigen::Vector2d>;
 
 // First the points of the hull in order, then points inside.
@@ -40,22 +38,10 @@ inCircle (std::size_t hull, std::size_t inside, std::uint64_t seed)
   return sites;
 }
 
-// Positive if d is inside of the circle through a, b and c, which are anti-clockwise.
-double
-inCircleTest (Eigen::Vector2d a, Eigen::Vector2d b, Eigen::Vector2d c, const Eigen::Vector2d& d)
-{
-  a -= d;
-  b -= d;
-  c -= d;
-  Eigen::Matrix3d rows;
-  rows << a.x (), a.y (), a.squaredNorm (), b.x (), b.y (), b.squaredNorm (), c.x (), c.y (),
-      c.squaredNorm ();
-  return rows.determinant ();
-}
-
-// Expects a mesh of all points but so many, with empty circumcircles and the loop as its boundary.
+// Expects a mesh of all points but so many, with the loop as its boundary. That circumcircles are
+// empty is checked for the whole method (test_published_method.cpp).
 void
-expectDelaunay (const Sites& sites, const TriangleMesh& mesh, std::size_t dropped)
+expectMesh (const Sites& sites, const TriangleMesh& mesh, std::size_t dropped)
 {
   TriangleMesh fresh;
   fresh.triangles = mesh.triangles;
@@ -71,68 +57,34 @@ expectDelaunay (const Sites& sites, const TriangleMesh& mesh, std::size_t droppe
   std::rotate (loop.begin (), std::find (loop.begin (), loop.end (), sites.loop.front ()),
                loop.end ());
   EXPECT_EQ (loop, sites.loop);
-  for (const Triangle& t : mesh.triangles) {
-    const Eigen::Vector2d a = sites.uv[t[0]], b = sites.uv[t[1]], c = sites.uv[t[2]];
-    const Eigen::Vector2d ab = b - a, ac = c - a;
-    EXPECT_GT (ab.x () * ac.y () - ab.y () * ac.x (), 0.0);
-    for (const Eigen::Vector2d& d : sites.uv) {
-      if (d.allFinite ()) {
-        ASSERT_LT (inCircleTest (a, b, c, d), 1e-13);
-      }
+  for (const auto& [a, b, c] : mesh.triangles)
+    EXPECT_GT (cross (sites.uv[b] - sites.uv[a], sites.uv[c] - sites.uv[a]), 0.0);
+}
+
+TEST (PlanarDelaunay, IsBoundedByTheLoop)
+{
+  for (const std::size_t hull : {3U, 4U, 5U, 40U, 100U})
+    for (const std::size_t inside : {0U, 300U}) {
+      const Sites sites = inCircle (hull, inside, hull);
+      expectMesh (sites, triangulatePlane (sites.uv, sites.loop), 0);
+      if (inside == 0)
+        continue;
+      // The same of the hull, whatever it is; a twin and a point that is nowhere have no triangle.
+      Sites places = sites;
+      places.uv.push_back (sites.uv.back ());
+      places.uv.emplace_back (std::nan (""), 0.5);
+      expectMesh (places, triangulateHull (places.uv), 2);
     }
-  }
-}
-
-TEST (PlanarDelaunay, CirclesAreEmpty)
-{
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Sites sites = inCircle (40, 300, seed);
-    expectDelaunay (sites, triangulatePlane (sites.uv, sites.loop), 0);
-  }
-}
-
-TEST (PlanarDelaunay, OfTheHullAlone)
-{
-  for (const std::size_t hull : {3U, 4U, 5U, 100U}) {
-    const Sites sites = inCircle (hull, 0, 1);
-    expectDelaunay (sites, triangulatePlane (sites.uv, sites.loop), 0);
-  }
-}
-
-TEST (PlanarDelaunay, OfCocircularPointsInAGrid)
-{
-  Sites sites;
-  const int side = 12;
-  const auto add = [&sites] (int x, int y) {
-    sites.uv.emplace_back ((x - 6) / 16.0, (y - 6) / 16.0);
-  };
-  for (int i = 0; i < side; ++i)
-    add (i, 0);
-  for (int i = 0; i < side; ++i)
-    add (side, i);
-  for (int i = 0; i < side; ++i)
-    add (side - i, side);
-  for (int i = 0; i < side; ++i)
-    add (0, side - i);
-  sites.loop = samples::indices (sites.uv.size ());
-  for (int x = 1; x < side; ++x)
-    for (int y = 1; y < side; ++y)
-      add (x, y);
-  expectDelaunay (sites, triangulatePlane (sites.uv, sites.loop), 0);
-}
-
-TEST (PlanarDelaunay, DomainsKeepTheirBoundary)
-{
-  const samples::Sheet sheet = samples::disc (0.08, 2);
-  const std::vector<Index> loop = samples::indices (sheet.border);
-  for (const Domain domain : {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON}) {
-    Sites sites;
-    sites.loop = loop;
-    sites.uv = layLoop (sheet.positions, loop, {domain, 7});
-    for (std::size_t p = sheet.border; p < sheet.positions.size (); ++p)
-      sites.uv.emplace_back (0.6 * sheet.positions[p].head<2> ());
-    expectDelaunay (sites, triangulatePlane (sites.uv, loop), 0);
-  }
+  // Cocircular points in a grid.
+  Sites grid;
+  grid.uv = samples::resample ({{0, 0}, {12, 0}, {12, 12}, {0, 12}}, 1.0);
+  grid.loop = samples::indices (grid.uv.size ());
+  for (int x = 1; x < 12; ++x)
+    for (int y = 1; y < 12; ++y)
+      grid.uv.emplace_back (x, y);
+  for (Eigen::Vector2d& p : grid.uv)
+    p = (p - Eigen::Vector2d (6.0, 6.0)) / 16.0;
+  expectMesh (grid, triangulatePlane (grid.uv, grid.loop), 0);
 }
 
 TEST (PlanarDelaunay, ASideThatIsNotExactlyStraightGetsNoSlivers)
@@ -147,66 +99,39 @@ TEST (PlanarDelaunay, ASideThatIsNotExactlyStraightGetsNoSlivers)
   RandomStream random (3);
   for (int i = 0; i < 200; ++i)
     sites.uv.emplace_back (0.3 * random.uniform () - 0.2, 0.3 * random.uniform () - 0.15);
-  const TriangleMesh mesh = triangulatePlane (sites.uv, sites.loop);
-  const samples::Topology topology = samples::topologyOf (mesh.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.vertices, sites.uv.size ());
-  EXPECT_EQ (mesh.triangles.size (), 2 * sites.uv.size () - 2 - sites.loop.size ());
-  ASSERT_EQ (topology.loops.size (), 1U);
-  EXPECT_EQ (topology.loops.front (), sites.loop);
+  expectMesh (sites, triangulatePlane (sites.uv, sites.loop), 0);
 }
 
-TEST (PlanarDelaunay, OfCoincidentPointsOneIsAVertex)
+TEST (PlanarDelaunay, OfCoincidentPointsOneIsAVertexAndThatOfTheLoopIfThereIs)
 {
   Sites sites = inCircle (30, 100, 4);
-  for (const std::size_t at : {50U, 50U, 77U})
+  for (const std::size_t at : {50U, 50U, 77U, 0U, 12U, 29U})
     sites.uv.push_back (sites.uv[at]);
   const TriangleMesh mesh = triangulatePlane (sites.uv, sites.loop);
-  expectDelaunay (sites, mesh, 3);
-  EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 3);
-}
-
-TEST (PlanarDelaunay, OfCoincidentPointsThatOfTheLoopIsTheVertex)
-{
-  Sites sites = inCircle (30, 100, 5);
-  for (const std::size_t at : {0U, 12U, 29U})
-    sites.uv.push_back (sites.uv[at]);
-  const TriangleMesh mesh = triangulatePlane (sites.uv, sites.loop);
-  expectDelaunay (sites, mesh, 3);
-  for (std::size_t p = 130; p < 133; ++p)
-    EXPECT_EQ (mesh.triangle_of[p], NONE);
+  expectMesh (sites, mesh, 6);
+  EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 6);
   // Also if it has the larger index.
   std::reverse (sites.uv.begin (), sites.uv.end ());
   for (Index& p : sites.loop)
     p = static_cast<Index> (sites.uv.size ()) - 1 - p;
-  expectDelaunay (sites, triangulatePlane (sites.uv, sites.loop), 3);
+  expectMesh (sites, triangulatePlane (sites.uv, sites.loop), 6);
 }
 
-TEST (PlanarDelaunay, PointsWithoutParametersAreLeftOut)
+TEST (PlanarDelaunay, PointsWithoutParametersAndOnOrBeyondTheLoopAreLeftOut)
 {
-  Sites sites = inCircle (20, 50, 6);
+  Sites sites = inCircle (20, 50, 7);
   const double nan = std::numeric_limits<double>::quiet_NaN ();
   sites.uv[33] = {nan, nan};
   sites.uv[60].y () = nan;
-  const TriangleMesh mesh = triangulatePlane (sites.uv, sites.loop);
-  expectDelaunay (sites, mesh, 2);
-  EXPECT_EQ (mesh.triangle_of[33], NONE);
-  EXPECT_EQ (mesh.triangle_of[60], NONE);
-}
-
-TEST (PlanarDelaunay, PointsOnOrBeyondTheLoopAreLeftOut)
-{
-  Sites sites = inCircle (20, 50, 7);
-  const Eigen::Vector2d middle = 0.5 * (sites.uv[3] + sites.uv[4]);
-  sites.uv[30] = 1.001 * middle;
+  sites.uv[30] = 1.001 * 0.5 * (sites.uv[3] + sites.uv[4]);
   sites.uv[40] = 1.5 * sites.uv[7];
   sites.uv[50] = {0.5 * (sites.uv[0].x () + sites.uv[10].x ()), 1.0};
   const TriangleMesh mesh = triangulatePlane (sites.uv, sites.loop);
-  for (const Index p : {30U, 40U, 50U})
+  for (const std::size_t p : {30U, 33U, 40U, 50U, 60U}) {
     EXPECT_EQ (mesh.triangle_of[p], NONE);
-  for (const std::size_t p : {30U, 40U, 50U})
-    sites.uv[p].setConstant (std::numeric_limits<double>::quiet_NaN ());
-  expectDelaunay (sites, mesh, 3);
+    sites.uv[p].setConstant (nan);
+  }
+  expectMesh (sites, mesh, 5);
 }
 
 TEST (PlanarDelaunay, OfPointsOnALineIsEmpty)
@@ -218,29 +143,6 @@ TEST (PlanarDelaunay, OfPointsOnALineIsEmpty)
   EXPECT_TRUE (mesh.triangles.empty ());
   EXPECT_EQ (mesh.triangle_of, std::vector<Index> (10, NONE));
   EXPECT_TRUE (triangulatePlane ({}, {}).triangles.empty ());
-}
-
-TEST (TriangulateHull, FillsTheHullOfPointsAnyhowPlaced)
-{
-  RandomStream random (3);
-  std::vector<Eigen::Vector2d> places{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
-  for (int i = 0; i < 500; ++i)
-    places.emplace_back (random.uniform (), random.uniform ());
-  places.push_back (places[10]); // stays without a triangle
-  places.emplace_back (std::nan (""), 0.5);
-  const TriangleMesh mesh = triangulateHull (places);
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    area += 0.5 * cross (places[b] - places[a], places[c] - places[a]);
-  EXPECT_NEAR (area, 1.0, 1e-12);
-  EXPECT_EQ (mesh.triangles.size (), 2 * 504U - 2U - 4U);
-  EXPECT_EQ (mesh.triangle_of.back (), NONE);
-  TriangleMesh copy = mesh;
-  EXPECT_TRUE (copy.connect (places.size (), 1));
-}
-
-TEST (TriangulateHull, PointsOnALineHaveNone)
-{
   EXPECT_TRUE (triangulateHull ({}).triangles.empty ());
   EXPECT_TRUE (triangulateHull ({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).triangles.empty ());
 }

@@ -1,0 +1,509 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, the graph on
+// which they are ordered, both finders of loops, and the stage as a whole.
+#include "floater/boundary/boundary.h"
+#include "floater/boundary/neighbor_graph.h"
+#include "floater/boundary/spanning_tree_loop.h"
+#include "floater/boundary/two_segment_loop.h"
+#include "samples.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <iterator>
+#include <limits>
+
+namespace pcl::floater {
+namespace {
+using samples::canonicalCycle;
+using samples::indices;
+using samples::makeNeighborhoods;
+using samples::Neighborhoods;
+using samples::Outline;
+using samples::Positions;
+using samples::randomPoints;
+using samples::Sheet;
+using Clusters = std::vector<std::vector<Index>>;
+using Gaps = std::vector<std::array<Index, 3>>;
+using Pair = std::pair<Index, Index>;
+
+// One star: point 0 with neighbours 1, 2, and so on. The neighbours have no stars.
+Stars
+starOf (const std::vector<Eigen::Vector2d>& offsets, bool open)
+{
+  Stars stars;
+  const auto count = static_cast<Index> (offsets.size ());
+  stars.neighbors.offsets.assign (count + 2, count);
+  stars.neighbors.offsets[0] = 0;
+  for (Index i = 1; i <= count; ++i)
+    stars.neighbors.ids.push_back (i);
+  stars.offsets_in_plane = offsets;
+  stars.open.assign (count + 1, 0);
+  stars.open[0] = open ? 1 : 0;
+  return stars;
+}
+
+TEST (Gaps, AreRunsOfMissingTrianglesOfAStar)
+{
+  struct Case
+  {
+    const char* name;
+    double ratio; ///< of the circumradius
+    bool open;
+    std::vector<Eigen::Vector2d> offsets;
+    Gaps gaps; ///< point, first, last
+  };
+  const std::vector<Eigen::Vector2d> long_arm{{1, 0}, {0, 1}, {-3, 0}, {0, -1}};
+  const std::vector<Eigen::Vector2d> touching{{1, -0.5}, {1, 0.5}, {-1, 0.5}, {-1, -0.5}};
+  const std::vector<Case> cases{
+      {"small triangles", 1.5, false, {{1, 0}, {0, 1}, {-1, 0}, {0, -1}}, {}},
+      {"from the last to the first", 1.5, true, {{1, 0}, {0, 1}, {-1, 0}}, {{0, 3, 1}}},
+      {"one triangle", 1.5, true, {{1, 0}, {0, 1}}, {{0, 2, 1}}},
+      // Right angles at the centre: the circumradius is half of the opposite side, sqrt (1 + 9) / 2
+      // = 1.58, on both sides of the long neighbour.
+      {"two wide triangles", 1.55, false, long_arm, {{0, 2, 4}}},
+      {"not wide enough", 1.6, false, long_arm, {}},
+      {"one wide", 2.0, false, {{1, 0}, {0, 1}, {-3, 0}, {-1.5, -0.5}, {0, -1}}, {{0, 3, 4}}},
+      {"over the end", 2.0, false, {{5, 0}, {0, 1}, {-1, 0}, {0, -1}, {4, -4}}, {{0, 4, 2}}},
+      {"with the open sector", 2.0, true, {{5, 0}, {0.5, 1}, {-1, 0.5}, {-5, 0}}, {{0, 3, 2}}},
+      // The triangles above and below have a circumradius of 1.25, the other two one of 0.625.
+      {"two where sheets touch", 1.0, false, touching, {{0, 2, 3}, {0, 4, 1}}},
+      {"no triangle: the nearest neighbour", 1.5, true, {{2, 0}}, {{0, 1, 1}}},
+      {"all too wide", 1.5, false, {{9, 0}, {0, 8}, {-9, -1}}, {{0, 2, 2}}},
+      {"no neighbours", 1.5, true, {}, {}},
+      {"opposite neighbours make no triangle", 1.5, true, {{1, 0}, {-1, 0}}, {{0, 1, 1}}}};
+  for (const Case& one : cases) {
+    SCOPED_TRACE (one.name);
+    const Stars stars = starOf (one.offsets, one.open);
+    Gaps found;
+    const std::vector<float> spacing (stars.open.size (), 1.0F);
+    for (const Gap& gap : findGaps (stars, spacing, one.ratio, 1))
+      found.push_back ({gap.point, gap.first, gap.last});
+    EXPECT_EQ (found, one.gaps);
+  }
+  // The spacing of all three corners counts.
+  EXPECT_TRUE (
+      findGaps (starOf (long_arm, false), {1.0F, 1.0F, 1.0F, 2.0F, 1.0F}, 1.55, 1).empty ());
+}
+
+// Points of a line, with gaps of 4, 3 and 4 steps (exact in binary); the last point is alone.
+TEST (Clusters, OfALineDependOnTheToleranceAndOnTheNumberOfNeighbors)
+{
+  Positions positions;
+  for (const int at : {0, 1, 2, 6, 7, 8, 9, 10, 11, 14, 15, 16, 20})
+    positions.emplace_back (0.25 * at, 0.0, 0.0);
+  const auto clusters = [&] (double tolerance, int k, const std::vector<Index>& boundary_points) {
+    return clusterBoundaryPoints (positions, boundary_points, tolerance, k, 1);
+  };
+  const std::vector<Index> all = indices (13);
+  // Largest first, then by the smallest point. What is as far as the tolerance is inside.
+  const Clusters apart{{3, 4, 5, 6, 7, 8}, {0, 1, 2}, {9, 10, 11}, {12}};
+  EXPECT_EQ (clusters (0.25, 4, all), apart);
+  EXPECT_EQ (clusters (0.75, 4, all), (Clusters{{3, 4, 5, 6, 7, 8, 9, 10, 11}, {0, 1, 2}, {12}}));
+  EXPECT_EQ (clusters (1.0, 4, all), (Clusters{all}));
+  EXPECT_EQ (clusters (0.2499, 4, all).size (), 13U);
+  // The two nearest of each point but the last are on its side of a gap, and that one comes last:
+  // the densest are first.
+  EXPECT_EQ (clusters (1.0, 2, all), apart);
+  // Only boundary points are joined, and count.
+  EXPECT_EQ (clusters (0.25, 4, {3, 4, 6, 7}), (Clusters{{3, 4}, {6, 7}}));
+  EXPECT_EQ (clusters (1.0, 4, {1}), (Clusters{{1}}));
+  EXPECT_TRUE (clusters (1.0, 4, {}).empty ());
+}
+
+// Dense clumps that are so far apart that no neighbourhood leads from one to another. Point p is in
+// clump p % count.
+Positions
+clumps (std::size_t count, std::size_t points_in_each, std::uint64_t seed)
+{
+  const Positions centres = randomPoints (count, seed);
+  Positions points;
+  for (const Eigen::Vector3d& offset : randomPoints (count * points_in_each, seed + 1000))
+    points.push_back (centres[points.size () % count] + 1e-3 * offset);
+  return points;
+}
+
+std::map<Pair, Index>
+ranks (const std::vector<NeighborEdge>& graph)
+{
+  std::map<Pair, Index> result;
+  for (const NeighborEdge& edge : graph)
+    result[{edge.a, edge.b}] = edge.rank;
+  return result;
+}
+
+// Makes one component of those of two points.
+// \return false if they have been one before
+bool
+join (Index p, Index q, std::vector<Index>& component)
+{
+  const Index from = component[p], to = component[q];
+  if (from != to)
+    std::replace (component.begin (), component.end (), from, to);
+  return from != to;
+}
+
+std::size_t
+countComponents (const std::vector<NeighborEdge>& graph, std::size_t size)
+{
+  std::vector<Index> component = indices (size);
+  std::size_t count = size;
+  for (const NeighborEdge& edge : graph)
+    count -= join (edge.a, edge.b, component) ? 1 : 0;
+  return count;
+}
+
+// The graph by its definition: all distances of each point are sorted, and then those of all pairs
+// for the bridges.
+std::map<Pair, Index>
+literalRanks (const Positions& points, Index k)
+{
+  std::map<Pair, Index> result;
+  std::vector<Index> component = indices (points.size ());
+  std::vector<std::pair<double, Pair>> pairs;
+  for (Index p = 0; p < points.size (); ++p) {
+    std::vector<std::pair<double, Index>> others;
+    for (Index q = 0; q < points.size (); ++q)
+      if (q != p) {
+        others.emplace_back ((points[p] - points[q]).squaredNorm (), q);
+        pairs.push_back ({others.back ().first, std::minmax (p, q)});
+      }
+    std::sort (others.begin (), others.end ());
+    for (Index rank = 0; rank < std::min<std::size_t> (k, others.size ()); ++rank) {
+      const auto known = result.emplace (std::minmax (p, others[rank].second), rank).first;
+      known->second = std::min (known->second, rank);
+      join (p, others[rank].second, component);
+    }
+  }
+  std::sort (pairs.begin (), pairs.end ());
+  for (const auto& [length, pair] : pairs)
+    if (join (pair.first, pair.second, component))
+      result[pair] = k;
+  return result;
+}
+
+TEST (NeighborGraph, HasEachNearestPairOnceAndTheShortestBridges)
+{
+  Positions ties;
+  for (int x = 0; x < 9; ++x)
+    for (int y = 0; y < 9; ++y)
+      ties.emplace_back ((x * 4) % 9, (y * 2) % 9, 0.0);
+  const std::vector<Positions> clouds{
+      randomPoints (150, 4), clumps (20, 10, 1),  clumps (15, 12, 3),  randomPoints (0, 1),
+      randomPoints (1, 1),   randomPoints (2, 1), randomPoints (4, 1), ties};
+  for (const Positions& points : clouds)
+    for (const Index k : {1U, 4U, 10U}) {
+      if (k == 1 && points == ties)
+        continue; // bridges tie
+      const std::vector<NeighborEdge> graph = neighborGraph (points, k, 1);
+      EXPECT_EQ (ranks (graph), literalRanks (points, k));
+      for (std::size_t e = 0; e < graph.size (); ++e) {
+        EXPECT_LT (graph[e].a, graph[e].b);
+        EXPECT_DOUBLE_EQ (graph[e].length, (points[graph[e].a] - points[graph[e].b]).norm ());
+        if (e > 0) {
+          EXPECT_LT (Pair (graph[e - 1].a, graph[e - 1].b), Pair (graph[e].a, graph[e].b));
+        }
+      }
+    }
+}
+
+TEST (NearestPart, KeepsTheNearestAndStaysConnected)
+{
+  const Positions points = clumps (10, 20, 9);
+  const std::vector<NeighborEdge> graph = neighborGraph (points, 12, 1);
+  for (const Index k : {0U, 1U, 2U, 3U, 12U, 13U}) {
+    std::vector<NeighborEdge> nearest;
+    std::copy_if (graph.begin (), graph.end (), std::back_inserter (nearest),
+                  [k] (const NeighborEdge& edge) { return edge.rank < k; });
+    const std::vector<NeighborEdge> part = nearestPart (graph, points.size (), k);
+    EXPECT_EQ (countComponents (part, points.size ()), 1U);
+    EXPECT_EQ (part.size (), nearest.size () + countComponents (nearest, points.size ()) - 1);
+    const std::map<Pair, Index> kept = ranks (part);
+    for (const NeighborEdge& edge : nearest)
+      EXPECT_EQ (kept.count ({edge.a, edge.b}), 1U);
+  }
+}
+
+// As points of the cloud.
+std::vector<Index>
+inCloud (const Neighborhoods& made, std::vector<Index> loop)
+{
+  for (Index& p : loop)
+    p = made.points.cloud_index[p];
+  return loop;
+}
+
+std::vector<Index>
+treeLoop (const Positions& positions)
+{
+  const Neighborhoods made = makeNeighborhoods (positions);
+  const Boundary boundary =
+      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing, 1);
+  EXPECT_FALSE (boundary.problem);
+  return inCloud (made, boundary.loop);
+}
+
+Eigen::Vector3d
+onCircle (double angle)
+{
+  return {std::cos (angle), std::sin (angle), 0.0};
+}
+
+TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
+{
+  struct Case
+  {
+    const char* name;
+    std::function<Sheet (std::uint64_t)> make;
+    double share; ///< least share of the border; below 1, it is open how corners are passed
+  };
+  const auto square = [] (double width, double height, double step, std::uint64_t seed,
+                          double jitter = 0.3) {
+    return samples::fillOutlines (
+        {samples::resample ({{0, 0}, {width, 0}, {width, height}, {0, height}}, step)}, step,
+        jitter, seed);
+  };
+  const std::vector<Case> cases{
+      {"disc", [] (std::uint64_t seed) { return samples::disc (0.06, seed); }, 1.0},
+      {"square", [&] (std::uint64_t seed) { return square (1.0, 1.0, 0.04, seed); }, 1.0},
+      {"lattice", [&] (std::uint64_t seed) { return square (20.0, 20.0, 1.0, seed, 0.0); }, 1.0},
+      {"annulus",
+       [] (std::uint64_t seed) {
+         return samples::fillOutlines ({samples::circle (1.0, 0.06), samples::circle (0.5, 0.06)},
+                                       0.06, 0.35, seed);
+       },
+       1.0},
+      {"star",
+       [] (std::uint64_t seed) {
+         Outline corners;
+         for (int i = 0; i < 12; ++i)
+           corners.emplace_back ((i % 2 == 0 ? 1.0 : 0.5) * onCircle (PI * i / 6.0).head<2> ());
+         return samples::fillOutlines ({samples::resample (corners, 0.03)}, 0.03, 0.25, seed);
+       },
+       0.97},
+      // The spacing varies by a factor of e^3 = 20.
+      {"graded",
+       [&] (std::uint64_t seed) {
+         Sheet sheet = square (3.0, 4.0, 0.1, seed);
+         for (Eigen::Vector3d& p : sheet.positions)
+           p = std::exp (p.x ()) * onCircle (p.y ());
+         return sheet;
+       },
+       0.98}};
+  for (const Case& one : cases)
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE (one.name + std::to_string (seed));
+      const Sheet sheet = one.make (seed);
+      const std::vector<Index> loop = canonicalCycle (treeLoop (sheet.positions));
+      EXPECT_GE (static_cast<double> (loop.size ()),
+                 one.share * static_cast<double> (sheet.border));
+      // In order, each point once, and nothing but the border.
+      EXPECT_EQ (std::adjacent_find (loop.begin (), loop.end (), std::greater_equal<> ()),
+                 loop.end ());
+      EXPECT_TRUE (loop.empty () || loop.back () < sheet.border);
+    }
+}
+
+TEST (SpanningTreeLoop, FewPoints)
+{
+  for (const Positions& none : {Positions{}, Positions{{0, 0, 0}}, Positions{{0, 0, 0}, {1, 0, 0}}})
+    EXPECT_TRUE (treeLoop (none).empty ());
+  EXPECT_EQ (canonicalCycle (treeLoop ({{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}})),
+             indices (4));
+}
+
+// `count` points at even steps of the parameter, each moved by up to `jitter` steps.
+Positions
+sample (const std::function<Eigen::Vector3d (double)>& curve, int count, double jitter)
+{
+  RandomStream random (3);
+  Positions positions;
+  for (int i = 0; i < count; ++i)
+    positions.push_back (curve (2.0 * PI * (i + jitter * (2.0 * random.uniform () - 1.0)) / count));
+  return positions;
+}
+
+// Positions in the order of the border, by name.
+std::vector<std::pair<std::string, Positions>>
+borders ()
+{
+  const auto ellipse = [] (double angle) {
+    return Eigen::Vector3d (3.0 * std::cos (angle), std::sin (angle), 0.0);
+  };
+  const auto star_in_space = [] (double angle) -> Eigen::Vector3d {
+    return (1.0 + 0.4 * std::cos (5.0 * angle)) * onCircle (angle) +
+           0.3 * std::sin (3.0 * angle) * Eigen::Vector3d::UnitZ ();
+  };
+  // By two orders of magnitude.
+  const auto graded = [] (double angle) { return onCircle (angle + 0.98 * std::sin (angle)); };
+  std::vector<std::pair<std::string, Positions>> all{
+      {"ellipse 40", sample (ellipse, 40, 0.3)},
+      {"ellipse 200", sample (ellipse, 200, 0.3)},
+      {"star", sample (star_in_space, 300, 0.2)},
+      // A square cloud of 25 million points has a border as long as this one.
+      {"long", sample (star_in_space, 20000, 0.3)},
+      {"graded", sample (graded, 400, 0.0)}};
+  for (const int count : {5, 6, 7, 8, 13, 50, 101, 400})
+    all.emplace_back ("circle " + std::to_string (count), sample (onCircle, count, 0.0));
+  all.emplace_back ("jagged", sample (onCircle, 120, 0.0));
+  for (std::size_t i = 1; i < 120; i += 2)
+    all.back ().second[i] *= 0.97;
+  for (const double side : {1.0, 3.0, 4.0, 10.0, 25.0}) { // with ties
+    all.emplace_back ("rectangle " + std::to_string (side), Positions{});
+    const double height = side == 1.0 ? 1.0 : 2.0 * side; // the least: four points
+    for (const Eigen::Vector2d& p :
+         samples::resample ({{0, 0}, {side, 0}, {side, height}, {0, height}}, 1.0))
+      all.back ().second.emplace_back (p.x (), p.y (), 0.0);
+  }
+  // Each dash has more points than a neighbourhood can have: only bridges lead to the next one.
+  for (const int dashes : {2, 3, 17}) {
+    all.emplace_back ("dashes " + std::to_string (dashes), Positions{});
+    for (int dash = 0; dash < dashes; ++dash)
+      for (int i = 0; i < 40; ++i)
+        all.back ().second.push_back (onCircle (2.0 * PI * (dash + 0.015 * i) / dashes));
+  }
+  return all;
+}
+
+TEST (TwoSegmentLoop, IsTheBorderWhateverTheNumbersOfItsPoints)
+{
+  for (const auto& [name, border] : borders ())
+    for (std::uint64_t seed = 1; seed <= (border.size () < 1000 ? 8U : 1U); ++seed) {
+      SCOPED_TRACE (name + ", seed " + std::to_string (seed));
+      const std::vector<Index> order = samples::permutation (border.size (), seed);
+      Positions positions;
+      for (const Index p : order)
+        positions.push_back (border[p]);
+      for (int i = 0; i < 20; ++i) // others, that are not in the cluster
+        positions.emplace_back (0.01 * i, 0.0, 0.0);
+      std::vector<Index> loop = twoSegmentLoop (positions, indices (border.size ()), 1);
+      for (Index& p : loop)
+        p = order[p];
+      EXPECT_EQ (canonicalCycle (loop), indices (border.size ()));
+    }
+}
+
+TEST (TwoSegmentLoop, IsEmptyForFewOrCoincidentPoints)
+{
+  const Positions square{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  for (const std::vector<Index>& few : Clusters{{}, {2}, {0, 1, 3}})
+    EXPECT_TRUE (twoSegmentLoop (square, few, 1).empty ());
+  const Positions circle = sample (onCircle, 12, 0.0);
+  for (const Eigen::Vector3d& twin : circle) {
+    Positions positions = circle;
+    positions.push_back (twin);
+    EXPECT_TRUE (twoSegmentLoop (positions, indices (positions.size ()), 1).empty ());
+  }
+}
+
+TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
+{
+  std::vector<Positions> clouds (1);
+  for (int i = 0; i < 50; ++i)
+    clouds.front ().emplace_back (i, 2.0 * i, 0.0); // a line
+  for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    clouds.push_back (randomPoints (4 + seed * seed / 3, seed));
+  for (const Positions& positions : clouds) {
+    std::vector<Index> loop = twoSegmentLoop (positions, indices (positions.size ()), 1);
+    std::sort (loop.begin (), loop.end ());
+    EXPECT_EQ (loop, indices (positions.size ()));
+  }
+}
+
+Boundary
+find (const Neighborhoods& made, const BoundaryOptions& options)
+{
+  Boundary boundary = findBoundary (made.points, made.geometry, options, 1);
+  checkBoundary (made.points, made.geometry.spacing, !options.loop.empty (), boundary);
+  return boundary;
+}
+
+TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
+{
+  const Sheet sheet = samples::disc (0.06, 1);
+  Positions sphere (1500);
+  for (std::size_t i = 0; i < sphere.size (); ++i) { // a spiral from pole to pole
+    const double z = 1.0 - 2.0 * (static_cast<double> (i) + 0.5) / 1500.0;
+    sphere[i] = std::sqrt (1.0 - z * z) *
+                    onCircle (PI * (3.0 - std::sqrt (5.0)) * static_cast<double> (i)) +
+                z * Eigen::Vector3d::UnitZ ();
+  }
+  const Neighborhoods open = makeNeighborhoods (sheet.positions);
+  const Neighborhoods closed = makeNeighborhoods (sphere);
+  for (const BoundaryMethod method :
+       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
+    BoundaryOptions options;
+    options.method = method;
+    const Boundary boundary = find (open, options), none = find (closed, options);
+    EXPECT_FALSE (boundary.problem);
+    EXPECT_EQ (canonicalCycle (inCloud (open, boundary.loop)), indices (sheet.border));
+    EXPECT_GE (boundary.candidates, sheet.border);
+    EXPECT_EQ (none.problem.status, RunStatus::NO_BOUNDARY);
+    EXPECT_FALSE (none.problem.message.empty ());
+    EXPECT_TRUE (none.loop.empty ());
+  }
+}
+
+TEST (Boundary, TheUsersLoopIsTakenAsItIs)
+{
+  const Sheet sheet = samples::disc (0.06, 2);
+  const Neighborhoods made = makeNeighborhoods (sheet.positions);
+  BoundaryOptions options;
+  for (Index p = 0; p < sheet.border; ++p) // backwards, with one long step
+    if (p < 40 || p >= 60)
+      options.loop.insert (options.loop.begin (), p);
+  const Boundary boundary = find (made, options);
+  EXPECT_FALSE (boundary.problem);
+  EXPECT_EQ (inCloud (made, boundary.loop), options.loop);
+  EXPECT_EQ (boundary.candidates, options.loop.size ());
+  ASSERT_LT (boundary.longest_from, made.points.cloud_index.size ());
+  EXPECT_EQ (made.points.cloud_index[boundary.longest_from], 60U);
+  EXPECT_GT (boundary.largest_step, 15.0);
+  EXPECT_LT (boundary.largest_step, 22.0);
+}
+
+TEST (Boundary, TellsWhatIsWrongWithTheUsersLoop)
+{
+  Sheet sheet = samples::disc (0.1, 4);
+  const auto bad = static_cast<Index> (sheet.positions.size ()), copy = bad + 1;
+  sheet.positions.emplace_back (std::numeric_limits<double>::quiet_NaN (), 0, 0);
+  sheet.positions.push_back (sheet.positions[7]);
+  const Neighborhoods made = makeNeighborhoods (sheet.positions);
+  const std::vector<std::pair<std::vector<Index>, std::string>> cases{
+      {{0, 5, 10, 5}, "twice through point 5"},
+      {{0, 7, copy, 14}, "twice through point " + std::to_string (copy)},
+      {{0, 5}, "fewer than 3"},
+      {{0, 5, 10, bad}, "point " + std::to_string (bad)},
+      {{0, 5, 10, 4000000000U}, "point 4000000000"}};
+  BoundaryOptions options;
+  for (const auto& [loop, why] : cases) {
+    options.loop = loop;
+    const Boundary boundary = find (made, options);
+    EXPECT_EQ (boundary.problem.status, RunStatus::INVALID_LOOP);
+    EXPECT_NE (boundary.problem.message.find (why), std::string::npos) << boundary.problem.message;
+    EXPECT_TRUE (boundary.loop.empty ());
+  }
+  // A duplicate means the point that stands for it.
+  options.loop = {0, copy, 14, 21};
+  EXPECT_EQ (inCloud (made, find (made, options).loop), (std::vector<Index>{0, 7, 14, 21}));
+}
+
+TEST (Boundary, MustNotBeShorterThanTheLimit)
+{
+  const Sheet sheet = samples::disc (0.06, 7);
+  const Neighborhoods made = makeNeighborhoods (sheet.positions);
+  LoopLimits limits;
+  for (const bool is_given : {false, true})
+    for (const std::size_t shortest : {sheet.border, sheet.border + 1}) {
+      limits.shortest_loop = shortest;
+      Boundary boundary = findBoundary (made.points, made.geometry, {}, 1, limits);
+      checkBoundary (made.points, made.geometry.spacing, is_given, boundary, limits);
+      EXPECT_EQ (boundary.problem.status, is_given || shortest == sheet.border
+                                              ? RunStatus::SUCCESS
+                                              : RunStatus::NO_BOUNDARY);
+    }
+}
+
+} // namespace
+} // namespace pcl::floater
