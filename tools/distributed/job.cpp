@@ -8,14 +8,17 @@
 #include "memory_limit.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
+#include "option_table.h"
 #include "options/check_options.h"
-#include "precision.h"
+#include "options/option_rows.h"
 #include "prepared_input.h"
 #include "report_json.h"
 #include "run_report.h"
 #include "stored_mesh.h"
 #include "stored_stages.h"
+#include "usage_message.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -26,12 +29,6 @@ namespace pcl::floater {
 namespace {
 constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
 constexpr const char* REPORT = "report.json";
-
-double
-secondsSince (std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-}
 
 // The cloud of the job, with its origin shifted as in the plan.
 Cloud
@@ -46,16 +43,6 @@ readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts 
 // `plan` with 10 and 30 million points: below, more time goes to pages that come back than to all
 // else. `join` was run with 9 (10 million points) and 11 (100 million).
 constexpr double KEPT_BY_STEP = 9.0;
-
-// Throws UsageError if a step of the whole cloud cannot be kept below the limit.
-void
-checkMemory (const CommandLine& line, std::size_t points)
-{
-  const std::size_t least = leastMemory (points, KEPT_BY_STEP);
-  if (line.max_memory > 0 && line.max_memory < least)
-    throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
-                      std::to_string (points) + " points; use " + formatSize (least) + " or more");
-}
 
 // What the report and the mesh need to know of the cloud.
 void
@@ -138,7 +125,7 @@ planStep (const Job& job, FolderStore& store)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
   Cloud cloud = readClouds (job.inputs, line.auto_shift || line.shift);
-  checkMemory (line, cloud.size ());
+  checkMemory (line, cloud.size (), KEPT_BY_STEP);
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   shiftOrigin (line, cloud, input);
@@ -206,7 +193,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
   const EffectiveOptions effective (line);
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
-  checkMemory (line, plan.cloud_size);
+  checkMemory (line, plan.cloud_size, KEPT_BY_STEP);
   StoredStages stages (context, store, job.frees_disk ? &store : nullptr);
   stages.setHelp (help);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
@@ -306,6 +293,219 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   if (report)
     report->publish ();
   return EXIT_OK;
+}
+
+namespace {
+const char* const DESCRIPTION =
+    "Reconstructs a surface from one or many files of points, in blocks, on any number of "
+    "processes:\n"
+    "the same mesh as pcl_floater_reconstruct makes of all points together. What is known after a\n"
+    "step is in a work folder, so that a run that was ended goes on where it was.\n";
+
+const char* const FOOTER =
+    R"(Examples:
+  mpirun -n 16 pcl_floater_distributed --work /shared/town tiles/*.las town.ply
+  mpirun -n 16 pcl_floater_distributed --work /shared/town --tiles tiles/*.las town
+  pcl_floater_distributed --work town --step plan tiles/*.las town.ply
+  pcl_floater_distributed --work town --print-steps
+  pcl_floater_distributed --work town --step stars --block 7
+
+Notes:
+  All processes need the work folder, on a file system that they share; with --exchange messages,
+  only the first one needs it. The first one also reads the files of points and writes the mesh.
+  --print-steps lists the commands that are left to others, such as a Slurm array: all commands up
+  to an empty line may run at the same time. They take the options of the plan from its manifest.
+  A step whose files are there is not done again. The work folder stays when the mesh is written;
+  delete it then. For another cloud, other options or another number of blocks, take another one.
+
+Exit codes:
+  0  success
+  1  usage: an option is unknown, malformed, out of its range, or not for this input
+  2  the input cannot be read: missing, truncated, damaged, without x y z
+  3  the cloud cannot be reconstructed; the message names the status
+  4  an output or a file of the work folder cannot be written; no mesh is changed
+  5  out of memory, or an internal error
+  7  a file of the work folder is missing, damaged, of another version, or of another plan
+)";
+
+constexpr std::array<const char*, 5> SINGLE_STEPS{"plan", "outliers", STITCH, "join", "write"};
+constexpr std::array<const char*, 2> PART_STEPS{MESH, FINISH};
+
+std::vector<std::string>
+stepNames ()
+{
+  std::vector<std::string> names (SINGLE_STEPS.begin (), SINGLE_STEPS.end ());
+  names.insert (names.end (), BLOCK_STEPS.begin (), BLOCK_STEPS.end ());
+  names.insert (names.end (), PART_STEPS.begin (), PART_STEPS.end ());
+  return names;
+}
+
+bool
+isBlockStep (const std::string& step)
+{
+  const auto isIn = [&step] (const auto& steps) {
+    return std::find (steps.begin (), steps.end (), step) != steps.end ();
+  };
+  return isIn (BLOCK_STEPS) || isIn (PART_STEPS);
+}
+
+void
+addSteps (CLI::App& app, Job& job)
+{
+  const std::string group = "Steps";
+  addPath (app, "--work", job.work,
+           "folder for what is known between the steps; it is made if it "
+           "does not exist",
+           group, "FOLDER");
+  addNumber (app, "--blocks", job.blocks,
+             "blocks into which the points are cut; 0: of half a million points each; the result "
+             "is the same",
+             group);
+  const auto choose = [&job] (const std::string& word) {
+    const std::vector<std::string> names = stepNames ();
+    if (std::find (names.begin (), names.end (), word) == names.end ())
+      throw CLI::ValidationError ("--step", "'" + word + "' is no step" + didYouMean (word, names));
+    job.step = word;
+  };
+  addParsed (
+      app, "--step", choose,
+      "do this step only: plan, outliers, stitch, join, write; for a block: neighbors, planes, "
+      "stars, triangles; or for a part of a large cloud: mesh, finish",
+      "NAME (all)", group);
+  const auto setBlock = [&job] (const std::string& word) {
+    if (!parseNumber (word, job.block))
+      throw CLI::ValidationError ("--block", "'" + word + "' is not a whole number");
+    job.has_block = true;
+  };
+  addParsed (app, "--block", setBlock, "block or part of the step, from 0", "N", group);
+  app.add_flag ("--print-steps", job.prints_steps,
+                "print the commands of all steps after the plan, and exit")
+      ->group (group);
+  constexpr Choices<bool, 2> EXCHANGE_CHOICES{{{"files", false}, {"messages", true}}};
+  addChoice (app, "--exchange", job.sends_files, EXCHANGE_CHOICES,
+             "how processes get what others have found: from files in the work folder, or by "
+             "messages of the first one",
+             group);
+  app.add_flag (
+         "--free-disk", job.frees_disk,
+         "remove the files of the blocks as soon as join needs them no longer; if join is ended "
+         "early, the blocks are worked on again")
+      ->group (group);
+}
+
+void
+addGeneral (CLI::App& app, Job& job)
+{
+  const std::string general = "General";
+  addNumber (app, "-j,--threads", job.line.options.threads,
+             "threads of each process for its blocks, 0: one for each core; the result is the same",
+             general);
+  addNumber (app, "--join-threads", job.join_threads,
+             "threads of the steps of the whole cloud, 0: one for each core; the result is the "
+             "same",
+             general);
+  addMemoryLimit (app, job.line);
+  addLimit (app, job.line);
+  addCoordinates (app, job.line);
+  app.add_flag ("-q,--quiet", job.line.quiet, "print errors only")->group (general);
+}
+
+void
+addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
+{
+  app.add_option ("FILES", files,
+                  "point clouds: .pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts; "
+                  "then the mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; with --tiles "
+                  "a folder")
+      ->option_text (" ");
+  const std::string output = "More output";
+  app.add_flag ("--tiles", job.writes_tiles,
+                "write the mesh as a folder of .ply files: one for each file of points, or of a "
+                "single one for each block; and tiles.json, which tells what they share")
+      ->group (output);
+  app.add_flag ("--normals", job.line.compute_normals,
+                "give the vertices normals, made from the triangles; those of the input are "
+                "replaced")
+      ->group (output);
+  addPath (app, "--report", job.line.report, "write a report on the run as JSON", output);
+}
+
+// \throws UsageError, ReadError, WriteError
+void
+takeFiles (const std::vector<std::string>& files, Job& job)
+{
+  if (files.size () < 2)
+    throw UsageError ("give one or more files of points, and then that of the mesh");
+  job.inputs.assign (files.begin (), files.end () - 1);
+  job.line.output = files.back ();
+  job.line.input = job.inputs.front ();
+  for (const std::filesystem::path& input : job.inputs) {
+    if (isStandardStream (input))
+      throw UsageError ("the points cannot come from the standard input: they are read twice");
+    if (!cloudFormatOf (input))
+      throw ReadError ("cannot read " + inputName (input) + ": its extension is unknown; use " +
+                       CLOUD_EXTENSIONS);
+  }
+  if (job.writes_tiles) {
+    if (!job.line.output.has_filename ()) // "town/"
+      job.line.output = job.line.output.parent_path ();
+    job.line.output_format = MeshFormat::PLY;
+  }
+  if (isStandardStream (job.line.output) || !job.line.meshFormat ())
+    throw WriteError ("cannot write '" + job.line.output.string () +
+                      "': it has no extension that tells the format of a mesh; use " +
+                      MESH_EXTENSIONS + ", or --tiles and a folder");
+}
+
+} // namespace
+
+std::optional<int>
+parseJob (const std::vector<std::string>& arguments, Job& job)
+{
+  constexpr std::size_t NAME_COLUMN = 34;
+  CLI::App app (DESCRIPTION, "pcl_floater_distributed");
+  std::vector<std::string> files;
+  job.line.options.threads = 1;
+  app.get_formatter ()->column_width (NAME_COLUMN);
+  app.get_formatter ()->label ("Positionals", "Arguments");
+  app.footer (FOOTER);
+  app.set_help_flag ("-h,--help", "print this and exit")->group ("General");
+  app.set_version_flag ("--version", "pcl_floater_distributed " PCL_FLOATER_VERSION,
+                        "print the version and exit")
+      ->group ("General");
+  addSteps (app, job);
+  addGeneral (app, job);
+  addTableOptions (app, job.line, [] (const OptionRow& row) {
+    const std::string name = row.name;
+    return row.group == std::string (option_group::SURFACE) || name == "neighbors" ||
+           name == "sheet_filter";
+  });
+  addFiles (app, files, job);
+  wrapTexts (app);
+  try {
+    std::vector<std::string> reversed (arguments.rbegin (), arguments.rend ());
+    app.parse (std::move (reversed));
+  }
+  catch (const CLI::ParseError& error) {
+    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
+      return app.exit (error);
+    throw UsageError (usageMessage (app, error, arguments));
+  }
+  job.arguments = arguments;
+  if (job.work.empty ())
+    throw UsageError ("--work is missing: name a folder for what is known between the steps");
+  if (const Problem problem = checkOptions (job.line.options))
+    throw UsageError (rangeMessage (app, problem, arguments));
+  if (job.prints_steps && !job.step.empty ())
+    throw UsageError ("--print-steps and --step exclude each other");
+  if (isBlockStep (job.step) != job.has_block)
+    throw UsageError (job.has_block
+                          ? "--block is for a --step that is done for each block"
+                          : "--step " + job.step + " is done for one block: give --block");
+  const bool needs_files = job.step == "plan" || (job.step.empty () && !job.prints_steps);
+  if (needs_files || !files.empty ())
+    takeFiles (files, job);
+  return std::nullopt;
 }
 
 } // namespace pcl::floater

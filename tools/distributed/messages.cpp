@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "messages.h"
 
-#include <algorithm>
-#include <chrono>
-#include <mutex>
-#include <thread>
-#include <utility>
-
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -88,7 +84,7 @@ Processes::send (int to, const Message& message)
 }
 
 Message
-Processes::take (int from)
+Processes::receive (int from)
 {
   std::array<std::uint64_t, HEAD> head{};
   MPI_Request request = MPI_REQUEST_NULL;
@@ -105,12 +101,6 @@ Processes::take (int from)
   return message;
 }
 
-Message
-Processes::receive (int from)
-{
-  return take (from);
-}
-
 std::optional<std::pair<int, Message>>
 Processes::poll ()
 {
@@ -120,7 +110,7 @@ Processes::poll ()
   if (is_there == 0)
     return {};
   const int from = status.MPI_SOURCE;
-  return std::make_pair (from, take (from));
+  return std::make_pair (from, receive (from));
 }
 
 namespace {

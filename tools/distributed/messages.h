@@ -64,8 +64,6 @@ public:
   std::uint64_t exchangedBytes () const { return exchanged_; }
 
 private:
-  Message take (int from);
-
   int self_ = 0, count_ = 1;
   std::uint64_t exchanged_ = 0;
 };

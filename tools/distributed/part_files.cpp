@@ -4,36 +4,68 @@
 
 #include "stored_cloud.h"
 
+#include <algorithm>
+
 namespace pcl::floater {
 namespace {
-static_assert (sizeof (Triangle) == 3 * sizeof (Index),
-               "they are written and read as plain numbers");
-
-// The range of a part in an array of all parts, one behind the other.
-std::pair<std::size_t, std::size_t>
-rangeOf (ArrayFile& file, const std::string& name, std::size_t part)
+// Adds what a function such as forRim visits to a file.
+auto
+writingTo (ArrayWriter& writer)
 {
-  const std::string ends = name + ".ends";
-  const Index first = part == 0 ? 0 : file.read<Index> (ends, part - 1, part).front ();
-  return {first, file.read<Index> (ends, part, part + 1).front ()};
+  return [&writer] (const char* name, const auto& values) {
+    if constexpr (std::is_same_v<std::decay_t<decltype (values)>, CsrLists>)
+      writeLists (name, values, writer);
+    else
+      writer.add (name, values);
+  };
 }
 
-static_assert (sizeof (std::pair<Index, Index>) == 2 * sizeof (Index),
-               "they are written and read as plain numbers");
+// Reads it from there.
+auto
+readingFrom (ArrayFile& file)
+{
+  return [&file] (const char* name, auto& values) {
+    if constexpr (std::is_same_v<std::decay_t<decltype (values)>, CsrLists>)
+      values = readLists (file, name, 0, file.count<Index> (std::string (name) + ".ends"));
+    else
+      file.append (name, values);
+  };
+}
 
+// Calls visit (name, array) for all arrays of a rim, in the order of the file, and visitOpen () in
+// the place of the triangles that are open.
+template <typename Of, typename Visit, typename VisitOpen>
 void
-addPairs (const std::string& name, const std::vector<std::pair<Index, Index>>& pairs,
-          ArrayWriter& writer)
+forRim (Of& rim, const Visit& visit, const VisitOpen& visitOpen)
 {
-  writer.add (name, reinterpret_cast<const Index*> (pairs.data ()), 2 * pairs.size ());
+  visit ("points", rim.points);
+  visit ("positions", rim.positions);
+  visit ("normals", rim.normals);
+  visit ("smoothed", rim.smoothed);
+  visit ("spacing", rim.spacing);
+  visit ("is_partial", rim.is_partial);
+  visit ("has_room", rim.has_room);
+  visit ("neighbors", rim.neighbors);
+  visit ("rim", rim.triangles);
+  visit ("numbers", rim.numbers);
+  visit ("component", rim.component);
+  visitOpen ();
+  visit ("others", rim.others);
+  visit ("other_positions", rim.other_positions);
+  visit ("other_normals", rim.other_normals);
 }
 
-std::vector<std::pair<Index, Index>>
-readPairs (ArrayFile& file, const std::string& name)
+template <typename Of, typename Visit>
+void
+forZone (Of& zone, const Visit& visit)
 {
-  std::vector<std::pair<Index, Index>> pairs (file.count (name) / 2);
-  file.read (name, 0, 2 * pairs.size (), reinterpret_cast<Index*> (pairs.data ()));
-  return pairs;
+  visit ("points", zone.points);
+  visit ("positions", zone.positions);
+  visit ("normals", zone.normals);
+  visit ("spacing", zone.spacing);
+  visit ("is_partial", zone.is_partial);
+  visit ("neighbors", zone.neighbors);
+  visit ("zone", zone.triangles);
 }
 
 // Calls with (member) for all of them that are counts, in the order in which they are written.
@@ -41,26 +73,20 @@ template <typename Of, typename Visit>
 void
 forCounts (Of& around, Visit&& visit)
 {
-  visit (around.edges);
-  visit (around.nonmanifold_vertices);
-  visit (around.nonmanifold_edges);
-  visit (around.orientation_conflicts);
-  visit (around.degenerate_triangles);
-  visit (around.folds);
-  visit (around.long_edges);
+  for (auto* const count : {&around.edges, &around.nonmanifold_vertices, &around.nonmanifold_edges,
+                            &around.orientation_conflicts, &around.degenerate_triangles,
+                            &around.folds, &around.long_edges})
+    visit (*count);
 }
 
 template <typename Of, typename Visit>
 void
 forPlaces (Of& around, Visit&& visit)
 {
-  visit (around.broken_at);
-  visit (around.degenerate_at);
-  visit (around.fold_at);
-  visit (around.longest_at.first);
-  visit (around.longest_at.second);
-  visit (around.longest_inside_at.first);
-  visit (around.longest_inside_at.second);
+  for (auto* const place : {&around.broken_at, &around.degenerate_at, &around.fold_at,
+                            &around.longest_at.first, &around.longest_at.second,
+                            &around.longest_inside_at.first, &around.longest_inside_at.second})
+    visit (*place);
 }
 
 // The same of the numbers of a component.
@@ -82,239 +108,173 @@ forNumbers (Of& component, Visit&& visit)
 
 template <typename Of, typename Visit>
 void
-forCrossingCounts (Of& crossing, Visit&& visit)
+forComponentCounts (Of& component, Visit&& visit)
 {
-  visit (crossing.found);
-  visit (crossing.left);
-  visit (crossing.done.flips);
-  visit (crossing.done.moves);
-  visit (crossing.done.rebuilds);
-  visit (crossing.done.pairs_left);
+  visit (component.points);
+  visit (component.sum.sum.triangles);
+  visit (component.sum.sum.at);
 }
 
-Surroundings
-readSurroundings (ArrayFile& file)
+template <typename Of, typename Visit>
+void
+forCrossingCounts (Of& crossing, Visit&& visit)
 {
-  Surroundings around;
-  const std::vector<std::uint64_t> counts = file.read<std::uint64_t> ("around.counts");
-  const std::vector<Index> places = file.read<Index> ("around.places");
-  auto count = counts.begin ();
-  forCounts (around, [&] (std::size_t& value) { value = *count++; });
-  auto place = places.begin ();
-  forPlaces (around, [&] (Index& value) { value = *place++; });
-  const std::vector<double> longest = file.read<double> ("around.longest");
-  around.sqr_longest = longest[0];
-  around.sqr_longest_inside = longest[1];
-  return around;
+  for (auto* const count :
+       {&crossing.found, &crossing.left, &crossing.done.flips, &crossing.done.moves,
+        &crossing.done.rebuilds, &crossing.done.pairs_left})
+    visit (*count);
+  visit (crossing.first_at);
+}
+
+// Numbers of one type that a function such as forCounts visits: as an array to write, or taken from
+// one.
+template <typename T>
+struct Taken
+{
+  std::vector<T> values;
+  std::size_t next = 0;
+
+  template <typename Value>
+  void operator() (Value& value)
+  {
+    value = static_cast<Value> (values[next++]);
+  }
+};
+
+template <typename T>
+auto
+pushingTo (std::vector<T>& values)
+{
+  return [&values] (auto value) { values.push_back (value); };
+}
+
+void
+addCheck (const InnerCheck& check, ArrayWriter& writer)
+{
+  std::vector<std::uint64_t> counts, component_counts, crossing;
+  std::vector<Index> places;
+  std::vector<double> numbers;
+  forCounts (check.around, pushingTo (counts));
+  forPlaces (check.around, pushingTo (places));
+  writer.keep ("around.counts", std::move (counts));
+  writer.keep ("around.places", std::move (places));
+  writer.keep ("around.longest",
+               std::vector<double>{check.around.sqr_longest, check.around.sqr_longest_inside});
+  writer.add ("rim", check.rim);
+  writer.add ("rim.component", check.rim_component);
+  writer.add ("box", &check.box, 1);
+  for (const InnerComponent& component : check.components) {
+    forNumbers (component, pushingTo (numbers));
+    forComponentCounts (component, pushingTo (component_counts));
+  }
+  writer.keep ("components.numbers", std::move (numbers));
+  writer.keep ("components.counts", std::move (component_counts));
+  forCrossingCounts (check.crossing, pushingTo (crossing));
+  writer.keep ("crossing.counts", std::move (crossing));
+  writer.add ("crossing.places", check.crossing.places);
 }
 
 InnerCheck
 readCheck (ArrayFile& file)
 {
   InnerCheck check;
-  check.triangles = file.count ("triangles") / 3;
-  check.around = readSurroundings (file);
+  check.triangles = file.count<Triangle> ("triangles");
+  forCounts (check.around, Taken<std::uint64_t>{file.read<std::uint64_t> ("around.counts")});
+  forPlaces (check.around, Taken<Index>{file.read<Index> ("around.places")});
+  const std::vector<double> longest = file.read<double> ("around.longest");
+  check.around.sqr_longest = longest[0];
+  check.around.sqr_longest_inside = longest[1];
   check.rim = file.read<Index> ("rim");
   check.rim_component = file.read<Index> ("rim.component");
-  check.box = readBoxes (file, "box", 0, 1).front ();
-  const std::vector<double> numbers = file.read<double> ("components.numbers");
-  const std::vector<std::uint64_t> counts = file.read<std::uint64_t> ("components.counts");
-  auto number = numbers.begin ();
-  for (auto count = counts.begin (); count != counts.end ();) {
+  file.read ("box", 0, 1, &check.box);
+  Taken<double> numbers{file.read<double> ("components.numbers")};
+  Taken<std::uint64_t> counts{file.read<std::uint64_t> ("components.counts")};
+  while (counts.next < counts.values.size ()) {
     InnerComponent& component = check.components.emplace_back ();
-    forNumbers (component, [&] (double& value) { value = *number++; });
-    component.points = *count++;
-    component.sum.sum.triangles = *count++;
-    component.sum.sum.at = static_cast<Index> (*count++);
+    forNumbers (component, numbers);
+    forComponentCounts (component, counts);
   }
-  const std::vector<std::uint64_t> crossing = file.read<std::uint64_t> ("crossing.counts");
-  auto count = crossing.begin ();
-  forCrossingCounts (check.crossing, [&] (std::size_t& value) { value = *count++; });
-  check.crossing.first_at = static_cast<Index> (*count);
-  check.crossing.places = readPairs (file, "crossing.places");
+  forCrossingCounts (check.crossing,
+                     Taken<std::uint64_t>{file.read<std::uint64_t> ("crossing.counts")});
+  file.append ("crossing.places", check.crossing.places);
   return check;
 }
 
 } // namespace
 
-template <>
-std::vector<Index>&
-PartWriter::keep ()
+void
+addRim (const PartRim& rim, ArrayWriter& writer)
 {
-  return indices_.emplace_back ();
+  forRim (rim, writingTo (writer), [&] {
+    writer.add ("components", &rim.components, 1);
+    std::vector<Triangle> corners;
+    std::vector<std::uint8_t> votes;
+    std::vector<float> ratios;
+    for (const Candidate& candidate : rim.open) {
+      corners.push_back (candidate.corners);
+      votes.push_back (candidate.votes);
+      ratios.push_back (candidate.circumradius_ratio);
+    }
+    writer.keep ("open.corners", std::move (corners));
+    writer.keep ("open.votes", std::move (votes));
+    writer.keep ("open.ratios", std::move (ratios));
+  });
 }
 
-template <>
-std::vector<std::uint64_t>&
-PartWriter::keep ()
+PartRim
+readRim (ArrayFile& file)
 {
-  return counts_.emplace_back ();
-}
-
-template <>
-std::vector<double>&
-PartWriter::keep ()
-{
-  return numbers_.emplace_back ();
-}
-
-template <>
-std::vector<std::uint8_t>&
-PartWriter::keep ()
-{
-  return marks_.emplace_back ();
-}
-
-template <>
-std::vector<Triangle>&
-PartWriter::keep ()
-{
-  return triangles_.emplace_back ();
+  PartRim rim;
+  forRim (rim, readingFrom (file), [&] {
+    file.read ("components", 0, 1, &rim.components);
+    const std::vector<Triangle> corners = file.read<Triangle> ("open.corners");
+    const std::vector<std::uint8_t> votes = file.read<std::uint8_t> ("open.votes");
+    const std::vector<float> ratios = file.read<float> ("open.ratios");
+    for (std::size_t i = 0; i < corners.size (); ++i)
+      rim.open.push_back ({corners[i], votes[i], 0, ratios[i], 0.0F});
+  });
+  return rim;
 }
 
 void
-PartWriter::addTriangles (const std::string& name, const std::vector<Triangle>& triangles)
+addFinished (const FinishedPart& part, ArrayWriter& writer)
 {
-  arrays_.add (name, reinterpret_cast<const Index*> (triangles.data ()), 3 * triangles.size ());
+  writer.add ("triangles", part.triangles);
+  forZone (part.zone, writingTo (writer));
+  writer.keep ("counts", std::vector<Index>{static_cast<Index> (part.flips),
+                                            static_cast<Index> (part.folds_after_flips),
+                                            static_cast<Index> (part.folds)});
+  writer.add ("corners", part.corners);
+  writer.add ("buckets", part.buckets);
+  addCheck (part.check, writer);
+}
+
+FinishedPart
+readFinished (ArrayFile& file)
+{
+  FinishedPart part;
+  forZone (part.zone, readingFrom (file));
+  const std::vector<Index> counts = file.read<Index> ("counts");
+  part.flips = counts[0];
+  part.folds_after_flips = counts[1];
+  part.folds = counts[2];
+  part.corners = file.read<double> ("corners");
+  part.check = readCheck (file);
+  return part;
 }
 
 void
-PartWriter::addRim (const PartRim& rim)
+addMarks (const std::string& name, const std::vector<std::vector<std::uint8_t>>& lists,
+          ArrayWriter& writer)
 {
-  arrays_.add ("points", rim.points);
-  addVectors ("positions", rim.positions, arrays_);
-  addVectors ("normals", rim.normals, arrays_);
-  addVectors ("smoothed", rim.smoothed, arrays_);
-  arrays_.add ("spacing", rim.spacing);
-  arrays_.add ("is_partial", rim.is_partial);
-  arrays_.add ("has_room", rim.has_room);
-  writeLists ("neighbors", rim.neighbors, arrays_);
-  addTriangles ("rim", rim.triangles);
-  arrays_.add ("numbers", rim.numbers);
-  arrays_.add ("component", rim.component);
-  auto& components = keep<Index> ();
-  components.push_back (rim.components);
-  arrays_.add ("components", components);
-  auto& corners = keep<Triangle> ();
-  auto& votes = keep<std::uint8_t> ();
-  for (const Candidate& candidate : rim.open) {
-    corners.push_back (candidate.corners);
-    votes.push_back (candidate.votes);
-    ratios_.push_back (candidate.circumradius_ratio);
-  }
-  addTriangles ("open.corners", corners);
-  arrays_.add ("open.votes", votes);
-  arrays_.add ("open.ratios", ratios_);
-  arrays_.add ("others", rim.others);
-  addVectors ("other_positions", rim.other_positions, arrays_);
-  addVectors ("other_normals", rim.other_normals, arrays_);
-}
-
-void
-PartWriter::addFinished (const FinishedPart& part)
-{
-  const SeamZone& zone = part.zone;
-  addTriangles ("triangles", part.triangles);
-  arrays_.add ("points", zone.points);
-  addVectors ("positions", zone.positions, arrays_);
-  addVectors ("normals", zone.normals, arrays_);
-  arrays_.add ("spacing", zone.spacing);
-  arrays_.add ("is_partial", zone.is_partial);
-  writeLists ("neighbors", zone.neighbors, arrays_);
-  addTriangles ("zone", zone.triangles);
-  auto& counts = keep<Index> ();
-  counts = {static_cast<Index> (part.flips), static_cast<Index> (part.folds_after_flips),
-            static_cast<Index> (part.folds)};
-  arrays_.add ("counts", counts);
-  arrays_.add ("corners", part.corners);
-  addBoxes ("buckets", part.buckets, arrays_);
-  addCheck (part.check);
-}
-
-void
-PartWriter::addCheck (const InnerCheck& check)
-{
-  addSurroundings (check.around);
-  arrays_.add ("rim", check.rim);
-  arrays_.add ("rim.component", check.rim_component);
-  arrays_.add ("box", reinterpret_cast<const double*> (&check.box), BOX);
-  auto& numbers = keep<double> ();
-  auto& counts = keep<std::uint64_t> ();
-  for (const InnerComponent& component : check.components) {
-    forNumbers (component, [&numbers] (double value) { numbers.push_back (value); });
-    counts.insert (counts.end (), {component.points, component.sum.sum.triangles,
-                                   std::uint64_t{component.sum.sum.at}});
-  }
-  arrays_.add ("components.numbers", numbers);
-  arrays_.add ("components.counts", counts);
-  auto& crossing = keep<std::uint64_t> ();
-  forCrossingCounts (check.crossing,
-                     [&crossing] (std::size_t count) { crossing.push_back (count); });
-  crossing.push_back (check.crossing.first_at);
-  arrays_.add ("crossing.counts", crossing);
-  addPairs ("crossing.places", check.crossing.places, arrays_);
-}
-
-void
-PartWriter::addSurroundings (const Surroundings& around)
-{
-  auto& counts = keep<std::uint64_t> ();
-  auto& places = keep<Index> ();
-  auto& longest = keep<double> ();
-  forCounts (around, [&counts] (std::size_t count) { counts.push_back (count); });
-  forPlaces (around, [&places] (Index place) { places.push_back (place); });
-  longest = {around.sqr_longest, around.sqr_longest_inside};
-  arrays_.add ("around.counts", counts);
-  arrays_.add ("around.places", places);
-  arrays_.add ("around.longest", longest);
-}
-
-void
-PartWriter::addMarks (const std::string& name, const std::vector<std::vector<std::uint8_t>>& lists)
-{
-  auto& ends = keep<std::uint64_t> ();
-  auto& all = keep<std::uint8_t> ();
+  std::vector<std::uint64_t> ends;
+  std::vector<std::uint8_t> all;
   for (const std::vector<std::uint8_t>& list : lists) {
     all.insert (all.end (), list.begin (), list.end ());
     ends.push_back (all.size ());
   }
-  arrays_.add (name, all);
-  arrays_.add (name + ".ends", ends);
-}
-
-void
-PartWriter::addChanges (const std::vector<PartChange>& changes)
-{
-  const auto add = [&] (const std::string& name, auto member, auto& all) {
-    auto& ends = keep<Index> ();
-    for (const PartChange& change : changes) {
-      const auto& list = change.*member;
-      all.insert (all.end (), list.begin (), list.end ());
-      ends.push_back (static_cast<Index> (all.size ()));
-    }
-    arrays_.add (name + ".ends", ends);
-  };
-  for (const auto& [name, member] :
-       {std::pair ("dropped", &PartChange::dropped), std::pair ("turned", &PartChange::turned),
-        std::pair ("beside", &PartChange::beside)}) {
-    auto& all = keep<Index> ();
-    add (name, member, all);
-    arrays_.add (name, all);
-  }
-  for (const auto& [name, member] :
-       {std::pair ("added", &PartChange::added), std::pair ("seam", &PartChange::seam)}) {
-    auto& all = keep<Triangle> ();
-    add (name, member, all);
-    addTriangles (name, all);
-  }
-}
-
-std::vector<Triangle>
-readTriangles (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last)
-{
-  std::vector<Triangle> triangles (last - first);
-  file.read (name, 3 * first, 3 * last, reinterpret_cast<Index*> (triangles.data ()));
-  return triangles;
+  writer.keep (name, std::move (all));
+  writer.keep (name + ".ends", std::move (ends));
 }
 
 std::vector<std::vector<std::uint8_t>>
@@ -329,73 +289,88 @@ readMarks (ArrayFile& file, const std::string& name)
   return lists;
 }
 
-std::vector<Triangle>
-readTriangles (ArrayFile& file, const std::string& name)
+void
+addChanges (const std::vector<PartChange>& changes, ArrayWriter& writer)
 {
-  return readTriangles (file, name, 0, file.count (name) / 3);
-}
-
-PartRim
-readRim (ArrayFile& file)
-{
-  PartRim rim;
-  rim.points = file.read<Index> ("points");
-  rim.positions = readVectors<Eigen::Vector3d> (file, "positions");
-  rim.normals = readVectors<Eigen::Vector3f> (file, "normals");
-  rim.smoothed = readVectors<Eigen::Vector3f> (file, "smoothed");
-  rim.spacing = file.read<float> ("spacing");
-  rim.is_partial = file.read<std::uint8_t> ("is_partial");
-  rim.has_room = file.read<std::uint8_t> ("has_room");
-  rim.neighbors = readLists (file, "neighbors", 0, rim.points.size ());
-  rim.triangles = readTriangles (file, "rim");
-  rim.numbers = file.read<Index> ("numbers");
-  rim.component = file.read<Index> ("component");
-  rim.components = file.read<Index> ("components").front ();
-  const std::vector<Triangle> corners = readTriangles (file, "open.corners");
-  const std::vector<std::uint8_t> votes = file.read<std::uint8_t> ("open.votes");
-  const std::vector<float> ratios = file.read<float> ("open.ratios");
-  for (std::size_t i = 0; i < corners.size (); ++i)
-    rim.open.push_back ({corners[i], votes[i], 0, ratios[i], 0.0F});
-  rim.others = file.read<Index> ("others");
-  rim.other_positions = readVectors<Eigen::Vector3d> (file, "other_positions");
-  rim.other_normals = readVectors<Eigen::Vector3f> (file, "other_normals");
-  return rim;
-}
-
-FinishedPart
-readFinished (ArrayFile& file)
-{
-  FinishedPart part;
-  SeamZone& zone = part.zone;
-  zone.points = file.read<Index> ("points");
-  zone.positions = readVectors<Eigen::Vector3d> (file, "positions");
-  zone.normals = readVectors<Eigen::Vector3f> (file, "normals");
-  zone.spacing = file.read<float> ("spacing");
-  zone.is_partial = file.read<std::uint8_t> ("is_partial");
-  zone.neighbors = readLists (file, "neighbors", 0, zone.points.size ());
-  zone.triangles = readTriangles (file, "zone");
-  const std::vector<Index> counts = file.read<Index> ("counts");
-  part.flips = counts[0];
-  part.folds_after_flips = counts[1];
-  part.folds = counts[2];
-  part.corners = file.read<double> ("corners");
-  part.check = readCheck (file);
-  return part;
+  const auto add = [&] (const std::string& name, auto member) {
+    std::vector<Index> ends;
+    std::decay_t<decltype (changes.front ().*member)> all;
+    for (const PartChange& change : changes) {
+      const auto& list = change.*member;
+      all.insert (all.end (), list.begin (), list.end ());
+      ends.push_back (static_cast<Index> (all.size ()));
+    }
+    writer.keep (name + ".ends", std::move (ends));
+    writer.keep (name, std::move (all));
+  };
+  add ("dropped", &PartChange::dropped);
+  add ("turned", &PartChange::turned);
+  add ("beside", &PartChange::beside);
+  add ("added", &PartChange::added);
+  add ("seam", &PartChange::seam);
 }
 
 PartChange
 readChange (ArrayFile& file, std::size_t part)
 {
-  const auto indices = [&] (const std::string& name) {
-    const auto [first, last] = rangeOf (file, name, part);
-    return file.read<Index> (name, first, last);
+  PartChange change;
+  // Its range in an array of all parts, one behind the other.
+  const auto read = [&] (const std::string& name, auto& values) {
+    const std::string ends = name + ".ends";
+    const Index first = part == 0 ? 0 : file.read<Index> (ends, part - 1, part).front ();
+    file.append (name, first, file.read<Index> (ends, part, part + 1).front (), values);
   };
-  const auto triangles = [&] (const std::string& name) {
-    const auto [first, last] = rangeOf (file, name, part);
-    return readTriangles (file, name, first, last);
+  read ("dropped", change.dropped);
+  read ("turned", change.turned);
+  read ("added", change.added);
+  read ("seam", change.seam);
+  read ("beside", change.beside);
+  return change;
+}
+
+void
+addCandidates (const CandidateLists& candidates, ArrayWriter& writer)
+{
+  std::vector<Triangle> sure_corners, doubtful_corners;
+  std::vector<std::uint8_t> sure_marks, doubtful_marks;
+  std::vector<float> doubtful_values;
+  for (const SureTriangle& sure : candidates.sure) {
+    sure_corners.push_back (sure.corners);
+    sure_marks.insert (sure_marks.end (), {sure.clockwise, sure.rank});
+  }
+  for (const Candidate& doubtful : candidates.doubtful) {
+    doubtful_corners.push_back (doubtful.corners);
+    doubtful_marks.insert (doubtful_marks.end (), {doubtful.votes, doubtful.clockwise});
+    doubtful_values.insert (doubtful_values.end (),
+                            {doubtful.circumradius_ratio, doubtful.normal_agreement});
+  }
+  writer.keep ("sure.corners", std::move (sure_corners));
+  writer.keep ("sure.marks", std::move (sure_marks));
+  writer.keep ("doubtful.corners", std::move (doubtful_corners));
+  writer.keep ("doubtful.marks", std::move (doubtful_marks));
+  writer.keep ("doubtful.values", std::move (doubtful_values));
+}
+
+void
+appendCandidates (ArrayFile& file, Index first, Index last, CandidateLists& all)
+{
+  std::vector<Triangle> corners;
+  const auto placeOf = [&corners] (Index p) {
+    return static_cast<std::size_t> (
+        std::partition_point (corners.begin (), corners.end (),
+                              [p] (const Triangle& t) { return t[0] < p; }) -
+        corners.begin ());
   };
-  return {indices ("dropped"), indices ("turned"), triangles ("added"), triangles ("seam"),
-          indices ("beside")};
+  corners = file.read<Triangle> ("sure.corners");
+  std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks");
+  for (std::size_t t = placeOf (first), end = placeOf (last); t < end; ++t)
+    all.sure.push_back ({corners[t], marks[2 * t], marks[2 * t + 1], false});
+  corners = file.read<Triangle> ("doubtful.corners");
+  marks = file.read<std::uint8_t> ("doubtful.marks");
+  const std::vector<float> values = file.read<float> ("doubtful.values");
+  for (std::size_t t = placeOf (first), end = placeOf (last); t < end; ++t)
+    all.doubtful.push_back (
+        {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});
 }
 
 } // namespace pcl::floater

@@ -3,63 +3,48 @@
 // What is written of a part.
 #pragma once
 
+#include "consensus/candidates.h"
 #include "parts/part_finish.h"
 #include "parts/part_mesh.h"
 #include "store.h"
 
-#include <deque>
 #include <vector>
 
 namespace pcl::floater {
-/// Arrays of a part for a file. All that is added must outlive this.
-class PartWriter
-{
-public:
-  ArrayWriter& arrays () { return arrays_; }
+// All that is added must outlive the writer.
 
-  void addTriangles (const std::string& name, const std::vector<Triangle>& triangles);
-  void addRim (const PartRim& rim);
-  void addFinished (const FinishedPart& part);
-  void addChanges (const std::vector<PartChange>& changes);
-
-  /// Lists of marks, one behind the other.
-  void addMarks (const std::string& name, const std::vector<std::vector<std::uint8_t>>& lists);
-
-private:
-  template <typename T>
-  std::vector<T>& keep ();
-
-  void addCheck (const InnerCheck& check);
-  void addSurroundings (const Surroundings& around);
-
-  ArrayWriter arrays_;
-  // Arrays that are made for the file, where they stay.
-  std::deque<std::vector<Index>> indices_;
-  std::deque<std::vector<Triangle>> triangles_;
-  std::deque<std::vector<std::uint64_t>> counts_;
-  std::deque<std::vector<double>> numbers_;
-  std::deque<std::vector<std::uint8_t>> marks_;
-  std::vector<float> ratios_;
-};
-
-std::vector<Triangle>
-readTriangles (ArrayFile& file, const std::string& name);
+void
+addRim (const PartRim& rim, ArrayWriter& writer);
 
 PartRim
 readRim (ArrayFile& file);
 
-std::vector<Triangle>
-readTriangles (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last);
-
-/// Lists of marks.
-std::vector<std::vector<std::uint8_t>>
-readMarks (ArrayFile& file, const std::string& name);
+void
+addFinished (const FinishedPart& part, ArrayWriter& writer);
 
 /// Without the inner triangles and their buckets.
 FinishedPart
 readFinished (ArrayFile& file);
 
+void
+addChanges (const std::vector<PartChange>& changes, ArrayWriter& writer);
+
 PartChange
 readChange (ArrayFile& file, std::size_t part);
+
+/// Lists of marks, one behind the other.
+void
+addMarks (const std::string& name, const std::vector<std::vector<std::uint8_t>>& lists,
+          ArrayWriter& writer);
+
+std::vector<std::vector<std::uint8_t>>
+readMarks (ArrayFile& file, const std::string& name);
+
+void
+addCandidates (const CandidateLists& candidates, ArrayWriter& writer);
+
+/// Appends those whose first corner is from `first` to before `last`.
+void
+appendCandidates (ArrayFile& file, Index first, Index last, CandidateLists& all);
 
 } // namespace pcl::floater

@@ -38,7 +38,7 @@ public:
     const std::vector<Index> own = pointsFrom (first_, last_);
     return {first_,
             cloud_.gather (own),
-            gatherVectors (stars_, "normals", own),
+            stars_.gather<Eigen::Vector3f> ("normals", own),
             triangles_.gather<float> ("spacing", own),
             {}};
   }
@@ -46,13 +46,13 @@ public:
   std::vector<Eigen::Vector3f> facingNormals ()
   {
     std::vector<Eigen::Vector3f> normals;
-    readVectors (cloud_.file (), "facing_normals", first_, last_, normals);
+    cloud_.file ().append ("facing_normals", first_, last_, normals);
     return normals;
   }
 
   std::vector<Eigen::Vector3f> smoothed ()
   {
-    return gatherVectors (triangles_, "smoothed_normals", pointsFrom (first_, last_));
+    return triangles_.gather<Eigen::Vector3f> ("smoothed_normals", pointsFrom (first_, last_));
   }
 
   PartCandidates candidates ()
@@ -61,7 +61,7 @@ public:
     all.sure_ranks = context_.limits.surface.consensus.candidates.sure_ranks;
     const BlockRanges& ranges = cloud_.ranges ();
     for (std::size_t block = ranges.blockOf (first_); block <= ranges.blockOf (last_ - 1); ++block)
-      appendCandidates (triangles_.file (block), all);
+      appendCandidates (triangles_.file (block), first_, last_, all);
     return divideCandidates (
         std::move (all), first_, last_,
         triangles_.gather<std::uint8_t> ("reaches_out", pointsFrom (first_, last_)));
@@ -82,7 +82,7 @@ public:
     return [this] (const std::vector<Index>& points, std::vector<Eigen::Vector3d>& positions,
                    std::vector<Eigen::Vector3f>& normals) {
       positions = cloud_.gather (points);
-      normals = gatherVectors (stars_, "normals", points);
+      normals = stars_.gather<Eigen::Vector3f> ("normals", points);
     };
   }
 
@@ -90,32 +90,6 @@ public:
   Index last () const { return last_; }
 
 private:
-  // Those whose first corner is in the part.
-  void appendCandidates (ArrayFile& file, CandidateLists& all) const
-  {
-    const auto inPart = [this] (const std::vector<Triangle>& corners) {
-      const auto from = [&corners] (Index p) {
-        return static_cast<std::size_t> (
-            std::partition_point (corners.begin (), corners.end (),
-                                  [p] (const Triangle& t) { return t[0] < p; }) -
-            corners.begin ());
-      };
-      return std::pair (from (first_), from (last_));
-    };
-    std::vector<Triangle> corners = readTriangles (file, "sure.corners");
-    std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks");
-    auto [begin, end] = inPart (corners);
-    for (std::size_t t = begin; t < end; ++t)
-      all.sure.push_back ({corners[t], marks[2 * t], marks[2 * t + 1], false});
-    corners = readTriangles (file, "doubtful.corners");
-    marks = file.read<std::uint8_t> ("doubtful.marks");
-    const std::vector<float> values = file.read<float> ("doubtful.values");
-    std::tie (begin, end) = inPart (corners);
-    for (std::size_t t = begin; t < end; ++t)
-      all.doubtful.push_back (
-          {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});
-  }
-
   const StepContext& context_;
   std::vector<Index> outliers_;
   StoredCloud cloud_;
@@ -208,10 +182,10 @@ meshStep (const StepContext& context, std::size_t part)
     mesh = meshOf (stored, points, context);
     rim = rimOf (stored, points, mesh, context.limits.parts.rings, context);
   }
-  PartWriter writer;
-  writer.addTriangles ("triangles", mesh.triangles);
-  writer.addRim (rim);
-  context.store.put (blockFile (MESH, part), writer.arrays (), context.plan.id);
+  ArrayWriter writer;
+  writer.add ("triangles", mesh.triangles);
+  addRim (rim, writer);
+  context.store.put (blockFile (MESH, part), writer, context.plan.id);
 }
 
 void
@@ -223,7 +197,7 @@ finishStep (const StepContext& context, std::size_t part)
   std::vector<Triangle> triangles;
   {
     ArrayFile mesh = openArrays (context.store, blockFile (MESH, part), context.plan);
-    triangles = readTriangles (mesh, "triangles");
+    triangles = mesh.read<Triangle> ("triangles");
   }
   if (stored.isEmpty ()) // it is one part less than was planned
     return;
@@ -235,10 +209,10 @@ finishStep (const StepContext& context, std::size_t part)
   const FinishedPart finished =
       finishPart (std::move (points), std::move (triangles), readChange (changes, part),
                   stored.neighbors (), settings.ofPart (partsOf (context)), context.run);
-  PartWriter writer;
-  writer.arrays ().add ("id", id);
-  writer.addFinished (finished);
-  context.store.put (blockFile (FINISH, part), writer.arrays (), context.plan.id);
+  ArrayWriter writer;
+  writer.add ("id", id);
+  addFinished (finished, writer);
+  context.store.put (blockFile (FINISH, part), writer, context.plan.id);
 }
 
 PartRim
@@ -268,13 +242,13 @@ void
 StoredParts::finish (std::vector<PartChange> changes, const RunContext& run)
 {
   const std::uint64_t id = identify (changes);
-  PartWriter writer;
-  writer.arrays ().add ("id", &id, 1);
+  ArrayWriter writer;
+  writer.add ("id", &id, 1);
   std::vector<double> whole;
   addWhole (settings_, whole);
-  writer.arrays ().add ("whole", whole);
-  writer.addChanges (changes);
-  folder_.put (CHANGES, writer.arrays (), context_.plan.id);
+  writer.add ("whole", whole);
+  addChanges (changes, writer);
+  folder_.put (CHANGES, writer, context_.plan.id);
   std::deque<std::size_t> left;
   for (std::size_t part = 0; part < parts_.count (); ++part)
     if (!isPartFinished (context_, folder_, part))
@@ -301,7 +275,7 @@ std::vector<Eigen::AlignedBox3d>
 StoredParts::buckets (std::size_t part)
 {
   ArrayFile file = openArrays (context_.store, blockFile (FINISH, part), context_.plan);
-  return readBoxes (file, "buckets", 0, file.count ("buckets") / BOX);
+  return file.read<Box> ("buckets");
 }
 
 std::vector<Triangle>
@@ -309,10 +283,8 @@ StoredParts::triangles (std::size_t part, const Ranges& ranges)
 {
   ArrayFile file = openArrays (context_.store, blockFile (FINISH, part), context_.plan);
   std::vector<Triangle> some;
-  for (const auto& [first, last] : ranges) {
-    const std::vector<Triangle> triangles = readTriangles (file, "triangles", first, last);
-    some.insert (some.end (), triangles.begin (), triangles.end ());
-  }
+  for (const auto& [first, last] : ranges)
+    file.append ("triangles", first, last, some);
   return some;
 }
 

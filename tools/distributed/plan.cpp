@@ -44,6 +44,30 @@ hexadecimal (std::uint64_t value)
   return text;
 }
 
+// Calls visit (key, member) for what the manifest has as it is, in its order.
+template <typename Of, typename Visit>
+void
+forMembers (Of& plan, const Visit& visit)
+{
+  visit ("arguments", plan.arguments);
+  visit ("parameters", plan.parameters);
+  visit ("points", plan.points);
+  visit ("blocks", plan.blocks);
+  visit ("parts", plan.parts);
+  visit ("cloud_points", plan.cloud_size);
+  visit ("selected_points", plan.selected_points);
+  visit ("lattice_width", plan.lattice_width);
+  visit ("centre", plan.centre);
+  visit ("scale", plan.scale);
+  visit ("sensor_origin", plan.sensor_origin);
+  visit ("shift", plan.shift);
+  visit ("fields", plan.fields);
+  visit ("warnings", plan.warnings);
+  visit ("finite_points", plan.finite_points);
+  visit ("is_single", plan.is_single);
+  visit ("fits_single", plan.fits_single);
+}
+
 // All but the id and the checksum.
 Json
 contents (const Plan& plan)
@@ -52,26 +76,9 @@ contents (const Plan& plan)
   for (const InputFile& input : plan.inputs)
     inputs.push_back (
         {{"file", input.path.string ()}, {"bytes", input.size}, {"checksum", input.checksum}});
-  return {{"format", FORMAT},
-          {"version", WORK_FORMAT},
-          {"inputs", inputs},
-          {"arguments", plan.arguments},
-          {"parameters", plan.parameters},
-          {"points", plan.points},
-          {"blocks", plan.blocks},
-          {"parts", plan.parts},
-          {"cloud_points", plan.cloud_size},
-          {"selected_points", plan.selected_points},
-          {"lattice_width", plan.lattice_width},
-          {"centre", plan.centre},
-          {"scale", plan.scale},
-          {"sensor_origin", plan.sensor_origin},
-          {"shift", plan.shift},
-          {"fields", plan.fields},
-          {"warnings", plan.warnings},
-          {"finite_points", plan.finite_points},
-          {"is_single", plan.is_single},
-          {"fits_single", plan.fits_single}};
+  Json json{{"format", FORMAT}, {"version", WORK_FORMAT}, {"inputs", inputs}};
+  forMembers (plan, [&json] (const char* key, const auto& value) { json[key] = value; });
+  return json;
 }
 
 } // namespace
@@ -141,23 +148,7 @@ parseManifest (const std::string& text, const std::string& name)
       plan.inputs.push_back ({input.at ("file").get<std::string> (),
                               input.at ("bytes").get<std::uint64_t> (),
                               input.at ("checksum").get<std::uint32_t> ()});
-    json.at ("arguments").get_to (plan.arguments);
-    json.at ("parameters").get_to (plan.parameters);
-    json.at ("points").get_to (plan.points);
-    json.at ("blocks").get_to (plan.blocks);
-    json.at ("parts").get_to (plan.parts);
-    json.at ("cloud_points").get_to (plan.cloud_size);
-    json.at ("selected_points").get_to (plan.selected_points);
-    json.at ("lattice_width").get_to (plan.lattice_width);
-    json.at ("centre").get_to (plan.centre);
-    json.at ("scale").get_to (plan.scale);
-    json.at ("sensor_origin").get_to (plan.sensor_origin);
-    json.at ("shift").get_to (plan.shift);
-    json.at ("fields").get_to (plan.fields);
-    json.at ("warnings").get_to (plan.warnings);
-    json.at ("finite_points").get_to (plan.finite_points);
-    json.at ("is_single").get_to (plan.is_single);
-    json.at ("fits_single").get_to (plan.fits_single);
+    forMembers (plan, [&json] (const char* key, auto& value) { json.at (key).get_to (value); });
     if (checksum !=
         hexadecimal (hash (contents (plan).dump (-1, ' ', false, Json::error_handler_t::replace))))
       refuse ("is damaged; delete it and run again");

@@ -3,8 +3,13 @@
 // Where the files of a run are: in its work folder, or at another process that has it.
 #pragma once
 
+#include "core/types.h"
 #include "plan.h"
+#include "view/ray_evidence.h"
 
+#include <Eigen/Geometry>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -45,6 +50,35 @@ public:
 std::unique_ptr<ByteSource>
 openFile (const std::filesystem::path& path);
 
+// What a file has for a value: of a vector, box, triangle, sample or pair, its plain numbers. Only the
+// types of these functions are used.
+template <typename T>
+T
+elementOf (const T*);
+template <typename Scalar>
+Scalar
+elementOf (const Eigen::Matrix<Scalar, 3, 1>*);
+double
+elementOf (const Eigen::AlignedBox3d*);
+double
+elementOf (const AreaSample*);
+Index
+elementOf (const Triangle*);
+Index
+elementOf (const std::pair<Index, Index>*);
+
+template <typename T>
+using Element = decltype (elementOf (static_cast<const T*> (nullptr)));
+
+/// How many elements a value has.
+template <typename T>
+constexpr std::size_t
+countElements ()
+{
+  static_assert (std::is_trivially_copyable_v<Element<T>> && sizeof (T) % sizeof (Element<T>) == 0);
+  return sizeof (T) / sizeof (Element<T>);
+}
+
 /// Arrays to write.
 class ArrayWriter
 {
@@ -59,8 +93,17 @@ public:
   template <typename T>
   void add (const std::string& name, const T* values, std::size_t count)
   {
-    static_assert (std::is_trivially_copyable_v<T>);
-    addBytes (name, reinterpret_cast<const char*> (values), sizeof (T), count);
+    addBytes (name, reinterpret_cast<const char*> (values), sizeof (Element<T>),
+              count * countElements<T> ());
+  }
+
+  /// Keeps values that are made for the file.
+  template <typename T>
+  void keep (const std::string& name, std::vector<T> values)
+  {
+    const auto kept = std::make_shared<const std::vector<T>> (std::move (values));
+    kept_.push_back (kept);
+    add (name, *kept);
   }
 
   /// Passes the bytes of the file to `write`, one piece after the other.
@@ -86,6 +129,7 @@ private:
                  std::size_t count);
 
   std::vector<Array> arrays_;
+  std::vector<std::shared_ptr<const void>> kept_;
 };
 
 /// Arrays of a file. What is read is compared with its checksums.
@@ -100,29 +144,50 @@ public:
 
   const std::string& name () const { return name_; }
 
-  /// Elements of an array.
-  std::size_t count (const std::string& array) const { return find (array).count; }
+  /// Values of an array.
+  template <typename T>
+  std::size_t count (const std::string& array) const
+  {
+    return find (array).count / countElements<T> ();
+  }
 
-  /// Reads elements from `first` to before `last`.
+  /// Reads values from `first` to before `last`.
   template <typename T>
   void read (const std::string& array, std::size_t first, std::size_t last, T* values)
   {
-    static_assert (std::is_trivially_copyable_v<T>);
-    readBytes (find (array), sizeof (T), first, last, reinterpret_cast<char*> (values));
+    constexpr std::size_t EACH = countElements<T> ();
+    readBytes (find (array), sizeof (Element<T>), first * EACH, last * EACH,
+               reinterpret_cast<char*> (values));
+  }
+
+  /// Appends these, by default all.
+  template <typename T>
+  void append (const std::string& array, std::size_t first, std::size_t last,
+               std::vector<T>& values)
+  {
+    const std::size_t before = values.size ();
+    values.resize (before + last - first);
+    read (array, first, last, values.data () + before);
+  }
+
+  template <typename T>
+  void append (const std::string& array, std::vector<T>& values)
+  {
+    append (array, 0, count<T> (array), values);
   }
 
   template <typename T>
   std::vector<T> read (const std::string& array, std::size_t first, std::size_t last)
   {
-    std::vector<T> values (last - first);
-    read (array, first, last, values.data ());
+    std::vector<T> values;
+    append (array, first, last, values);
     return values;
   }
 
   template <typename T>
   std::vector<T> read (const std::string& array)
   {
-    return read<T> (array, 0, count (array));
+    return read<T> (array, 0, count<T> (array));
   }
 
   /// Reads all of the file.

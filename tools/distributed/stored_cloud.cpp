@@ -157,13 +157,13 @@ writePoints (Store& store, const std::string& name, std::uint64_t plan, const Po
 {
   ArrayWriter writer;
   const std::vector<Box> buckets = BlockCutter::makeBuckets (points.positions, run);
-  addVectors ("positions", points.positions, writer);
+  writer.add ("positions", points.positions);
   writer.add ("cloud_index", points.cloud_index);
-  addVectors ("normals", points.normals, writer);
-  addVectors ("facing_normals", points.facing_normals, writer);
+  writer.add ("normals", points.normals);
+  writer.add ("facing_normals", points.facing_normals);
   const std::vector<Box> groups = BlockCutter::makeGroups (buckets);
-  addBoxes ("buckets", buckets, writer);
-  addBoxes ("groups", groups, writer);
+  writer.add ("buckets", buckets);
+  writer.add ("groups", groups);
   writer.add ("non_finite", points.non_finite);
   writer.add ("duplicates", points.duplicates);
   writer.add ("gross_outliers", gross_outliers);
@@ -176,10 +176,10 @@ readPoints (Store& store, const std::string& name, const Plan& plan,
 {
   ArrayFile file = openArrays (store, name, plan);
   Points points;
-  points.positions = readVectors<Eigen::Vector3d> (file, "positions");
+  points.positions = file.read<Eigen::Vector3d> ("positions");
   points.cloud_index = file.read<Index> ("cloud_index");
-  points.normals = readVectors<Eigen::Vector3f> (file, "normals");
-  points.facing_normals = readVectors<Eigen::Vector3f> (file, "facing_normals");
+  points.normals = file.read<Eigen::Vector3f> ("normals");
+  points.facing_normals = file.read<Eigen::Vector3f> ("facing_normals");
   points.non_finite = file.read<Index> ("non_finite");
   points.duplicates = file.read<std::array<Index, 2>> ("duplicates");
   gross_outliers = file.read<Index> ("gross_outliers");

@@ -128,78 +128,7 @@ private:
   mutable std::size_t hint_ = 0;
 };
 
-static_assert (sizeof (Eigen::Vector3d) == 3 * sizeof (double) &&
-                   sizeof (Eigen::Vector3f) == 3 * sizeof (float) &&
-                   sizeof (Eigen::AlignedBox3d) == 6 * sizeof (double),
-               "they are written and read as plain numbers");
-
-inline void
-addVectors (const std::string& name, const std::vector<Eigen::Vector3d>& vectors,
-            ArrayWriter& writer)
-{
-  writer.add (name, reinterpret_cast<const double*> (vectors.data ()), 3 * vectors.size ());
-}
-
-inline void
-addVectors (const std::string& name, const std::vector<Eigen::Vector3f>& vectors,
-            ArrayWriter& writer)
-{
-  writer.add (name, reinterpret_cast<const float*> (vectors.data ()), 3 * vectors.size ());
-}
-
-// Appends vectors `first` to before `last`.
-template <typename Vector>
-void
-readVectors (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last,
-             std::vector<Vector>& vectors)
-{
-  const std::size_t before = vectors.size ();
-  vectors.resize (before + last - first);
-  file.read (name, 3 * first, 3 * last,
-             reinterpret_cast<typename Vector::Scalar*> (vectors.data () + before));
-}
-
-// Appends all vectors.
-template <typename Vector>
-void
-readVectors (ArrayFile& file, const std::string& name, std::vector<Vector>& vectors)
-{
-  readVectors (file, name, 0, file.count (name) / 3, vectors);
-}
-
-template <typename Vector>
-std::vector<Vector>
-readVectors (ArrayFile& file, const std::string& name)
-{
-  std::vector<Vector> vectors;
-  readVectors (file, name, vectors);
-  return vectors;
-}
-
 using Box = BlockCutter::Box;
-constexpr std::size_t BOX = 6; // doubles in a box
-
-inline void
-addBoxes (const std::string& name, const std::vector<Box>& boxes, ArrayWriter& writer)
-{
-  writer.add (name, reinterpret_cast<const double*> (boxes.data ()), BOX * boxes.size ());
-}
-
-inline std::vector<Box>
-readBoxes (ArrayFile& file, const std::string& name, std::size_t first, std::size_t last)
-{
-  std::vector<Box> boxes (last - first);
-  file.read (name, BOX * first, BOX * last, reinterpret_cast<double*> (boxes.data ()));
-  return boxes;
-}
-
-inline std::vector<Eigen::Vector3f>
-gatherVectors (Slices& slices, const std::string& name, const std::vector<Index>& points)
-{
-  std::vector<Eigen::Vector3f> vectors (points.size ());
-  slices.gather (name, points, 3, reinterpret_cast<float*> (vectors.data ()));
-  return vectors;
-}
 
 inline std::vector<Index>
 pointsFrom (Index first, Index last)
@@ -242,16 +171,15 @@ public:
   StoredCloud (const StepContext& context, const std::vector<Index>& outliers, bool with_outliers)
       : file_ (openArrays (context.store, with_outliers ? POINTS : pointsLeft (outliers),
                            context.plan)),
-        points_ (file_.count ("positions") / 3), ranges_ (blockRanges (context.plan, points_)),
+        points_ (file_.count<Eigen::Vector3d> ("positions")),
+        ranges_ (blockRanges (context.plan, points_)),
         cutter_ (
-            points_, readBoxes (file_, "groups", 0, file_.count ("groups") / BOX),
-            context.plan.blocks,
+            points_, file_.read<Box> ("groups"), context.plan.blocks,
             [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
-              const std::vector<Box> found = readBoxes (file_, "buckets", first, last);
-              buckets.insert (buckets.end (), found.begin (), found.end ());
+              file_.append ("buckets", first, last, buckets);
             },
             [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
-              readVectors (file_, "positions", first, last, positions);
+              file_.append ("positions", first, last, positions);
             })
   {
   }
@@ -269,7 +197,7 @@ public:
     for (std::size_t begin = 0, end = 0; begin < points.size (); begin = end) {
       for (end = begin + 1; end < points.size () && points[end] == points[end - 1] + 1;)
         ++end;
-      readVectors (file_, "positions", points[begin], points[end - 1] + 1, positions);
+      file_.append ("positions", points[begin], points[end - 1] + 1, positions);
     }
     return positions;
   }

@@ -27,7 +27,7 @@ readPart (const StepContext& context, const Parts& parts, std::size_t part,
           const std::vector<std::uint8_t>& is_turned)
 {
   ArrayFile file = openArrays (context.store, blockFile (FINISH, part), context.plan);
-  std::vector<Triangle> triangles = readTriangles (file, "triangles");
+  std::vector<Triangle> triangles = file.read<Triangle> ("triangles");
   const Index first = parts.first (part), last = parts.last (part);
   turnInner (triangles, is_turned, first, last - first, context.run.withThreads (1));
   const std::vector<Index> cloud_index =
@@ -44,15 +44,15 @@ readPart (const StepContext& context, const Parts& parts, std::size_t part,
 void
 putMesh (FolderStore& folder, const Plan& plan, const FinishedMesh& mesh)
 {
-  PartWriter writer;
+  ArrayWriter writer;
   const std::vector<std::uint8_t> marks{static_cast<std::uint8_t> (mesh.is_single ? 1 : 0),
                                         static_cast<std::uint8_t> (mesh.are_blocks_freed ? 1 : 0),
                                         static_cast<std::uint8_t> (mesh.parts ? 1 : 0)};
-  writer.arrays ().add ("marks", marks);
-  writer.addTriangles ("triangles", mesh.parts ? mesh.parts->seam : mesh.triangles);
+  writer.add ("marks", marks);
+  writer.add ("triangles", mesh.parts ? mesh.parts->seam : mesh.triangles);
   const std::vector<std::vector<std::uint8_t>> none;
-  writer.addMarks ("turned", mesh.parts ? mesh.parts->is_turned : none);
-  folder.put (TRIANGLES, writer.arrays (), plan.id);
+  addMarks ("turned", mesh.parts ? mesh.parts->is_turned : none, writer);
+  folder.put (TRIANGLES, writer, plan.id);
 }
 
 bool
@@ -62,7 +62,7 @@ isMeshKnown (const StepContext& context, FolderStore& folder)
     return false;
   ArrayFile file = openArrays (folder, TRIANGLES, context.plan);
   file.verify ();
-  for (std::size_t part = 0; part < file.count ("turned.ends"); ++part) {
+  for (std::size_t part = 0; part < file.count<std::uint64_t> ("turned.ends"); ++part) {
     if (!folder.has (blockFile (FINISH, part)))
       return false;
     openArrays (folder, blockFile (FINISH, part), context.plan).verify ();
@@ -86,16 +86,16 @@ readMesh (const StepContext& context)
   mesh.is_single = marks[0] != 0;
   mesh.are_blocks_freed = marks[1] != 0;
   if (marks[2] == 0) {
-    mesh.triangles = readTriangles (file, "triangles");
+    mesh.triangles = file.read<Triangle> ("triangles");
     return mesh;
   }
   const Parts parts = partsOf (context);
   std::vector<std::size_t> begins (1, 0);
   for (std::size_t part = 0; part < parts.count (); ++part)
-    begins.push_back (
-        begins.back () +
-        openArrays (context.store, blockFile (FINISH, part), context.plan).count ("triangles") / 3);
-  const std::vector<Triangle> seam = readTriangles (file, "triangles");
+    begins.push_back (begins.back () +
+                      openArrays (context.store, blockFile (FINISH, part), context.plan)
+                          .count<Triangle> ("triangles"));
+  const std::vector<Triangle> seam = file.read<Triangle> ("triangles");
   const std::vector<std::vector<std::uint8_t>> is_turned = readMarks (file, "turned");
   mesh.triangles.resize (begins.back () + seam.size ());
   parallelTasks (context.run, parts.count (), [&] (std::size_t part) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stored_stages.h"
 
+#include "part_files.h"
 #include "report/report_cloud.h"
 #include "stored_cloud.h"
 
@@ -9,16 +10,6 @@
 
 namespace pcl::floater {
 namespace {
-// Appends all values of an array.
-template <typename T>
-void
-appendArray (ArrayFile& file, const std::string& name, std::vector<T>& values)
-{
-  const std::size_t before = values.size (), count = file.count (name);
-  values.resize (before + count);
-  file.read (name, 0, count, values.data () + before);
-}
-
 // Appends all lists of a block to those of the blocks before it.
 void
 appendLists (ArrayFile& file, const std::string& name, CsrLists& all)
@@ -26,9 +17,9 @@ appendLists (ArrayFile& file, const std::string& name, CsrLists& all)
   if (all.offsets.empty ())
     all.offsets.push_back (0);
   const Index before = all.offsets.back (); // modulo 2^32, as all offsets
-  appendArray (file, name, all.ids);
+  file.append (name, all.ids);
   const std::size_t rows = all.offsets.size ();
-  appendArray (file, name + ".ends", all.offsets);
+  file.append (name + ".ends", all.offsets);
   for (std::size_t r = rows; r < all.offsets.size (); ++r)
     all.offsets[r] += before;
 }
@@ -96,7 +87,7 @@ StoredStages::planes ()
     for (std::size_t p = 0; p <= n; ++p)
       neighbors.offsets.push_back (static_cast<Index> (p * k));
     forEachBlock ("neighbors", [&] (ArrayFile& file, std::size_t /*block*/) {
-      appendArray (file, "ids", neighbors.ids);
+      file.append ("ids", neighbors.ids);
     });
   }
   CsrLists beside;
@@ -115,14 +106,8 @@ std::vector<AreaSample>
 StoredStages::areaSamples ()
 {
   std::vector<AreaSample> samples;
-  forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
-    constexpr std::size_t VALUES = 7;
-    const std::vector<double> areas = file.read<double> ("areas");
-    for (std::size_t i = 0; i + VALUES <= areas.size (); i += VALUES)
-      samples.push_back ({{areas[i], areas[i + 1], areas[i + 2]},
-                          {areas[i + 3], areas[i + 4], areas[i + 5]},
-                          areas[i + 6]});
-  });
+  forEachBlock ("stars",
+                [&] (ArrayFile& file, std::size_t /*block*/) { file.append ("areas", samples); });
   return samples;
 }
 
@@ -131,8 +116,8 @@ StoredStages::noiseProbes ()
 {
   NoiseProbes probes;
   forEachBlock ("planes", [&] (ArrayFile& file, std::size_t /*block*/) {
-    appendArray (file, "probes.noise", probes.noise);
-    appendArray (file, "probes.unevenness", probes.unevenness);
+    file.append ("probes.noise", probes.noise);
+    file.append ("probes.unevenness", probes.unevenness);
   });
   return probes;
 }
@@ -148,17 +133,17 @@ StoredStages::geometry (LocalPlanes planes, bool with_stars)
   CsrLists far;
   far.offsets.reserve (n + 1);
   forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
-    readVectors (file, "normals", stars.normals);
+    file.append ("normals", stars.normals);
   });
   for (const char* step : {"neighbors", "planes", "stars"})
     remove (step); // the neighbours of the planes are in memory by now
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    appendArray (file, "spacing", geometry.spacing);
+    file.append ("spacing", geometry.spacing);
     appendLists (file, "far", far);
     if (!with_stars)
       return;
     appendLists (file, "stars", stars.neighbors);
-    appendArray (file, "open", stars.open);
+    file.append ("open", stars.open);
   });
   geometry.neighbors = std::move (planes.neighbors);
   appendRows (far, geometry.neighbors);
@@ -170,9 +155,8 @@ StoredStages::spacing ()
 {
   std::vector<float> spacing;
   spacing.reserve (ranges_.points ());
-  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    appendArray (file, "spacing", spacing);
-  });
+  forEachBlock ("triangles",
+                [&] (ArrayFile& file, std::size_t /*block*/) { file.append ("spacing", spacing); });
   return spacing;
 }
 
@@ -190,31 +174,15 @@ StoredStages::triangles ()
   candidates.sure_ranks = context_.limits.surface.consensus.candidates.sure_ranks;
   std::size_t sure = 0, doubtful = 0;
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    sure += file.count ("sure.corners") / 3;
-    doubtful += file.count ("doubtful.corners") / 3;
+    sure += file.count<Triangle> ("sure.corners");
+    doubtful += file.count<Triangle> ("doubtful.corners");
   });
   candidates.sure.reserve (sure);
   candidates.doubtful.reserve (doubtful);
   proposed.smoothed_normals.reserve (ranges_.points ());
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t block) {
-    readVectors (file, "smoothed_normals", proposed.smoothed_normals);
-    std::vector<Triangle> corners;
-    const auto readCorners = [&] (const std::string& name) {
-      const std::vector<Index> ids = file.read<Index> (name);
-      corners.resize (ids.size () / 3);
-      for (std::size_t t = 0; t < corners.size (); ++t)
-        corners[t] = {ids[3 * t], ids[3 * t + 1], ids[3 * t + 2]};
-    };
-    readCorners ("sure.corners");
-    std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks");
-    for (std::size_t t = 0; t < corners.size (); ++t)
-      candidates.sure.push_back ({corners[t], marks[2 * t], marks[2 * t + 1], false});
-    readCorners ("doubtful.corners");
-    marks = file.read<std::uint8_t> ("doubtful.marks");
-    const std::vector<float> values = file.read<float> ("doubtful.values");
-    for (std::size_t t = 0; t < corners.size (); ++t)
-      candidates.doubtful.push_back (
-          {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});
+    file.append ("smoothed_normals", proposed.smoothed_normals);
+    appendCandidates (file, 0, NONE, candidates);
     if (freed_ != nullptr)
       freed_->remove (blockFile ("triangles", block));
   });

@@ -6,8 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -48,17 +46,6 @@ plyHeader (std::size_t points)
 {
   return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string (points) +
          "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-}
-
-std::vector<std::array<float, 3>>
-toFloats (const std::vector<Eigen::Vector3d>& points)
-{
-  std::vector<std::array<float, 3>> floats (points.size ());
-  std::transform (points.begin (), points.end (), floats.begin (), [] (const Eigen::Vector3d& p) {
-    const Eigen::Vector3f q = p.cast<float> ();
-    return std::array<float, 3>{q.x (), q.y (), q.z ()};
-  });
-  return floats;
 }
 
 } // namespace
@@ -114,10 +101,12 @@ main (int argc, char** argv)
   try {
     pcl::floater::requireWritable (path);
     pcl::floater::handleSignals ();
-    const auto points = toFloats (pcl::floater::generateSurface (spec));
+    const std::vector<Eigen::Vector3d> points = pcl::floater::generateSurface (spec);
     pcl::floater::AtomicFile file (path);
     file.write (extension == ".pcd" ? pcdHeader (points.size ()) : plyHeader (points.size ()));
-    file.write (points.data (), points.size () * sizeof (points[0]));
+    for (const Eigen::Vector3d& point : points)
+      for (const double coordinate : point)
+        file.writeNumber (static_cast<float> (coordinate), pcl::floater::ByteOrder::LITTLE);
     file.close ();
     file.publish ();
   }

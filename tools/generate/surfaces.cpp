@@ -5,6 +5,7 @@
 #include "random_stream.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -287,23 +288,9 @@ surfaceKinds ()
 const char*
 surfaceName (SurfaceKind kind)
 {
-  switch (kind) {
-  case SurfaceKind::HEIGHT_FIELD:
-    return "height-field";
-  case SurfaceKind::HEMISPHERE:
-    return "hemisphere";
-  case SurfaceKind::FINGER:
-    return "finger";
-  case SurfaceKind::FOLDED_SHEET:
-    return "folded-sheet";
-  case SurfaceKind::CUT_OUT:
-    return "cut-out";
-  case SurfaceKind::SPHERE:
-    return "sphere";
-  case SurfaceKind::TORUS:
-    return "torus";
-  }
-  return "unknown";
+  constexpr std::array<const char*, 7> NAMES{"height-field", "hemisphere", "finger", "folded-sheet",
+                                             "cut-out",      "sphere",     "torus"};
+  return NAMES[static_cast<std::size_t> (kind)];
 }
 
 int

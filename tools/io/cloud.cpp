@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud.h"
 
-#include "plural.h"
+#include "format.h"
 
 #include <algorithm>
 #include <charconv>
@@ -122,7 +122,7 @@ normalFields (const Cloud& cloud)
 }
 
 Cloud
-makeCloud (std::vector<Field> fields, std::size_t size)
+makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string> warnings)
 {
   if (size == 0)
     throw ReadError ("it has no points");
@@ -132,6 +132,7 @@ makeCloud (std::vector<Field> fields, std::size_t size)
       coordinateField (fields, "x"), coordinateField (fields, "y"), coordinateField (fields, "z")};
   Cloud cloud;
   cloud.rows = size;
+  cloud.warnings = std::move (warnings);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cloud.coordinates[axis] = fields[columns[axis]];
     cloud.single_precision &= fields[columns[axis]].type == ScalarType::FLOAT32;
@@ -254,11 +255,9 @@ copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows, const std::v
       copied.fields.push_back (field);
   const std::vector<Field> sources (copied.fields);
   copied.fields.insert (copied.fields.end (), added.begin (), added.end ());
-  std::vector<Field*> fields;
-  for (Field& field : copied.coordinates)
-    fields.push_back (&field);
-  for (Field& field : copied.fields)
-    fields.push_back (&field);
+  std::vector<Field*> fields = pointersTo (copied.fields);
+  fields.insert (fields.begin (),
+                 {&copied.coordinates[0], &copied.coordinates[1], &copied.coordinates[2]});
   allocateRows (fields, rows.size ());
   for (std::size_t axis = 0; axis < 3; ++axis)
     copyField (cloud.coordinates[axis], rows, copied.coordinates[axis]);

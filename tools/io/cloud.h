@@ -15,6 +15,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -77,6 +79,29 @@ sizeOf (ScalarType type)
   return visitType (type, [] (auto tag) { return sizeof (tag); });
 }
 
+/// What formats call a type; empty if they do not have it.
+struct TypeNames
+{
+  std::string_view ply, sized_ply, vtk;
+  std::string_view pcd; // with the size
+};
+constexpr std::array<TypeNames, 10> TYPE_NAMES{{{"char", "int8", "signed_char", "I"},
+                                                {"uchar", "uint8", "unsigned_char", "U"},
+                                                {"short", "int16", "short", "I"},
+                                                {"ushort", "uint16", "unsigned_short", "U"},
+                                                {"int", "int32", "int", "I"},
+                                                {"uint", "uint32", "unsigned_int", "U"},
+                                                {"", "", "vtktypeint64", "I"},
+                                                {"", "", "vtktypeuint64", "U"},
+                                                {"float", "float32", "float", "F"},
+                                                {"double", "float64", "double", "F"}}};
+
+inline const TypeNames&
+namesOf (ScalarType type)
+{
+  return TYPE_NAMES[static_cast<std::size_t> (type)];
+}
+
 /// One named field of all points: a view of bytes, which it keeps alive. The `count` values of a
 /// point are consecutive. Copies are cheap.
 struct Field
@@ -109,6 +134,33 @@ struct Field
   /// Value of a point with scale and offset, as a double.
   double scaled (std::size_t point) const { return asDouble (point) * scale + offset; }
 };
+
+/// Pointers to all of them.
+inline std::vector<Field*>
+pointersTo (std::vector<Field>& fields)
+{
+  std::vector<Field*> pointers;
+  for (Field& field : fields)
+    pointers.push_back (&field);
+  return pointers;
+}
+
+/// Appends three fields that share an array of three values for each point.
+/// \param first value of the first point, which `owner` keeps alive
+template <typename T>
+void
+addColumns (const std::array<const char*, 3>& names, const std::shared_ptr<const void>& owner,
+            const T* first, std::vector<Field>& fields)
+{
+  constexpr ScalarType TYPE = sizeof (T) == 1   ? ScalarType::UINT8
+                              : sizeof (T) == 4 ? ScalarType::FLOAT32
+                                                : ScalarType::FLOAT64;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Field& field = fields.emplace_back (Field{names[i], TYPE});
+    field.first = {owner, reinterpret_cast<const char*> (first + i)};
+    field.stride = 3 * sizeof (T);
+  }
+}
 
 /// Makes the fields views of rows: all fields of the first point from `first` on, then all fields
 /// of the next.
@@ -277,9 +329,10 @@ normalFields (const Cloud& cloud);
 /// Makes a cloud from the fields of a file: finds x, y and z (or X, Y, Z), unpacks PCL's rgb and
 /// rgba, and names normals nx, ny and nz. A second field of a name gets another one, and a second
 /// colour is left out; warnings tell.
+/// \param warnings come before these
 /// \throws ReadError if there are no points or no coordinates
 Cloud
-makeCloud (std::vector<Field> fields, std::size_t size);
+makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string> warnings = {});
 
 /// Makes the fields x, y and z of a text double if they are float: then they get all digits of the
 /// text.

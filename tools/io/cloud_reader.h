@@ -10,7 +10,7 @@
 #pragma once
 
 #include "cloud.h"
-#include "plural.h"
+#include "format.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The format of a file is given by its extension.
+// Names, extensions and numbers in messages.
 #pragma once
 
 #include <algorithm>
@@ -31,6 +31,13 @@ inline std::string
 inputName (const std::filesystem::path& path)
 {
   return isStandardStream (path) ? "the standard input" : "'" + path.string () + "'";
+}
+
+/// "1 point", "2 points".
+inline std::string
+counted (std::size_t count, const std::string& noun)
+{
+  return std::to_string (count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 } // namespace pcl::floater

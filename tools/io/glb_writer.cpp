@@ -123,16 +123,15 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
                       {"pbrMetallicRoughness", Json{{"metallicFactor", 0.0}}}};
   // Up is +y for viewers, and +z in most clouds. The arrays have the coordinates of the cloud.
   const Json node{{"mesh", 0}, {"rotation", Json::array ({-HALF_ROOT, 0.0, 0.0, HALF_ROOT})}};
-  Json all;
-  all["asset"] = asset;
-  all["scene"] = 0;
-  all["scenes"] = Json::array ({Json{{"nodes", Json::array ({0})}}});
-  all["nodes"] = Json::array ({node});
-  all["meshes"] = Json::array ({Json{{"primitives", Json::array ({primitive})}}});
-  all["materials"] = Json::array ({material});
-  all["buffers"] = Json::array ({Json{{"byteLength", arrays.bytes}}});
-  all["bufferViews"] = arrays.views;
-  all["accessors"] = arrays.accessors;
+  const Json all{{"asset", asset},
+                 {"scene", 0},
+                 {"scenes", Json::array ({Json{{"nodes", Json::array ({0})}}})},
+                 {"nodes", Json::array ({node})},
+                 {"meshes", Json::array ({Json{{"primitives", Json::array ({primitive})}}})},
+                 {"materials", Json::array ({material})},
+                 {"buffers", Json::array ({Json{{"byteLength", arrays.bytes}}})},
+                 {"bufferViews", arrays.views},
+                 {"accessors", arrays.accessors}};
   std::string text = all.dump ();
   text.resize ((text.size () + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
 

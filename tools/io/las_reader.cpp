@@ -3,7 +3,7 @@
 // ASPRS LAS 1.0 to 1.4, from its specification (LAS Specification 1.4 - R15, 2019).
 #include "byte_order.h"
 #include "cloud_reader.h"
-#include "plural.h"
+#include "format.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +111,18 @@ readHeader (std::string_view bytes)
   return header;
 }
 
+/// A field of which the points have the value at this byte.
+Field
+fieldAt (const FileBytes& file, const LasHeader& header, const std::string& name, ScalarType type,
+         std::size_t at)
+{
+  Field field{name, type};
+  field.first = file.at (header.points_at + at);
+  field.stride = header.record_size;
+  field.order = ByteOrder::LITTLE;
+  return field;
+}
+
 /// The three channels, of 16 bits by the specification. Many programs write 8 bits into them, so
 /// that no value is above 255.
 void
@@ -133,13 +145,9 @@ addColors (const FileBytes& file, const LasHeader& header, std::vector<Field>& f
   }
   const std::size_t byte = largest > LARGEST_BYTE ? 1 : 0; // of the two of a channel
   constexpr std::array<const char*, 3> NAMES{"red", "green", "blue"};
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    Field field{NAMES[channel], ScalarType::UINT8};
-    field.first = file.at (header.points_at + header.format.color_at +
-                           channel * sizeof (std::uint16_t) + byte);
-    field.stride = header.record_size;
-    fields.push_back (std::move (field));
-  }
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    fields.push_back (fieldAt (file, header, NAMES[channel], ScalarType::UINT8,
+                               header.format.color_at + channel * sizeof (std::uint16_t) + byte));
 }
 
 } // namespace
@@ -158,24 +166,18 @@ parseLas (const FileBytes& file)
                      std::to_string (most) + "; it is truncated or its header is wrong");
   std::vector<Field> fields;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Field field{std::string (1, "xyz"[axis]), ScalarType::INT32};
-    field.first = file.at (header.points_at + axis * sizeof (std::int32_t));
-    field.stride = header.record_size;
-    field.order = ByteOrder::LITTLE;
+    Field field = fieldAt (file, header, std::string (1, "xyz"[axis]), ScalarType::INT32,
+                           axis * sizeof (std::int32_t));
     field.scale = header.scales[axis];
     field.offset = header.offsets[axis];
     fields.push_back (std::move (field));
   }
-  Field intensity{"intensity", ScalarType::UINT16};
-  intensity.first = file.at (header.points_at + INTENSITY_AT);
-  intensity.stride = header.record_size;
-  intensity.order = ByteOrder::LITTLE;
-  fields.push_back (std::move (intensity));
+  fields.push_back (fieldAt (file, header, "intensity", ScalarType::UINT16, INTENSITY_AT));
   std::vector<std::string> warnings;
   if (header.format.color_at > 0)
     addColors (file, header, fields, warnings);
-  Cloud cloud = makeCloud (std::move (fields), static_cast<std::size_t> (header.count));
-  cloud.warnings.insert (cloud.warnings.begin (), warnings.begin (), warnings.end ());
+  Cloud cloud =
+      makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
   cloud.file = file;
   return cloud;
 }

@@ -75,81 +75,7 @@ requireTrianglesInSinglePrecision (const std::filesystem::path& path, const char
                       "write .vtk, .ply, .obj or .off");
 }
 
-} // namespace
-
-std::optional<MeshFormat>
-meshFormatOf (const std::filesystem::path& path)
-{
-  static constexpr std::array<std::pair<const char*, MeshFormat>, 6> KNOWN{
-      {{".vtk", MeshFormat::VTK},
-       {".ply", MeshFormat::PLY},
-       {".obj", MeshFormat::OBJ},
-       {".stl", MeshFormat::STL},
-       {".off", MeshFormat::OFF},
-       {".glb", MeshFormat::GLB}}};
-  const std::string extension = lowerExtension (path);
-  for (const auto& [known, format] : KNOWN)
-    if (extension == known)
-      return format;
-  return std::nullopt;
-}
-
-bool
-canHaveTexture (MeshFormat format)
-{
-  return format == MeshFormat::VTK || format == MeshFormat::PLY || format == MeshFormat::OBJ;
-}
-
-std::vector<std::string>
-writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, std::optional<MeshFormat> format, const MeshTexture* texture)
-{
-  if (!format)
-    format = meshFormatOf (path);
-  if (!format)
-    throw WriteError ("cannot write '" + path.string () + "': its extension is unknown; use " +
-                      MESH_EXTENSIONS);
-  std::vector<std::string> losses;
-  if (texture != nullptr && (*format == MeshFormat::VTK || *format == MeshFormat::PLY)) {
-    Triangles renumbered = triangles;
-    const Cloud doubled = doubleSeamPoints (cloud, *texture, renumbered);
-    if (*format == MeshFormat::PLY)
-      return writeMesh (file, path, doubled, renumbered, format);
-    writeVtk (file, doubled, renumbered, true);
-    return losses;
-  }
-  switch (*format) {
-  case MeshFormat::VTK:
-    writeVtk (file, cloud, triangles);
-    break;
-  case MeshFormat::PLY:
-    for (const std::string& name : writePly (file, cloud, triangles))
-      losses.push_back ("PLY has no 64-bit integers: the field '" + name +
-                        "' was written as double");
-    break;
-  case MeshFormat::OBJ:
-    writeObj (file, cloud, triangles, texture);
-    break;
-  case MeshFormat::OFF:
-    writeOff (file, cloud, triangles);
-    break;
-  case MeshFormat::STL:
-    requireTrianglesInSinglePrecision (path, "STL", cloud, triangles);
-    writeStl (file, cloud, triangles);
-    break;
-  case MeshFormat::GLB:
-    requireTrianglesInSinglePrecision (path, "glTF", cloud, triangles);
-    writeGlb (file, cloud, triangles);
-    break;
-  }
-  const bool is_single = *format == MeshFormat::STL || *format == MeshFormat::GLB;
-  if (is_single && !cloud.single_precision)
-    losses.push_back (std::string (*format == MeshFormat::STL ? "STL" : "glTF") +
-                      " holds single precision only: the coordinates were rounded; write .vtk or "
-                      ".ply to keep them");
-  return losses;
-}
-
+/// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
 void
 writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
           const MeshTexture* texture)
@@ -208,6 +134,8 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
   }
 }
 
+/// Geomview OFF, text: points with colours from 0 to 255, normals (0 0 0 where they are not
+/// finite), and faces. Its first word is OFF, COFF, NOFF or CNOFF.
 void
 writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 {
@@ -241,12 +169,13 @@ writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   }
 }
 
+/// Binary STL: triangles in single precision, nothing else.
 void
 writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 {
-  constexpr std::size_t HEADER_BYTES = 80; // must not begin with "solid"
+  constexpr std::size_t HEADER = 80; // bytes; must not begin with "solid"
   std::string header = COMMENT;
-  header.resize (HEADER_BYTES, ' ');
+  header.resize (HEADER, ' ');
   file.write (header);
   file.writeNumber (static_cast<std::uint32_t> (triangles.size ()), ByteOrder::LITTLE);
   for (const auto& triangle : triangles) {
@@ -265,35 +194,6 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 
 // Does not use VTK, because loading its libraries takes longer than reconstructing most clouds. The
 // tests read the files back with VTK and PCL.
-
-namespace {
-const char*
-vtkTypeName (ScalarType type)
-{
-  switch (type) {
-  case ScalarType::INT8:
-    return "signed_char";
-  case ScalarType::UINT8:
-    return "unsigned_char";
-  case ScalarType::INT16:
-    return "short";
-  case ScalarType::UINT16:
-    return "unsigned_short";
-  case ScalarType::INT32:
-    return "int";
-  case ScalarType::UINT32:
-    return "unsigned_int";
-  case ScalarType::INT64:
-    return "vtktypeint64";
-  case ScalarType::UINT64:
-    return "vtktypeuint64";
-  case ScalarType::FLOAT32:
-    return "float";
-  case ScalarType::FLOAT64:
-    break;
-  }
-  return "double";
-}
 
 /// VTK decodes %xx in the names of arrays.
 std::string
@@ -328,7 +228,7 @@ void
 writeArray (AtomicFile& file, const Field& field, const Cloud& cloud)
 {
   file.write (encodeName (field.name) + " " + std::to_string (field.count) + " " +
-              std::to_string (cloud.size ()) + " " + vtkTypeName (field.type) + "\n");
+              std::to_string (cloud.size ()) + " " + std::string (namesOf (field.type).vtk) + "\n");
   visitType (field.type, [&] (auto tag) {
     for (std::size_t i = 0; i < cloud.size (); ++i)
       for (std::size_t c = 0; c < field.count; ++c)
@@ -337,8 +237,9 @@ writeArray (AtomicFile& file, const Field& field, const Cloud& cloud)
   file.write ("\n");
 }
 
-} // namespace
-
+/// Legacy VTK 3.0, binary, polydata. Colours are unsigned char scalars named "RGB", which viewers
+/// show unchanged and PCL reads by that name; normals are point normals; other fields are arrays.
+/// \param with_texture the float fields s and t are texture coordinates
 void
 writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool with_texture)
 {
@@ -380,7 +281,7 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool
     writeTriple (file, colors, cloud);
   }
   if (normals[0]) {
-    file.write (std::string ("NORMALS Normals ") + vtkTypeName (normals[0]->type) + "\n");
+    file.write ("NORMALS Normals " + std::string (namesOf (normals[0]->type).vtk) + "\n");
     writeTriple (file, normals, cloud);
   }
   if (with_texture) {
@@ -395,6 +296,191 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool
     for (const Field* field : others)
       writeArray (file, *field, cloud);
   }
+}
+
+bool
+isLong (ScalarType type)
+{
+  return type == ScalarType::INT64 || type == ScalarType::UINT64;
+}
+
+void
+writePlyHeader (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  file.write ("ply\nformat binary_little_endian 1.0\ncomment written by "
+              "pcl_floater_reconstruct\n");
+  if (const std::string shift = shiftText (cloud); !shift.empty ())
+    file.write ("comment shift " + shift + "\n");
+  file.write ("element vertex " + std::to_string (cloud.size ()) + "\n");
+  for (const char* axis : {"x", "y", "z"})
+    file.write (std::string ("property ") + (cloud.single_precision ? "float " : "double ") + axis +
+                "\n");
+  for (const Field& field : cloud.fields)
+    for (std::size_t c = 0; c < field.count; ++c)
+      file.write ("property " +
+                  std::string (isLong (field.type) ? "double" : namesOf (field.type).ply) + " " +
+                  field.name + (field.count > 1 ? "_" + std::to_string (c) : "") + "\n");
+  file.write ("element face " + std::to_string (triangles.size ()) +
+              "\nproperty list uchar int vertex_indices\nend_header\n");
+}
+
+/// Writes the coordinates of points `first` to `last` into three columns of rows, as Number.
+/// \return width of the columns in bytes
+template <typename Number>
+std::size_t
+fillCoordinates (const Cloud& cloud, std::size_t first, std::size_t last, char* to,
+                 std::size_t row_bytes)
+{
+  for (std::size_t i = first; i < last; ++i, to += row_bytes) {
+    const Eigen::Matrix<Number, 3, 1> position = cloud.position (i).cast<Number> ();
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      copyNumber<Number> (to + static_cast<std::size_t> (axis) * sizeof (Number), &position[axis],
+                          ByteOrder::LITTLE);
+  }
+  return 3 * sizeof (Number);
+}
+
+/// Writes the values of points `first` to `last` into a column of rows.
+/// \return width of the column in bytes
+std::size_t
+fillColumn (const Cloud& cloud, const Field& field, std::size_t first, std::size_t last, char* to,
+            std::size_t row_bytes)
+{
+  const auto fill = [&] (auto tag, auto out_tag) {
+    using T = decltype (tag);
+    using Out = decltype (out_tag);
+    for (std::size_t i = first; i < last; ++i, to += row_bytes)
+      for (std::size_t c = 0; c < field.count; ++c) {
+        const auto number = static_cast<Out> (field.value<T> (cloud.row (i), c));
+        copyNumber<Out> (to + c * sizeof (Out), &number, ByteOrder::LITTLE);
+      }
+    return field.count * sizeof (Out);
+  };
+  return visitType (field.type, [&] (auto tag) {
+    return isLong (field.type) ? fill (tag, double{}) : fill (tag, tag);
+  });
+}
+
+/// Writes blocks of rows, so that the type of a field is looked up once per block.
+void
+writePoints (AtomicFile& file, const Cloud& cloud)
+{
+  constexpr std::size_t BLOCK_POINTS = 1024;
+  std::size_t row_bytes = 3 * (cloud.single_precision ? sizeof (float) : sizeof (double));
+  for (const Field& field : cloud.fields)
+    row_bytes += isLong (field.type) ? field.count * sizeof (double) : field.pointBytes ();
+  std::vector<char> block (BLOCK_POINTS * row_bytes);
+  for (std::size_t first = 0; first < cloud.size (); first += BLOCK_POINTS) {
+    const std::size_t last = std::min (cloud.size (), first + BLOCK_POINTS);
+    char* to = block.data ();
+    to += cloud.single_precision ? fillCoordinates<float> (cloud, first, last, to, row_bytes)
+                                 : fillCoordinates<double> (cloud, first, last, to, row_bytes);
+    for (const Field& field : cloud.fields)
+      to += fillColumn (cloud, field, first, last, to, row_bytes);
+    file.write (block.data (), (last - first) * row_bytes);
+  }
+}
+
+void
+writeTriangles (AtomicFile& file, const Triangles& triangles)
+{
+  constexpr std::size_t CORNER = sizeof (std::int32_t);
+  std::array<char, 1 + 3 * CORNER> bytes{3};
+  for (const auto& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i)
+      copyNumber<std::uint32_t> (bytes.data () + 1 + i * CORNER, &triangle[i], ByteOrder::LITTLE);
+    file.write (bytes.data (), bytes.size ());
+  }
+}
+
+/// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
+/// ...
+/// \return losses of the format
+std::vector<std::string>
+writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+{
+  writePlyHeader (file, cloud, triangles);
+  writePoints (file, cloud);
+  writeTriangles (file, triangles);
+  std::vector<std::string> losses;
+  for (const Field& field : cloud.fields)
+    if (isLong (field.type))
+      losses.push_back ("PLY has no 64-bit integers: the field '" + field.name +
+                        "' was written as double");
+  return losses;
+}
+
+} // namespace
+
+std::optional<MeshFormat>
+meshFormatOf (const std::filesystem::path& path)
+{
+  static constexpr std::array<std::pair<const char*, MeshFormat>, 6> KNOWN{
+      {{".vtk", MeshFormat::VTK},
+       {".ply", MeshFormat::PLY},
+       {".obj", MeshFormat::OBJ},
+       {".stl", MeshFormat::STL},
+       {".off", MeshFormat::OFF},
+       {".glb", MeshFormat::GLB}}};
+  const std::string extension = lowerExtension (path);
+  for (const auto& [known, format] : KNOWN)
+    if (extension == known)
+      return format;
+  return std::nullopt;
+}
+
+bool
+canHaveTexture (MeshFormat format)
+{
+  return format == MeshFormat::VTK || format == MeshFormat::PLY || format == MeshFormat::OBJ;
+}
+
+std::vector<std::string>
+writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
+           const Triangles& triangles, std::optional<MeshFormat> format, const MeshTexture* texture)
+{
+  if (!format)
+    format = meshFormatOf (path);
+  if (!format)
+    throw WriteError ("cannot write '" + path.string () + "': its extension is unknown; use " +
+                      MESH_EXTENSIONS);
+  std::vector<std::string> losses;
+  if (texture != nullptr && (*format == MeshFormat::VTK || *format == MeshFormat::PLY)) {
+    Triangles renumbered = triangles;
+    const Cloud doubled = doubleSeamPoints (cloud, *texture, renumbered);
+    if (*format == MeshFormat::PLY)
+      return writeMesh (file, path, doubled, renumbered, format);
+    writeVtk (file, doubled, renumbered, true);
+    return losses;
+  }
+  switch (*format) {
+  case MeshFormat::VTK:
+    writeVtk (file, cloud, triangles, false);
+    break;
+  case MeshFormat::PLY:
+    losses = writePly (file, cloud, triangles);
+    break;
+  case MeshFormat::OBJ:
+    writeObj (file, cloud, triangles, texture);
+    break;
+  case MeshFormat::OFF:
+    writeOff (file, cloud, triangles);
+    break;
+  case MeshFormat::STL:
+    requireTrianglesInSinglePrecision (path, "STL", cloud, triangles);
+    writeStl (file, cloud, triangles);
+    break;
+  case MeshFormat::GLB:
+    requireTrianglesInSinglePrecision (path, "glTF", cloud, triangles);
+    writeGlb (file, cloud, triangles);
+    break;
+  }
+  const bool is_single = *format == MeshFormat::STL || *format == MeshFormat::GLB;
+  if (is_single && !cloud.single_precision)
+    losses.push_back (std::string (*format == MeshFormat::STL ? "STL" : "glTF") +
+                      " holds single precision only: the coordinates were rounded; write .vtk or "
+                      ".ply to keep them");
+  return losses;
 }
 
 } // namespace pcl::floater

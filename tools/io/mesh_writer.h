@@ -46,38 +46,10 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
 bool
 canHaveTexture (MeshFormat format);
 
-/// Legacy VTK 3.0, binary, polydata. Colours are unsigned char scalars named "RGB", which viewers
-/// show unchanged and PCL reads by that name; normals are point normals; other fields are arrays.
-/// \param with_texture the float fields s and t are texture coordinates
-void
-writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
-          bool with_texture = false);
-
-/// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
-/// ...
-/// \return names of the 64-bit integer fields, which are written as double, because PLY has no type
-///   for them
-std::vector<std::string>
-writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
-
-/// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
-void
-writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
-          const MeshTexture* texture = nullptr);
-
-/// Geomview OFF, text: points with colours from 0 to 255, normals (0 0 0 where they are not
-/// finite), and faces. Its first word is OFF, COFF, NOFF or CNOFF.
-void
-writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
-
 /// Binary glTF 2.0: positions in single precision, colours, normals of length 1 (0 0 1 where there
 /// is none), and triangles.
 /// \throws WriteError also if it would have more than 4 GB
 void
 writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
-
-/// Binary STL: triangles in single precision, nothing else.
-void
-writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
 } // namespace pcl::floater

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_reader.h"
-#include "plural.h"
+#include "format.h"
 #include "text_scanner.h"
 
 #include <algorithm>
@@ -11,21 +11,6 @@
 
 namespace pcl::floater {
 namespace {
-/// Appends three fields that share an array of three values per point.
-template <typename T>
-void
-addFields (std::vector<T>&& values, ScalarType type, const std::array<const char*, 3>& names,
-           std::vector<Field>& fields)
-{
-  const auto kept = std::make_shared<const std::vector<T>> (std::move (values));
-  for (std::size_t i = 0; i < 3; ++i) {
-    Field field{names[i], type};
-    field.first = {kept, reinterpret_cast<const char*> (kept->data () + i)};
-    field.stride = 3 * sizeof (T);
-    fields.push_back (std::move (field));
-  }
-}
-
 constexpr double OBJ_WHITE = 255.0;
 
 double
@@ -209,19 +194,22 @@ parseObj (const FileBytes& file)
   const std::size_t size = coordinates.size () / 3;
   std::vector<Field> fields;
   std::vector<std::string> warnings;
-  addFields (std::move (coordinates), ScalarType::FLOAT64, {"x", "y", "z"}, fields);
+  const auto add = [&fields] (const std::array<const char*, 3>& names, auto values) {
+    const auto kept = std::make_shared<const decltype (values)> (std::move (values));
+    addColumns (names, kept, kept->data (), fields);
+  };
+  add ({"x", "y", "z"}, std::move (coordinates));
   if (colors.size () == 3 * size)
-    addFields (colorBytes (colors, warnings), ScalarType::UINT8, {"red", "green", "blue"}, fields);
+    add ({"red", "green", "blue"}, colorBytes (colors, warnings));
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
   if (std::vector<double> matched = matchNormals (normals, faces, size, warnings);
       !matched.empty ())
-    addFields (std::move (matched), ScalarType::FLOAT64, {"nx", "ny", "nz"}, fields);
+    add ({"nx", "ny", "nz"}, std::move (matched));
   if (faces.count > 0)
     warnings.push_back (facesLeftOut (faces.count));
-  Cloud cloud = makeCloud (std::move (fields), size);
+  Cloud cloud = makeCloud (std::move (fields), size, std::move (warnings));
   cloud.are_decimals = true;
-  cloud.warnings.insert (cloud.warnings.begin (), warnings.begin (), warnings.end ());
   return cloud;
 }
 

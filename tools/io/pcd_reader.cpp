@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "byte_order.h"
 #include "cloud_reader.h"
-#include "plural.h"
+#include "format.h"
 #include "text_scanner.h"
 
 #ifdef PCL_FLOATER_HAS_LZF
@@ -14,54 +14,33 @@
 
 namespace pcl::floater {
 namespace {
-struct PcdHeader
-{
-  std::vector<Field> fields; ///< without bytes
-  std::size_t points = 0;
-  std::string_view data; ///< ascii, binary or binary_compressed
-  std::array<double, 3> viewpoint{};
-  std::size_t height = 1; ///< rows of an organized cloud
-  std::string missing;    ///< lines that were made up: the fields are floats
-};
-
 const std::string PADDING = "_";
 
 std::optional<ScalarType>
-pcdType (std::string_view type, std::size_t size)
+pcdType (const std::string& type, std::size_t size)
 {
-  struct Known
-  {
-    char type;
-    std::size_t size;
-    ScalarType scalar;
-  };
-  static constexpr std::array<Known, 11> KNOWN{{{'I', 1, ScalarType::INT8},
-                                                {'I', 2, ScalarType::INT16},
-                                                {'I', 4, ScalarType::INT32},
-                                                {'I', 8, ScalarType::INT64},
-                                                {'U', 1, ScalarType::UINT8},
-                                                {'U', 2, ScalarType::UINT16},
-                                                {'U', 4, ScalarType::UINT32},
-                                                {'U', 8, ScalarType::UINT64},
-                                                {'F', 4, ScalarType::FLOAT32},
-                                                {'F', 8, ScalarType::FLOAT64},
-                                                {'B', 1, ScalarType::UINT8}}};
-  for (const Known& known : KNOWN)
-    if (type.size () == 1 && type.front () == known.type && size == known.size)
-      return known.scalar;
+  for (std::size_t t = 0; t < TYPE_NAMES.size (); ++t) {
+    const auto scalar = static_cast<ScalarType> (t);
+    const bool is_known = type == TYPE_NAMES[t].pcd || (type == "B" && scalar == ScalarType::UINT8);
+    if (is_known && size == sizeOf (scalar))
+      return scalar;
+  }
   return std::nullopt;
 }
 
-/// The lines of the header, not yet checked.
-struct HeaderLines
+struct PcdHeader
 {
+  // The lines, and what they are together.
   std::vector<std::string> names;
   std::vector<std::size_t> sizes;
   std::vector<std::string> types;
   std::vector<std::size_t> counts;
-  std::optional<std::size_t> width, height, points;
+  std::optional<std::size_t> width, height, points_told;
   std::array<double, 3> viewpoint{};
-  std::string missing; ///< lines that were made up
+  std::string_view data;     ///< ascii, binary or binary_compressed
+  std::vector<Field> fields; ///< without bytes
+  std::size_t points = 0;
+  std::string missing; ///< lines that were made up: the fields are floats
 };
 
 template <typename Add>
@@ -84,8 +63,8 @@ readSizes (TextScanner& scanner, std::vector<std::size_t>& numbers, const char* 
   });
 }
 
-std::vector<Field>
-makeFields (const TextScanner& scanner, HeaderLines& lines)
+void
+makeFields (const TextScanner& scanner, PcdHeader& lines)
 {
   constexpr std::size_t FLOAT_BYTES = 4;
   const std::size_t n = lines.names.size ();
@@ -102,37 +81,34 @@ makeFields (const TextScanner& scanner, HeaderLines& lines)
   if (lines.sizes.size () != n || lines.types.size () != n ||
       (!lines.counts.empty () && lines.counts.size () != n))
     scanner.fail ("FIELDS, SIZE, TYPE and COUNT of the header differ in length");
-  std::vector<Field> fields;
   for (std::size_t f = 0; f < n; ++f) {
     const std::optional<ScalarType> type = pcdType (lines.types[f], lines.sizes[f]);
     if (!type)
       scanner.fail ("field '" + lines.names[f] + "' has TYPE " + lines.types[f] + " and SIZE " +
                     std::to_string (lines.sizes[f]) + ", which is not a type of PCD");
-    fields.push_back ({lines.names[f], *type, lines.counts.empty () ? 1 : lines.counts[f]});
+    lines.fields.push_back ({lines.names[f], *type, lines.counts.empty () ? 1 : lines.counts[f]});
   }
-  return fields;
 }
 
-std::size_t
-countPoints (const TextScanner& scanner, const HeaderLines& lines)
+void
+countPoints (const TextScanner& scanner, PcdHeader& lines)
 {
-  if (!lines.width && !lines.points)
+  if (!lines.width && !lines.points_told)
     scanner.fail ("the header has neither POINTS nor WIDTH");
   const std::size_t height = lines.height.value_or (1);
-  const std::size_t width = lines.width.value_or (height > 0 ? *lines.points / height : 0);
+  const std::size_t width = lines.width.value_or (height > 0 ? *lines.points_told / height : 0);
   if (height > 0 && width > std::numeric_limits<std::size_t>::max () / height)
     scanner.fail ("WIDTH times HEIGHT is too large");
-  const std::size_t points = lines.points.value_or (width * height);
-  if (points != width * height)
-    scanner.fail ("POINTS is " + std::to_string (points) + ", but WIDTH times HEIGHT is " +
+  lines.points = lines.points_told.value_or (width * height);
+  if (lines.points != width * height)
+    scanner.fail ("POINTS is " + std::to_string (lines.points) + ", but WIDTH times HEIGHT is " +
                   std::to_string (width * height));
-  return points;
 }
 
 PcdHeader
 readPcdHeader (TextScanner& scanner)
 {
-  HeaderLines lines;
+  PcdHeader lines;
   while (scanner.nextFilledLine ()) {
     const std::string_view key = scanner.word ();
     if (key.front () == '#' || key == "VERSION")
@@ -153,11 +129,12 @@ readPcdHeader (TextScanner& scanner)
     else if (key == "HEIGHT")
       lines.height = scanner.number<std::size_t> ();
     else if (key == "POINTS")
-      lines.points = scanner.number<std::size_t> ();
+      lines.points_told = scanner.number<std::size_t> ();
     else if (key == "DATA") {
-      std::vector<Field> fields = makeFields (scanner, lines);
-      return {std::move (fields), countPoints (scanner, lines), scanner.word (),
-              lines.viewpoint,    lines.height.value_or (1),    lines.missing};
+      makeFields (scanner, lines);
+      countPoints (scanner, lines);
+      lines.data = scanner.word ();
+      return lines;
     }
     else
       scanner.fail ("this is not a line of a PCD header");
@@ -227,10 +204,7 @@ readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
 {
   const std::size_t stride = pointBytes (header.fields, true);
   requireSize (header.points, stride, file.view ().size () - begin);
-  std::vector<Field*> all;
-  for (Field& field : header.fields)
-    all.push_back (&field);
-  viewRows (all, file.at (begin), ByteOrder::LITTLE);
+  viewRows (pointersTo (header.fields), file.at (begin), ByteOrder::LITTLE);
   // PCL's writer fills the last block of the disk with zeros.
   const std::string_view rest = file.view ().substr (begin + header.points * stride);
   return rest.find_first_not_of ('\0') != std::string_view::npos;
@@ -317,9 +291,9 @@ parsePcd (const FileBytes& file, bool all_digits)
   if (!header.missing.empty ())
     cloud.warnings.push_back ("the PCD header has no " + header.missing +
                               ": its fields were taken for floats of 4 bytes");
-  if (header.height > 1) {
-    cloud.lattice_width = header.points / header.height;
-    cloud.warnings.push_back ("the input cloud is organized in " + counted (header.height, "row") +
+  if (const std::size_t height = header.height.value_or (1); height > 1) {
+    cloud.lattice_width = header.points / height;
+    cloud.warnings.push_back ("the input cloud is organized in " + counted (height, "row") +
                               " of " + counted (cloud.lattice_width, "point") +
                               ": the mesh has them as one list");
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "byte_order.h"
 #include "cloud_reader.h"
-#include "plural.h"
+#include "format.h"
 #include "text_scanner.h"
 
 #include <optional>
@@ -41,26 +41,9 @@ struct PlyHeader
 ScalarType
 plyType (const TextScanner& scanner, std::string_view name)
 {
-  static const std::array<std::pair<std::string_view, ScalarType>, 16> known{
-      {{"char", ScalarType::INT8},
-       {"int8", ScalarType::INT8},
-       {"uchar", ScalarType::UINT8},
-       {"uint8", ScalarType::UINT8},
-       {"short", ScalarType::INT16},
-       {"int16", ScalarType::INT16},
-       {"ushort", ScalarType::UINT16},
-       {"uint16", ScalarType::UINT16},
-       {"int", ScalarType::INT32},
-       {"int32", ScalarType::INT32},
-       {"uint", ScalarType::UINT32},
-       {"uint32", ScalarType::UINT32},
-       {"float", ScalarType::FLOAT32},
-       {"float32", ScalarType::FLOAT32},
-       {"double", ScalarType::FLOAT64},
-       {"float64", ScalarType::FLOAT64}}};
-  for (const auto& [known_name, type] : known)
-    if (name == known_name)
-      return type;
+  for (std::size_t type = 0; type < TYPE_NAMES.size () && !name.empty (); ++type)
+    if (name == TYPE_NAMES[type].ply || name == TYPE_NAMES[type].sized_ply)
+      return static_cast<ScalarType> (type);
   scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
 }
 
@@ -298,11 +281,10 @@ parsePly (const FileBytes& file, bool all_digits, Triangles* triangles)
   }
   if (triangles == nullptr && faces != nullptr && faces->count > 0)
     warnings.push_back (facesLeftOut (faces->count));
-  Cloud cloud = makeCloud (std::move (fields), vertices.count);
+  Cloud cloud = makeCloud (std::move (fields), vertices.count, std::move (warnings));
   cloud.single_precision |= is_widened;
   if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())
     cloud.file = file;
-  cloud.warnings.insert (cloud.warnings.begin (), warnings.begin (), warnings.end ());
   return cloud;
 }
 

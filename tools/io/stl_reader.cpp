@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "byte_order.h"
 #include "cloud_reader.h"
-#include "plural.h"
+#include "format.h"
 #include "text_scanner.h"
 
-#include <algorithm>
-#include <limits>
+#include <unordered_set>
 
 namespace pcl::floater {
 namespace {
@@ -14,7 +13,7 @@ constexpr std::size_t STL_HEADER_BYTES = 80;
 constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
 
 /// Distinct points in the order in which they come first. Corners that have the same coordinates
-/// are one point.
+/// are one point, also those of a NaN.
 template <typename Number>
 class DistinctPoints
 {
@@ -23,61 +22,35 @@ public:
 
   void add (Point point)
   {
-    for (Number& coordinate : point)
-      coordinate += Number{0}; // -0 is 0
-    if (2 * (points_.size () + 1) > slots_.size ())
-      grow ();
-    std::uint32_t& slot = slots_[slotOf (point)];
-    if (slot != FREE)
-      return;
-    if (points_.size () == FREE)
-      throw ReadError ("it has more points than a mesh file can number (2147483647); split it");
-    slot = static_cast<std::uint32_t> (points_.size ());
-    points_.push_back (point);
+    Bits bits{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      point[axis] += Number{0}; // -0 is 0
+      std::memcpy (&bits[axis], &point[axis], sizeof (Number));
+    }
+    if (known_.insert (bits).second)
+      points_.push_back (point);
   }
 
   std::vector<Point> take () { return std::move (points_); }
 
 private:
-  static constexpr std::uint32_t FREE = std::numeric_limits<std::uint32_t>::max ();
+  using Bits = std::array<std::uint64_t, 3>;
 
-  static std::uint64_t bitsOf (Number coordinate)
+  struct Hash
   {
-    std::uint64_t bits = 0;
-    std::memcpy (&bits, &coordinate, sizeof coordinate);
-    return bits;
-  }
-
-  static bool haveEqualBits (const Point& a, const Point& b)
-  {
-    return std::equal (a.begin (), a.end (), b.begin (),
-                       [] (Number p, Number q) { return bitsOf (p) == bitsOf (q); });
-  }
-
-  /// The slot of a point, or a free one for it. Equal bits are equal, also those of a NaN.
-  std::size_t slotOf (const Point& point) const
-  {
-    std::uint64_t hash = 0;
-    for (const Number& coordinate : point) {
-      hash = (hash ^ bitsOf (coordinate)) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
-      hash ^= hash >> 32U;
+    std::size_t operator() (const Bits& bits) const
+    {
+      std::uint64_t hash = 0;
+      for (const std::uint64_t coordinate : bits) {
+        hash = (hash ^ coordinate) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
+        hash ^= hash >> 32U;
+      }
+      return static_cast<std::size_t> (hash);
     }
-    std::size_t at = static_cast<std::size_t> (hash) & (slots_.size () - 1);
-    while (slots_[at] != FREE && !haveEqualBits (points_[slots_[at]], point))
-      at = (at + 1) & (slots_.size () - 1);
-    return at;
-  }
+  };
 
-  void grow ()
-  {
-    constexpr std::size_t FIRST = 1024;
-    slots_.assign (slots_.empty () ? FIRST : 2 * slots_.size (), FREE);
-    for (std::size_t p = 0; p < points_.size (); ++p)
-      slots_[slotOf (points_[p])] = static_cast<std::uint32_t> (p);
-  }
-
+  std::unordered_set<Bits, Hash> known_;
   std::vector<Point> points_;
-  std::vector<std::uint32_t> slots_; // a power of two of them, at most half of them taken
 };
 
 template <typename Number>
@@ -88,13 +61,7 @@ cloudOf (DistinctPoints<Number>& distinct, std::size_t facets)
   if (points->empty ())
     throw ReadError ("it has no points");
   std::vector<Field> fields;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Field field{std::string (1, "xyz"[axis]),
-                sizeof (Number) == sizeof (float) ? ScalarType::FLOAT32 : ScalarType::FLOAT64};
-    field.first = {points, reinterpret_cast<const char*> (points->front ().data () + axis)};
-    field.stride = sizeof (std::array<Number, 3>);
-    fields.push_back (std::move (field));
-  }
+  addColumns ({"x", "y", "z"}, points, points->front ().data (), fields);
   Cloud cloud = makeCloud (std::move (fields), points->size ());
   cloud.are_decimals = sizeof (Number) == sizeof (double);
   cloud.warnings.push_back (facesLeftOut (facets));

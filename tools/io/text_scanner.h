@@ -44,6 +44,11 @@ parseNumber (std::string_view word, T& number)
 class TextScanner
 {
 public:
+  static bool isBlank (char c)
+  {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  }
+
   /// \param text must outlive the scanner
   explicit TextScanner (std::string_view text) : text_ (text)
   {
@@ -118,11 +123,6 @@ public:
   }
 
 private:
-  static bool isBlank (char c)
-  {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-  }
-
   void skipBlanks ()
   {
     while (at_ < end_ && isBlank (text_[at_]))

@@ -35,6 +35,34 @@ bufferOf (const ResultArray& array)
   return {first, size, array.format, static_cast<py::ssize_t> (shape.size ()), shape, strides};
 }
 
+// How many numbers of which type an element has; 0 is a number by itself.
+constexpr std::pair<const char*, std::size_t>
+formatOf (const std::uint32_t* /*element*/)
+{
+  return {"i", 0};
+}
+template <std::size_t N>
+constexpr std::pair<const char*, std::size_t>
+formatOf (const std::array<std::uint32_t, N>* /*element*/)
+{
+  return {"i", N};
+}
+template <typename Scalar, int N>
+constexpr std::pair<const char*, std::size_t>
+formatOf (const Eigen::Matrix<Scalar, N, 1>* /*element*/)
+{
+  return {sizeof (Scalar) == sizeof (float) ? "f" : "d", N};
+}
+
+// \param owner of the values
+template <typename T>
+ResultArray
+arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
+{
+  const auto [format, columns] = formatOf (values.data ());
+  return {owner, values.data (), format, values.size (), columns};
+}
+
 } // namespace
 
 void
@@ -47,33 +75,19 @@ py::dict
 arraysOfResult (const std::shared_ptr<const Result>& result)
 {
   const Report& report = result->report;
-  const auto indices = [&result] (const void* first, std::size_t rows, std::size_t columns) {
-    return ResultArray{result, first, "i", rows, columns};
-  };
-  const auto list = [&indices] (const std::vector<std::uint32_t>& points) {
-    return indices (points.data (), points.size (), 0);
-  };
   py::dict arrays;
-  arrays["triangles"] = indices (result->triangles.data (), result->triangles.size (), 3);
-  arrays["loop"] = list (report.loop);
-  arrays["unused"] = list (report.unused);
-  arrays["outliers"] = list (report.outliers);
-  arrays["scatter"] = list (report.scatter);
-  arrays["non_finite"] = list (report.non_finite);
-  arrays["duplicates"] = indices (report.duplicates.data (), report.duplicates.size (), 2);
-  if (report.parameters.empty ())
-    arrays["parameters"] = py::none ();
-  else
-    arrays["parameters"] =
-        ResultArray{result, report.parameters.data (), "d", report.parameters.size (), 2};
+  arrays["triangles"] = arrayOf (result, result->triangles);
+  arrays["loop"] = arrayOf (result, report.loop);
+  arrays["unused"] = arrayOf (result, report.unused);
+  arrays["outliers"] = arrayOf (result, report.outliers);
+  arrays["scatter"] = arrayOf (result, report.scatter);
+  arrays["non_finite"] = arrayOf (result, report.non_finite);
+  arrays["duplicates"] = arrayOf (result, report.duplicates);
+  arrays["parameters"] =
+      report.parameters.empty () ? py::none () : py::cast (arrayOf (result, report.parameters));
   return arrays;
 }
 
-} // namespace pcl::floater
-
-namespace py = pybind11;
-
-namespace pcl::floater {
 namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -106,7 +120,7 @@ normalsOf (const py::buffer& points, const py::buffer& triangles, int threads)
     const py::gil_scoped_release release;
     *normals = vertexNormals (rows.copy<Eigen::Vector3d> (), corners, threads);
   }
-  return {normals, normals->data (), "f", normals->size (), 3};
+  return arrayOf (normals, *normals);
 }
 
 /// \return status, message, figures, and the arrays
@@ -137,13 +151,11 @@ textureOf (const py::buffer& points, const py::buffer& triangles, double largest
   figures["seam_length"] = texture->seam_length;
   figures["gutter"] = texture->gutter;
   py::dict arrays;
-  arrays["coordinates"] =
-      ResultArray{texture, texture->coordinates.data (), "f", texture->coordinates.size (), 2};
-  arrays["points"] = ResultArray{texture, texture->points.data (), "i", texture->points.size (), 0};
-  arrays["corners"] =
-      ResultArray{texture, texture->corners.data (), "i", texture->corners.size (), 3};
-  arrays["charts"] = ResultArray{texture, texture->charts.data (), "i", texture->charts.size (), 0};
-  arrays["seams"] = ResultArray{texture, texture->seams.data (), "i", texture->seams.size (), 2};
+  arrays["coordinates"] = arrayOf (texture, texture->coordinates);
+  arrays["points"] = arrayOf (texture, texture->points);
+  arrays["corners"] = arrayOf (texture, texture->corners);
+  arrays["charts"] = arrayOf (texture, texture->charts);
+  arrays["seams"] = arrayOf (texture, texture->seams);
   return py::make_tuple (statusName (texture->status), texture->message, figures, arrays);
 }
 

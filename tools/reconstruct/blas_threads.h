@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <dlfcn.h>
+
 namespace pcl::floater {
 /// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a
 /// tenth of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS
@@ -10,7 +12,14 @@ namespace pcl::floater {
 ///
 /// To be called before any other thread is started, and not where the address space is limited: a
 /// worker that finds no memory never ends.
-void
-endBlasThreads ();
+inline void
+endBlasThreads ()
+{
+  // What OpenBLAS itself calls before a fork.
+  using Shutdown = int (*) ();
+  const auto shutdown = reinterpret_cast<Shutdown> (dlsym (RTLD_DEFAULT, "blas_thread_shutdown_"));
+  if (shutdown != nullptr)
+    shutdown ();
+}
 
 } // namespace pcl::floater

@@ -32,30 +32,32 @@ fail (const char* program, int code, const std::string& message)
 }
 
 int
-failByException (const char* program, const char* if_no_memory)
+describeException (const char* if_no_memory, std::string& message)
 {
   try {
     throw;
   }
   catch (const UsageError& error) {
-    return fail (program, EXIT_USAGE, std::string (error.what ()) + "\nTry --help.");
+    message = std::string (error.what ()) + "\nTry --help.";
+    return EXIT_USAGE;
   }
   catch (const ReadError& error) {
-    return fail (program, EXIT_INPUT, error.what ());
+    message = error.what ();
+    return EXIT_INPUT;
   }
   catch (const WriteError& error) {
-    return fail (program, EXIT_OUTPUT, error.what ());
+    message = error.what ();
+    return EXIT_OUTPUT;
   }
   catch (const std::bad_alloc&) {
-    const std::string failure = largeArrayFailure ();
-    if (!failure.empty ())
-      return fail (program, EXIT_INTERNAL, failure);
-    std::fprintf (stderr, "%s: not enough memory; %s\n", program, if_no_memory);
-    return EXIT_INTERNAL;
+    message = largeArrayFailure ();
+    if (message.empty ())
+      message = std::string ("not enough memory; ") + if_no_memory;
   }
   catch (const std::exception& error) {
-    return fail (program, EXIT_INTERNAL, std::string ("unexpected error: ") + error.what ());
+    message = std::string ("unexpected error: ") + error.what ();
   }
+  return EXIT_INTERNAL;
 }
 
 std::vector<std::uint32_t>

@@ -7,7 +7,6 @@
 #include "mesh_writer.h"
 #include "options/choices.h"
 #include "options/stage_limits.h"
-#include "precision.h"
 
 #include <Eigen/Core>
 #include <pcl/surface/floater/options.h>
@@ -44,11 +43,11 @@ public:
 int
 fail (const char* program, int code, const std::string& message);
 
-/// Tells the exception that is being handled, by fail. To be called in a catch block.
+/// The message for the exception that is being handled. To be called in a catch block.
 /// \param if_no_memory what to do where memory was not enough
 /// \return the exit code of it
 int
-failByException (const char* program, const char* if_no_memory);
+describeException (const char* if_no_memory, std::string& message);
 
 /// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
 /// that begins with # begins a comment, up to the end of the line.
@@ -60,6 +59,15 @@ readLoop (const std::filesystem::path& path);
 /// \return why it cannot, if so
 std::optional<std::string>
 setLimit (const std::string& setting, Limits& limits);
+
+/// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
+/// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
+enum class Precision
+{
+  AUTO,   ///< SINGLE if the input is, or if that holds every coordinate exactly; else DOUBLE
+  SINGLE, ///< 32-bit floats; other coordinates are rounded
+  DOUBLE  ///< 64-bit floats
+};
 
 /// What the user asked for. Paths that were not given are empty.
 struct CommandLine

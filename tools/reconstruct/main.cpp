@@ -11,8 +11,6 @@
 #include "memory_limit.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
-#include "plural.h"
-#include "precision.h"
 #include "prepared_input.h"
 #include "progress.h"
 #include "reconstruct.h"
@@ -38,12 +36,6 @@
 namespace pcl::floater {
 namespace {
 constexpr const char* PROGRAM = "pcl_floater_reconstruct";
-
-double
-secondsSince (std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-}
 
 /// Gives the system what the heap has of earlier stages, and from now on what smaller arrays leave.
 void
@@ -109,16 +101,6 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
                 });
   removeNonFinitePoints (flat, triangles);
   return {std::move (flat), std::move (triangles)};
-}
-
-/// \throws UsageError if so many points cannot be kept below the limit
-void
-checkMemory (const CommandLine& line, std::size_t points)
-{
-  const std::size_t least = leastMemory (points);
-  if (line.max_memory > 0 && line.max_memory < least)
-    throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
-                      counted (points, "point") + "; use " + formatSize (least) + " or more");
 }
 
 using Files = std::vector<std::unique_ptr<AtomicFile>>;
@@ -269,7 +251,9 @@ runTool (int argc, char** argv)
     return run (std::move (line));
   }
   catch (...) {
-    return failByException (PROGRAM, "use fewer points, or a machine with more");
+    std::string message;
+    const int code = describeException ("use fewer points, or a machine with more", message);
+    return fail (PROGRAM, code, message);
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include "format.h"
 #include "mesh_writer.h"
-#include "plural.h"
 
 #include <pcl/surface/floater/vertex_normals.h>
 
@@ -26,12 +25,7 @@ replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
                                                           field.name) != NAMES.end ();
                                       }),
                       cloud.fields.end ());
-  for (std::size_t axis = 0; axis < NAMES.size (); ++axis) {
-    Field field{NAMES[axis], ScalarType::FLOAT32};
-    field.first = {normals, reinterpret_cast<const char*> (normals->front ().data () + axis)};
-    field.stride = sizeof (Eigen::Vector3f);
-    cloud.fields.push_back (std::move (field));
-  }
+  addColumns (NAMES, normals, normals->front ().data (), cloud.fields);
 }
 
 namespace {

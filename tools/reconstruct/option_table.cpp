@@ -11,13 +11,19 @@
 
 namespace pcl::floater {
 void
+addParsed (CLI::App& app, const std::string& name,
+           const std::function<void (const std::string&)>& parse, const std::string& text,
+           const std::string& kind, const std::string& group)
+{
+  app.add_option_function<std::string> (name, parse, text)->option_text (kind)->group (group);
+}
+
+void
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind)
 {
-  app.add_option_function<std::string> (
-         name, [&path] (const std::string& word) { path = word; }, description)
-      ->option_text (kind)
-      ->group (group);
+  addParsed (
+      app, name, [&path] (const std::string& word) { path = word; }, description, kind, group);
 }
 
 std::string
@@ -117,12 +123,11 @@ addShift (CLI::App& app, CommandLine& line)
                                                  "' is neither auto nor three numbers, such as "
                                                  "500000,5500000,0");
   };
-  app.add_option_function<std::string> (
-         "--shift", parse,
-         "origin to subtract from all coordinates, where they are too far from zero for 32 bits; "
-         "auto: the rounded centre of the points, if they are so far")
-      ->option_text ("X,Y,Z or auto (none)")
-      ->group (GENERAL);
+  addParsed (
+      app, "--shift", parse,
+      "origin to subtract from all coordinates, where they are too far from zero for 32 bits; "
+      "auto: the rounded centre of the points, if they are so far",
+      "X,Y,Z or auto (none)", GENERAL);
 }
 
 // Adds the options of the table that a tool takes.
@@ -155,9 +160,7 @@ struct TableOptions
       holes.unit = unit;
     };
     if (takes (row))
-      app.add_option_function<std::string> (name, parse, row.text)
-          ->option_text ("X")
-          ->group (row.group);
+      addParsed (app, name, parse, row.text, "X", row.group);
   }
   void operator() (const OptionRow& row, ViewOptions& view)
   {
@@ -172,9 +175,7 @@ struct TableOptions
           place.value_or (Eigen::Vector3d::Zero ());
     };
     if (takes (row))
-      app.add_option_function<std::string> (name, parse, row.text)
-          ->option_text ("X,Y,Z, auto or none (auto)")
-          ->group (row.group);
+      addParsed (app, name, parse, row.text, "X,Y,Z, auto or none (auto)", row.group);
   }
 
   // "-k,--neighbors"
@@ -272,11 +273,10 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
       throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
                                                       formatSize (leastMemory (0)) + " or more");
   };
-  app.add_option_function<std::string> ("--max-memory", parse,
-                                        "limit on the memory in use, in bytes; arrays that "
-                                        "are not in use are kept on disk; not for discs")
-      ->option_text ("SIZE (no limit)")
-      ->group (GENERAL);
+  addParsed (app, "--max-memory", parse,
+             "limit on the memory in use, in bytes; arrays that "
+             "are not in use are kept on disk; not for discs",
+             "SIZE (no limit)", GENERAL);
   addPath (app, "--scratch", line.scratch,
            "--max-memory: folder where the arrays are kept; these files have no names and end "
            "with the run",

@@ -18,6 +18,13 @@ namespace pcl::floater {
 // Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
 // where it is told, shows the default in the help, and refuses a malformed word by name.
 
+/// An option whose word `parse` takes.
+/// \param kind of the value, and its default, for the help
+void
+addParsed (CLI::App& app, const std::string& name,
+           const std::function<void (const std::string&)>& parse, const std::string& text,
+           const std::string& kind, const std::string& group);
+
 /// An option whose value is one of several words.
 template <typename Enum, std::size_t N>
 void
@@ -39,9 +46,8 @@ addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<En
     throw CLI::ValidationError (name,
                                 "'" + word + "' is none of: " + words + didYouMean (word, known));
   };
-  app.add_option_function<std::string> (name, choose, description + ":\n" + words)
-      ->option_text (std::string ("NAME (") + choiceName (choices, value) + ")")
-      ->group (group);
+  addParsed (app, name, choose, description + ":\n" + words,
+             std::string ("NAME (") + choiceName (choices, value) + ")", group);
 }
 
 /// An option whose value is a number. All of the word has to be one.
@@ -58,9 +64,7 @@ addNumber (CLI::App& app, const std::string& name, Number& value, const std::str
   };
   std::ostringstream text;
   text << (std::is_integral_v<Number> ? "N (" : "X (") << value << ")";
-  app.add_option_function<std::string> (name, parse, description)
-      ->option_text (text.str ())
-      ->group (group);
+  addParsed (app, name, parse, description, text.str (), group);
 }
 
 /// An option whose value is the path of a file or a folder.
@@ -81,14 +85,6 @@ wrapTexts (CLI::App& app);
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word);
 
-} // namespace pcl::floater
-
-namespace CLI // NOLINT(readability-identifier-naming)
-{
-class App;
-}
-
-namespace pcl::floater {
 struct OptionRow;
 
 /// Adds every option, the two positional arguments and the text around them to \a app, which writes

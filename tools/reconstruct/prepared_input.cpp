@@ -2,8 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prepared_input.h"
 
-#include "precision.h"
+#include "points/outliers.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pcl::floater {
@@ -23,6 +30,15 @@ exitCode (const Report& report, const RunFigures& run)
   default:
     return EXIT_RECONSTRUCTION;
   }
+}
+
+void
+checkMemory (const CommandLine& line, std::size_t points, double kept_per_point)
+{
+  const std::size_t least = leastMemory (points, kept_per_point);
+  if (line.max_memory > 0 && line.max_memory < least)
+    throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
+                      counted (points, "point") + "; use " + formatSize (least) + " or more");
 }
 
 Input
@@ -63,6 +79,94 @@ takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
     input.normals = normals;
   if (for_facing)
     input.facing_normals = std::move (normals);
+}
+
+Eigen::Vector3d
+chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
+{
+  constexpr double FINE = 0.01; // spacings
+  const GrossOutliers outliers = findGrossOutliers (positions, threads);
+  std::vector<bool> is_outlier (positions.size (), false);
+  for (const std::vector<Index>* rows : {&outliers.isolated, &outliers.unbearable})
+    for (const Index row : *rows)
+      is_outlier[row] = true;
+  Eigen::AlignedBox3d box;
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < positions.size (); ++row)
+    if (positions[row].allFinite () && !is_outlier[row]) {
+      box.extend (positions[row]);
+      ++count;
+    }
+  const double diagonal = box.isEmpty () ? 0.0 : box.diagonal ().stableNorm ();
+  if (!(diagonal > 0.0 && std::isfinite (diagonal)))
+    return Eigen::Vector3d::Zero ();
+  const double largest =
+      std::max (box.min ().cwiseAbs ().maxCoeff (), box.max ().cwiseAbs ().maxCoeff ());
+  const double float_step = largest * static_cast<double> (std::numeric_limits<float>::epsilon ());
+  if (float_step < FINE * diagonal / std::sqrt (static_cast<double> (count)))
+    return Eigen::Vector3d::Zero ();
+  const double unit = std::pow (10.0, std::floor (std::log10 (diagonal)));
+  return unit * (box.center () / unit).array ().round ().matrix ();
+}
+
+namespace {
+/// The number that the shortest decimal of a float is.
+double
+shortestDecimal (float value)
+{
+  constexpr std::size_t LONGEST = 32; // characters; a float takes at most 15
+  std::array<char, LONGEST> text{};
+  const auto end = std::to_chars (text.data (), text.data () + text.size (), value).ptr;
+  double decimal = 0.0;
+  std::from_chars (text.data (), end, decimal);
+  return decimal;
+}
+
+} // namespace
+
+bool
+fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals)
+{
+  constexpr double LARGEST = std::numeric_limits<float>::max ();
+  const auto fits = [are_decimals] (double value) {
+    if (!std::isfinite (value))
+      return true;
+    if (std::abs (value) > LARGEST) // must not be converted
+      return false;
+    const auto single = static_cast<float> (value);
+    return static_cast<double> (single) == value ||
+           (are_decimals && shortestDecimal (single) == value);
+  };
+  return std::all_of (positions.begin (), positions.end (), [&] (const Eigen::Vector3d& position) {
+    return fits (position.x ()) && fits (position.y ()) && fits (position.z ());
+  });
+}
+
+bool
+choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
+                 bool is_shift_asked, std::vector<std::string>& warnings)
+{
+  if (wanted != Precision::AUTO)
+    return wanted == Precision::SINGLE;
+  if (fits_single ())
+    return true;
+  if (output == MeshFormat::PLY)
+    warnings.emplace_back (
+        "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
+        "as 0: use --precision single or another format for PCL, " +
+        std::string (is_shift_asked ? "" : "--shift if they are far from zero, ") +
+        "or --precision double if doubles are wanted");
+  return false;
+}
+
+bool
+choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
+                 bool is_shift_asked, Cloud& cloud)
+{
+  const auto fits = [&] {
+    return cloud.single_precision || fitSinglePrecision (positions, cloud.are_decimals);
+  };
+  return choosePrecision (wanted, output, fits, is_shift_asked, cloud.warnings);
 }
 
 void

@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -16,33 +17,19 @@ namespace pcl::floater {
 inline const char*
 stageWords (Stage stage)
 {
-  switch (stage) {
-  case Stage::WORKING_SET:
-    return "sorting points";
-  case Stage::NEIGHBORS:
-    return "searching neighbours";
-  case Stage::STARS:
-    return "fitting planes";
-  case Stage::CONSENSUS:
-    return "connecting points";
-  case Stage::BOUNDARY:
-    return "finding the boundary";
-  case Stage::WEIGHTS:
-    return "weighting neighbours";
-  case Stage::SOLVE:
-    return "solving the linear system";
-  case Stage::DELAUNAY:
-    return "triangulating";
-  case Stage::HOLES:
-    return "filling holes";
-  case Stage::FLIPS:
-    return "repairing the mesh";
-  case Stage::CHECK:
-    return "checking the mesh";
-  case Stage::COUNT:
-    break;
-  }
-  return "working";
+  constexpr std::array<const char*, static_cast<std::size_t> (Stage::COUNT)> WORDS{
+      "sorting points",
+      "searching neighbours",
+      "fitting planes",
+      "connecting points",
+      "finding the boundary",
+      "weighting neighbours",
+      "solving the linear system",
+      "triangulating",
+      "filling holes",
+      "repairing the mesh",
+      "checking the mesh"};
+  return WORDS[static_cast<std::size_t> (stage)];
 }
 
 /// Shows the current step on the standard error stream if that is a terminal that can erase a line.

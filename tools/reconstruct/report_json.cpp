@@ -7,107 +7,70 @@
 #include <nlohmann/json.hpp>
 
 namespace pcl::floater {
-namespace {
 using Json = nlohmann::ordered_json;
 
-Json
-statisticsJson (const Statistics& statistics)
+// As those of nlohmann::json, which have no fixed order: with the members by their names. The names
+// of the parameters are those that its macros expect.
+
+static void
+to_json (Json& nlohmann_json_j, const Statistics& nlohmann_json_t)
 {
-  return {{"cloud_points", statistics.cloud_points},
-          {"selected_points", statistics.selected_points},
-          {"non_finite_points", statistics.non_finite_points},
-          {"duplicate_points", statistics.duplicate_points},
-          {"working_points", statistics.working_points},
-          {"outlier_points", statistics.outlier_points},
-          {"scatter_points", statistics.scatter_points},
-          {"noise", statistics.noise},
-          {"noise_quantile_90", statistics.noise_quantile_90},
-          {"largest_noise", statistics.largest_noise},
-          {"projected_points", statistics.projected_points},
-          {"coordinate_step", statistics.coordinate_step},
-          {"trimmed_triangles", statistics.trimmed_triangles},
-          {"opened_triangles", statistics.opened_triangles},
-          {"trimmed_components", statistics.trimmed_components},
-          {"trimmed_points", statistics.trimmed_points},
-          {"view_steps", statistics.view_steps},
-          {"view_gaps", statistics.view_gaps},
-          {"holes_filled", statistics.holes_filled},
-          {"used_points", statistics.used_points},
-          {"relinked_points", statistics.relinked_points},
-          {"boundary_candidates", statistics.boundary_candidates},
-          {"loop_points", statistics.loop_points},
-          {"triangles", statistics.triangles},
-          {"levels", statistics.levels},
-          {"flips", statistics.flips},
-          {"folds", statistics.folds},
-          {"self_intersections_found", statistics.self_intersections_found},
-          {"self_intersection_flips", statistics.self_intersection_flips},
-          {"self_intersection_moves", statistics.self_intersection_moves},
-          {"self_intersection_rebuilds", statistics.self_intersection_rebuilds},
-          {"unknowns", statistics.unknowns},
-          {"nnz_matrix", statistics.nnz_matrix},
-          {"nnz_factors", statistics.nnz_factors},
-          {"fill_in", statistics.fill_in},
-          {"residual", statistics.residual},
-          {"relative_residual", statistics.relative_residual},
-          {"iterations_u", statistics.iterations_u},
-          {"iterations_v", statistics.iterations_v},
-          {"reciprocal_condition", statistics.reciprocal_condition},
-          {"factorization_bytes", statistics.factorization_bytes}};
+  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
+      NLOHMANN_JSON_TO, cloud_points, selected_points, non_finite_points, duplicate_points,
+      working_points, outlier_points, scatter_points, noise, noise_quantile_90, largest_noise,
+      projected_points, coordinate_step, trimmed_triangles, opened_triangles, trimmed_components,
+      trimmed_points, view_steps, view_gaps, holes_filled, used_points, relinked_points,
+      boundary_candidates, loop_points, triangles, levels, flips, folds, self_intersections_found,
+      self_intersection_flips, self_intersection_moves, self_intersection_rebuilds, unknowns,
+      nnz_matrix, nnz_factors, fill_in, residual, relative_residual, iterations_u, iterations_v,
+      reciprocal_condition, factorization_bytes))
 }
 
+static void
+to_json (Json& nlohmann_json_j, const LoopSummary& nlohmann_json_t)
+{
+  NLOHMANN_JSON_EXPAND (
+      NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, points, length, width, width_spacings, at))
+}
+
+static void
+to_json (Json& nlohmann_json_j, const LoopDecision& nlohmann_json_t)
+{
+  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, points, width, width_spacings, at,
+                                             stays_open, probability, is_too_deep))
+}
+
+static void
+to_json (Json& json, FacingRule rule)
+{
+  json = facingRuleName (rule);
+}
+
+static void
+to_json (Json& nlohmann_json_j, const FacingDecision& nlohmann_json_t)
+{
+  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, triangles, at, rule, certainty))
+}
+
+static void
+to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
+{
+  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
+      NLOHMANN_JSON_TO, nonmanifold_edges, nonmanifold_vertices, orientation_conflicts, components,
+      euler_characteristic, genus, folds, degenerate_triangles, self_intersections,
+      self_intersections_at, longest_edge, longest_edge_at, loops))
+}
+
+namespace {
 Json
 checkJson (const MeshCheck& check, bool is_view)
 {
-  if (!check.done)
-    return {};
-  Json loops = Json::array ();
-  for (const LoopSummary& loop : check.loops)
-    loops.push_back ({{"points", loop.points},
-                      {"length", loop.length},
-                      {"width", loop.width},
-                      {"width_spacings", loop.width_spacings},
-                      {"at", loop.at}});
-  return {{"nonmanifold_edges", check.nonmanifold_edges},
-          {"nonmanifold_vertices", check.nonmanifold_vertices},
-          {"orientation_conflicts", check.orientation_conflicts},
-          {"components", check.components},
-          {"euler_characteristic", check.euler_characteristic},
-          {"genus", check.genus},
-          {"folds", check.folds},
-          {"degenerate_triangles", check.degenerate_triangles},
-          {"self_intersections", is_view ? Json () : Json (check.self_intersections)},
-          {"self_intersections_at", check.self_intersections_at},
-          {"longest_edge", check.longest_edge},
-          {"longest_edge_at", check.longest_edge_at},
-          {"loops", loops}};
-}
-
-Json
-loopDecisionsJson (const Report& report)
-{
-  Json decisions = Json::array ();
-  for (const LoopDecision& decision : report.loop_decisions)
-    decisions.push_back ({{"points", decision.points},
-                          {"width", decision.width},
-                          {"width_spacings", decision.width_spacings},
-                          {"at", decision.at},
-                          {"stays_open", decision.stays_open},
-                          {"probability", decision.probability},
-                          {"is_too_deep", decision.is_too_deep}});
-  return decisions;
-}
-
-Json
-facingDecisionsJson (const Report& report)
-{
-  Json decisions = Json::array ();
-  for (const FacingDecision& decision : report.facing_decisions)
-    decisions.push_back ({{"triangles", decision.triangles},
-                          {"at", decision.at},
-                          {"rule", facingRuleName (decision.rule)},
-                          {"certainty", decision.certainty}});
-  return decisions;
+  Json json;
+  if (check.done)
+    json = check;
+  if (check.done && is_view)
+    json["self_intersections"] = nullptr; // they have not been searched
+  return json;
 }
 
 // How many parts of the mesh face as they do by each rule that turned any.
@@ -230,11 +193,11 @@ resultJson (const Report& report)
           {"viewpoint", viewpointJson (report)},
           {"denoised", report.denoised},
           {"check", checkJson (report.check, report.is_view)},
-          {"loop_decisions", loopDecisionsJson (report)},
+          {"loop_decisions", report.loop_decisions},
           {"facing_certainty", report.facing_certainty},
           {"facing_parts", facingPartsJson (report)},
-          {"facing_decisions", facingDecisionsJson (report)},
-          {"statistics", statisticsJson (report.statistics)}};
+          {"facing_decisions", report.facing_decisions},
+          {"statistics", report.statistics}};
 }
 
 nlohmann::ordered_json

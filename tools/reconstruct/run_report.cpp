@@ -6,7 +6,6 @@
 #include "format.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
-#include "plural.h"
 #include "report_json.h"
 
 #include <nlohmann/json.hpp>

@@ -9,6 +9,7 @@
 #include <pcl/surface/floater/report.h>
 #include <pcl/surface/floater/texture_coordinates.h>
 
+#include <chrono>
 #include <string>
 
 namespace pcl::floater {
@@ -28,6 +29,12 @@ struct RunFigures
   double texture_seconds = 0.0;
   TextureCoordinates texture{}; ///< its figures; NOT_RUN if none was asked for
 };
+
+inline double
+secondsSince (std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+}
 
 /// Largest resident memory of this process so far, in bytes.
 std::size_t

@@ -62,15 +62,8 @@ class Mesh:
 
     def __init__(self, points, arrays, warnings, report):
         self.points = points
-        self.triangles = arrays["triangles"]
+        vars(self).update(arrays)
         self.warnings = warnings
-        self.parameters = arrays["parameters"]
-        self.loop = arrays["loop"]
-        self.unused = arrays["unused"]
-        self.outliers = arrays["outliers"]
-        self.scatter = arrays["scatter"]
-        self.non_finite = arrays["non_finite"]
-        self.duplicates = arrays["duplicates"]
         self._report = report
 
     @functools.cached_property

@@ -35,11 +35,7 @@ class Texture:
     """
 
     def __init__(self, arrays, report):
-        self.coordinates = arrays["coordinates"]
-        self.points = arrays["points"]
-        self.corners = arrays["corners"]
-        self.charts = arrays["charts"]
-        self.seams = arrays["seams"]
+        vars(self).update(arrays)
         self.report = report
 
     def __repr__(self):
