@@ -142,21 +142,35 @@ TEST (Reconstruct, WithoutFlipsAndAsPublishedItIsTheDelaunayTriangulationOfThePa
   }
 }
 
-// A point far off the sheet would be an outlier, and stays. Nothing links a second part to the loop.
+// A point far off the sheet is an outlier, and a small second component is left out and named. As
+// published, neither the point is left out nor is anything linked to the loop.
 TEST (PublishedMethod, LeavesEverythingElseOut)
 {
   Positions positions = wavySheet (2);
-  const std::size_t part = positions.size ();
   positions.emplace_back (0.0, 0.0, 0.6);
-  EXPECT_EQ (reconstruct (asInput (positions), discOptions ()).report.outliers.size (), 1U);
-  for (std::size_t p = 0; p < part; ++p)
-    positions.emplace_back (positions[p] + Eigen::Vector3d (3.0, 0.0, 0.0));
-  const Report report = reconstruct (asInput (positions), published ()).report;
-  ASSERT_EQ (report.status, RunStatus::SUCCESS) << report.message;
-  EXPECT_TRUE (report.outliers.empty ());
-  EXPECT_EQ (report.statistics.relinked_points, 0U);
-  EXPECT_EQ (report.statistics.noise, 0.0);
-  EXPECT_EQ (report.unused.size (), part);
+  const std::size_t first = positions.size ();
+  for (const Eigen::Vector3d& p : samples::disc (0.1, 2).positions)
+    positions.push_back (Eigen::Vector3d (10.0, 0.0, 0.0) + 0.5 * p);
+  const std::size_t second = positions.size () - first;
+  const Result usual = reconstruct (asInput (positions), discOptions ());
+  const Result as_published = reconstruct (asInput (positions), published ());
+  EXPECT_EQ (usual.report.outliers, std::vector<Index> (1, static_cast<Index> (first - 1)));
+  EXPECT_TRUE (as_published.report.outliers.empty ());
+  EXPECT_EQ (as_published.report.statistics.relinked_points, 0U);
+  EXPECT_EQ (as_published.report.statistics.noise, 0.0);
+  for (const Result& result : {usual, as_published}) {
+    const std::size_t used = first - result.report.outliers.size ();
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    EXPECT_EQ (result.report.unused.size (), second);
+    EXPECT_EQ (result.report.unused.front (), first);
+    EXPECT_EQ (result.report.statistics.used_points, used);
+    EXPECT_TRUE (samples::warns (result.report, std::to_string (second)));
+    EXPECT_TRUE (result.report.parameters.back ().hasNaN ());
+    const samples::Topology topology = samples::topologyOf (result.triangles);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.vertices, used);
+    EXPECT_EQ (topology.euler, 1);
+  }
 }
 
 TEST (GivenNormals, TakeThePlaceOfFittedPlanes)
