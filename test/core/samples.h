@@ -199,4 +199,37 @@ discOptions ()
   return options;
 }
 
+/// Evenly spread points of a unit sphere.
+inline Positions
+evenSphere (std::size_t count, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero ())
+{
+  Positions points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double> (i) + 1.0) / static_cast<double> (count);
+    const double angle = PI * (3.0 - std::sqrt (5.0)) * static_cast<double> (i);
+    const double radius = std::sqrt (1.0 - z * z);
+    points.push_back (centre +
+                      Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), z));
+  }
+  return points;
+}
+
+inline bool
+warns (const Report& report, const std::string& words)
+{
+  return std::any_of (
+      report.warnings.begin (), report.warnings.end (),
+      [&words] (const std::string& warning) { return warning.find (words) != std::string::npos; });
+}
+
+/// A view from a place that is given.
+inline Options
+seenFrom (const Eigen::Vector3d& viewpoint)
+{
+  Options options;
+  options.view.use = ViewUse::GIVEN;
+  options.view.viewpoint = {viewpoint.x (), viewpoint.y (), viewpoint.z ()};
+  return options;
+}
+
 } // namespace pcl::floater::samples

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans of a small scene: a floor, two walls, a ball, and a thin post before the walls.
+// Scans of two scenes: a room with a ball and a thin post before its walls, and a yard.
 #pragma once
 
 #include "samples.h"
+
+#include <limits>
 
 namespace pcl::floater::samples {
 /// How a sensor spaces its rays.
@@ -31,14 +33,172 @@ struct DepthNoise
   double quantum = 0.0; ///< step of the inverse depth, as of a camera with two lenses
 };
 
-/// A scan of the scene, from a place and in a direction that hang on the seed. About 20,000 rays.
+struct Ray
+{
+  Eigen::Vector3d from, along; ///< of unit length
+};
+
+struct Plane
+{
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+struct Thing
+{
+  Eigen::Vector3d place; ///< middle of a ball, foot of an upright post
+  double radius;
+  bool is_post;
+};
+
+/// Planes, and things on them, which are the objects in this order. What is outside of the box is
+/// not there.
+struct Scene
+{
+  std::vector<Plane> planes;
+  std::vector<Thing> things;
+  Eigen::AlignedBox3d box;
+};
+
+inline double
+depthOf (const Plane& plane, const Ray& ray)
+{
+  return (plane.offset - plane.normal.dot (ray.from)) / plane.normal.dot (ray.along);
+}
+
+inline double
+depthOf (const Thing& thing, const Ray& ray)
+{
+  Eigen::Vector3d offset = ray.from - thing.place, along = ray.along;
+  if (thing.is_post)
+    offset.z () = along.z () = 0.0;
+  const double a = along.squaredNorm (), b = offset.dot (along);
+  const double root = b * b - a * (offset.squaredNorm () - thing.radius * thing.radius);
+  return root > 0.0 ? (-b - std::sqrt (root)) / a : -1.0;
+}
+
+/// Adds what the rays meet first.
+inline void
+castRays (const Scene& scene, const std::vector<Ray>& rays, DepthNoise noise, RandomStream& random,
+          Scan& scan)
+{
+  for (const Ray& ray : rays) {
+    double nearest = std::numeric_limits<double>::infinity ();
+    int object = 0, hit = -1;
+    const auto meet = [&] (const auto& surface) {
+      const double depth = depthOf (surface, ray);
+      if (depth > 0.0 && depth < nearest) {
+        nearest = depth;
+        hit = object;
+      }
+      ++object;
+    };
+    std::for_each (scene.planes.begin (), scene.planes.end (), meet);
+    std::for_each (scene.things.begin (), scene.things.end (), meet);
+    if (hit < 0 || !scene.box.contains (ray.from + nearest * ray.along))
+      continue;
+    double depth = nearest * (1.0 + noise.share * random.normal ());
+    if (noise.quantum > 0.0)
+      depth = 1.0 / (std::round (1.0 / (depth * noise.quantum)) * noise.quantum);
+    scan.points.push_back (ray.from + depth * ray.along);
+    scan.object.push_back (hit);
+  }
+}
+
+/// Rays on cones around the upright. The lowest elevation and the step between cones, in degrees.
+inline std::vector<Ray>
+raysInRings (const Eigen::Vector3d& from, int rings, int in_ring, double lowest, double step)
+{
+  std::vector<Ray> rays;
+  for (int ring = 0; ring < rings; ++ring)
+    for (int i = 0; i < in_ring; ++i) {
+      const double azimuth = 2.0 * PI * i / in_ring, elevation = (lowest + step * ring) * DEGREE;
+      rays.push_back ({from,
+                       {std::cos (azimuth) * std::cos (elevation),
+                        std::sin (azimuth) * std::cos (elevation), std::sin (elevation)}});
+    }
+  return rays;
+}
+
+/// \param look direction of a camera
+inline std::vector<Ray>
+raysOf (Raster raster, const Eigen::Vector3d& place, const Eigen::Vector3d& look)
+{
+  if (raster == Raster::RINGS)
+    return raysInRings (place, 40, 1800, -25.0, 1.2);
+  if (raster == Raster::SPHERE)
+    return raysInRings (place, 130, 360, -50.0, 1.0);
+  const Eigen::Vector3d right = look.cross (Eigen::Vector3d::UnitZ ()).normalized ();
+  const Eigen::Vector3d up = right.cross (look);
+  std::vector<Ray> rays;
+  if (raster == Raster::CAMERA)
+    for (int i = 0; i < 170; ++i)
+      for (int j = 0; j < 120; ++j)
+        rays.push_back (
+            {place, (look + 0.006 * ((i - 84.5) * right + (j - 59.5) * up)).normalized ()});
+  else
+    for (int i = 0; i < 180; ++i)
+      for (int j = 0; j < 110; j += raster == Raster::LINES ? 5 : 1)
+        rays.push_back ({place + 0.02 * ((i - 89.5) * right + (j - 54.5) * up), look});
+  return rays;
+}
+
+/// A scan of the room, from a place and in a direction that hang on the seed. About 20,000 rays.
 /// The frame is turned and moved at random, too.
-Scan
-scanScene (Raster raster, DepthNoise noise, std::uint64_t seed);
+inline Scan
+scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
+{
+  using Eigen::Vector3d;
+  constexpr double SIDE = 6.0, HEIGHT = 3.0, ROUNDING = 1e-9;
+  const Scene room{
+      {{Vector3d::UnitZ (), 0.0}, {Vector3d::UnitX (), SIDE}, {Vector3d::UnitY (), SIDE}},
+      {{{3.5, 3.0, 0.8}, 0.5, false}, {{3.0, 4.2, 0.0}, 0.15, true}},
+      {Vector3d::Constant (-ROUNDING), Vector3d (SIDE + ROUNDING, SIDE + ROUNDING, HEIGHT)}};
+  RandomStream random (seed);
+  const Vector3d place (0.7 + 0.8 * random.uniform (), 0.7 + 0.8 * random.uniform (),
+                        1.2 + 0.6 * random.uniform ());
+  const Vector3d target (3.8 + 0.4 * random.uniform (), 3.8 + 0.4 * random.uniform (), 0.6);
+  const Vector3d look = (target - place).normalized ();
+  Scan scan;
+  scan.is_far = raster == Raster::PARALLEL || raster == Raster::LINES;
+  castRays (room, raysOf (raster, place, look), noise, random, scan);
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), random.normal ())
+          .normalized ();
+  const Vector3d shift (10.0 * random.normal (), 10.0 * random.normal (), 10.0 * random.normal ());
+  for (Vector3d& point : scan.points)
+    point = turn * point + shift;
+  scan.viewpoint = scan.is_far ? turn * look : Vector3d (turn * place + shift);
+  return scan;
+}
 
 /// A scan by 32 rings of a yard of 80 by 80: sloping ground, posts, and balls that rest on it. The
 /// sensor stands 1.2 to 2.6 above the ground, near the middle. About 40,000 points, not turned.
-Scan
-scanYard (DepthNoise noise, std::uint64_t seed);
+inline Scan
+scanYard (DepthNoise noise, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  const auto between = [&random] (double least, double most) {
+    return least + (most - least) * random.uniform ();
+  };
+  const Eigen::Vector3d slope (between (-0.05, 0.05), between (-0.05, 0.05), 0.0);
+  Scene yard{{{Eigen::Vector3d::UnitZ () - slope, 0.0}}, {}, {}};
+  yard.box.extend (Eigen::Vector3d (-40.0, -40.0, -40.0))
+      .extend (Eigen::Vector3d (40.0, 40.0, 8.0));
+  for (int i = 0; i < 8; ++i) {
+    const double angle = between (0.0, 2.0 * PI), distance = between (5.0, 25.0);
+    Eigen::Vector3d foot (distance * std::cos (angle), distance * std::sin (angle), 0.0);
+    foot.z () = slope.dot (foot);
+    const bool is_post = i < 4;
+    const double radius = is_post ? between (0.1, 0.6) : between (1.0, 4.0);
+    if (!is_post)
+      foot.z () += radius;
+    yard.things.push_back ({foot, radius, is_post});
+  }
+  Scan scan;
+  scan.viewpoint = {between (-2.0, 2.0), between (-2.0, 2.0), between (1.2, 2.6)};
+  castRays (yard, raysInRings (scan.viewpoint, 32, 1800, -25.0, 35.0 / 31.0), noise, random, scan);
+  return scan;
+}
 
 } // namespace pcl::floater::samples

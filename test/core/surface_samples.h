@@ -10,6 +10,10 @@
 #pragma once
 
 #include "samples.h"
+#include "surfaces.h"
+
+#include <functional>
+#include <unordered_map>
 
 namespace pcl::floater::samples {
 /// Points and the surface that they lie on.
@@ -19,11 +23,11 @@ struct KnownSurface
   Positions clean; ///< where noisy points lie without the noise; else empty
   std::size_t components = 1;
   std::size_t loops = 0;
-  std::size_t handles = 0;     ///< of all components together
-  double area = 0.0;           ///< of the true surface; 0: not known
-  double sharp_length = 0.0;   ///< length of edges where the true surface turns by over 120 degrees
+  std::size_t handles = 0;   ///< of all components together
+  double area = 0.0;         ///< of the true surface; 0: not known
+  double sharp_length = 0.0; ///< length of edges where the true surface turns by over 120 degrees
+  bool is_even = true;
   std::vector<Index> outliers; ///< points off the surface, ascending
-  std::vector<Index> duplicates; ///< points equal to an earlier one, ascending
 };
 
 /// Euler characteristic that a mesh of all points has.
@@ -34,114 +38,396 @@ eulerOf (const KnownSurface& surface)
          static_cast<long> (surface.loops);
 }
 
-// ---- one disc
+inline KnownSurface
+generated (const SurfaceSpec& spec)
+{
+  KnownSurface made;
+  made.points = generateSurface (spec);
+  made.loops = static_cast<std::size_t> (boundaryLoops (spec));
+  made.handles =
+      static_cast<std::size_t> (2 - boundaryLoops (spec) - eulerCharacteristic (spec)) / 2;
+  // Wavy sheets are larger, and where samples are sparse, the outermost are far from the rim.
+  const bool is_known = spec.kind != SurfaceKind::CUT_OUT && spec.density_ratio == 1.0;
+  made.area = is_known ? static_cast<double> (spec.points) : 0.0;
+  return made;
+}
 
-/// A tube with a round tip and an open base.
-/// \param slenderness length of the tube over its radius
-KnownSurface
-finger (double slenderness, std::size_t points, std::uint64_t seed);
+/// The fixed points, then of the darts thrown those that keep their distance from all before them.
+/// If they are thrown until none fits, about one for each unit of area stays.
+inline Positions
+throwDarts (const Positions& fixed, double area,
+            const std::function<Eigen::Vector3d (RandomStream&)>& throwDart, std::uint64_t seed)
+{
+  static constexpr double DISTANCE = 0.8, DARTS_PER_POINT = 25.0;
+  Positions kept;
+  std::unordered_map<long, Positions> cells; // some share a key by chance, which only costs time
+  const auto keyOf = [] (const Eigen::Vector3d& p) {
+    const Eigen::Array3d at = (p / DISTANCE).array ().floor ();
+    return static_cast<long> (at.x ()) + 10007 * static_cast<long> (at.y ()) +
+           100140049 * static_cast<long> (at.z ());
+  };
+  const auto keep = [&] (const Eigen::Vector3d& p) {
+    kept.push_back (p);
+    cells[keyOf (p)].push_back (p);
+  };
+  const auto isNear = [&] (const Eigen::Vector3d& p, const Eigen::Vector3d& in_cell) {
+    const auto cell = cells.find (keyOf (in_cell));
+    return cell != cells.end () &&
+           std::any_of (cell->second.begin (), cell->second.end (),
+                        [&p] (const Eigen::Vector3d& q) { return (p - q).norm () < DISTANCE; });
+  };
+  std::for_each (fixed.begin (), fixed.end (), keep);
+  RandomStream random (seed);
+  for (int dart = 0; dart < DARTS_PER_POINT * area; ++dart) {
+    const Eigen::Vector3d p = throwDart (random);
+    bool fits = true;
+    for (int cell = 0; fits && cell < 27; ++cell)
+      fits = !isNear (p, p + DISTANCE *
+                                 Eigen::Vector3d (cell % 3 - 1, cell / 3 % 3 - 1, cell / 9 - 1));
+    if (fits)
+      keep (p);
+  }
+  return kept;
+}
+
+/// Area inside the first outline and outside the others.
+inline double
+areaOf (const std::vector<Outline>& outlines)
+{
+  double area = 0.0;
+  for (const Outline& outline : outlines) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < outline.size (); ++i) {
+      const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size ()];
+      twice += a.x () * b.y () - a.y () * b.x ();
+    }
+    area += (&outline == &outlines.front () ? 0.5 : -0.5) * std::abs (twice);
+  }
+  return area;
+}
+
+/// A random point inside the first outline and outside the others.
+inline Eigen::Vector2d
+randomInside (const std::vector<Outline>& outlines, RandomStream& random)
+{
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : outlines.front ())
+    box.extend (p);
+  for (;;) {
+    const double x = random.uniform (), y = random.uniform ();
+    const Eigen::Vector2d p = box.min () + box.sizes ().cwiseProduct (Eigen::Vector2d (x, y));
+    bool within = isInside (outlines.front (), p);
+    for (std::size_t hole = 1; within && hole < outlines.size (); ++hole)
+      within = !isInside (outlines[hole], p);
+    if (within)
+      return p;
+  }
+}
+
+inline Outline
+rectangle (double width, double height, const Eigen::Vector2d& corner = {0.0, 0.0})
+{
+  return {corner, corner + Eigen::Vector2d (width, 0.0), corner + Eigen::Vector2d (width, height),
+          corner + Eigen::Vector2d (0.0, height)};
+}
+
+// ---- sheets
+
+using Lift = std::function<Eigen::Vector3d (const Eigen::Vector2d&)>;
+
+/// A sheet in the plane (its outer border, then holes, as points), laid in space without stretching.
+inline KnownSurface
+sheet (const std::vector<Outline>& outlines, const Lift& lift, std::uint64_t seed,
+       bool ragged = false)
+{
+  KnownSurface made;
+  made.loops = outlines.size ();
+  made.area = ragged ? 0.0 : areaOf (outlines);
+  Positions border;
+  for (const Outline& outline : outlines)
+    for (const Eigen::Vector2d& p : outline)
+      if (!ragged)
+        border.push_back (lift (p));
+  made.points = throwDarts (
+      border, areaOf (outlines),
+      [&] (RandomStream& random) { return lift (randomInside (outlines, random)); }, seed);
+  return made;
+}
+
+/// Around a cylinder.
+inline Lift
+bent (double radius)
+{
+  return [radius] (const Eigen::Vector2d& p) {
+    return Eigen::Vector3d (radius * std::sin (p.x () / radius), p.y (),
+                            radius * (1.0 - std::cos (p.x () / radius)));
+  };
+}
 
 /// A round sheet of radius 20 folded over along a line beside its middle.
-KnownSurface
-taco (double gap, std::uint64_t seed);
+inline KnownSurface
+taco (double gap, std::uint64_t seed)
+{
+  const double radius = 0.5 * gap, start = 1.0, turn = PI * radius;
+  const Lift folded = [=] (const Eigen::Vector2d& p) -> Eigen::Vector3d {
+    const double past = p.x () - start;
+    if (past < 0.0)
+      return {past, p.y (), 0.0};
+    if (past > turn)
+      return {turn - past, p.y (), gap};
+    return {radius * std::sin (past / radius), p.y (), radius * (1.0 - std::cos (past / radius))};
+  };
+  return sheet ({circle (20.0, 1.0)}, folded, seed);
+}
 
 /// A comb of eight teeth, each 6 wide and 30 long, bent around a cylinder.
-KnownSurface
-comb (double gap, bool ragged, std::uint64_t seed);
-
-/// A bent square sheet sampled more densely at one side; unit of length is the smaller spacing.
-/// \param ratio largest over smallest points per area
-/// \param abrupt in two halves, or as an exponential from side to side
-KnownSurface
-unevenSheet (double ratio, bool abrupt, std::uint64_t seed);
-
-enum class Lattice
+inline KnownSurface
+comb (double gap, bool ragged, std::uint64_t seed)
 {
-  SQUARE,
-  HEXAGONAL,
-  SHEARED ///< parallelograms with an angle of 72 degrees
-};
+  constexpr int TEETH = 8;
+  constexpr double WIDTH = 6.0, LENGTH = 30.0, BACK = 8.0;
+  const double pitch = WIDTH + gap;
+  Outline corners{{0.0, 0.0}, {TEETH * pitch - gap, 0.0}};
+  for (int tooth = TEETH - 1; tooth >= 0; --tooth) {
+    const double left = tooth * pitch;
+    corners.emplace_back (left + WIDTH, BACK + LENGTH);
+    corners.emplace_back (left, BACK + LENGTH);
+    if (tooth > 0) {
+      corners.emplace_back (left, BACK);
+      corners.emplace_back (left - gap, BACK);
+    }
+  }
+  return sheet ({resample (corners, 1.0)}, bent (60.0), seed, ragged);
+}
 
-/// A flat component of a regular lattice of 45 by 45 points.
-KnownSurface
-lattice (Lattice kind);
-
-// ---- holes
-
-/// A bent sheet with round holes in rows, 5 apart.
-KnownSurface
-sheetWithHoles (int holes, double hole_radius, bool ragged, std::uint64_t seed);
-
-/// A sheet with four holes of radius 2 and five of radius 6.
-KnownSurface
-sheetWithHolesOfTwoSizes (std::uint64_t seed);
+/// A bent square sheet of side x side cells with a round hole in each, of two radii in turns.
+inline KnownSurface
+sheetWithHoles (int side, double cell, double even_radius, double odd_radius, std::uint64_t seed)
+{
+  std::vector<Outline> outlines{resample (rectangle (side * cell, side * cell), 1.0)};
+  for (int hole = 0; hole < side * side; ++hole) {
+    const int row = hole / side, column = hole % side;
+    outlines.push_back (circle ((row + column) % 2 == 0 ? even_radius : odd_radius, 1.0));
+    for (Eigen::Vector2d& p : outlines.back ())
+      p += cell * Eigen::Vector2d (column + 0.5, row + 0.5);
+  }
+  return sheet (outlines, bent (side * cell), seed);
+}
 
 /// A bent ring of radii 12 and 30.
-KnownSurface
-annulus (std::uint64_t seed);
-
-// ---- closed, with handles, one-sided, several
-
-KnownSurface
-sphere (std::size_t points, std::uint64_t seed);
-
-/// A sphere that lacks three caps, each of radius 5.
-KnownSurface
-sphereWithThreeHoles (std::uint64_t seed);
-
-/// A torus whose radii are as 5 to 2.
-KnownSurface
-torus (std::size_t points, std::uint64_t seed);
-
-/// A tube along a figure of eight, a quarter as thick as its holes are wide.
-KnownSurface
-doubleTorus (std::uint64_t seed);
+inline KnownSurface
+annulus (std::uint64_t seed)
+{
+  return sheet ({circle (30.0, 1.0), circle (12.0, 1.0)}, bent (60.0), seed);
+}
 
 /// One-sided, so no orientation is right: components and loops are those of the true surface.
-KnownSurface
-moebiusStrip (std::uint64_t seed);
+inline KnownSurface
+moebiusStrip (std::uint64_t seed)
+{
+  constexpr double RADIUS = 30.0, WIDTH = 12.0;
+  const Lift twisted = [] (const Eigen::Vector2d& p) {
+    const double angle = p.x () / RADIUS, across = p.y () - 0.5 * WIDTH;
+    const double r = RADIUS + across * std::cos (0.5 * angle);
+    return Eigen::Vector3d (r * std::cos (angle), r * std::sin (angle),
+                            across * std::sin (0.5 * angle));
+  };
+  return sheet ({rectangle (2.0 * PI * RADIUS, WIDTH)}, twisted, seed, true);
+}
 
-/// Two square sheets, one above the other.
-KnownSurface
-parallelSheets (double gap, std::uint64_t seed);
+/// A flat regular lattice of 45 by 45 points, in rows along x with a spacing of one.
+/// \param up from a row to the next
+inline KnownSurface
+lattice (const Eigen::Vector2d& up)
+{
+  constexpr int SIDE = 45;
+  KnownSurface made;
+  made.loops = 1;
+  for (int i = 0; i < SIDE; ++i)
+    for (int j = 0; j < SIDE; ++j) {
+      made.points.emplace_back (j + i * up.x (), i * up.y (), 0.0);
+    }
+  made.area = (SIDE - 1) * (SIDE - 1) * up.y ();
+  return made;
+}
 
-/// A sphere with spacing 1, a torus with spacing 3 and a sheet with spacing 2.
-KnownSurface
-components (std::uint64_t seed);
+// ---- sheets that are sampled unevenly; of the smaller spacing is one
 
-// ---- flat faces and sharp edges
+/// A bent sheet. Its rows are `apart` steps apart, points in a row about one step, and each row
+/// begins anywhere.
+inline KnownSurface
+scanLines (double apart, double noise, std::uint64_t seed)
+{
+  constexpr int ROWS = 12;
+  const double bend = 3.0 * apart;
+  RandomStream random (seed);
+  KnownSurface made;
+  made.loops = 1;
+  made.is_even = false;
+  for (int row = 0; row < ROWS; ++row) {
+    const double shift = random.uniform ();
+    for (int i = 0; i < static_cast<int> (3.0 * apart) + 40; ++i) {
+      const double x = i + shift + 0.2 * (random.uniform () - 0.5);
+      const double y = apart * (row + noise * random.normal ());
+      made.points.emplace_back (x, y,
+                                bend * std::cos (y / (4.0 * apart)) + noise * random.normal ());
+    }
+  }
+  return made;
+}
 
-KnownSurface
-box (bool with_lid, std::uint64_t seed);
+/// Two jittered grids side by side, their steps 1 and `ratio`.
+inline KnownSurface
+densityStep (int ratio, std::uint64_t seed)
+{
+  constexpr double JITTER = 0.2;
+  RandomStream random (seed);
+  KnownSurface made;
+  made.loops = 1;
+  made.is_even = false;
+  const auto add = [&] (double x, double y, double step) {
+    const double dx = random.uniform () - 0.5, dy = random.uniform () - 0.5;
+    made.points.emplace_back (x + JITTER * step * dx, y + JITTER * step * dy, 0.0);
+  };
+  for (int i = -20; i < 0; ++i)
+    for (int j = 0; j <= 8 * ratio; ++j)
+      add (i, j, 1.0);
+  for (int i = 0; i <= 8; ++i)
+    for (int j = 0; j <= 8; ++j)
+      add ((i + 0.5) * ratio, j * ratio, ratio);
+  return made;
+}
 
-KnownSurface
-bracket (std::uint64_t seed);
+// ---- solids
 
-KnownSurface
-cylinder (std::uint64_t seed);
+/// Upright walls over outlines in the plane (the outer border, then holes through the solid), a
+/// floor and perhaps a lid. Sharp edges have points of their own. Short sides are those of a round
+/// outline, between which there are none.
+inline KnownSurface
+prism (const std::vector<Outline>& outlines, double height, std::uint64_t seed,
+       bool with_lid = true)
+{
+  constexpr double SHORT = 2.0;
+  Positions edges;
+  std::vector<std::array<Eigen::Vector2d, 2>> sides; // begins and steps
+  double around = 0.0;
+  for (const Outline& corners : outlines) {
+    for (const Eigen::Vector2d& p : resample (corners, 1.0))
+      for (const double z : {0.0, height})
+        edges.emplace_back (p.x (), p.y (), z);
+    for (std::size_t i = 0; i < corners.size (); ++i) {
+      sides.push_back ({corners[i], corners[(i + 1) % corners.size ()] - corners[i]});
+      around += sides.back ()[1].norm ();
+      for (double z = 1.0; z < height - 0.5 && sides.back ()[1].norm () > SHORT; z += 1.0)
+        edges.emplace_back (corners[i].x (), corners[i].y (), z);
+    }
+  }
+  const double walls = around * height, floor = areaOf (outlines);
+  KnownSurface made;
+  made.loops = with_lid ? 0 : outlines.size ();
+  made.handles = with_lid ? outlines.size () - 1 : 0;
+  made.area = walls + (with_lid ? 2.0 : 1.0) * floor;
+  const auto throwDart = [&] (RandomStream& random) -> Eigen::Vector3d {
+    const double part = random.uniform () * made.area;
+    if (part >= walls) {
+      const Eigen::Vector2d p = randomInside (outlines, random);
+      return {p.x (), p.y (), part < walls + floor ? 0.0 : height};
+    }
+    double along = part / height;
+    std::size_t side = 0;
+    for (; side + 1 < sides.size () && along > sides[side][1].norm (); ++side)
+      along -= sides[side][1].norm ();
+    const auto& [begin, step] = sides[side];
+    const Eigen::Vector2d p = begin + std::min (along / step.norm (), 1.0) * step;
+    return {p.x (), p.y (), height * random.uniform ()};
+  };
+  made.points = throwDarts (edges, made.area, throwDart, seed);
+  return made;
+}
 
 /// A prism over a triangle with angles of 30, 75 and 75 degrees. Points on both faces beside the
 /// sharp edge keep their distance from each other, too.
-KnownSurface
-wedge (std::uint64_t seed);
+inline KnownSurface
+wedge (std::uint64_t seed)
+{
+  constexpr double SIDE = 32.0, HEIGHT = 20.0;
+  KnownSurface made =
+      prism ({{{0, 0}, {SIDE, 0}, {SIDE * std::cos (PI / 6.0), SIDE * std::sin (PI / 6.0)}}},
+             HEIGHT, seed);
+  made.sharp_length = HEIGHT;
+  return made;
+}
 
 // ---- additions and flaws
 
 /// Adds another surface, scaled and moved.
-KnownSurface
+inline KnownSurface
 withComponent (KnownSurface surface, const KnownSurface& more, double scale,
-               const Eigen::Vector3d& place);
+               const Eigen::Vector3d& place)
+{
+  for (const Eigen::Vector3d& p : more.points)
+    surface.points.emplace_back (scale * p + place);
+  surface.components += more.components;
+  surface.loops += more.loops;
+  surface.handles += more.handles;
+  surface.area += scale * scale * more.area;
+  return surface;
+}
+
+/// Two square sheets, one above the other.
+inline KnownSurface
+parallelSheets (double gap, std::uint64_t seed)
+{
+  const std::vector<Outline> square{resample (rectangle (36.0, 36.0), 1.0)};
+  const Lift flat = [] (const Eigen::Vector2d& p) { return Eigen::Vector3d (p.x (), p.y (), 0.0); };
+  return withComponent (sheet (square, flat, seed), sheet (square, flat, seed + 1), 1.0,
+                        {0.3, 0.4, gap});
+}
+
+/// A sphere with spacing 1, a torus with spacing 3 and a sheet with spacing 2.
+inline KnownSurface
+components (std::uint64_t seed)
+{
+  return withComponent (withComponent (generated ({SurfaceKind::SPHERE, 1500, seed}),
+                                       generated ({SurfaceKind::TORUS, 1200, seed + 1}), 3.0,
+                                       {75.0, 0.0, 0.0}),
+                        annulus (seed + 2), 2.0, {0.0, 110.0, 0.0});
+}
 
 /// Adds normal noise to every coordinate; `clean` are the points before that.
-KnownSurface
-withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed);
+inline KnownSurface
+withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed)
+{
+  surface.clean = surface.points;
+  RandomStream random (seed);
+  for (Eigen::Vector3d& p : surface.points)
+    for (double& coordinate : p)
+      coordinate += standard_deviation * random.normal ();
+  surface.area = 0.0;
+  return surface;
+}
 
 /// Adds points in and around the bounding box, each at least a distance away from all others.
-KnownSurface
-withOutliers (KnownSurface surface, std::size_t count, double distance, std::uint64_t seed);
-
-/// Adds points that are equal to others.
-KnownSurface
-withDuplicates (KnownSurface surface, std::size_t count, std::uint64_t seed);
+inline KnownSurface
+withOutliers (KnownSurface surface, std::size_t count, double distance, std::uint64_t seed)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : surface.points)
+    box.extend (p);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant (2.0 * distance);
+  RandomStream random (seed);
+  while (surface.outliers.size () < count) {
+    Eigen::Vector3d p;
+    for (double& coordinate : p)
+      coordinate = random.uniform ();
+    p = box.min () - margin + (box.sizes () + 2.0 * margin).cwiseProduct (p);
+    if (std::any_of (surface.points.begin (), surface.points.end (),
+                     [&] (const Eigen::Vector3d& q) { return (q - p).norm () < distance; }))
+      continue;
+    surface.outliers.push_back (static_cast<Index> (surface.points.size ()));
+    surface.points.push_back (p);
+  }
+  return surface;
+}
 
 } // namespace pcl::floater::samples

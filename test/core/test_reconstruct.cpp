@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole method on known surfaces.
+// The method for discs: on known surfaces, as published, and with all choices that it has.
 #include <pcl/surface/floater/reconstruct.h>
 
+#include "options/choices.h"
 #include "points/point_samples.h"
 
 #include <gtest/gtest.h>
@@ -90,32 +91,174 @@ TEST (Reconstruct, TheUsersLoopIsTheBoundary)
   EXPECT_EQ (result.report.loop, options.disc.boundary.loop);
 }
 
-TEST (Reconstruct, WithoutFlipsItIsTheDelaunayTriangulationOfTheParameters)
+Options
+published ()
 {
-  const Positions cloud = surface (SurfaceKind::HEMISPHERE, 600);
-  Options options = discOptions ();
-  options.flip_edges = false;
-  const Result result = reconstruct (asInput (cloud), options);
-  expectDisc (result, cloud.size ());
-  EXPECT_EQ (result.report.statistics.flips, 0U);
-  const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
-  double area = 0.0;
-  for (const Triangle& t : result.triangles) {
-    const Eigen::Vector2d a = uv[t[1]] - uv[t[0]], b = uv[t[2]] - uv[t[0]];
-    const double cross = a.x () * b.y () - a.y () * b.x ();
-    EXPECT_GT (cross, 0.0);
-    area += 0.5 * cross;
-    const Eigen::Vector2d centre =
-        uv[t[0]] + Eigen::Vector2d (b.y () * a.squaredNorm () - a.y () * b.squaredNorm (),
-                                    a.x () * b.squaredNorm () - b.x () * a.squaredNorm ()) /
-                       (2.0 * cross);
-    const double radius = (centre - uv[t[0]]).norm ();
-    for (const Eigen::Vector2d& p : uv)
-      ASSERT_GT ((p - centre).norm (), radius * (1.0 - 1e-9) - 1e-12);
+  Options options;
+  options.disc = DiscOptions::tw385 ();
+  return options;
+}
+
+// A round sheet over a wavy ground.
+Positions
+wavySheet (std::uint64_t seed)
+{
+  Positions positions = samples::disc (0.06, seed).positions;
+  for (Eigen::Vector3d& p : positions)
+    p.z () = 0.1 * std::sin (3.0 * p.x ()) * std::cos (2.0 * p.y ());
+  return positions;
+}
+
+TEST (Reconstruct, WithoutFlipsAndAsPublishedItIsTheDelaunayTriangulationOfTheParameters)
+{
+  const Positions cloud = wavySheet (1);
+  Options plain = discOptions (), flipped = discOptions ();
+  plain.flip_edges = false;
+  plain.disc.domain.curve = flipped.disc.domain.curve = Domain::CIRCLE;
+  for (const Options& options : {plain, published ()}) {
+    const Result result = reconstruct (asInput (cloud), options);
+    expectDisc (result, cloud.size ());
+    EXPECT_EQ (result.report.topology, floater::Topology::DISC);
+    EXPECT_EQ (result.report.statistics.flips, 0U);
+    const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
+    double area = 0.0;
+    for (const Triangle& t : result.triangles) {
+      const Eigen::Vector2d a = uv[t[1]] - uv[t[0]], b = uv[t[2]] - uv[t[0]];
+      const double cross = a.x () * b.y () - a.y () * b.x ();
+      area += 0.5 * cross;
+      EXPECT_GT (cross * area, 0.0); // all turn the same way
+      const Eigen::Vector2d centre =
+          uv[t[0]] + Eigen::Vector2d (b.y () * a.squaredNorm () - a.y () * b.squaredNorm (),
+                                      a.x () * b.squaredNorm () - b.x () * a.squaredNorm ()) /
+                         (2.0 * cross);
+      const double radius = (centre - uv[t[0]]).norm ();
+      for (const Eigen::Vector2d& p : uv)
+        ASSERT_GT ((p - centre).norm (), radius * (1.0 - 1e-9) - 1e-12);
+    }
+    // The whole disc, but for the segments beside the loop.
+    EXPECT_NEAR (std::abs (area), samples::PI, 0.02);
+    EXPECT_NE (unordered (reconstruct (asInput (cloud), flipped).triangles),
+               unordered (result.triangles));
   }
-  EXPECT_NEAR (area, samples::PI, 0.02); // the whole disc, but for the segments beside the loop
-  EXPECT_NE (unordered (reconstruct (asInput (cloud), discOptions ()).triangles),
-             unordered (result.triangles));
+}
+
+// A point far off the sheet is an outlier, and a small second component is left out and named. As
+// published, neither the point is left out nor is anything linked to the loop.
+TEST (PublishedMethod, LeavesEverythingElseOut)
+{
+  Positions positions = wavySheet (2);
+  positions.emplace_back (0.0, 0.0, 0.6);
+  const std::size_t first = positions.size ();
+  for (const Eigen::Vector3d& p : samples::disc (0.1, 2).positions)
+    positions.push_back (Eigen::Vector3d (10.0, 0.0, 0.0) + 0.5 * p);
+  const std::size_t second = positions.size () - first;
+  const Result usual = reconstruct (asInput (positions), discOptions ());
+  const Result as_published = reconstruct (asInput (positions), published ());
+  EXPECT_EQ (usual.report.outliers, std::vector<Index> (1, static_cast<Index> (first - 1)));
+  EXPECT_TRUE (as_published.report.outliers.empty ());
+  EXPECT_EQ (as_published.report.statistics.relinked_points, 0U);
+  EXPECT_EQ (as_published.report.statistics.noise, 0.0);
+  for (const Result& result : {usual, as_published}) {
+    const std::size_t used = first - result.report.outliers.size ();
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    EXPECT_EQ (result.report.unused.size (), second);
+    EXPECT_EQ (result.report.unused.front (), first);
+    EXPECT_EQ (result.report.statistics.used_points, used);
+    EXPECT_TRUE (samples::warns (result.report, std::to_string (second)));
+    EXPECT_TRUE (result.report.parameters.back ().hasNaN ());
+    const samples::Topology topology = samples::topologyOf (result.triangles);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.vertices, used);
+    EXPECT_EQ (topology.euler, 1);
+  }
+}
+
+TEST (GivenNormals, TakeThePlaceOfFittedPlanes)
+{
+  const Positions positions = wavySheet (5);
+  const Result fitted = reconstruct (asInput (positions), {});
+  ASSERT_EQ (fitted.report.status, RunStatus::SUCCESS);
+  Input input = asInput (positions);
+  // Of any length and sign; where there is none, the plane is fitted.
+  for (std::size_t p = 0; p < positions.size (); ++p) {
+    const double x = positions[p].x (), y = positions[p].y ();
+    const Eigen::Vector3d normal (-0.3 * std::cos (3.0 * x) * std::cos (2.0 * y),
+                                  0.2 * std::sin (3.0 * x) * std::sin (2.0 * y), 1.0);
+    const double length = p % 20 == 0   ? 0.0
+                          : p % 10 == 0 ? std::nan ("")
+                          : p % 2 == 0  ? 5.0
+                                        : -1e-3;
+    input.normals.emplace_back ((length * normal).cast<float> ());
+  }
+  const Result given = reconstruct (Input (input), {});
+  ASSERT_EQ (given.report.status, RunStatus::SUCCESS) << given.report.message;
+  EXPECT_EQ (unordered (given.triangles), unordered (fitted.triangles));
+  // Normals that lie in the surface are taken, too: nothing is right with them.
+  for (Eigen::Vector3f& normal : input.normals)
+    normal = Eigen::Vector3f::UnitX ();
+  const Result wrong = reconstruct (std::move (input), {});
+  EXPECT_NE (unordered (wrong.triangles), unordered (fitted.triangles));
+}
+
+// A round sheet of about 100 points, 36 of them on its border, whose middle is lifted.
+samples::Sheet
+smallSheet (double height)
+{
+  samples::Sheet sheet = samples::disc (2.0 * samples::PI / 36.0, 1);
+  for (Eigen::Vector3d& p : sheet.positions)
+    p.z () = height * (1.0 - p.squaredNorm ());
+  return sheet;
+}
+
+// Flips lead to a triangulation whose circumcircles are empty. For points in a plane there is only
+// one, whatever the mesh before the flips. A flat sheet in its own border is even reproduced, by
+// any neighbours and by all weights that reproduce their centre.
+TEST (Choices, MakeTheSameMeshOfAFlatSheet)
+{
+  const auto [points, border] = smallSheet (0.0);
+  Options options = discOptions ();
+  options.disc.boundary.loop = samples::indices (border);
+  const Result expected = reconstruct (asInput (points), options);
+  expectDisc (expected, points.size ());
+  for (const auto& [neighborhood, kind] : NEIGHBORHOOD_CHOICES)
+    for (const auto& [weights, weighting] : WEIGHTING_CHOICES)
+      for (const Domain domain : {Domain::CIRCLE, Domain::OWN_SHAPE}) {
+        SCOPED_TRACE (std::string (neighborhood) + ", " + weights);
+        options.neighbors.kind = kind;
+        options.disc.weighting = weighting;
+        options.disc.domain.curve = domain;
+        const Result result = reconstruct (asInput (points), options);
+        ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+        EXPECT_EQ (unordered (result.triangles), unordered (expected.triangles));
+        const bool reproduces =
+            weighting == Weighting::SHAPE_PRESERVING || weighting == Weighting::MEAN_VALUE;
+        if (domain == Domain::CIRCLE || !reproduces)
+          continue;
+        // A loop may be laid out in either direction and from any point on: compare distances.
+        const std::vector<Eigen::Vector2d>& uv = result.report.parameters;
+        for (std::size_t i = 0; i < uv.size (); ++i)
+          for (const std::size_t corner : {0, 9, 20})
+            EXPECT_NEAR ((uv[i] - uv[corner]).norm (), (points[i] - points[corner]).norm (), 1e-7);
+      }
+}
+
+TEST (Choices, OfNeighborhoodShowInTheMatrix)
+{
+  const auto nonzeros = [] (Neighborhood neighborhood, double radius) {
+    const samples::Sheet sheet = smallSheet (0.7);
+    Options options = discOptions ();
+    options.disc.boundary.loop = samples::indices (sheet.border);
+    options.neighbors.kind = neighborhood;
+    options.neighbors.ball_radius = radius;
+    const Statistics statistics =
+        reconstruct (asInput (sheet.positions), options).report.statistics;
+    return static_cast<double> (statistics.nnz_matrix) / static_cast<double> (statistics.unknowns);
+  };
+  const double ball = nonzeros (Neighborhood::BALL, 2.5);
+  EXPECT_GT (nonzeros (Neighborhood::NEAREST, 2.5),
+             2.0 * nonzeros (Neighborhood::NEAREST_DELAUNAY, 2.5));
+  EXPECT_GT (ball, 2.0 * nonzeros (Neighborhood::BALL_DELAUNAY, 2.5));
+  EXPECT_GT (nonzeros (Neighborhood::BALL, 3.5), 1.2 * ball);
 }
 
 TEST (Reconstruct, DuplicatesAndNonFinitePointsAreReported)
@@ -196,11 +339,8 @@ TEST (Reconstruct, ManyCoincidingPointsAreToldOf)
                       distinct.begin () + static_cast<std::ptrdiff_t> (repeated));
     const Result result = reconstruct (asInput (positions), {});
     ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-    const bool is_told = std::any_of (
-        result.report.warnings.begin (), result.report.warnings.end (), [] (const std::string& w) {
-          return w.find ("20 points coincide with another one") != std::string::npos;
-        });
-    EXPECT_EQ (is_told, repeated == 20);
+    EXPECT_EQ (samples::warns (result.report, "20 points coincide with another one"),
+               repeated == 20);
     EXPECT_EQ (result.report.statistics.duplicate_points, repeated);
   }
 }

@@ -82,9 +82,9 @@ struct Sheets : samples::TwoSheets
 
   std::size_t folds () const { return findFolds (mesh, positions, 1).size (); }
 
-  std::size_t repair (const RepairLimits& limits = {}, const std::vector<Index>& scatter = {})
+  std::size_t repair (const RepairLimits& limits = {})
   {
-    const std::size_t changes = moveVertices (mesh, neighbors, scatter, cost, positions, limits, 1);
+    const std::size_t changes = moveVertices (mesh, neighbors, cost, positions, limits, 1);
     expectConsistent (mesh);
     EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 0);
     return changes;
@@ -222,23 +222,6 @@ TEST (FoldRepair, EndsWhenItHasAskedForAllItsCosts)
   EXPECT_GT (few, 0U);
   EXPECT_LT (few, moves);
   EXPECT_GT (repair (0, MANY), 0U);
-}
-
-TEST (FoldRepair, NothingIsMovedInScatter)
-{
-  Sheets sheets (0.8, 47);
-  sheets.mixUp (2, 37);
-  flipEdges (sheets.mesh, sheets.cost, 1);
-  const TriangleMesh before = sheets.mesh;
-  ASSERT_GT (sheets.folds (), 0U);
-  std::vector<Index> scatter;
-  for (Index p = 0; p < sheets.positions.size (); ++p)
-    if (p % 3 > 0)
-      scatter.push_back (p);
-  EXPECT_EQ (sheets.repair ({}, scatter), 0U);
-  EXPECT_EQ (sheets.mesh.triangles, before.triangles);
-  scatter.resize (scatter.size () / 2); // not most points any more
-  EXPECT_GT (sheets.repair ({}, scatter), 0U);
 }
 
 TEST (FoldRepair, CachedCostsAreTheCostsFromAnyCornerOn)

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The place of a sensor: what points tell of their rays, of rows, and of where it was.
 #include "view/ray_evidence.h"
 
 #include "scan_samples.h"
 #include "view/view_method.h"
+#include "view/viewpoint_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -43,15 +45,10 @@ protected:
   }
 };
 
-TEST_P (RastersAndSeeds, AScanIsSeenFromItsSensor)
+TEST_P (RastersAndSeeds, AScanIsSeenFromItsSensorAndNotFromElsewhere)
 {
   const Scan made = scan ({0.003, 0.0});
   EXPECT_TRUE (isSeen (made.points, made.viewpoint, made.is_far));
-}
-
-TEST_P (RastersAndSeeds, AScanIsNotSeenFromElsewhere)
-{
-  const Scan made = scan ({0.003, 0.0});
   if (made.is_far) {
     const Eigen::Vector3d aslant = made.viewpoint + 0.5 * made.viewpoint.unitOrthogonal ();
     EXPECT_FALSE (isSeen (made.points, aslant.normalized (), true));
@@ -114,14 +111,7 @@ TEST (RayEvidence, PointsAtRandomAreNotSeenFromAnywhere)
 
 TEST (RayEvidence, AnEvenBallIsNotSeenFromItsCentre)
 {
-  constexpr int POINTS = 20000;
-  Positions points;
-  for (int i = 0; i < POINTS; ++i) {
-    const double z = 1.0 - (2 * i + 1.0) / POINTS, angle = i * PI * (3.0 - std::sqrt (5.0));
-    points.emplace_back (std::sqrt (1.0 - z * z) * std::cos (angle),
-                         std::sqrt (1.0 - z * z) * std::sin (angle), z);
-  }
-  EXPECT_FALSE (isSeen (points, Eigen::Vector3d::Zero ()));
+  EXPECT_FALSE (isSeen (samples::evenSphere (20000), Eigen::Vector3d::Zero ()));
 }
 
 TEST (RayEvidence, APointAtTheViewpointDoesNotDisturb)
@@ -137,6 +127,78 @@ TEST (RayEvidence, FewPointsAreNoEvidence)
     const Positions points = samples::randomPoints (count, count);
     EXPECT_FALSE (isSeen (points, Eigen::Vector3d (0.5, 0.5, 3.0))) << count;
   }
+}
+
+constexpr std::size_t SAMPLES = 200;
+
+RowEvidence
+rowsOf (const Positions& positions)
+{
+  const Points points = pointsOf (positions);
+  return findRows (points, findNeighbors (points, {}, 1), SAMPLES, 1);
+}
+
+// Sections of a cylinder along z: 20 circles of 200 points.
+Positions
+circles ()
+{
+  Positions positions;
+  for (int row = 0; row < 20; ++row)
+    for (int i = 0; i < 200; ++i)
+      positions.emplace_back (40.0 * std::cos (i * 0.0314), 40.0 * std::sin (i * 0.0314),
+                              12.0 * row);
+  return positions;
+}
+
+TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
+{
+  Positions lines, random = samples::randomPoints (4000, 385);
+  for (int row = 0; row < 20; ++row)
+    for (int i = 0; i < 200; ++i)
+      lines.emplace_back (i, 10.0 * row, 0.02 * row * i);
+  for (Eigen::Vector3d& p : random)
+    p.z () = 0.0;
+  const RowEvidence of_lines = rowsOf (lines), of_circles = rowsOf (circles ());
+  EXPECT_GT (of_lines.share, 0.95);
+  EXPECT_TRUE (of_lines.are_straight);
+  EXPECT_GT (of_circles.share, 0.95);
+  EXPECT_FALSE (of_circles.are_straight);
+  EXPECT_GT (std::abs (of_circles.across.z ()), 0.999);
+  // By chance, the second neighbour lies opposite to the first one in a quarter of all directions.
+  EXPECT_LT (rowsOf (random).share, 0.5);
+}
+
+// A sample touches memory that no other does, so that a limit on it has to be watched.
+TEST (RowEvidence, EachSampleIsATask)
+{
+  const Points points = pointsOf (circles ());
+  Statistics statistics;
+  std::size_t tasks = 0;
+  RunMonitor monitor ({{}, {}, {}, [&tasks] { ++tasks; }}, statistics);
+  findRows (points, findNeighbors (points, {}, 1), SAMPLES, RunContext (1, &monitor));
+  EXPECT_EQ (tasks, SAMPLES);
+}
+
+// The room has a diagonal of 9: a search begins a three hundredth of it away.
+TEST (ViewpointFit, AllRastersAreFittedToTheirPlace)
+{
+  for (const Raster raster :
+       {Raster::CAMERA, Raster::RINGS, Raster::SPHERE, Raster::PARALLEL, Raster::LINES})
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const Scan scan = samples::scanScene (raster, {0.002, 0.0}, seed);
+      RandomStream random (seed);
+      Viewpoint viewpoint{scan.viewpoint, scan.is_far};
+      const Eigen::Vector3d off (random.normal (), random.normal (), random.normal ());
+      if (scan.is_far)
+        viewpoint.place = (viewpoint.place + 0.01 * off.normalized ()).normalized ();
+      else
+        viewpoint.place += 0.03 * off.normalized ();
+      for (int round = 0; round < 6; ++round)
+        viewpoint = fitViewpoint (scan.points, findRayPatches (scan.points, viewpoint, {}, 1),
+                                  viewpoint, round == 0, 1);
+      EXPECT_LT ((viewpoint.place - scan.viewpoint).norm (), 1e-3)
+          << static_cast<int> (raster) << ", seed " << seed;
+    }
 }
 
 } // namespace

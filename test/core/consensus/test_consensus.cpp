@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The common orientation of normals, where it tears, and the boundary loop of a disc as a loop of
+// the triangles that stars agree on.
+#include "consensus/consensus_mesh.h"
+#include "consensus/consensus_method.h"
+#include "consensus/orientation.h"
+#include "samples.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl::floater {
+namespace {
+// A candidate by the normals of its corners: bit i of `down` is set if normal i points down.
+Candidate
+candidate (const Triangle& corners, std::uint8_t down, std::uint8_t votes = 3)
+{
+  return {corners, votes, down, 1.0F, 1.0F};
+}
+
+std::vector<std::uint8_t>
+sidesOf (Orientation& orientation, std::size_t points)
+{
+  std::vector<Eigen::Vector3f> normals (points, Eigen::Vector3f::UnitZ ());
+  orientation.turn (normals, 1);
+  std::vector<std::uint8_t> sides;
+  for (const Eigen::Vector3f& normal : normals)
+    sides.push_back (normal.z () > 0.0F ? 0 : 1);
+  return sides;
+}
+
+void
+vote (Orientation& orientation, const std::vector<Candidate>& candidates)
+{
+  std::vector<const Candidate*> pointers;
+  for (const Candidate& each : candidates)
+    pointers.push_back (&each);
+  orientation.vote (pointers.data (), pointers.data () + pointers.size (), 1);
+}
+
+// Sides of points at random: 1 where the normal points down.
+std::vector<std::uint8_t>
+randomSides (Index points, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  std::vector<std::uint8_t> down (points);
+  for (std::uint8_t& side : down)
+    side = static_cast<std::uint8_t> (random.below (2));
+  return down;
+}
+
+// Of the triangle of a point and the next two, as it is seen where the normals are.
+std::uint8_t
+sidesFrom (const std::vector<std::uint8_t>& down, Index p)
+{
+  return static_cast<std::uint8_t> (down[p] | (down[p + 1] << 1U) | (down[p + 2] << 2U));
+}
+
+void
+expectSides (Orientation& orientation, const std::vector<std::uint8_t>& down)
+{
+  const std::vector<std::uint8_t> sides = sidesOf (orientation, down.size ());
+  for (std::size_t p = 0; p < down.size (); ++p)
+    EXPECT_EQ (sides[p] ^ sides[0], down[p] ^ down[0]);
+}
+
+TEST (Orientation, TurnsNormalsToOneSide)
+{
+  // A strip of triangles over points with normals at random, each given as it is seen there.
+  constexpr Index POINTS = 100;
+  const std::vector<std::uint8_t> down = randomSides (POINTS, 1);
+  Orientation orientation (POINTS);
+  for (const Index p : samples::permutation (POINTS - 2, 2)) {
+    const std::uint8_t clockwise = sidesFrom (down, p);
+    EXPECT_TRUE (orientation.join ({p, p + 1, p + 2}, clockwise));
+    // The other way round it contradicts.
+    EXPECT_FALSE (orientation.join ({p, p + 1, p + 2}, static_cast<std::uint8_t> (clockwise ^ 1U)));
+  }
+  expectSides (orientation, down);
+  // All triangles face to one side then.
+  const Triangle first = orientation.turned ({0, 1, 2}, static_cast<std::uint8_t> (down[0]));
+  for (Index p = 0; p + 2 < POINTS; ++p) {
+    const Triangle turned = orientation.turned ({p, p + 1, p + 2}, down[p]);
+    EXPECT_EQ (turned == (Triangle{p, p + 1, p + 2}), first == (Triangle{0, 1, 2}));
+  }
+}
+
+TEST (Orientation, TheMajorityOfVotesDecides)
+{
+  // Two sets of points, 0 to 2 and 3 to 5, and candidates between them.
+  for (const bool is_more_opposite : {false, true}) {
+    Orientation orientation (6);
+    ASSERT_TRUE (orientation.join ({0, 1, 2}, 0));
+    ASSERT_TRUE (orientation.join ({3, 4, 5}, 0));
+    vote (orientation,
+          {candidate ({0, 1, 3}, 0), candidate ({1, 2, 4}, 4, 2),
+           candidate ({2, 0, 5}, 4, static_cast<std::uint8_t> (is_more_opposite ? 3 : 0))});
+    const std::vector<std::uint8_t> sides = sidesOf (orientation, 6);
+    EXPECT_EQ (sides[0] != sides[3], is_more_opposite);
+  }
+}
+
+TEST (Orientation, VotesJoinAllThatCandidatesConnect)
+{
+  // A row of single points, each tied to the next one by one candidate with a known side; and a
+  // point without candidates.
+  constexpr Index POINTS = 200;
+  const std::vector<std::uint8_t> down = randomSides (POINTS, 3);
+  RandomStream random (4);
+  std::vector<Candidate> candidates;
+  for (const Index p : samples::permutation (POINTS - 2, 4))
+    candidates.push_back (candidate ({p, p + 1, p + 2}, sidesFrom (down, p),
+                                     static_cast<std::uint8_t> (1 + random.below (3))));
+  Orientation orientation (POINTS + 1);
+  vote (orientation, candidates);
+  expectSides (orientation, down);
+  EXPECT_EQ (sidesOf (orientation, POINTS + 1).back (), 0U);
+}
+
+constexpr std::size_t SHORTEST_SEAM = 8;
+
+std::vector<Triangle>
+findSeam (const std::vector<Triangle>& contradicting)
+{
+  EXPECT_EQ (ConsensusLimits{}.shortest_seam, SHORTEST_SEAM);
+  return findOrientationSeam (contradicting, SHORTEST_SEAM);
+}
+
+// A strip of triangles over points from `first` on.
+std::vector<Triangle>
+row (Index first, std::size_t length)
+{
+  std::vector<Triangle> triangles;
+  for (Index p = first; triangles.size () < length; ++p)
+    triangles.push_back ({p, p + 1, p + 2});
+  return triangles;
+}
+
+std::vector<Triangle>
+joined (std::vector<Triangle> a, const std::vector<Triangle>& b)
+{
+  a.insert (a.end (), b.begin (), b.end ());
+  return a;
+}
+
+TEST (OrientationSeam, IsTheLongestRow)
+{
+  const std::vector<Triangle> longer = row (100, SHORTEST_SEAM + 1),
+                              shorter = row (0, SHORTEST_SEAM);
+  EXPECT_EQ (findSeam (joined (shorter, longer)), longer);
+  EXPECT_EQ (findSeam (joined (longer, shorter)), longer);
+  EXPECT_EQ (findSeam (shorter), shorter);
+}
+
+TEST (OrientationSeam, IsConnectedByEdgesWhateverTheWayRound)
+{
+  std::vector<Triangle> triangles = row (0, SHORTEST_SEAM);
+  for (std::size_t t = 0; t < triangles.size (); t += 2)
+    std::swap (triangles[t][0], triangles[t][2]);
+  EXPECT_EQ (findSeam (triangles), triangles);
+  // Two halves that share a point only.
+  const auto half = static_cast<Index> (SHORTEST_SEAM / 2);
+  EXPECT_TRUE (findSeam (joined (row (0, half), row (half + 1, half))).empty ());
+}
+
+TEST (OrientationSeam, StrayTrianglesAreNone)
+{
+  EXPECT_TRUE (findSeam ({}).empty ());
+  EXPECT_TRUE (findSeam (row (0, SHORTEST_SEAM - 1)).empty ());
+  std::vector<Triangle> stray;
+  for (Index t = 0; t < 100; ++t)
+    stray.push_back ({3 * t, 3 * t + 1, 3 * t + 2});
+  EXPECT_TRUE (findSeam (stray).empty ());
+}
+
+using samples::Neighborhoods;
+using samples::Sheet;
+
+Boundary
+find (const Neighborhoods& made)
+{
+  Boundary boundary = consensusLoop (made.points.positions, made.geometry, 1);
+  checkBoundary (made.points, made.geometry.spacing, false, boundary);
+  return boundary;
+}
+
+// A hole in the sheet is no border, however it is sampled.
+TEST (ConsensusLoop, IsTheBorderAndNotAHole)
+{
+  const samples::Outline rim = samples::circle (1.0, 0.06), hole = samples::circle (0.4, 0.06);
+  for (const std::vector<samples::Outline>& outlines :
+       {std::vector<samples::Outline>{rim}, std::vector<samples::Outline>{rim, hole}}) {
+    const Sheet sheet = samples::fillOutlines (outlines, 0.06, 0.35, 6);
+    const Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
+    const std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
+    const Boundary boundary = find (made);
+    EXPECT_FALSE (boundary.problem);
+    std::vector<Index> loop;
+    for (const Index p : boundary.loop)
+      loop.push_back (made.points.cloud_index[p]);
+    EXPECT_EQ (samples::canonicalCycle (loop), samples::indices (sheet.border));
+    EXPECT_GE (boundary.candidates, sheet.border + (outlines.size () - 1) * hole.size ());
+    EXPECT_LT (boundary.largest_step, 2.0);
+    EXPECT_EQ (made.geometry.stars.normals, normals);
+  }
+}
+
+TEST (ConsensusLoop, OfAClosedSurfaceIsEmpty)
+{
+  const Boundary boundary = find (samples::makeNeighborhoods (samples::evenSphere (1500)));
+  EXPECT_EQ (boundary.problem.status, RunStatus::NO_BOUNDARY);
+  EXPECT_FALSE (boundary.problem.message.empty ());
+  EXPECT_TRUE (boundary.loop.empty ());
+}
+
+} // namespace
+} // namespace pcl::floater

@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Status and message of runs that fail, the stages of a run, and its callbacks.
+#include <pcl/surface/floater/reconstruct.h>
+
+#include "core/index_limit.h"
+#include "points/point_samples.h"
+#include "poll_wait.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+namespace pcl::floater {
+namespace {
+using samples::asInput;
+using samples::discOptions;
+using samples::Positions;
+using samples::surface;
+
+void
+expectFailure (const Result& result, RunStatus status, const std::string& why)
+{
+  EXPECT_EQ (result.report.status, status) << result.report.message;
+  EXPECT_NE (result.report.message.find (why), std::string::npos) << result.report.message;
+  EXPECT_TRUE (result.triangles.empty ());
+  EXPECT_TRUE (result.report.loop.empty () || status != RunStatus::NO_BOUNDARY);
+}
+
+Positions
+discAt (const Eigen::Vector3d& place, double radius, std::uint64_t seed)
+{
+  return samples::placed (samples::disc (0.1, seed).positions, place, radius);
+}
+
+Options
+withLoop (std::vector<Index> loop)
+{
+  Options options = discOptions ();
+  options.disc.boundary.loop = std::move (loop);
+  return options;
+}
+
+TEST (RunStatus, OfRunsThatFail)
+{
+  Positions line, curve, three_discs;
+  for (int i = 0; i < 100; ++i)
+    line.emplace_back (0.1F * static_cast<float> (i), 0.7F * static_cast<float> (i), 3.0);
+  for (int i = 0; i < 60; ++i)
+    curve.emplace_back (i, 1e-3 * std::sin (7.0 * i), 1e-3 * std::cos (5.0 * i));
+  for (std::uint64_t i = 0; i < 3; ++i)
+    for (const Eigen::Vector3d& p : discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1))
+      three_discs.push_back (p);
+  const Positions disc = discAt ({0, 0, 0}, 1.0, 3);
+  const auto size = static_cast<Index> (disc.size ());
+  Options made_surface, few_neighbors = discOptions (), few_iterations = discOptions ();
+  made_surface.topology = Topology::SURFACE;
+  few_neighbors.neighbors.k = 5;
+  few_iterations.disc.solver.method = Solver::GAUSS_SEIDEL;
+  few_iterations.disc.solver.max_iterations = 10;
+  const struct
+  {
+    RunStatus status;
+    std::string why;
+    Positions points;
+    Options options;
+  } failures[] = {
+      {RunStatus::TOO_FEW_POINTS, "0 distinct finite points", {}, {}},
+      {RunStatus::TOO_FEW_POINTS, "3 distinct", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}},
+      {RunStatus::TOO_FEW_POINTS, "1 distinct", Positions (50, {1, 2, 3}), {}},
+      {RunStatus::TOO_FEW_POINTS, "0 distinct", Positions (20, {0, 0, std::nan ("")}), {}},
+      {RunStatus::DEGENERATE, "one line", line, {}},
+      // Points along a curve are in no triangle: an empty mesh is no success.
+      {RunStatus::DEGENERATE, "no three points", curve, {}},
+      {RunStatus::DEGENERATE, "no three points", curve, made_surface},
+      {RunStatus::NO_BOUNDARY, "closed", surface (SurfaceKind::SPHERE, 3000), discOptions ()},
+      {RunStatus::NO_BOUNDARY, "closed", surface (SurfaceKind::TORUS, 3000), discOptions ()},
+      {RunStatus::UNREACHABLE, "do not connect", three_discs, discOptions ()},
+      {RunStatus::INVALID_LOOP, "fewer than 3", disc, withLoop ({0, 10})},
+      {RunStatus::INVALID_LOOP, "point 10", disc, withLoop ({0, 10, 20, 10})},
+      {RunStatus::INVALID_LOOP, std::to_string (size), disc, withLoop ({0, 10, 20, size})},
+      {RunStatus::INVALID_OPTION, "neighbors must be from 6 to 200", disc, few_neighbors},
+      {RunStatus::NOT_CONVERGED, "Gauss-Seidel", disc, few_iterations}};
+  for (const auto& failure : failures)
+    expectFailure (reconstruct (asInput (failure.points), failure.options), failure.status,
+                   failure.why);
+  expectFailure (reconstruct (Positions ()), RunStatus::NO_INPUT, "empty");
+
+  const Report report = reconstruct (asInput (disc), few_iterations).report;
+  EXPECT_EQ (report.statistics.iterations_u, 10U);
+  EXPECT_EQ (report.statistics.iterations_v, 10U);
+  EXPECT_GT (report.statistics.relative_residual, few_iterations.disc.solver.tolerance);
+}
+
+// Throws.
+struct BrokenSearch : NeighborSearch
+{
+  explicit BrokenSearch (void (*broken) ()) : fault (broken) {}
+  void build (const std::vector<std::uint32_t>&) override {}
+  void nearest (std::uint32_t, int, std::vector<std::uint32_t>&) override { fault (); }
+  void (*fault) ();
+};
+
+// A run that outgrows 32 bits tells what to do; it is no error of the library.
+TEST (RunStatus, ExceptionsBecomeStatuses)
+{
+  const struct
+  {
+    RunStatus status;
+    const char* why;
+    void (*fault) ();
+  } faults[] = {
+      {RunStatus::OUT_OF_MEMORY, "memory", [] { throw std::bad_alloc (); }},
+      {RunStatus::OUT_OF_MEMORY, "is full", [] { throw IndexLimitReached ("the table is full"); }},
+      {RunStatus::OUT_OF_MEMORY, "use fewer points", [] { throw std::length_error ("vector"); }},
+      {RunStatus::INTERNAL_ERROR, "fell over", [] { throw std::runtime_error ("it fell over"); }}};
+  const Positions cloud = samples::disc (0.1, 5).positions;
+  for (const auto& [status, why, fault] : faults) {
+    BrokenSearch search (fault);
+    expectFailure (reconstruct (asInput (cloud, &search), {}), status, why);
+  }
+}
+
+// Arrays that would make the run write outside of its own.
+TEST (RunStatus, InvalidInput)
+{
+  const Input good = asInput (samples::disc (0.1, 7).positions);
+  const auto expectRefusal = [&good] (const auto& change, const std::string& why) {
+    Input wrong = good;
+    change (wrong);
+    for (const Options& options : {Options (), discOptions ()})
+      expectFailure (reconstruct (wrong, options), RunStatus::INVALID_INDICES, why);
+  };
+  const std::string size = std::to_string (good.positions.size ());
+  expectRefusal ([] (Input& input) { input.cloud_index.pop_back (); }, size + " positions");
+  expectRefusal ([] (Input& input) { input.cloud_index.push_back (0); }, size + " positions");
+  expectRefusal ([] (Input& input) { input.cloud_index.clear (); }, "0 cloud indices");
+  expectRefusal ([] (Input& input) { input.cloud_size = 10; }, "outside the cloud of size 10");
+  expectRefusal ([] (Input& input) { input.lattice_width = input.cloud_size - 1; },
+                 "rows of the organized cloud");
+  expectRefusal ([] (Input& input) { input.cloud_index[3] = 4'000'000'000; }, "4000000000");
+  expectRefusal ([] (Input& input) { input.cloud_index[20] = 5; }, "5 is given twice");
+  expectRefusal ([] (Input& input) { input.normals.resize (input.cloud_size - 1); }, "normals");
+  expectRefusal ([] (Input& input) { input.facing_normals.resize (input.cloud_size - 1); },
+                 "normals");
+  Input turned = good; // indices may come in any order
+  std::reverse (turned.cloud_index.begin (), turned.cloud_index.end ());
+  EXPECT_EQ (reconstruct (turned, {}).report.status, RunStatus::SUCCESS);
+}
+
+TEST (Stages, ComeInOrderAndEndWithTheOneThatFails)
+{
+  Options options = discOptions ();
+  std::vector<Stage> stages;
+  options.stage_callback = [&stages] (Stage stage) { stages.push_back (stage); };
+  const Report report = reconstruct (asInput (samples::disc (0.1, 6).positions), options).report;
+  EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
+                                         Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE,
+                                         Stage::DELAUNAY, Stage::FLIPS, Stage::CHECK}));
+  for (const Stage stage : stages)
+    EXPECT_GT (report.statistics.seconds[static_cast<std::size_t> (stage)], 0.0);
+
+  stages.clear ();
+  reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);
+  EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET}));
+  stages.clear ();
+  options.neighbors.k = 0;
+  const Result refused = reconstruct (asInput ({{0, 0, 0}, {1, 0, 0}}), options);
+  EXPECT_TRUE (stages.empty ());
+  EXPECT_EQ (refused.report.statistics.total_seconds, 0.0);
+}
+
+void
+expectProgress (const std::vector<double>& fractions)
+{
+  ASSERT_GE (fractions.size (), 7U); // when stages begin, and at the end
+  EXPECT_EQ (fractions.front (), 0.0);
+  EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
+  EXPECT_LT (fractions[fractions.size () - 2], 1.0);
+  EXPECT_EQ (fractions.back (), 1.0);
+}
+
+// Each thread tells of its tasks; progress and cancellation are those of the calling thread.
+TEST (Callbacks, ComeFromTheirThreadsAndChangeNothing)
+{
+  Options balls, disc = discOptions (), iterative = discOptions ();
+  balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;
+  iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
+  const std::thread::id here = std::this_thread::get_id ();
+  for (auto& [kind, options] :
+       std::vector<std::pair<SurfaceKind, Options>>{{SurfaceKind::TORUS, {}},
+                                                    {SurfaceKind::TORUS, balls},
+                                                    {SurfaceKind::HEIGHT_FIELD, disc},
+                                                    {SurfaceKind::HEIGHT_FIELD, iterative},
+                                                    {SurfaceKind::FINGER, disc}}) {
+    constexpr std::size_t POINTS = 20'000, RANGE = 1024; // of a search
+    const Positions points = surface (kind, POINTS);
+    const Result plain = reconstruct (asInput (points), options);
+    for (const int threads : {1, 3}) {
+      SCOPED_TRACE (surfaceName (kind) + std::to_string (threads));
+      std::mutex mutex;
+      std::size_t tasks = 0;
+      std::set<std::thread::id> of_tasks, of_others;
+      std::vector<double> fractions;
+      Options watched = options;
+      watched.threads = threads;
+      watched.task_callback = [&] {
+        const std::lock_guard<std::mutex> lock (mutex);
+        ++tasks;
+        of_tasks.insert (std::this_thread::get_id ());
+      };
+      watched.progress_callback = [&] (double fraction) {
+        fractions.push_back (fraction);
+        of_others.insert (std::this_thread::get_id ());
+      };
+      watched.cancelled_callback = [&] {
+        of_others.insert (std::this_thread::get_id ());
+        return false;
+      };
+      const Result result = reconstruct (asInput (points), watched);
+      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+      EXPECT_EQ (result.triangles, plain.triangles);
+      EXPECT_EQ (of_others, std::set<std::thread::id>{here});
+      EXPECT_GT (tasks, POINTS / RANGE);
+      EXPECT_TRUE (threads > 1 ? of_tasks.size () > 1 : of_tasks == of_others);
+      expectProgress (fractions);
+    }
+  }
+}
+
+// Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. A
+// small cloud would be done before the next poll is due. So that first poll waits for that.
+bool
+isCancelledWithin (Stage stage, const Positions& points, Options options)
+{
+  Stage running = Stage::COUNT;
+  int questions = 0; // within the stage
+  options.stage_callback = [&] (Stage begun) { running = begun; };
+  options.cancelled_callback = [&] {
+    if (running != stage)
+      return questions > 0; // too late
+    if (questions++ == 0)
+      samples::waitUntilAPollIsDue ();
+    return questions > 1;
+  };
+  const Report report = reconstruct (asInput (points), options).report;
+  EXPECT_TRUE (report.status == RunStatus::CANCELLED || questions < 2) << report.message;
+  EXPECT_GT (questions, 0) << "the run has not reached this stage";
+  return report.status == RunStatus::CANCELLED && running == stage;
+}
+
+TEST (Cancellation, IsSeenWithinStages)
+{
+  Options options;
+  options.holes.policy = HolePolicy::CLOSE_ALL;
+  for (const Stage stage : {Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS, Stage::CONSENSUS,
+                            Stage::HOLES, Stage::FLIPS, Stage::CHECK})
+    EXPECT_TRUE (isCancelledWithin (stage, surface (SurfaceKind::CUT_OUT, 5000), options))
+        << stageName (stage);
+  Options disc = discOptions ();
+  disc.disc.solver.method = Solver::BICGSTAB_ILUT;
+  disc.disc.boundary.cluster_tolerance = 0.2;
+  // All but DELAUNAY, which is a single call of CGAL.
+  for (const Stage stage : {Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE})
+    for (const BoundaryMethod method :
+         {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
+      disc.disc.boundary.method = method;
+      EXPECT_TRUE (isCancelledWithin (stage, surface (SurfaceKind::HEIGHT_FIELD, 5000), disc))
+          << stageName (stage) << ", method " << static_cast<int> (method);
+    }
+}
+
+TEST (Callbacks, WhateverTheyThrowStaysInside)
+{
+  Options stage, progress, cancelled;
+  stage.stage_callback = [] (Stage) { throw 7; };
+  progress.progress_callback = [] (double fraction) {
+    if (fraction > 0.3)
+      throw 7;
+  };
+  cancelled.cancelled_callback = [] () -> bool { throw 7; };
+  const Positions points = surface (SurfaceKind::TORUS, 1000);
+  for (const Options& options : {stage, progress, cancelled}) {
+    Result result;
+    EXPECT_NO_THROW (result = reconstruct (asInput (points), options));
+    expectFailure (result, RunStatus::INTERNAL_ERROR, "");
+    EXPECT_NE (result.report.message, "");
+  }
+}
+
+// A callback may run another reconstruction with callbacks of its own. The runs do not disturb each
+// other.
+TEST (Callbacks, MayRunAnotherReconstruction)
+{
+  using Callback = std::function<void ()>;
+  const auto expectAsAlone = [] (const Positions& points, Options options, const Callback& in_stage,
+                                 const Callback& in_progress) {
+    const Result alone = reconstruct (asInput (points), options);
+    std::vector<double> fractions;
+    std::vector<Stage> stages;
+    options.stage_callback = [&] (Stage stage) {
+      stages.push_back (stage);
+      in_stage ();
+    };
+    options.progress_callback = [&] (double fraction) {
+      fractions.push_back (fraction);
+      in_progress ();
+    };
+    const Result result = reconstruct (asInput (points), options);
+    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    EXPECT_EQ (result.triangles, alone.triangles);
+    EXPECT_TRUE (std::is_sorted (stages.begin (), stages.end ()));
+    expectProgress (fractions);
+  };
+  const Callback nothing = [] {};
+  int inner_runs = 0;
+  const Callback run_another = [&] {
+    expectAsAlone (surface (SurfaceKind::HEIGHT_FIELD, 400), discOptions (), nothing, nothing);
+    ++inner_runs;
+  };
+  expectAsAlone (surface (SurfaceKind::TORUS, 3000), {}, run_another, nothing);
+  EXPECT_GE (inner_runs, 3);
+  inner_runs = 0;
+  expectAsAlone (surface (SurfaceKind::TORUS, 3000), {}, nothing, run_another);
+  EXPECT_GE (inner_runs, 3);
+}
+
+} // namespace
+} // namespace pcl::floater
