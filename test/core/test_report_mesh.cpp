@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings on a mesh, in words that fit their numbers.
+#include "report/findings.h"
 #include "report/report_mesh.h"
 
 #include "samples.h"
@@ -34,6 +35,7 @@ warningsOn (std::size_t count)
   }
   Report report;
   EXPECT_FALSE (reportCheck (points, found, {}, report));
+  describeFindings (report);
   std::string text;
   for (const std::string& warning : report.warnings)
     text += warning + "\n";

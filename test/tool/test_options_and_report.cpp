@@ -431,6 +431,18 @@ TEST_F (CommandLineTest, TheReportNamesPointsOfTheInput)
     }
 }
 
+TEST_F (CommandLineTest, TheReportHasFindingsAsData)
+{
+  std::vector<Eigen::Vector3d> points = sample_;
+  points.emplace_back (0, 0, 1e6);
+  writeFile ("in.pcd", pcdText (points));
+  const Json findings = report ({}).at ("findings");
+  ASSERT_EQ (findings.size (), 1U);
+  EXPECT_EQ (findings[0].at ("id"), "gross_outliers");
+  EXPECT_EQ (findings[0].at ("severity"), "note");
+  EXPECT_EQ (findings[0].at ("numbers"), (Json{1, sample_.size ()}));
+}
+
 TEST_F (CommandLineTest, TheReportTellsWhatTheMeshIs)
 {
   const Json all = report ({"--topology", "disc"});

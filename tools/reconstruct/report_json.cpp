@@ -53,6 +53,18 @@ to_json (Json& nlohmann_json_j, const FacingDecision& nlohmann_json_t)
 }
 
 static void
+to_json (Json& json, const Finding& finding)
+{
+  Json places = Json::array ();
+  for (const auto& [point, position] : finding.places)
+    places.push_back ({{"point", point}, {"position", position}});
+  json = {{"id", findingName (finding.id)},
+          {"severity", severityName (finding.severity)},
+          {"numbers", finding.numbers},
+          {"places", places}};
+}
+
+static void
 to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
 {
   NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
@@ -197,6 +209,7 @@ resultJson (const Report& report)
           {"facing_certainty", report.facing_certainty},
           {"facing_parts", facingPartsJson (report)},
           {"facing_decisions", report.facing_decisions},
+          {"findings", report.findings},
           {"statistics", report.statistics}};
 }
 

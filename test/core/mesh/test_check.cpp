@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The examination of known meshes, sound and broken, and what the report says about it.
 #include "mesh/known_meshes.h"
+#include "report/findings.h"
 #include "report/report_mesh.h"
 
 #include <gtest/gtest.h>
@@ -203,6 +204,7 @@ warningsOf (const Mesh& mesh, const Options& options = {}, float spacing = 0.1F)
 {
   Report report;
   EXPECT_FALSE (reportCheck (pointsAt (mesh.positions), check (mesh, spacing), options, report));
+  describeFindings (report);
   return report.warnings;
 }
 
@@ -309,6 +311,7 @@ TEST (LoopReport, TellsDoubtfulDecisionsAndWarnsOfHolesTooDeepToBeFilled)
   surface.doubtful_loops = {judged ({9, 8, 4, 5}, 4.0, true, {1.5, 0.0, false}),
                             judged ({2, 3, 1}, 1.0, false, {-0.5, 0.0, false})};
   reportLoops (points, surface, report);
+  describeFindings (report);
   EXPECT_TRUE (report.warnings.empty ());
   EXPECT_EQ (report.statistics.holes_filled, 7U);
   ASSERT_EQ (report.loop_decisions.size (), 2U);
@@ -327,6 +330,7 @@ TEST (LoopReport, TellsDoubtfulDecisionsAndWarnsOfHolesTooDeepToBeFilled)
                             judged ({50, 51, 52}, 9.0, false, {-5.0, 0.0, true}),
                             judged ({60, 61, 62}, 9.0, true, {1.0, 0.0, true})};
   reportLoops (points, surface, report);
+  describeFindings (report);
   expectWarning (report.warnings, "2 holes stay open though",
                  "(12 local spacings) around point 91");
 }

@@ -6,6 +6,7 @@
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersection_removal.h"
 #include "mesh/vertex_stars.h"
+#include "report/findings.h"
 #include "report/report_mesh.h"
 
 #include <gtest/gtest.h>
@@ -215,6 +216,7 @@ TEST (SelfIntersections, AreInTheReportWithPlaces)
   }
   Report report;
   ASSERT_FALSE (reportCheck (points, found, {}, report));
+  describeFindings (report);
   EXPECT_NE (testing::PrintToString (report.warnings)
                  .find (std::to_string (pairs.size ()) + " pairs of triangles cross"),
              std::string::npos);
