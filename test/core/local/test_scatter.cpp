@@ -33,7 +33,7 @@ strewn (Strewn kind, std::size_t count, std::uint64_t seed)
   Positions positions = samples::randomPoints (count, seed);
   const Positions centres = samples::randomPoints (count / 8, seed + 1);
   const auto side = static_cast<std::size_t> (std::cbrt (static_cast<double> (count)));
-  Eigen::Vector3d along, across;
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX (), across = Eigen::Vector3d::UnitY ();
   for (std::size_t i = 0; i < count; ++i) {
     Eigen::Vector3d& p = positions[i];
     if (kind == Strewn::BALL)

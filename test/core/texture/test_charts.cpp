@@ -14,6 +14,7 @@
 
 namespace pcl::floater {
 namespace {
+using samples::connected;
 using samples::Mesh;
 using Plane = std::vector<Eigen::Vector2d>;
 
@@ -28,15 +29,6 @@ layOut (const Mesh& mesh, const DescentLimits& limits = {})
 {
   return layOutChart (mesh.triangles, samples::indices (mesh.triangles.size ()), mesh.positions,
                       limits, 1);
-}
-
-TriangleMesh
-connected (const Mesh& mesh)
-{
-  TriangleMesh connected;
-  connected.triangles = mesh.triangles;
-  EXPECT_TRUE (connected.connect (mesh.positions.size (), 1));
-  return connected;
 }
 
 Mesh
