@@ -357,11 +357,8 @@ public:
       scanner.fail ("it has more points than lines");
     if (splitColumns (line, separator_.separator, words_) && words_.size () + 1 == width_)
       words_.emplace_back ();
-    if (words_.size () != width_)
-      scanner.fail ("it does not have " + counted (width_, "column") +
-                    " like the lines before it; the file may be truncated");
     double* const to = values_.get () + rows_ * width_;
-    for (std::size_t c = 0; c < width_; ++c) {
+    for (std::size_t c = 0; c < std::min (words_.size (), width_); ++c) {
       if (parseColumn (words_[c], separator_.has_decimal_comma, to[c]))
         note (columns_[c], words_[c], to[c]);
       else if (columns_[c].is_number)
@@ -369,6 +366,9 @@ public:
       else
         to[c] = std::numeric_limits<double>::quiet_NaN ();
     }
+    if (words_.size () != width_)
+      scanner.fail ("it does not have " + counted (width_, "column") +
+                    " like the lines before it; the file may be truncated");
     ++rows_;
   }
 
