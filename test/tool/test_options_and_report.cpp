@@ -433,7 +433,7 @@ TEST_F (CommandLineTest, TheReportNamesPointsOfTheInput)
 
 TEST_F (CommandLineTest, TheReportHasFindingsAsData)
 {
-  std::vector<Eigen::Vector3d> points = sample_;
+  std::vector<Eigen::Vector3d> points = sample_.points;
   points.emplace_back (0, 0, 1e6);
   writeFile ("in.pcd", pcdText (points));
   const Json findings = report ({}).at ("findings");
