@@ -78,24 +78,31 @@ dropsScatter (const Options& options)
          (options.scatter == ScatterPolicy::AUTO && !asksForDisc (options));
 }
 
-bool
-takeScatter (Points& points, const LocalGeometry& geometry, const Noise& noise,
-             const Request& request, Report& report)
+std::vector<Index>
+scatterOf (const Points& points, const LocalGeometry& geometry, const Noise& noise,
+           const Request& request)
 {
   if (noise.unevenness.empty ())
-    return false;
-  std::vector<Index> scatter =
-      findScatter (geometry.neighbors, geometry.stars, noise.unevenness,
-                   request.limits.noise.uneven, request.limits.scatter, request.run);
-  const bool drops = dropsScatter (request.options);
-  if (drops)
-    scatter = exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop);
-  reportScatter (points, scatter, drops && request.options.scatter == ScatterPolicy::AUTO, report);
-  if (!drops || scatter.empty ())
-    return false;
-  removePoints (points, scatter);
-  report.statistics.working_points = points.size ();
-  return true;
+    return {};
+  const Limits& limits = request.limits;
+  std::vector<Index> scatter = findScatter (geometry.neighbors, geometry.stars, noise.unevenness,
+                                            limits.noise.uneven, limits.scatter, request.run);
+  return dropsScatter (request.options)
+             ? exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop)
+             : scatter;
+}
+
+bool
+takeScatter (Points& points, const std::vector<Index>& scatter, const Options& options,
+             Report& report)
+{
+  const bool drops = dropsScatter (options) && !scatter.empty ();
+  reportScatter (points, scatter, drops && options.scatter == ScatterPolicy::AUTO, report);
+  if (drops) {
+    removePoints (points, scatter);
+    report.statistics.working_points = points.size ();
+  }
+  return drops;
 }
 
 StarSettings

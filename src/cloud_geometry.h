@@ -30,12 +30,17 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
 bool
 dropsScatter (const Options& options);
 
-/// Finds and reports scatter: regions that are no surface at any scale. Removes it from the points
-/// if it is left out of the mesh, except points of the user's loop.
+/// Scatter: points of regions that are no surface at any scale, ascending; without points of the
+/// user's loop if it is left out of the mesh.
+std::vector<Index>
+scatterOf (const Points& points, const LocalGeometry& geometry, const Noise& noise,
+           const Request& request);
+
+/// Reports scatter, and removes it from the points if it is left out of the mesh.
 /// \return whether points were removed
 bool
-takeScatter (Points& points, const LocalGeometry& geometry, const Noise& noise,
-             const Request& request, Report& report);
+takeScatter (Points& points, const std::vector<Index>& scatter, const Options& options,
+             Report& report);
 
 /// Settings for the stars of the points.
 StarSettings

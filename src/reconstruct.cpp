@@ -222,31 +222,36 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     table.all ();
     geometry = known->geometry (std::move (planes), reads_stars);
   }
-  const std::size_t with_scatter = points.size ();
-  if (takeScatter (points, geometry, noise, request, report)) {
+  const auto isStrongNow = [&] {
+    return options.denoise && noise.noisy_points > 0 &&
+           isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
+  };
+  noise.is_strong = isStrongNow ();
+  const std::vector<Index> scatter = scatterOf (points, geometry, noise, request);
+  // Errors along the rays of a scan look like noise and scatter.
+  if (may_be_seen && (noise.is_strong || !scatter.empty ()))
+    if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
+            points, geometry.neighbors, samples, search, limits.view.evidence, run)))
+      return *problem;
+  if (takeScatter (points, scatter, options, report)) {
     known = nullptr; // the known stages do not fit fewer points
     geometry = {};
     if (Problem problem = checkPoints (points)) {
-      problem.message = "the cloud is no surface: " +
-                        counted (with_scatter - points.size (), "point lies", "points lie") +
-                        " on none at any scale, such as leaves, a solid, or many depth frames with "
-                        "errors, and without them " +
-                        problem.message + "; take a part that is a surface, or keep the scatter";
+      problem.message =
+          "the cloud is no surface: " + counted (scatter.size (), "point lies", "points lie") +
+          " on none at any scale, such as leaves, a solid, or many depth frames with "
+          "errors, and without them " +
+          problem.message + "; take a part that is a surface, or keep the scatter";
       return problem;
     }
     planes = findPlanes (points, settings, request);
     noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
+    noise.is_strong = isStrongNow ();
   }
   if (!options.denoise)
     noise = {};
-  noise.is_strong =
-      noise.noisy_points > 0 && isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
   if (noise.is_strong) {
-    if (may_be_seen)
-      if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
-              points, geometry.neighbors, samples, search, limits.view.evidence, run)))
-        return *problem;
     CsrLists around = std::move (geometry.neighbors);
     geometry = {};
     geometry = projectNoise (points, std::move (around), noise, settings, request);

@@ -35,7 +35,7 @@ effectiveOptions (const Options& options)
   if (options.topology == Topology::AUTO)
     effective.topology = Topology::DISC;
   effective.remove_outliers = false;
-  effective.scatter = ScatterPolicy::KEEP;
+  effective.scatter = ScatterPolicy::AUTO; // a disc keeps all points
   effective.denoise = false;
   effective.filter_sheets = false;
   effective.flip_edges = false;

@@ -66,9 +66,9 @@ struct PressedDisc
   {
     const samples::Sheet sheet = samples::disc (0.05, 3);
     made = samples::makeNeighborhoods (sheet.positions);
-    positions = made.points.positions;
     loop.resize (sheet.border);
-    for (Index p = 0; p < positions.size (); ++p) {
+    for (Index p = 0; p < made.points.size (); ++p) {
+      positions.push_back (sheet.positions[made.points.cloud_index[p]]);
       uv.emplace_back (positions[p].head<2> ());
       if (made.points.cloud_index[p] < sheet.border)
         loop[made.points.cloud_index[p]] = p;

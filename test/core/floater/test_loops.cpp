@@ -447,7 +447,7 @@ TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
 
 TEST (Boundary, TheUsersLoopIsTakenAsItIs)
 {
-  const Sheet sheet = samples::disc (0.06, 2);
+  const Sheet sheet = samples::disc (0.06, 5);
   const Neighborhoods made = makeNeighborhoods (sheet.positions);
   BoundaryOptions options;
   for (Index p = 0; p < sheet.border; ++p) // backwards, with one long step

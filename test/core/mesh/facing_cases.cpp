@@ -161,8 +161,6 @@ hollowShell (RandomStream& random)
 {
   const double tube = between (random, 0.35, 0.45), thickness = between (random, 0.04, 0.1);
   Mesh outer = ring (tube), inner = ring (tube - thickness);
-  const double radius = thickness + between (random, 0.05, 0.12); // also through the inner wall
-  cutWindows ({&outer, &inner}, upTo (6, random) - 1, radius, random);
   samples::turnRound (inner);
   samples::append (outer, inner);
   return outer;
