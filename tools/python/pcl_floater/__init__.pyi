@@ -83,7 +83,7 @@ def reconstruct(
     max_edge_ratio: float = 0.0,
     min_component: int = 0,
     remove_outliers: bool = True,
-    scatter: Literal["keep", "drop"] = "keep",
+    scatter: Literal["auto", "keep", "drop"] = "auto",
     denoise: bool = True,
     flips: bool = True,
     uncross: bool = True,
