@@ -140,6 +140,7 @@ inline std::vector<Field*>
 pointersTo (std::vector<Field>& fields)
 {
   std::vector<Field*> pointers;
+  pointers.reserve (fields.size ());
   for (Field& field : fields)
     pointers.push_back (&field);
   return pointers;
