@@ -75,8 +75,9 @@ template <typename T>
 constexpr std::size_t
 countElements ()
 {
-  static_assert (std::is_trivially_copyable_v<Element<T>> && sizeof (T) % sizeof (Element<T>) == 0);
-  return sizeof (T) / sizeof (Element<T>);
+  constexpr std::size_t whole = sizeof (T), element = sizeof (Element<T>);
+  static_assert (std::is_trivially_copyable_v<Element<T>> && whole % element == 0);
+  return whole / element;
 }
 
 /// Arrays to write.
