@@ -85,8 +85,9 @@ scatterOf (const Points& points, const LocalGeometry& geometry, const Noise& noi
   if (noise.unevenness.empty ())
     return {};
   const Limits& limits = request.limits;
-  std::vector<Index> scatter = findScatter (geometry.neighbors, geometry.stars, noise.unevenness,
-                                            limits.noise.uneven, limits.scatter, request.run);
+  std::vector<Index> scatter =
+      findScatter (geometry.neighbors, geometry.stars, noise.unevenness, limits.noise.uneven,
+                   request.options.scatter == ScatterPolicy::AUTO, limits.scatter, request.run);
   return dropsScatter (request.options)
              ? exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop)
              : scatter;

@@ -237,6 +237,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     known = nullptr; // the known stages do not fit fewer points
     geometry = {};
     if (Problem problem = checkPoints (points)) {
+      problem.status = RunStatus::DEGENERATE;
       problem.message =
           "the cloud is no surface: " + counted (scatter.size (), "point lies", "points lie") +
           " on none at any scale, such as leaves, a solid, or many depth frames with "

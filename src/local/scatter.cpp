@@ -26,9 +26,11 @@ agreeingShare (const Stars& stars, Index p)
 
 std::vector<Index>
 findScatter (const CsrLists& neighbors, const Stars& stars, const std::vector<float>& unevenness,
-             double uneven, const ScatterLimits& limits, const RunContext& run)
+             double uneven, bool is_certain, const ScatterLimits& limits, const RunContext& run)
 {
   constexpr std::size_t NEAREST = 20;
+  const double strong_share = is_certain ? limits.certain_share : limits.strong_share;
+  const std::size_t least = is_certain ? limits.certain_least : limits.least;
   const std::size_t n = unevenness.size ();
   std::vector<float> share (n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
@@ -47,7 +49,7 @@ findScatter (const CsrLists& neighbors, const Stars& stars, const std::vector<fl
         around += static_cast<double> (share[q]);
       around /= static_cast<double> (row.size () + 1);
       is_weak[p] = around <= limits.weak_share ? 1 : 0;
-      is_strong[p] = around <= limits.strong_share && here >= uneven ? 1 : 0;
+      is_strong[p] = around <= strong_share && here >= uneven ? 1 : 0;
     }
   });
   DisjointSets regions (n);
@@ -56,12 +58,12 @@ findScatter (const CsrLists& neighbors, const Stars& stars, const std::vector<fl
       for (const Index q : neighbors.first (p, NEAREST))
         if (is_weak[q] != 0)
           regions.join (p, q);
-  std::vector<std::size_t> certain (n, 0);
+  std::vector<std::size_t> strong (n, 0);
   for (Index p = 0; p < n; ++p)
-    certain[regions.find (p)] += is_strong[p];
+    strong[regions.find (p)] += is_strong[p];
   std::vector<Index> scatter;
   for (Index p = 0; p < n; ++p)
-    if (is_weak[p] != 0 && certain[regions.find (p)] >= limits.least)
+    if (is_weak[p] != 0 && strong[regions.find (p)] >= least)
       scatter.push_back (p);
   return scatter;
 }

@@ -17,22 +17,28 @@ namespace pcl::floater {
 /// regions, each threshold can be moved by a fifth without one point of a sheet being lost.
 struct ScatterLimits
 {
-  double strong_share = 0.6;    ///< of agreeing triangles; at most so many at a point that is
-                                ///< certainly scatter, where the cloud is uneven
+  double strong_share = 0.6;    ///< of agreeing triangles; at most so many at a strong point, where
+                                ///< the cloud is uneven
   double weak_unevenness = 0.2; ///< a point may be scatter from here on, ...
   double weak_share = 0.9;      ///< ... and with at most this share
-  std::size_t least = 150;      ///< certain points of a region: thin walls of scanned statues have
-                                ///< up to 48
+  std::size_t least = 150; ///< strong points of a region: thin walls of scanned statues have up
+                           ///< to 48
+
+  /// The same for what is certainly scatter. The head of a sparsely sampled cat, with eyes and jaws
+  /// inside, has 330 strong points by the limits above, and 190 by this share.
+  double certain_share = 0.45;
+  std::size_t certain_least = 500;
 };
 
 /// Finds scatter as regions: points that may be scatter and hang together by their nearest
-/// neighbours, many of which certainly are. O(n).
+/// neighbours, many of which are strong. O(n).
 /// \param neighbors  of each point, nearest first
 /// \param unevenness of each point
-/// \param uneven     unevenness of points that are certainly scatter
+/// \param uneven     unevenness of strong points
+/// \param is_certain only regions that certainly are scatter
 /// \return ascending
 std::vector<Index>
 findScatter (const CsrLists& neighbors, const Stars& stars, const std::vector<float>& unevenness,
-             double uneven, const ScatterLimits& limits, const RunContext& run);
+             double uneven, bool is_certain, const ScatterLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -46,9 +46,9 @@ enum class LengthUnit
 /// grass. Scans that are connected as their sensor saw them are not searched for it.
 enum class ScatterPolicy
 {
-  AUTO, ///< like DROP for a surface, like KEEP for a disc
+  AUTO, ///< what certainly is scatter is left out of a surface; a disc has all points
   KEEP, ///< connected like all other points; the surface there has no meaning
-  DROP  ///< left out of the mesh
+  DROP  ///< left out of the mesh, also what probably is scatter: more leaves, some thin details
 };
 
 /// How the boundary loop of a disc is found.

@@ -132,7 +132,7 @@ public:
   bool getRemoveOutliers () const;
 
   /** \brief What becomes of regions that are no surface at any scale, such as leaves and grass;
-   * default AUTO: left out of a surface. getScatterIndices() has their points. */
+   * default AUTO: left out of a surface where it certainly is none. getScatterIndices() has their points. */
   void setScatterPolicy (ScatterPolicy policy);
   /** \brief What becomes of regions that are no surface at any scale. */
   ScatterPolicy getScatterPolicy () const;
