@@ -148,8 +148,7 @@ TEST (PartFinish, TrianglesBesideAPointOfAnotherPartAreInTheZone)
   settings.part_count = 2;
   PartChange change;
   const auto isInZone = [&] (Index p) {
-    const FinishedPart finished =
-        finishPart (points, sheet.triangles, change, none, settings, 1);
+    const FinishedPart finished = finishPart (points, sheet.triangles, change, none, settings, 1);
     const std::vector<Index>& zone = finished.zone.points;
     return std::binary_search (zone.begin (), zone.end (), p + points.first);
   };

@@ -154,9 +154,9 @@ severityName (Severity severity);
 /// A finding, with the figures of its sentence.
 struct Finding
 {
-  FindingId id = FindingId::COUNT;
-  Severity severity = Severity::NOTE;
-  std::vector<double> numbers; ///< in the order of the sentence, how many there are first
+  FindingId id = FindingId::COUNT;    ///< what was found
+  Severity severity = Severity::NOTE; ///< what it means for the mesh
+  std::vector<double> numbers;        ///< in the order of the sentence, how many there are first
   /// Places, each by a point: its cloud index and position.
   std::vector<std::pair<std::uint32_t, std::array<double, 3>>> places;
 };
