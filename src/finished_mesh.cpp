@@ -49,9 +49,10 @@ removesCrossings (const Points& points, const Options& options)
 
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, const std::function<void ()>& complete)
+         const Request& request, Statistics& statistics,
+         std::optional<std::vector<CrossingPair>> known, const std::function<void ()>& complete)
 {
-  checkCrossing (mesh.triangles, points, request.run, found);
+  checkCrossing (mesh.triangles, points, request.run, found, std::move (known));
   statistics.self_intersections_found = found.crossing.size ();
   if (found.crossing.empty () || !removesCrossings (points, request.options))
     return;

@@ -13,6 +13,7 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 #include <functional>
+#include <optional>
 
 namespace pcl::floater {
 /// Examines the finished mesh on the input points, independently of earlier stages.
@@ -26,10 +27,12 @@ bool
 removesCrossings (const Points& points, const Options& options);
 
 /// Finds self-intersections. If there are any, changes the mesh and examines it again.
+/// \param known all crossing pairs of the mesh, if they were found before
 /// \param complete called before neighbours and normals of the geometry are read; may be empty
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
          const Request& request, Statistics& statistics,
+         std::optional<std::vector<CrossingPair>> known = std::nullopt,
          const std::function<void ()>& complete = {});
 
 /// Makes the result of a mesh.

@@ -126,8 +126,9 @@ reconstructSurface (Points& points, LocalGeometry geometry, const Request& reque
 {
   const Options& options = request.options;
   Report& report = result.report;
-  const SurfaceSettings settings{options.holes, options.flip_edges, request.limits.surface,
-                                 facingHints (points, request)};
+  const SurfaceSettings settings{options.holes, options.flip_edges,
+                                 options.flip_edges && options.remove_self_intersections,
+                                 request.limits.surface, facingHints (points, request)};
   const Parts parts (points.size (), request.limits.parts);
   if (parts.count () > 1)
     return reconstructParts (points, parts, std::move (geometry), settings, request, known, result);
@@ -139,10 +140,11 @@ reconstructSurface (Points& points, LocalGeometry geometry, const Request& reque
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
-  uncross (surface.mesh, found, points, geometry, request, report.statistics, [&] {
-    if (known != nullptr && geometry.neighbors.rows () == 0)
-      geometry = known->geometry (known->planes (), false);
-  });
+  uncross (surface.mesh, found, points, geometry, request, report.statistics,
+           std::move (surface.finish.crossing), [&] {
+             if (known != nullptr && geometry.neighbors.rows () == 0)
+               geometry = known->geometry (known->planes (), false);
+           });
   return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
                   result);
 }

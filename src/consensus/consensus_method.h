@@ -47,7 +47,8 @@ struct SurfaceLimits
 struct SurfaceSettings
 {
   HoleOptions holes = {};
-  bool flip_edges = true; ///< flip edges and repair folds
+  bool flip_edges = true;    ///< flip edges and repair folds
+  bool remake_sheets = true; ///< make zones anew where several sheets are near
   SurfaceLimits limits = {};
   FacingHints facing = {};
 
@@ -56,8 +57,12 @@ struct SurfaceSettings
     FinishSettings finish;
     finish.flip_edges = flip_edges;
     finish.open_boundary = true;
+    finish.find_crossing = true;
+    finish.remake_sheets = remake_sheets;
     finish.facing = facing;
     finish.limits = limits.finish;
+    if (holes.policy != HolePolicy::AUTO && holes.policy != HolePolicy::CLOSE_ALL)
+      finish.limits.remaking.disturbance.closes_gaps = false;
     return finish;
   }
 };

@@ -126,12 +126,13 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
 
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-               MeshExamination& found)
+               MeshExamination& found, std::optional<std::vector<CrossingPair>> known)
 {
   constexpr std::size_t PLACES = 10; // as in MeshCheck
   if (!found.isManifold ())
     return;
-  found.crossing = findSelfIntersections (triangles, points.positions, run);
+  found.crossing =
+      known ? std::move (*known) : findSelfIntersections (triangles, points.positions, run);
   found.check.self_intersections = found.crossing.size ();
   for (const CrossingPair& pair : found.crossing) {
     const Index at = triangles[pair.first][0], other_at = triangles[pair.second][0];

@@ -10,6 +10,7 @@
 
 #include <pcl/surface/floater/report.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -85,8 +86,10 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
 /// Adds the self-intersections and their positions to the result of checkMesh (); nothing if the
 /// mesh is no manifold. See findSelfIntersections. Exact for the scaled positions, which equal
 /// those of the cloud up to rounding in double precision.
+/// \param known all crossing pairs of these triangles, if they were found before
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-               MeshExamination& found);
+               MeshExamination& found,
+               std::optional<std::vector<CrossingPair>> known = std::nullopt);
 
 } // namespace pcl::floater

@@ -5,6 +5,7 @@
 #include "mesh/flips.h"
 #include "mesh/insertion.h"
 #include "mesh/open_boundary.h"
+#include "mesh/remaking.h"
 
 #include <utility>
 
@@ -61,6 +62,14 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   if (settings.open_boundary)
     openBoundary (mesh, positions, sampleCorners (mesh, positions, CORNER_SAMPLE, run),
                   settings.limits.notches, run, finish);
+  if (settings.find_crossing) {
+    finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
+    if (settings.remake_sheets &&
+        remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
+                     settings.limits.remaking, run)
+                .zones > 0)
+      finish.folds = findFolds (mesh, positions, run).size ();
+  }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;
 }

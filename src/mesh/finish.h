@@ -7,11 +7,13 @@
 #include "mesh/facing.h"
 #include "mesh/fold_repair.h"
 #include "mesh/open_boundary.h"
+#include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 #include "points/neighbors.h"
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace pcl::floater {
@@ -21,6 +23,7 @@ struct FinishLimits
   CostLimits cost;
   RepairLimits repair;
   NotchLimits notches;
+  RemakingLimits remaking;
   FacingLimits facing;
 };
 
@@ -33,6 +36,8 @@ struct FinishSettings
   FinishLimits limits = {};
   FacingHints facing = {};
   bool insert_points = true;  ///< insert points that have no triangle
+  bool find_crossing = false; ///< set MeshFinish::crossing
+  bool remake_sheets = false; ///< make disturbed zones anew in space; needs find_crossing
   bool open_boundary = false; ///< remove triangles that fill notches of the boundary, or fold it
 };
 
@@ -43,7 +48,8 @@ struct MeshFinish
   std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
   std::size_t folds = 0;             ///< remaining folded edges
   bool is_repairable = true;         ///< false: more folds than FinishSettings::largest_fold_share
-  MeshFacing facing;                 ///< which components were flipped, and why
+  std::optional<std::vector<CrossingPair>> crossing; ///< all crossing pairs, if asked for
+  MeshFacing facing;                                 ///< which components were flipped, and why
 };
 
 /// Data on the points of a mesh or submesh.

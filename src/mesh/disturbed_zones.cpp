@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/disturbed_zones.h"
+
+#include "core/disjoint_sets.h"
+#include "core/geometry.h"
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace pcl::floater {
+namespace {
+// Whether some ball through the corners of a triangle has no other point inside, as far as the
+// given points tell.
+class EmptyBall
+{
+public:
+  EmptyBall (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
+      : triangle_ (triangle), corner_ (positions[triangle[0]])
+  {
+    const Eigen::Vector3d ab = positions[triangle[1]] - corner_,
+                          ac = positions[triangle[2]] - corner_;
+    normal_ = ab.cross (ac);
+    to_centre_ = (ab.squaredNorm () * ac.cross (normal_) + ac.squaredNorm () * normal_.cross (ab)) /
+                 (2.0 * normal_.squaredNorm ());
+  }
+
+  // Excludes the balls with this point inside. The centre of a ball is that of the circle plus a
+  // multiple of the normal.
+  void exclude (Index p, const Eigen::Vector3d& position)
+  {
+    if (p == triangle_[0] || p == triangle_[1] || p == triangle_[2])
+      return;
+    const Eigen::Vector3d offset = position - corner_;
+    const double up = 2.0 * normal_.dot (offset),
+                 outside = offset.squaredNorm () - 2.0 * offset.dot (to_centre_);
+    if (up > 0.0)
+      most_ = std::min (most_, outside / up);
+    else if (up < 0.0)
+      least_ = std::max (least_, outside / up);
+  }
+
+  // Points on one sphere count as outside, whatever their rounding.
+  bool isPossible () const
+  {
+    constexpr double ROUNDING = 1e-9;
+    return least_ <= most_ + ROUNDING * (std::abs (least_) + std::abs (most_));
+  }
+
+private:
+  Triangle triangle_;
+  Eigen::Vector3d corner_, normal_, to_centre_;
+  double least_ = -std::numeric_limits<double>::infinity (),
+         most_ = std::numeric_limits<double>::infinity ();
+};
+
+class ZoneFinder
+{
+public:
+  ZoneFinder (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const CsrLists& neighbors, const std::vector<float>& spacing,
+              const DisturbanceLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
+        limits_ (limits), run_ (run)
+  {
+  }
+
+  DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
+  {
+    is_wrong_.assign (positions_.size (), 0);
+    bool is_any = false;
+    const auto mark = [&] (Index p) {
+      is_wrong_[p] = 1;
+      is_any = true;
+    };
+    for (Index p = 0; p < positions_.size (); ++p)
+      if (mesh_.triangle_of[p] == NONE)
+        mark (p);
+    for (const CrossingPair& pair : crossing)
+      for (const Index t : {pair.first, pair.second})
+        std::for_each (mesh_.triangles[t].begin (), mesh_.triangles[t].end (), mark);
+    readLoops ();
+    is_disturbed_ = is_wrong_;
+    if (!markGaps () && !is_any)
+      return {};
+    markDisturbed ();
+    markGaps ();
+    for (const std::vector<Index>& loop : loops_)
+      for (const Index p : loop)
+        zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
+    widen (rings);
+    takeSmallPieces ();
+    takeEnclosed ();
+    connect ();
+    return std::move (zones_);
+  }
+
+private:
+  struct OnLoop
+  {
+    std::size_t loop;
+    double way; // along the loop
+    Eigen::Vector3d normal;
+  };
+
+  Eigen::Vector3d normalOf (Index t) const
+  {
+    const Triangle& c = mesh_.triangles[t];
+    return areaVector (positions_[c[0]], positions_[c[1]], positions_[c[2]]);
+  }
+
+  void readLoops ()
+  {
+    loops_ = boundaryLoops (mesh_, run_);
+    std::vector<Index> fan;
+    for (std::size_t l = 0; l < loops_.size (); ++l) {
+      double way = 0.0;
+      Index last = loops_[l].back ();
+      for (const Index p : loops_[l]) {
+        way += (positions_[p] - positions_[last]).norm ();
+        last = p;
+        Eigen::Vector3d normal = Eigen::Vector3d::Zero ();
+        mesh_.fan (p, fan);
+        for (const Index t : fan)
+          normal += normalOf (t);
+        on_loop_.emplace (p, OnLoop{l, way, normal.normalized ()});
+      }
+      lengths_.push_back (way);
+    }
+  }
+
+  // Whether the boundary of another sheet, or of another piece of this one, is beside a point of
+  // the boundary.
+  bool isBesideSheet (Index p) const
+  {
+    const OnLoop& here = on_loop_.at (p);
+    const Row around = neighbors_.row (p);
+    return std::any_of (around.begin (), around.end (), [&] (Index q) {
+      const auto at = on_loop_.find (q);
+      const double distance = (positions_[q] - positions_[p]).norm ();
+      if (at == on_loop_.end () || distance > limits_.beside * static_cast<double> (spacing_[p]) ||
+          here.normal.dot (at->second.normal) > limits_.same_sheet)
+        return false;
+      const double way = std::abs (at->second.way - here.way);
+      return at->second.loop != here.loop ||
+             std::min (way, lengths_[here.loop] - way) > 2.0 * distance;
+    });
+  }
+
+  // Where two sheets end side by side, the loop between them is a gap at an edge of the body. A
+  // window in a sheet has only that sheet around it.
+  bool markGaps ()
+  {
+    bool is_any = false;
+    if (!limits_.closes_gaps)
+      return false;
+    for (const std::vector<Index>& loop : loops_) {
+      const auto beside = std::count_if (loop.begin (), loop.end (), [&] (Index p) {
+        return is_disturbed_[p] != 0 || isBesideSheet (p);
+      });
+      if (loop.size () > limits_.small_loop &&
+          static_cast<double> (beside) < limits_.gap_share * static_cast<double> (loop.size ()))
+        continue;
+      is_any = true;
+      for (const Index p : loop)
+        is_wrong_[p] = is_disturbed_[p] = 1;
+    }
+    return is_any;
+  }
+
+  bool isDelaunay (Index t) const
+  {
+    EmptyBall ball (mesh_.triangles[t], positions_);
+    for (const Index corner : mesh_.triangles[t])
+      for (const Index p : neighbors_.row (corner))
+        ball.exclude (p, positions_[p]);
+    return ball.isPossible ();
+  }
+
+  void markDisturbed ()
+  {
+    const std::size_t count = mesh_.triangles.size ();
+    std::vector<std::uint8_t> is_marked (count, 0);
+    parallelRanges (run_, count, [&] (std::size_t first, std::size_t last) {
+      for (auto t = static_cast<Index> (first); t < last; ++t) {
+        const Eigen::Vector3d normal = normalOf (t);
+        bool bends = false, folds = false;
+        for (const Index u : mesh_.neighbors[t])
+          if (u != NONE) {
+            bends = bends || isBent (normal, normalOf (u));
+            folds = folds || isFold (normal, normalOf (u));
+          }
+        is_marked[t] = folds || (bends && !isDelaunay (t)) ? 1 : 0;
+      }
+    });
+    for (Index t = 0; t < count; ++t)
+      if (is_marked[t] != 0)
+        for (const Index p : mesh_.triangles[t])
+          is_disturbed_[p] = 1;
+    zones_.is_free.assign (positions_.size (), 0);
+    zones_.is_boundary.assign (positions_.size (), 0);
+  }
+
+  bool isFree (Index p) const { return zones_.is_free[p] != 0; }
+
+  bool hasFree (Index t) const
+  {
+    const Triangle& c = mesh_.triangles[t];
+    return isFree (c[0]) || isFree (c[1]) || isFree (c[2]);
+  }
+
+  void makeFree (Index p)
+  {
+    if (isFree (p) || zones_.is_boundary[p] != 0)
+      return;
+    zones_.is_free[p] = 1;
+    free_.push_back (p);
+  }
+
+  // Calls visit (q) for the corners of the triangles around a point.
+  template <typename Visit>
+  void forEachAround (Index p, Visit&& visit)
+  {
+    mesh_.fan (p, fan_);
+    for (const Index t : fan_)
+      for (const Index q : mesh_.triangles[t])
+        visit (q);
+  }
+
+  void widen (int rings)
+  {
+    for (Index p = 0; p < positions_.size (); ++p)
+      if (is_disturbed_[p] != 0)
+        makeFree (p);
+    std::size_t first = 0;
+    for (int ring = 0; ring < rings; ++ring)
+      for (const std::size_t last = free_.size (); first < last; ++first)
+        forEachAround (free_[first], [this] (Index q) { makeFree (q); });
+  }
+
+  // A few triangles between free points tell no side reliably.
+  void takeSmallPieces ()
+  {
+    std::set<Index> seen; // triangles
+    std::vector<Index> fan;
+    for (std::size_t i = 0; i < free_.size (); ++i) {
+      mesh_.fan (free_[i], fan);
+      for (const Index first : fan)
+        for (const Index t : mesh_.neighbors[first])
+          if (t != NONE && !hasFree (t) && seen.insert (t).second)
+            takeIfSmall (t);
+    }
+  }
+
+  void takeIfSmall (Index triangle)
+  {
+    std::vector<Index> piece{triangle};
+    std::set<Index> inside{triangle};
+    for (std::size_t i = 0; i < piece.size (); ++i)
+      for (const Index u : mesh_.neighbors[piece[i]])
+        if (u != NONE && !hasFree (u) && inside.insert (u).second) {
+          piece.push_back (u);
+          if (piece.size () >= limits_.small_piece)
+            return;
+        }
+    for (const Index t : piece)
+      for (const Index p : mesh_.triangles[t])
+        makeFree (p);
+  }
+
+  // A point all of whose triangles have a free corner has no frame, nor has its boundary.
+  void takeEnclosed ()
+  {
+    std::vector<Index> fan, around;
+    for (std::size_t i = 0; i < free_.size (); ++i) {
+      mesh_.fan (free_[i], fan);
+      for (const Index t : fan)
+        for (const Index q : mesh_.triangles[t]) {
+          mesh_.fan (q, around);
+          if (!isFree (q) && std::all_of (around.begin (), around.end (),
+                                          [this] (Index u) { return hasFree (u); })) {
+            zones_.is_boundary[q] = 0;
+            makeFree (q);
+          }
+        }
+    }
+  }
+
+  // Zones with something wrong in them; the others are not free any more.
+  void connect ()
+  {
+    std::sort (free_.begin (), free_.end ());
+    DisjointSets sets (positions_.size ());
+    for (const Index p : free_) {
+      forEachAround (p, [&] (Index q) { sets.join (p, q); });
+      for (const Index q : neighbors_.row (p))
+        if (isFree (q))
+          sets.join (p, q);
+    }
+    std::set<Index> wrong;
+    for (const Index p : free_)
+      if (is_wrong_[p] != 0)
+        wrong.insert (sets.find (p));
+    std::map<Index, Index> zone_of;
+    for (const Index p : free_)
+      if (wrong.count (sets.find (p)) == 0)
+        zones_.is_free[p] = 0;
+      else
+        zone_of.emplace (sets.find (p), static_cast<Index> (zone_of.size ()));
+    zones_.points = makeCsrLists (zone_of.size (), [&] (const auto& emit) {
+      for (const Index p : free_)
+        if (isFree (p))
+          emit (zone_of.at (sets.find (p)), p);
+    });
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& neighbors_;
+  const std::vector<float>& spacing_;
+  const DisturbanceLimits& limits_;
+  const RunContext& run_;
+  std::vector<std::vector<Index>> loops_;
+  std::vector<double> lengths_; // of the loops
+  std::unordered_map<Index, OnLoop> on_loop_;
+  std::vector<std::uint8_t> is_wrong_, is_disturbed_; // of each point
+  DisturbedZones zones_;
+  std::vector<Index> free_;
+  std::vector<Index> fan_; // scratch
+};
+
+} // namespace
+
+bool
+isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
+{
+  constexpr double SQR_COSINE = 0.25;
+  const double product = normal.dot (other);
+  return product <= 0.0 ||
+         product * product < SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
+}
+
+DisturbedZones
+findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                    const CsrLists& neighbors, const std::vector<float>& spacing,
+                    const std::vector<CrossingPair>& crossing, int rings,
+                    const DisturbanceLimits& limits, const RunContext& run)
+{
+  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run).find (crossing, rings);
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a mesh is wrong because several sheets of the surface are near.
+#pragma once
+
+#include "core/csr_lists.h"
+#include "core/run_context.h"
+#include "mesh/self_intersections.h"
+#include "mesh/triangle_mesh.h"
+
+#include <vector>
+
+namespace pcl::floater {
+/// Limits of findDisturbedZones (). Lengths are in local spacings. Chosen on generated bodies with
+/// sharp edges, thin walls and contacts, and on clouds with true openings.
+struct DisturbanceLimits
+{
+  double beside = 2.5;          ///< distance up to which two pieces of boundary are side by side
+  double same_sheet = 0.87;     ///< cosine between their normals, 30 degrees; below, they belong to
+                                ///< two sheets
+  double gap_share = 1.0 / 3.0; ///< share of the points of a loop that are beside another sheet,
+                                ///< from which on it is a gap. True boundaries had up to 0.15,
+                                ///< sheets folded to 30 degrees 0.28 to 0.55, gaps at edges of
+                                ///< bodies 0.6 and more
+  bool closes_gaps = true;      ///< false: no boundary loop counts as a gap
+  std::size_t small_loop = 5;   ///< points; a loop of no more is no opening
+  std::size_t small_piece = 32; ///< triangles; fewer between zones belong to them
+};
+
+/// Free points, whose triangles are to be made anew.
+struct DisturbedZones
+{
+  CsrLists points;                       ///< of each zone, ascending. Two zones share no triangle
+                                         ///< corner, and no point of one is a neighbour of another
+  std::vector<std::uint8_t> is_free;     ///< of each point; empty if there is no zone
+  std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays; not free
+};
+
+/// Finds what is wrong: triangles that cross, points without a triangle, and boundary loops that
+/// are gaps between sheets. What is disturbed around belongs to it: corners of folded triangles, and
+/// of bent ones that are no Delaunay facets in space; so do `rings` of triangles around. O(1) for a
+/// mesh where nothing is wrong, apart from its boundary; otherwise O(n).
+/// \param crossing  all crossing pairs of the mesh
+/// \param neighbors of each point, nearest first
+/// \param spacing   of each point (see localSpacing)
+/// \param rings     width of a zone around what is disturbed
+DisturbedZones
+findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                    const CsrLists& neighbors, const std::vector<float>& spacing,
+                    const std::vector<CrossingPair>& crossing, int rings,
+                    const DisturbanceLimits& limits, const RunContext& run);
+
+/// Whether the surface bends by more than 60 degrees between two normals of any length.
+bool
+isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other);
+
+} // namespace pcl::floater

@@ -1,0 +1,384 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/remaking.h"
+
+#include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
+#include "core/parallel.h"
+#include "mesh/fold_repair.h"
+#include "mesh/two_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+Triangle
+turnedIf (bool is_turned, Triangle t)
+{
+  if (is_turned)
+    std::swap (t[1], t[2]);
+  return t;
+}
+
+// A piece of the mesh in a place: the frame and other triangles.
+class PieceInPlace
+{
+public:
+  // \param is_turned of each patch of the frame; empty: none is
+  PieceInPlace (const Place& place, const std::vector<Triangle>& others,
+                const std::vector<std::uint8_t>& is_turned, const RunContext& run)
+      : place_ (place), run_ (run)
+  {
+    mesh_.triangles = others;
+    for (std::size_t i = 0; i < place.frame.size (); ++i)
+      mesh_.triangles.push_back (
+          turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
+    for (std::size_t p = 0; p < place.positions.size (); ++p)
+      mesh_.is_partial.push_back (isInside (p) ? 0 : 1);
+    is_manifold_ = mesh_.connect (place.positions.size (), run);
+  }
+
+  // Whether all points inside have one fan, which is open only at boundaries that stay.
+  bool isRight () const
+  {
+    if (!is_manifold_)
+      return false;
+    for (std::size_t p = 0; p < place_.positions.size (); ++p)
+      if (isInside (p) && mesh_.triangle_of[p] == NONE)
+        return false;
+    bool is_right = true;
+    forEachOpenEdge ([&] (Index from, Index to) {
+      if ((isInside (from) || isInside (to)) &&
+          (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
+        is_right = false;
+    });
+    return is_right;
+  }
+
+  long twiceHandles () const
+  {
+    const std::size_t points = place_.positions.size ();
+    DisjointSets pieces (points), loops (points);
+    std::vector<std::uint8_t> is_open (points, 0);
+    const auto triangles = static_cast<long> (mesh_.triangles.size ());
+    long open_edges = 0, twice = 0;
+    for (const Triangle& t : mesh_.triangles) {
+      pieces.join (t[0], t[1]);
+      pieces.join (t[1], t[2]);
+    }
+    forEachOpenEdge ([&] (Index from, Index to) {
+      loops.join (from, to);
+      is_open[from] = is_open[to] = 1;
+      ++open_edges;
+    });
+    for (Index p = 0; p < points; ++p)
+      if (mesh_.triangle_of[p] != NONE)
+        twice +=
+            (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
+    return twice - triangles + (3 * triangles + open_edges) / 2;
+  }
+
+  std::size_t folds () const { return findFolds (mesh_, place_.positions, run_).size (); }
+
+private:
+  bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
+
+  template <typename Visit>
+  void forEachOpenEdge (Visit&& visit) const
+  {
+    for (Index t = 0; t < mesh_.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh_.neighbors[t][side] == NONE)
+          visit (mesh_.from ({t, side}), mesh_.to ({t, side}));
+  }
+
+  const Place& place_;
+  const RunContext& run_;
+  TriangleMesh mesh_;
+  bool is_manifold_ = false;
+};
+
+// A patch of the frame of a zone, by one of its triangles.
+struct PatchSide
+{
+  Index triangle; // of the mesh
+  bool is_turned; // against the new triangles
+};
+
+struct NewZone
+{
+  std::vector<Triangle> triangles; // of points of the mesh
+  std::vector<PatchSide> patches;
+};
+
+class ZoneRemaker
+{
+public:
+  ZoneRemaker (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const CsrLists& neighbors, const std::vector<float>& spacing,
+               const DisturbedZones& zones, const RemakingLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
+        zones_ (zones), limits_ (limits), run_ (run)
+  {
+  }
+
+  // \param is_careful accepts neither a change of the topology nor more folds
+  // \return nothing if the zone is to stay as it was
+  std::optional<NewZone> remake (Row zone, bool is_careful) const
+  {
+    std::vector<Index> points (zone.begin (), zone.end ());
+    addRing (points);
+    addRing (points);
+    std::vector<Index> frame;
+    std::vector<Triangle> old;
+    const Place place = makePlace (points, zone, frame, old);
+    const RemadePlace made = remakePlace (place, run_);
+    if (!made.is_right || hasLid (made, points))
+      return std::nullopt;
+    const PieceInPlace before (place, old, {}, run_),
+        after (place, made.triangles, made.is_turned, run_);
+    if (!after.isRight ())
+      return std::nullopt;
+    const long handles = before.twiceHandles (), handles_now = after.twiceHandles ();
+    if (handles_now > handles ||
+        (is_careful && (handles_now < handles || after.folds () > before.folds ())))
+      return std::nullopt;
+    NewZone result;
+    for (const Triangle& t : made.triangles)
+      result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
+    std::vector<std::uint8_t> is_known (place.patches, 0);
+    for (std::size_t i = 0; i < frame.size (); ++i)
+      if (const Index patch = place.patch_of[i]; is_known[patch]++ == 0)
+        result.patches.push_back ({frame[i], made.is_turned[patch] != 0});
+    return result;
+  }
+
+private:
+  void addRing (std::vector<Index>& points) const
+  {
+    std::vector<Index> wider = points, fan;
+    for (const Index p : points) {
+      const Row around = neighbors_.row (p);
+      wider.insert (wider.end (), around.begin (), around.end ());
+      mesh_.fan (p, fan);
+      for (const Index t : fan)
+        wider.insert (wider.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+    }
+    sortUnique (wider);
+    points.swap (wider);
+  }
+
+  // \param frame out: the triangles of the mesh in the frame
+  // \param old   out: the triangles that go
+  Place makePlace (const std::vector<Index>& points, Row zone, std::vector<Index>& frame,
+                   std::vector<Triangle>& old) const
+  {
+    const auto inPlace = [&points] (Index p) {
+      const auto at = std::lower_bound (points.begin (), points.end (), p);
+      return at != points.end () && *at == p ? static_cast<Index> (at - points.begin ()) : NONE;
+    };
+    Place place;
+    place.is_free.assign (points.size (), 0);
+    place.is_rim.assign (points.size (), 0);
+    for (const Index p : zone)
+      place.is_free[inPlace (p)] = 1;
+    std::vector<Index> fan;
+    for (Index i = 0; i < points.size (); ++i) {
+      place.positions.push_back (positions_[points[i]]);
+      place.is_boundary.push_back (zones_.is_boundary[points[i]]);
+      mesh_.fan (points[i], fan);
+      for (const Index t : fan) {
+        const Triangle& c = mesh_.triangles[t];
+        const Triangle local{inPlace (c[0]), inPlace (c[1]), inPlace (c[2])};
+        const bool goes = std::any_of (local.begin (), local.end (), [&] (Index p) {
+          return p != NONE && place.is_free[p] != 0;
+        });
+        if (goes && place.is_free[i] == 0)
+          place.is_rim[i] = 1;
+        if (*std::min_element (local.begin (), local.end ()) != i)
+          continue;
+        if (goes)
+          old.push_back (local);
+        else if (std::none_of (c.begin (), c.end (),
+                               [&] (Index p) { return zones_.is_free[p] != 0; }) &&
+                 *std::max_element (local.begin (), local.end ()) != NONE) {
+          frame.push_back (t);
+          place.frame.push_back (local);
+        }
+      }
+    }
+    findPatches (frame, place);
+    return place;
+  }
+
+  // Patches are connected by edges.
+  void findPatches (const std::vector<Index>& frame, Place& place) const
+  {
+    std::map<Index, Index> number;
+    for (std::size_t i = 0; i < frame.size (); ++i)
+      number[frame[i]] = static_cast<Index> (i);
+    DisjointSets sets (frame.size ());
+    for (std::size_t i = 0; i < frame.size (); ++i)
+      for (const Index t : mesh_.neighbors[frame[i]])
+        if (const auto at = number.find (t); at != number.end ())
+          sets.join (static_cast<Index> (i), at->second);
+    place.patch_of = std::move (sets).number ([] (Index) { return true; });
+    for (const Index patch : place.patch_of)
+      place.patches = std::max (place.patches, patch + 1);
+  }
+
+  double meanEdge (Index p) const
+  {
+    std::vector<Index> fan;
+    mesh_.fan (p, fan);
+    if (fan.empty ())
+      return static_cast<double> (spacing_[p]);
+    double sum = 0.0;
+    for (const Index t : fan)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        sum += (positions_[mesh_.from ({t, side})] - positions_[mesh_.to ({t, side})]).norm ();
+    return sum / static_cast<double> (3 * fan.size ());
+  }
+
+  bool hasLid (const RemadePlace& made, const std::vector<Index>& points) const
+  {
+    return std::any_of (made.triangles.begin (), made.triangles.end (), [&] (const Triangle& t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index p = points[t[k]], q = points[t[(k + 1) % 3]];
+        if ((positions_[p] - positions_[q]).norm () >
+            limits_.longest_edge * std::max (meanEdge (p), meanEdge (q)))
+          return true;
+      }
+      return false;
+    });
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& neighbors_;
+  const std::vector<float>& spacing_;
+  const DisturbedZones& zones_;
+  const RemakingLimits& limits_;
+  const RunContext run_;
+};
+
+// Puts new zones into a mesh.
+class ZoneSplicing
+{
+public:
+  ZoneSplicing (const TriangleMesh& mesh, const DisturbedZones& zones,
+                std::vector<std::optional<NewZone>>& made)
+      : mesh_ (mesh), made_ (made), zone_of_ (mesh.triangles.size (), NONE)
+  {
+    std::vector<Index> fan;
+    for (Index zone = 0; zone < zones.points.rows (); ++zone)
+      for (const Index p : zones.points.row (zone)) {
+        mesh.fan (p, fan);
+        for (const Index t : fan)
+          zone_of_[t] = zone;
+      }
+  }
+
+  std::vector<Triangle> splice ()
+  {
+    const bool turns = std::any_of (made_.begin (), made_.end (), [] (const auto& zone) {
+      return zone && std::any_of (zone->patches.begin (), zone->patches.end (),
+                                  [] (const PatchSide& patch) { return patch.is_turned; });
+    });
+    is_turned_.assign (mesh_.triangles.size () + made_.size (), 0);
+    while (turns && !turnPatches ())
+      ;
+    std::vector<Triangle> triangles;
+    for (Index t = 0; t < mesh_.triangles.size (); ++t)
+      if (stays (t))
+        triangles.push_back (turnedIf (is_turned_[t] != 0, mesh_.triangles[t]));
+    for (std::size_t zone = 0; zone < made_.size (); ++zone)
+      if (made_[zone])
+        for (const Triangle& t : made_[zone]->triangles)
+          triangles.push_back (turnedIf (is_turned_[mesh_.triangles.size () + zone] != 0, t));
+    return triangles;
+  }
+
+private:
+  bool stays (Index t) const { return zone_of_[t] == NONE || !made_[zone_of_[t]]; }
+
+  // Decides which triangles and zones are turned. If the sides of a zone contradict others, that
+  // zone stays as it was, and the result is false.
+  bool turnPatches ()
+  {
+    const std::size_t triangles = mesh_.triangles.size ();
+    SignedSets sets (triangles + made_.size ());
+    for (Index t = 0; t < triangles; ++t)
+      for (const Index u : mesh_.neighbors[t])
+        if (u != NONE && u < t && stays (t) && stays (u))
+          sets.join (t, u, false);
+    for (std::size_t zone = 0; zone < made_.size (); ++zone)
+      if (made_[zone])
+        for (const PatchSide& patch : made_[zone]->patches)
+          if (!sets.join (static_cast<Index> (triangles + zone), patch.triangle, patch.is_turned)) {
+            made_[zone].reset ();
+            return false;
+          }
+    // The side of most triangles stays the front.
+    std::vector<std::array<std::size_t, 2>> votes (is_turned_.size ());
+    for (Index t = 0; t < triangles; ++t)
+      if (stays (t)) {
+        const SignedSets::Place at = sets.find (t);
+        ++votes[at.root][at.flipped ? 1 : 0];
+      }
+    for (Index i = 0; i < is_turned_.size (); ++i) {
+      const SignedSets::Place at = sets.find (i);
+      is_turned_[i] = at.flipped != (votes[at.root][1] > votes[at.root][0]) ? 1 : 0;
+    }
+    return true;
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<std::optional<NewZone>>& made_;
+  std::vector<Index> zone_of_;          // of each triangle, NONE if it has no free corner
+  std::vector<std::uint8_t> is_turned_; // of each triangle, and then of each zone
+};
+
+struct Pass
+{
+  int rings;
+  bool is_careful;
+};
+
+} // namespace
+
+Remaking
+remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             const CsrLists& neighbors, const std::vector<float>& spacing,
+             std::vector<CrossingPair>& crossing, const RemakingLimits& limits,
+             const RunContext& run)
+{
+  Remaking done;
+  for (const Pass& pass : {Pass{1, true}, Pass{3, false}, Pass{2, false}}) {
+    const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
+                                                     pass.rings, limits.disturbance, run);
+    std::vector<std::optional<NewZone>> made (zones.points.rows ());
+    if (made.empty ())
+      return done;
+    const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
+                               run.withThreads (1));
+    parallelTasks (run, made.size (), [&] (std::size_t zone) {
+      made[zone] = remaker.remake (zones.points.row (zone), pass.is_careful);
+    });
+    TriangleMesh spliced;
+    spliced.triangles = ZoneSplicing (mesh, zones, made).splice ();
+    done.failed = static_cast<std::size_t> (std::count (made.begin (), made.end (), std::nullopt));
+    if (done.failed == made.size () || !spliced.connect (positions.size (), run))
+      continue;
+    done.zones += made.size () - done.failed;
+    mesh = std::move (spliced);
+    crossing = findSelfIntersections (mesh.triangles, positions, run);
+  }
+  return done;
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the mesh anew where several sheets of the surface are near.
+#pragma once
+
+#include "mesh/disturbed_zones.h"
+
+namespace pcl::floater {
+/// Limits of remakeZones ().
+struct RemakingLimits
+{
+  DisturbanceLimits disturbance;
+  double longest_edge = 6.0; ///< in mean edges around its ends before; a longer one is a lid on an
+                             ///< opening
+};
+
+/// What remakeZones () did.
+struct Remaking
+{
+  std::size_t zones = 0;  ///< made anew
+  std::size_t failed = 0; ///< left as they were in the last pass
+};
+
+/// Makes zones anew in space (see findDisturbedZones and remakePlace), in three passes: narrow ones
+/// first, where nothing but the wrong triangles is to change; then wide ones; then those that came
+/// out wrong once more, a little narrower. A zone stays as it was if its new triangles are no
+/// manifold with those around, have a handle more or a lid on an opening; and if the sides of pieces
+/// of the mesh contradict each other. Components may come out with either side as the front. O(n),
+/// plus some 60 microseconds for a point of a zone; zones on all threads.
+/// \param[in,out] crossing all crossing pairs of the mesh
+/// \param neighbors of each point, nearest first
+/// \param spacing   of each point (see localSpacing)
+Remaking
+remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             const CsrLists& neighbors, const std::vector<float>& spacing,
+             std::vector<CrossingPair>& crossing, const RemakingLimits& limits,
+             const RunContext& run);
+
+} // namespace pcl::floater

@@ -1,0 +1,502 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/two_sides.h"
+
+#include "core/geometry.h"
+#include "core/tetrahedra.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+constexpr int MENDING_ROUNDS = 50; // ends it where each change causes another one
+
+// Sets of tetrahedra on the same or on opposite sides. A step that leaves a free point without a
+// second side is undone.
+class SidesOfSpace
+{
+public:
+  struct Side
+  {
+    Index root;
+    bool is_other; // opposite to the root
+
+    bool operator== (const Side& s) const { return root == s.root && is_other == s.is_other; }
+    bool operator!= (const Side& s) const { return !(*this == s); }
+  };
+
+  SidesOfSpace (const Tetrahedra& tetrahedra, const std::vector<std::uint8_t>& is_free)
+      : tetrahedra_ (tetrahedra), parent_ (tetrahedra.size ()), is_other_ (tetrahedra.size (), 0),
+        free_points_ (tetrahedra.size ())
+  {
+    std::iota (parent_.begin (), parent_.end (), Index{0});
+    for (Index t = 0; t < tetrahedra.size (); ++t)
+      for (const Index p : tetrahedra.corners[t])
+        if (p != NONE && is_free[p] != 0)
+          free_points_[t].push_back (p);
+  }
+
+  Side of (Index t) const
+  {
+    bool is_other = false;
+    for (; parent_[t] != t; t = parent_[t])
+      is_other = is_other != (is_other_[t] != 0);
+    return {t, is_other};
+  }
+
+  // Puts two tetrahedra on the same side or on opposite ones, if that is possible.
+  bool put (Index a, Index b, bool opposite)
+  {
+    steps_.clear ();
+    to_check_.clear ();
+    bool is_possible = link (a, b, opposite);
+    for (std::size_t i = 0; is_possible && i < to_check_.size (); ++i)
+      is_possible = hasTwoSides (to_check_[i]);
+    for (; !is_possible && !steps_.empty (); steps_.pop_back ()) {
+      const Step& step = steps_.back ();
+      parent_[step.small] = step.small;
+      is_other_[step.small] = 0;
+      free_points_[step.large].resize (step.points_before);
+    }
+    return is_possible;
+  }
+
+private:
+  struct Step
+  {
+    Index small, large; // set that was joined to another one
+    std::size_t points_before;
+  };
+
+  bool link (Index a, Index b, bool opposite)
+  {
+    const Side of_a = of (a), of_b = of (b);
+    const bool flips = (of_a.is_other != of_b.is_other) != opposite;
+    if (of_a.root == of_b.root)
+      return !flips;
+    Index small = of_a.root, large = of_b.root;
+    if (free_points_[small].size () > free_points_[large].size ())
+      std::swap (small, large);
+    std::vector<Index>& points = free_points_[large];
+    steps_.push_back ({small, large, points.size ()});
+    parent_[small] = large;
+    is_other_[small] = flips ? 1 : 0;
+    to_check_.insert (to_check_.end (), free_points_[small].begin (), free_points_[small].end ());
+    points.insert (points.end (), free_points_[small].begin (), free_points_[small].end ());
+    return true;
+  }
+
+  // False if all tetrahedra around a point are on one side. If there are two sets left, they are
+  // opposite.
+  bool hasTwoSides (Index p)
+  {
+    const Row around = tetrahedra_.around.row (p);
+    const Side first = of (around[0]);
+    Side second = first;
+    for (const Index t : around) {
+      const Side side = of (t);
+      if (side == first || side == second)
+        continue;
+      if (second != first)
+        return true;
+      second = side;
+    }
+    if (second == first)
+      return false;
+    return first.root == second.root ||
+           link (first.root, second.root, first.is_other == second.is_other);
+  }
+
+  const Tetrahedra& tetrahedra_;
+  std::vector<Index> parent_;
+  std::vector<std::uint8_t> is_other_;          // opposite to the parent
+  std::vector<std::vector<Index>> free_points_; // of each set, possibly repeated
+  std::vector<Step> steps_;
+  std::vector<Index> to_check_;
+};
+
+// Cosine and angle of the direction in which the circle of a facet sees the centre of a ball
+// through it and another point; above its plane if positive.
+struct SeenCentre
+{
+  double angle, cosine;
+};
+
+class PlaceInSpace
+{
+public:
+  PlaceInSpace (const Place& place, const RunContext& run)
+      : place_ (place), run_ (run), all_ (delaunayInSpace (place.positions)),
+        sides_ (all_, place.is_free)
+  {
+  }
+
+  RemadePlace make ()
+  {
+    RemadePlace made;
+    if (all_.size () == 0)
+      return made;
+    findNear ();
+    measureFacets ();
+    placeFrame ();
+    joinOutside ();
+    placeFacets ();
+    decide ();
+    mend ();
+    take (made);
+    return made;
+  }
+
+private:
+  using Side = SidesOfSpace::Side;
+
+  struct Facet
+  {
+    double overlap;
+    Index one, other; // tetrahedra, the smaller number first
+    bool is_sure;     // has no free corner, and is not at a boundary
+  };
+
+  bool has (Index t, const std::vector<std::uint8_t>& mark) const
+  {
+    const auto& c = all_.corners[t];
+    return std::any_of (c.begin (), c.end (), [&] (Index p) { return p != NONE && mark[p] != 0; });
+  }
+
+  void findNear ()
+  {
+    is_near_.resize (all_.size ());
+    for (Index t = 0; t < all_.size (); ++t)
+      is_near_[t] = has (t, place_.is_free) || has (t, place_.is_rim) ? 1 : 0;
+  }
+
+  SeenCentre seenCentre (Index p, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal,
+                         double radius) const
+  {
+    const Eigen::Vector3d offset = place_.positions[p] - centre;
+    const double up = normal.dot (offset);
+    const double angle =
+        std::atan2 (offset.squaredNorm () - radius * radius, 2.0 * radius * std::abs (up));
+    return {up < 0.0 ? -angle : angle, std::cos (angle)};
+  }
+
+  void measureFacets ()
+  {
+    overlap_.assign (all_.size (), {});
+    for (Index t = 0; t < all_.size (); ++t)
+      for (unsigned k = 0; k < 4; ++k) {
+        const Index other = all_.neighbors[t][k];
+        const Triangle facet = all_.facet (t, k);
+        if (other < t || facet[0] == NONE || facet[1] == NONE || facet[2] == NONE ||
+            is_near_[t] == 0 || is_near_[other] == 0)
+          continue;
+        const unsigned l = sideTo (other, t);
+        const Eigen::Vector3d& a = place_.positions[facet[0]];
+        const Eigen::Vector3d ab = place_.positions[facet[1]] - a,
+                              ac = place_.positions[facet[2]] - a;
+        Eigen::Vector3d normal = -ab.cross (ac); // into the tetrahedron
+        const Eigen::Vector3d to_centre =
+            (ab.squaredNorm () * ac.cross (normal) + ac.squaredNorm () * normal.cross (ab)) /
+            (-2.0 * normal.squaredNorm ());
+        normal.normalize ();
+        const double radius = to_centre.norm ();
+        const Eigen::Vector3d centre = a + to_centre;
+        const Index above = all_.corners[t][k], below = all_.corners[other][l];
+        const SeenCentre x =
+            above == NONE ? SeenCentre{PI / 2.0, 0.0} : seenCentre (above, centre, normal, radius);
+        const SeenCentre y =
+            below == NONE ? SeenCentre{-PI / 2.0, 0.0} : seenCentre (below, centre, normal, radius);
+        double overlap = (1.0 + std::cos (std::max (0.0, x.angle - y.angle))) *
+                         (1.0 - std::abs (x.cosine - y.cosine));
+        if (!std::isfinite (overlap)) // the facet has hardly any area
+          overlap = 0.0;
+        overlap_[t][k] = overlap_[other][l] = overlap;
+        const bool is_sure = std::none_of (facet.begin (), facet.end (), [&] (Index p) {
+          return place_.is_free[p] != 0 || place_.is_boundary[p] != 0;
+        });
+        facets_.push_back ({overlap, t, other, is_sure});
+      }
+    std::sort (facets_.begin (), facets_.end (), [] (const Facet& f, const Facet& g) {
+      return f.overlap != g.overlap
+                 ? f.overlap > g.overlap
+                 : std::make_pair (f.one, f.other) < std::make_pair (g.one, g.other);
+    });
+  }
+
+  // The facet of `t` towards `other`.
+  unsigned sideTo (Index t, Index other) const
+  {
+    unsigned k = 0;
+    while (all_.neighbors[t][k] != other)
+      ++k;
+    return k;
+  }
+
+  // The tetrahedra before and behind a triangle, NONE if it is no facet.
+  std::array<Index, 2> besideTriangle (const Triangle& triangle) const
+  {
+    for (const Index t : all_.around.row (triangle[0]))
+      for (unsigned k = 0; k < 4; ++k) {
+        const Triangle facet = all_.facet (t, k);
+        const auto at = std::find (facet.begin (), facet.end (), triangle[0]);
+        if (at == facet.end ())
+          continue;
+        const auto i = static_cast<unsigned> (at - facet.begin ());
+        const Index next = facet[(i + 1) % 3], last = facet[(i + 2) % 3];
+        // A facet is anti-clockwise seen from outside the tetrahedron, which is then behind it.
+        if (next == triangle[1] && last == triangle[2])
+          return {all_.neighbors[t][k], t};
+      }
+    return {NONE, NONE};
+  }
+
+  void placeFrame ()
+  {
+    front_of_patch_.assign (place_.patches, NONE);
+    is_frame_.assign (all_.size (), {});
+    for (std::size_t i = 0; i < place_.frame.size (); ++i) {
+      const auto [before, behind] = besideTriangle (place_.frame[i]);
+      if (before == NONE)
+        continue;
+      is_frame_[before][sideTo (before, behind)] = is_frame_[behind][sideTo (behind, before)] = 1;
+      Index& front = front_of_patch_[place_.patch_of[i]];
+      if (front == NONE)
+        front = before;
+      sides_.put (front, before, false);
+      sides_.put (front, behind, true);
+    }
+  }
+
+  // There is no surface between two infinite tetrahedra near the place, but at a boundary.
+  void joinOutside ()
+  {
+    for (Index t = 0; t < all_.size (); ++t) {
+      if (is_near_[t] == 0 || !all_.isInfinite (t))
+        continue;
+      for (unsigned k = 0; k < 4; ++k) {
+        const Index other = all_.neighbors[t][k];
+        if (all_.corners[t][k] == NONE || other < t)
+          continue;
+        bool is_inside = false, is_boundary = true;
+        for (unsigned l = 0; l < 4; ++l) {
+          const Index p = all_.corners[t][l];
+          if (l == k || p == NONE)
+            continue;
+          is_inside = is_inside || place_.is_free[p] != 0 || place_.is_rim[p] != 0;
+          is_boundary = is_boundary && place_.is_boundary[p] != 0;
+        }
+        if (is_inside && !is_boundary)
+          sides_.put (t, other, false);
+      }
+    }
+  }
+
+  void placeFacets ()
+  {
+    ProgressLoop progress (run_);
+    for (const bool is_sure : {true, false})
+      for (const Facet& f : facets_) {
+        progress.next ();
+        if (f.is_sure == is_sure && is_frame_[f.one][sideTo (f.one, f.other)] == 0 &&
+            !sides_.put (f.one, f.other, false))
+          sides_.put (f.one, f.other, true);
+      }
+  }
+
+  // The front of each set of tetrahedra is where most of the frame has it; without a frame, the
+  // outside.
+  void decide ()
+  {
+    std::map<Index, std::array<std::size_t, 2>> votes;
+    for (std::size_t i = 0; i < place_.frame.size (); ++i)
+      if (const Index front = front_of_patch_[place_.patch_of[i]]; front != NONE) {
+        const Side side = sides_.of (front);
+        ++votes[side.root][side.is_other ? 1 : 0];
+      }
+    for (Index t = 0; t < all_.size (); ++t)
+      if (all_.isInfinite (t)) {
+        const Side side = sides_.of (t);
+        const auto [at, is_new] = votes.try_emplace (side.root);
+        if (is_new)
+          ++at->second[side.is_other ? 1 : 0];
+      }
+    const auto isFront = [&votes] (const Side& side) {
+      const auto at = votes.find (side.root);
+      return at != votes.end () && (at->second[1] > at->second[0]) == side.is_other;
+    };
+    is_behind_.resize (all_.size ());
+    for (Index t = 0; t < all_.size (); ++t)
+      is_behind_[t] = isFront (sides_.of (t)) ? 0 : 1;
+    is_turned_.assign (place_.patches, 0);
+    for (Index patch = 0; patch < place_.patches; ++patch)
+      if (front_of_patch_[patch] != NONE) {
+        const Side side = sides_.of (front_of_patch_[patch]);
+        is_turned_[patch] = isFront (side) ? 0 : 1;
+      }
+  }
+
+  // Pieces of either side around a point, beyond one each; many if there is one side only.
+  // \param pieces if not nullptr: the tetrahedra of each piece, but for the largest of each side
+  std::size_t flawsAt (Index p, std::vector<std::vector<Index>>* pieces = nullptr)
+  {
+    constexpr std::size_t ENCLOSED = 100;
+    const Row around = all_.around.row (p);
+    piece_of_.assign (around.size (), NONE);
+    std::array<std::size_t, 2> count{}, most{};
+    std::vector<std::vector<Index>> found;
+    Index piece = 0;
+    for (std::size_t i = 0; i < around.size (); ++i) {
+      if (piece_of_[i] != NONE)
+        continue;
+      const std::uint8_t side = is_behind_[around[i]];
+      ++count[side];
+      piece_of_[i] = piece;
+      std::vector<Index> stack{around[i]}, members;
+      while (!stack.empty ()) {
+        const Index t = stack.back ();
+        stack.pop_back ();
+        members.push_back (t);
+        for (unsigned k = 0; k < 4; ++k) {
+          const Index other = all_.neighbors[t][k];
+          if (all_.corners[t][k] == p || is_behind_[other] != side)
+            continue;
+          const auto at = static_cast<std::size_t> (
+              std::lower_bound (around.begin (), around.end (), other) - around.begin ());
+          if (piece_of_[at] == NONE) {
+            piece_of_[at] = piece;
+            stack.push_back (other);
+          }
+        }
+      }
+      ++piece;
+      most[side] = std::max (most[side], members.size ());
+      if (pieces != nullptr)
+        found.push_back (std::move (members));
+    }
+    if (pieces != nullptr)
+      for (std::vector<Index>& members : found) {
+        const std::uint8_t side = is_behind_[members.front ()];
+        if (count[side] > 1 && (members.size () < most[side] || members.size () < 4))
+          pieces->push_back (std::move (members));
+      }
+    return count[0] == 0 || count[1] == 0 ? ENCLOSED : count[0] + count[1] - 2;
+  }
+
+  // Moves tetrahedra, one or a piece around a point, to the other side where the surface is no
+  // manifold: those that cure most, of equal ones those that give the surface the facets of least
+  // overlap.
+  void mend ()
+  {
+    bool has_changed = true;
+    for (int round = 0; round < MENDING_ROUNDS && has_changed; ++round) {
+      has_changed = false;
+      for (Index p = 0; p < place_.positions.size (); ++p)
+        if (place_.is_free[p] != 0 && flawsAt (p) > 0)
+          has_changed = mendAt (p) || has_changed;
+    }
+  }
+
+  bool mendAt (Index p)
+  {
+    std::vector<std::vector<Index>> moves;
+    flawsAt (p, &moves);
+    for (const Index t : all_.around.row (p))
+      moves.push_back ({t});
+    const std::vector<Index>* best = nullptr;
+    long best_gain = 0;
+    double best_cost = 0.0;
+    for (const std::vector<Index>& move : moves) {
+      std::vector<Index> points;
+      bool is_allowed = true;
+      double cost = 0.0;
+      for (const Index t : move) {
+        int free_corners = 0;
+        for (const Index q : all_.corners[t])
+          if (q != NONE) {
+            points.push_back (q);
+            free_corners += place_.is_free[q] != 0 ? 1 : 0;
+          }
+        is_allowed = is_allowed && !all_.isInfinite (t) && free_corners >= 2;
+        for (unsigned k = 0; k < 4; ++k)
+          cost +=
+              is_behind_[all_.neighbors[t][k]] == is_behind_[t] ? overlap_[t][k] : -overlap_[t][k];
+      }
+      if (!is_allowed)
+        continue;
+      std::sort (points.begin (), points.end ());
+      points.erase (std::unique (points.begin (), points.end ()), points.end ());
+      const auto flaws = [&] {
+        long sum = 0;
+        for (const Index q : points)
+          sum += static_cast<long> (flawsAt (q));
+        return sum;
+      };
+      const long before = flaws ();
+      turn (move);
+      const long gain = before - flaws ();
+      turn (move);
+      if (gain > best_gain || (gain == best_gain && best != nullptr && cost < best_cost)) {
+        best = &move;
+        best_gain = gain;
+        best_cost = cost;
+      }
+    }
+    if (best != nullptr)
+      turn (*best);
+    return best != nullptr;
+  }
+
+  void turn (const std::vector<Index>& tetrahedra)
+  {
+    for (const Index t : tetrahedra)
+      is_behind_[t] ^= 1U;
+  }
+
+  void take (RemadePlace& made)
+  {
+    for (Index t = 0; t < all_.size (); ++t)
+      for (unsigned k = 0; k < 4; ++k) {
+        const Triangle facet = all_.facet (t, k);
+        if (is_behind_[t] == 0 || is_behind_[all_.neighbors[t][k]] != 0 || facet[0] == NONE ||
+            facet[1] == NONE || facet[2] == NONE)
+          continue;
+        if (place_.is_free[facet[0]] != 0 || place_.is_free[facet[1]] != 0 ||
+            place_.is_free[facet[2]] != 0)
+          made.triangles.push_back (facet);
+      }
+    made.is_right = true;
+    for (Index p = 0; p < place_.positions.size () && made.is_right; ++p)
+      made.is_right = place_.is_free[p] == 0 || flawsAt (p) == 0;
+    made.is_turned = std::move (is_turned_);
+  }
+
+  const Place& place_;
+  const RunContext& run_;
+  const Tetrahedra all_;
+  SidesOfSpace sides_;
+  std::vector<std::uint8_t> is_near_; // of each tetrahedron: has a free corner, or one of the rim
+  std::vector<std::array<double, 4>> overlap_;        // across each facet
+  std::vector<std::array<std::uint8_t, 4>> is_frame_; // of each facet
+  std::vector<Facet> facets_;                         // by falling overlap
+  std::vector<Index> front_of_patch_;                 // a tetrahedron, NONE if there is none
+  std::vector<std::uint8_t> is_behind_;               // of each tetrahedron
+  std::vector<std::uint8_t> is_turned_;
+  std::vector<Index> piece_of_; // scratch
+};
+
+} // namespace
+
+RemadePlace
+remakePlace (const Place& place, const RunContext& run)
+{
+  return PlaceInSpace (place, run).make ();
+}
+
+} // namespace pcl::floater

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface through a place where one tangent plane does not describe it: as the border between
+// two sides of space.
+#pragma once
+
+#include "core/run_context.h"
+#include "core/types.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pcl::floater {
+/// A place whose triangles are made anew, and the triangles around it that stay. Points are
+/// numbered from 0 in the place.
+struct Place
+{
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<std::uint8_t> is_free;     ///< of each point: all its triangles are made anew
+  std::vector<std::uint8_t> is_rim;      ///< of each point: not free, but beside triangles that go
+  std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays
+  std::vector<Triangle> frame;           ///< triangles that stay, none with a free corner
+  std::vector<Index> patch_of; ///< of each triangle of the frame: its patch. The triangles of
+                               ///< a patch face one side, those of two patches may not
+  Index patches = 0;
+};
+
+/// The triangles of a place made anew.
+struct RemadePlace
+{
+  std::vector<Triangle> triangles;     ///< each with a free corner
+  std::vector<std::uint8_t> is_turned; ///< of each patch: its back is the front of `triangles`
+  bool is_right = false;               ///< the new triangles are one fan around each free point
+};
+
+/// Makes the triangles of a place from the Delaunay triangulation of its points in space.
+///
+/// Around each point there are two sides of the surface. Two tetrahedra with a common facet are on
+/// one side if their circumscribed balls overlap deeply and are of like size. With r the radius of
+/// the facet's circle, and x and y the angles under which it sees the two centres above its plane,
+/// the overlap is (1 + cos (x - y)) (1 - |cos x - cos y|): the first factor measures the angle
+/// between the balls, the second compares their curvatures with that of the circle (compare
+/// Kolluri, Shewchuk, O'Brien 2004). Facets are taken by falling overlap; the tetrahedra of each
+/// come to the same side, unless a free point would then have one side only, or a triangle of the
+/// frame the same side before and behind it; otherwise they are on opposite sides. The surface is
+/// between the sides. O(n log n) in practice; one thread.
+RemadePlace
+remakePlace (const Place& place, const RunContext& run);
+
+} // namespace pcl::floater
