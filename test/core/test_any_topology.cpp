@@ -257,6 +257,13 @@ cases ()
   });
   add ("cylinder", [] { return prism ({circle (10.0, 1.0)}, 24.0, 4); });
   add ("wedge", [] { return wedge (5); });
+  for (const double height : {0.9, 1.5, 2.2})
+    add ("plate_" + std::to_string (static_cast<int> (10.0 * height)),
+         [=] { return prism ({rectangle (26.0, 18.0)}, height, 6); });
+  for (const double slope : {0.15, 0.3, 0.6})
+    add ("roof_" + std::to_string (static_cast<int> (100.0 * slope)), [=] {
+      return prism ({{{0, 0}, {30, 0}, {15, 30.0 * slope}}}, 20.0, 7);
+    });
   // Outliers, several components.
   add ("sphere_outliers", [] { return withOutliers (sphere (3000, 6), 20, 12.0, 7); });
   add ("sphere_outliers_near", [] { return withOutliers (sphere (3000, 6), 20, 4.0, 7); });
