@@ -112,6 +112,7 @@ reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExami
   if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
+  report.statistics.remade_points = finish.remade_points;
   report.statistics.triangles = triangles;
   return problem;
 }

@@ -60,6 +60,22 @@ closeHolesOf (TriangleMesh& mesh, const Points& points, const LocalGeometry& geo
                      1.0 / points.scale, settings.holes, settings.limits.holeClosing (), run);
 }
 
+// Leaves out the loops that were to stay open, but are no boundary any more.
+void
+leaveOutClosed (const TriangleMesh& mesh, std::vector<JudgedLoop>& loops, const RunContext& run)
+{
+  std::vector<std::uint8_t> is_boundary (mesh.triangle_of.size (), 0);
+  for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
+    for (const Index p : loop)
+      is_boundary[p] = 1;
+  const auto isClosed = [&is_boundary] (const JudgedLoop& judged) {
+    const std::vector<Index>& points = judged.loop.points;
+    return judged.loop.keep_open && std::any_of (points.begin (), points.end (),
+                                                 [&] (Index p) { return is_boundary[p] == 0; });
+  };
+  loops.erase (std::remove_if (loops.begin (), loops.end (), isClosed), loops.end ());
+}
+
 } // namespace
 
 Surface
@@ -90,6 +106,8 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   run.beginStage (Stage::FLIPS);
   surface.finish =
       finishMesh (surface.mesh, points.positions, geometry, settings.finishSettings (), run);
+  if (surface.finish.remade_points > 0)
+    leaveOutClosed (surface.mesh, surface.doubtful_loops, run);
   return surface;
 }
 

@@ -64,10 +64,12 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   settings.limits.notches, run, finish);
   if (settings.find_crossing) {
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
-    if (settings.remake_sheets &&
-        remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
-                     settings.limits.remaking, run)
-                .zones > 0)
+    if (settings.remake_sheets)
+      finish.remade_points =
+          remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
+                       *finish.crossing, settings.limits.remaking, run)
+              .points;
+    if (finish.remade_points > 0)
       finish.folds = findFolds (mesh, positions, run).size ();
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);

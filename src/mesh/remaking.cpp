@@ -374,7 +374,11 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     done.failed = static_cast<std::size_t> (std::count (made.begin (), made.end (), std::nullopt));
     if (done.failed == made.size () || !spliced.connect (positions.size (), run))
       continue;
-    done.zones += made.size () - done.failed;
+    for (std::size_t zone = 0; zone < made.size (); ++zone)
+      if (made[zone]) {
+        ++done.zones;
+        done.points += zones.points.row (zone).size ();
+      }
     mesh = std::move (spliced);
     crossing = findSelfIntersections (mesh.triangles, positions, run);
   }

@@ -18,6 +18,7 @@ struct RemakingLimits
 struct Remaking
 {
   std::size_t zones = 0;  ///< made anew
+  std::size_t points = 0; ///< free points of these zones
   std::size_t failed = 0; ///< left as they were in the last pass
 };
 

@@ -461,8 +461,8 @@ TEST_F (CommandLineTest, TheReportTellsWhatTheMeshIs)
   EXPECT_EQ (statistics.at ("triangles"), all.at ("output").at ("triangles"));
   EXPECT_LT (statistics.at ("noise").get<double> (), 0.1);
   for (const char* figure :
-       {"outlier_points", "holes_filled", "self_intersections_found", "self_intersection_flips",
-        "self_intersection_moves", "self_intersection_rebuilds"})
+       {"outlier_points", "holes_filled", "remade_points", "self_intersections_found",
+        "self_intersection_flips", "self_intersection_moves", "self_intersection_rebuilds"})
     EXPECT_EQ (statistics.at (figure), 0) << figure;
   for (const char* flaw : {"nonmanifold_edges", "nonmanifold_vertices", "orientation_conflicts",
                            "genus", "folds", "degenerate_triangles", "self_intersections"})

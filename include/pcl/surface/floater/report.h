@@ -221,9 +221,11 @@ struct Statistics
   std::size_t boundary_candidates = 0; ///< boundary points, before the loop is found
   std::size_t loop_points = 0;         ///< points of the boundary loop
   std::size_t triangles = 0;           ///< triangles of the mesh
-  std::size_t levels = 0; ///< depth to which collapsed regions of a disc were laid out again
-  std::size_t flips = 0;  ///< edges flipped in space
-  std::size_t folds = 0;  ///< see MeshCheck::folds
+  std::size_t levels = 0;        ///< depth to which collapsed regions of a disc were laid out again
+  std::size_t flips = 0;         ///< edges flipped in space
+  std::size_t folds = 0;         ///< see MeshCheck::folds
+  std::size_t remade_points = 0; ///< surface: points at which several sheets are near, whose
+                                 ///< triangles were made anew in space
   std::size_t self_intersections_found = 0;   ///< before any were removed
   std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them
   std::size_t self_intersection_moves = 0;    ///< points moved to other triangles to remove them
