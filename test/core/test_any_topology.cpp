@@ -262,7 +262,9 @@ cases ()
          [=] { return prism ({rectangle (26.0, 18.0)}, height, 6); });
   for (const double slope : {0.15, 0.3, 0.6})
     add ("roof_" + std::to_string (static_cast<int> (100.0 * slope)), [=] {
-      return prism ({{{0, 0}, {30, 0}, {15, 30.0 * slope}}}, 20.0, 7);
+      KnownSurface roof = prism ({{{0, 0}, {30, 0}, {15, 30.0 * slope}}}, 20.0, 7);
+      roof.sharp_length = 40.0; // its eaves
+      return roof;
     });
   // Outliers, several components.
   add ("sphere_outliers", [] { return withOutliers (sphere (3000, 6), 20, 12.0, 7); });
