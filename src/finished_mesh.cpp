@@ -5,6 +5,7 @@
 #include "mesh/flips.h"
 #include "mesh/self_intersection_removal.h"
 #include "mesh/trimming.h"
+#include "mesh/vertex_splits.h"
 #include "report/report_mesh.h"
 
 #include <utility>
@@ -39,6 +40,29 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
   request.run.beginStage (Stage::CHECK);
   return checkMesh (mesh.triangles, points, geometry.meshSpacing (), request.run,
                     request.limits.check);
+}
+
+Points
+addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
+            const Request& request)
+{
+  const std::vector<Index>& of = points.stacked.of;
+  const auto extend = [&of] (auto& values) {
+    if (!values.empty ())
+      for (const Index p : of)
+        values.push_back (values[p]);
+  };
+  extend (geometry.spacing);
+  extend (geometry.own_spacing);
+  extend (geometry.stars.normals);
+  geometry.neighbors = {};
+  std::vector<Index> added;
+  for (std::size_t i = 0; i < of.size (); ++i)
+    if (mesh.triangle_of[of[i]] != NONE)
+      added.push_back (static_cast<Index> (points.size () + i));
+  Points all = withStacked (points);
+  splitVertices (mesh, all.positions, added, request.limits.splits, request.run);
+  return all;
 }
 
 bool
