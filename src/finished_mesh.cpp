@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finished_mesh.h"
 
+#include "cloud_geometry.h"
 #include "mesh/flips.h"
 #include "mesh/self_intersection_removal.h"
 #include "mesh/trimming.h"
@@ -81,6 +82,9 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
     return;
   if (complete)
     complete ();
+  if (geometry.neighbors.rows () == 0)
+    geometry.neighbors =
+        findNeighbors (points, neighborSettings (request.options, nullptr), request.run);
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, points.positions, normals, request.run);
   const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),

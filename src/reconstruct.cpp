@@ -144,13 +144,8 @@ reconstructSurface (Points& points, LocalGeometry geometry, const Request& reque
   const Points& vertices = all ? *all : points;
   MeshExamination found = examine (surface.mesh, vertices, geometry, request);
   uncross (surface.mesh, found, vertices, geometry, request, report.statistics, [&] {
-    if (geometry.neighbors.rows () > 0)
-      return;
-    if (known != nullptr)
+    if (known != nullptr && geometry.neighbors.rows () == 0)
       geometry = known->geometry (known->planes (), false);
-    else
-      geometry.neighbors =
-          findNeighbors (vertices, neighborSettings (options, nullptr), request.run);
   });
   return useMesh (std::move (surface.mesh), surface.finish, found, vertices, geometry, request,
                   result);
@@ -187,7 +182,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                            ? CsrLists{}
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   if (known == nullptr && !as_disc)
-    chooseNet (points, neighbors, settings, limits.net, run, &tree);
+    reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
   const std::size_t searched = points.size ();
   if (known != nullptr)
     removeOutliers (points, known->outliers (), report);

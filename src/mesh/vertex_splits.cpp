@@ -57,7 +57,7 @@ public:
 
   bool add (Index p)
   {
-    const Cut cut = bestNear (p);
+    const Cut cut = bestNear (p, limits_.near);
     if (cut.vertex != NONE)
       split (cut, p);
     return cut.vertex != NONE;
@@ -79,7 +79,7 @@ private:
                      : normal (mesh_.triangles[t][0], mesh_.triangles[t][1], mesh_.triangles[t][2]);
   }
   Cut bestCut (Index v, Index p, const Return* given = nullptr);
-  Cut bestNear (Index p);
+  Cut bestNear (Index p, std::size_t near);
   void split (const Cut& cut, Index p);
   void splitAgain (const Return& place, Index p);
   Return takeOut (Index p, Index v);
@@ -254,10 +254,10 @@ VertexSplitter::cutAt (const Return& place) const
 }
 
 Cut
-VertexSplitter::bestNear (Index p)
+VertexSplitter::bestNear (Index p, std::size_t near)
 {
   tree_.nearestIf (
-      positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits_.near,
+      positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, near,
       [this] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
         return mesh_.triangle_of[neighbor.point] != NONE;
       },
@@ -440,7 +440,7 @@ VertexSplitter::move (Index p)
       continue;
     const double as_it_was =
         bestCut (v, p, &back).cost + limits_.far * (positions_[p] - positions_[v]).norm ();
-    const double gain = bestNear (p).cost - as_it_was;
+    const double gain = bestNear (p, limits_.near_folds).cost - as_it_was;
     if (gain < best) {
       best = gain;
       into = v;
@@ -450,7 +450,7 @@ VertexSplitter::move (Index p)
   if (into == NONE)
     return false;
   takeOut (p, into);
-  split (bestNear (p), p);
+  split (bestNear (p, limits_.near_folds), p);
   return true;
 }
 

@@ -24,13 +24,13 @@ spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row
                const NetLimits& limits)
 {
   const std::size_t count = std::min<std::size_t> (row.size (), SPACING_NEIGHBORS);
+  const double last = lengthTo (positions, p, row[row.size () - 1]);
+  if (lengthTo (positions, p, row[count - 1]) < limits.cluster * last)
+    return limits.cluster_spacing * last;
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i)
     sum += lengthTo (positions, p, row[i]);
-  const double last = lengthTo (positions, p, row[row.size () - 1]);
-  return lengthTo (positions, p, row[count - 1]) < limits.cluster * last
-             ? limits.cluster_spacing * last
-             : sum / static_cast<double> (count);
+  return sum / static_cast<double> (count);
 }
 
 // Calls visit (q, distance, spacing) for the neighbours nearer than the gap, nearest first, until it
@@ -41,13 +41,6 @@ visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row&
               const NetLimits& limits, Visit&& visit)
 {
   if (row.size () == 0)
-    return;
-  // Most points are well spaced: the mean is at most the last of its distances.
-  const std::size_t sixth = std::min<std::size_t> (row.size (), SPACING_NEIGHBORS) - 1;
-  const double nearest = lengthTo (positions, p, row[0]);
-  if (nearest >= limits.gap * lengthTo (positions, p, row[sixth]) &&
-      nearest >= limits.gap * limits.cluster_spacing * limits.cluster *
-                     lengthTo (positions, p, row[row.size () - 1]))
     return;
   const double spacing = spacingAround (positions, p, row, limits);
   for (const Index q : row) {
@@ -97,9 +90,15 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
 {
   const std::size_t n = positions.size ();
   std::vector<std::uint8_t> is_equal (n, 0), is_stacked_block (n / RANGE_LENGTH + 1, 0);
+  std::vector<std::vector<double>> cosines_of (n / RANGE_LENGTH + 1);
   std::atomic<bool> is_any_block{false}, is_any_equal{false};
+  const auto areStacked = [&limits] (std::vector<double> cosines, std::size_t points) {
+    const double share = static_cast<double> (cosines.size ()) / static_cast<double> (points);
+    return share > limits.share ||
+           (share > limits.share_along_normal && median (cosines) > limits.cosine);
+  };
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    std::vector<double> cosines; // of the points that others set aside
+    std::vector<double>& cosines = cosines_of[first / RANGE_LENGTH];
     for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Row row = neighbors.row (p);
       Index by = NONE;
@@ -120,15 +119,18 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
       cosines.push_back (
           std::abs (fit.plane ().normal.dot ((positions[by] - positions[p]).normalized ())));
     }
-    const double share = static_cast<double> (cosines.size ()) / static_cast<double> (last - first);
-    if (share > limits.share ||
-        (share > limits.share_along_normal && median (cosines) > limits.cosine)) {
+    if (areStacked (cosines, last - first)) {
       is_stacked_block[first / RANGE_LENGTH] = 1;
       is_any_block = true;
     }
   });
   if (!is_any_block && !is_any_equal)
     return {};
+  std::vector<double> cosines; // of the whole cloud
+  for (const std::vector<double>& some : cosines_of)
+    cosines.insert (cosines.end (), some.begin (), some.end ());
+  if (areStacked (std::move (cosines), n))
+    return std::vector<std::uint8_t> (n, 1);
   std::vector<std::uint8_t> is_stacked = std::move (is_equal);
   const auto isInBlock = [&] (Index p) { return is_stacked_block[p / RANGE_LENGTH] != 0; };
   if (is_any_block)
@@ -142,14 +144,14 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   return is_stacked;
 }
 
-std::size_t
+Stacks
 chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
            const NetLimits& limits, const RunContext& run, std::optional<KdTree>* tree)
 {
   std::vector<std::uint8_t> is_stacked =
       findStackedPlaces (points.positions, neighbors, limits, run);
   if (is_stacked.empty ())
-    return 0;
+    return {};
   Points net; // without scaling it again
   net.positions = points.positions;
   net.cloud_index = points.cloud_index;
@@ -166,12 +168,25 @@ chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings
     erase (kept, aside);
     neighbors = renewNeighbors (net, aside, neighbors, settings, run);
   }
-  const std::size_t count = points.size () - kept.size ();
-  if (count == 0)
-    return 0;
+  Stacks stacks;
+  stacks.points = points.size () - kept.size ();
+  if (stacks.points == 0)
+    return {};
   setAside (points, kept, run);
+  const StackedPoints& stacked = points.stacked;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < stacked.of.size (); ++i) {
+    const Index p = stacked.of[i];
+    const double spacing = spacingAround (stacked.own, p, neighbors.row (p), limits);
+    heights.push_back ((stacked.positions[i] - stacked.own[p]).norm () / spacing);
+    if (heights.back () > stacks.largest || stacks.at == NONE) {
+      stacks.largest = heights.back ();
+      stacks.at = p;
+    }
+  }
+  stacks.median = median (heights);
   neighbors = findNeighbors (points, settings, run, tree);
-  return count;
+  return stacks;
 }
 
 } // namespace pcl::floater

@@ -29,6 +29,15 @@ struct NetLimits
   double cluster = 0.1, cluster_spacing = 0.4;
 };
 
+/// Points set aside.
+struct Stacks
+{
+  std::size_t points = 0; ///< number of points
+  double median = 0.0;    ///< of their distances to the net, in its local spacings
+  double largest = 0.0;   ///< of these
+  Index at = NONE;        ///< point of the net where it is
+};
+
 /// Flags of the points in whose surroundings points lie on one another; empty if there are none. On
 /// all threads, 0.05 microseconds a point where there are none.
 /// \param neighbors of each point, nearest first
@@ -43,8 +52,7 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
 /// of them.
 /// \param[in,out] neighbors of the points
 /// \param[out] tree see findNeighbors; unchanged if no point is set aside
-/// \return number of points set aside
-std::size_t
+Stacks
 chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
            const NetLimits& limits, const RunContext& run, std::optional<KdTree>* tree);
 

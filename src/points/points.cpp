@@ -14,13 +14,25 @@
 
 namespace pcl::floater {
 namespace {
+// Equal but for rounding, as where sines and cosines close a circle: in multiples of 2e-16, which is
+// the precision of a coordinate of 1. Near the origin, numbers differ by less.
+bool
+areEqual (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  const auto rounded = [] (const Eigen::Vector3d& p) {
+    constexpr double UNIT = 1.5; // coordinates are below 1/2
+    return Eigen::Vector3d ((p.array () + UNIT) - UNIT);
+  };
+  return a == b || rounded (a) == rounded (b);
+}
+
 // Equal points are consecutive; the first, with the smallest cloud index, represents the others.
 void
 leaveDuplicatesOut (Points& points)
 {
   std::size_t kept = 0;
   for (std::size_t p = 0; p < points.positions.size (); ++p) {
-    if (kept > 0 && points.positions[kept - 1] == points.positions[p]) {
+    if (kept > 0 && areEqual (points.positions[kept - 1], points.positions[p])) {
       points.duplicates.push_back ({points.cloud_index[p], points.cloud_index[kept - 1]});
       continue;
     }

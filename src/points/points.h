@@ -51,25 +51,32 @@ struct Points
 
   std::size_t size () const { return hasPositions () ? positions.size () : cloud_index.size (); }
 
+  /// Number of points, those set aside included.
+  std::size_t total () const { return size () + stacked.of.size (); }
+
   /// Positions by which points are connected. The mesh uses `positions`.
   const std::vector<Eigen::Vector3d>& workingPositions () const
   {
     return projected.empty () ? positions : projected;
   }
 
+  /// The positions of the points themselves; `positions` may be means of stacks.
+  const std::vector<Eigen::Vector3d>& ownPositions () const
+  {
+    return stacked.own.empty () ? positions : stacked.own;
+  }
+
   /// A position in the frame of the cloud.
   Eigen::Vector3d inCloud (Index point) const
   {
-    return centre + scale * (!stacked.own.empty () ? stacked.own[point]
-                             : hasPositions ()     ? positions[point]
-                                                   : position_elsewhere (point));
+    return centre + scale * (hasPositions () ? ownPositions ()[point] : position_elsewhere (point));
   }
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
 /// (the smallest cloud index represents them), and sorts along a Hilbert curve, fine enough for
 /// objects many orders of magnitude smaller than the box. O(n log n). Points are compared after
-/// scaling: points nearer than 1e-16 of the diagonal may become equal, and could not be resolved
+/// scaling: points nearer than 2e-16 of the diagonal may become equal, and could not be resolved
 /// later.
 /// \param cloud_index of each position; distinct
 Points
