@@ -19,14 +19,18 @@ lengthTo (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
 }
 
 // Spacing around a point, by its row of neighbours; that of a cluster, by the points around it.
+// \param is_bound a bound suffices, which takes less time
 double
 spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
-               const NetLimits& limits)
+               const NetLimits& limits, bool is_bound = false)
 {
   const std::size_t count = std::min<std::size_t> (row.size (), SPACING_NEIGHBORS);
   const double last = lengthTo (positions, p, row[row.size () - 1]);
-  if (lengthTo (positions, p, row[count - 1]) < limits.cluster * last)
+  const double sixth = lengthTo (positions, p, row[count - 1]);
+  if (sixth < limits.cluster * last)
     return limits.cluster_spacing * last;
+  if (is_bound)
+    return sixth;
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i)
     sum += lengthTo (positions, p, row[i]);
@@ -40,7 +44,9 @@ void
 visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
               const NetLimits& limits, Visit&& visit)
 {
-  if (row.size () == 0)
+  // Most points are well spaced.
+  if (row.size () == 0 || lengthTo (positions, p, row[0]) >=
+                              limits.gap * spacingAround (positions, p, row, limits, true))
     return;
   const double spacing = spacingAround (positions, p, row, limits);
   for (const Index q : row) {
@@ -116,8 +122,10 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
       PlaneFit fit;
       for (const Index q : row)
         fit.add (positions[q] - positions[p]);
-      cosines.push_back (
-          std::abs (fit.plane ().normal.dot ((positions[by] - positions[p]).normalized ())));
+      const Plane plane = fit.plane ();
+      if (plane.aspect >= limits.least_aspect)
+        cosines.push_back (
+            std::abs (plane.normal.dot ((positions[by] - positions[p]).normalized ())));
     }
     if (areStacked (cosines, last - first)) {
       is_stacked_block[first / RANGE_LENGTH] = 1;

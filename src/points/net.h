@@ -24,6 +24,8 @@ struct NetLimits
   /// and offset that shows them. Random samples with noise reach the share up to noise of 0.1
   /// spacings, and the cosine from 0.3 spacings on.
   double share_along_normal = 0.03, cosine = 0.55;
+  double least_aspect = 0.01; ///< middle over largest eigenvalue of the points around; below, they
+                              ///< are a line, on which points may be as uneven as they like
   /// A point that has its six nearest within this part of the distance to the last one is in a
   /// cluster: its spacing is `cluster_spacing` of that distance, as between 20 points on a plane.
   double cluster = 0.1, cluster_spacing = 0.4;

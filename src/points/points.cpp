@@ -26,18 +26,23 @@ areEqual (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return a == b || rounded (a) == rounded (b);
 }
 
-// Equal points are consecutive; the first, with the smallest cloud index, represents the others.
+// Equal points are consecutive; that with the smallest cloud index represents the others.
 void
 leaveDuplicatesOut (Points& points)
 {
+  const std::size_t n = points.positions.size ();
   std::size_t kept = 0;
-  for (std::size_t p = 0; p < points.positions.size (); ++p) {
-    if (kept > 0 && areEqual (points.positions[kept - 1], points.positions[p])) {
-      points.duplicates.push_back ({points.cloud_index[p], points.cloud_index[kept - 1]});
-      continue;
-    }
-    points.positions[kept] = points.positions[p];
-    points.cloud_index[kept] = points.cloud_index[p];
+  for (std::size_t first = 0, last = 0; first < n; first = last) {
+    std::size_t smallest = first;
+    for (last = first + 1; last < n && areEqual (points.positions[first], points.positions[last]);
+         ++last)
+      if (points.cloud_index[last] < points.cloud_index[smallest])
+        smallest = last;
+    for (std::size_t p = first; p < last; ++p)
+      if (p != smallest)
+        points.duplicates.push_back ({points.cloud_index[p], points.cloud_index[smallest]});
+    points.positions[kept] = points.positions[smallest];
+    points.cloud_index[kept] = points.cloud_index[smallest];
     ++kept;
   }
   points.positions.resize (kept);
