@@ -348,6 +348,24 @@ TEST (PartsMethod, MakesTheSurfaceOfTheWhole)
   }
 }
 
+// The parts are those of the net; all other points come into the mesh of the whole.
+TEST (PartsMethod, PointsThatLieOnOneAnother)
+{
+  for (const SurfaceKind kind : {SurfaceKind::TORUS, SurfaceKind::CUT_OUT}) {
+    const Positions once = surface (kind, 4000);
+    Positions twice = once;
+    RandomStream random (1);
+    for (const Eigen::Vector3d& p : once)
+      twice.emplace_back (p + 0.03 * samples::normalVector (random));
+    EXPECT_GT (expectShapeOfWhole (reconstructInParts (twice, 900), twice), 0.95);
+    const Result net = reconstructInParts (once, 900), all = reconstructInParts (twice, 900);
+    EXPECT_EQ (all.report.check.genus, net.report.check.genus);
+    EXPECT_EQ (all.report.check.components, net.report.check.components);
+    EXPECT_EQ (all.report.statistics.used_points, twice.size ());
+    EXPECT_GT (all.report.statistics.stacked_points, 3900U);
+  }
+}
+
 TEST (PartsMethod, WhereItIsHard)
 {
   // More of the parts is looked at until that is enough.
