@@ -7,6 +7,8 @@
 #include "parts/local_parts.h"
 #include "report/report_mesh.h"
 
+#include <pcl/surface/floater/vertex_normals.h>
+
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -71,6 +73,8 @@ useAssembled (PartsInWork surface, const Points& points, LocalGeometry& geometry
       !mesh.connect (points.size (), request.run))
     throw std::logic_error ("the finished parts do not fit");
   if (is_stacked && checked.found.isManifold ()) {
+    geometry.stars.normals =
+        vertexNormals (points.positions, mesh.triangles, request.run.threads ());
     const Points all = addStacked (mesh, points, geometry, request);
     checked.found = examine (mesh, all, geometry, request);
     uncross (mesh, checked.found, all, geometry, request, result.report.statistics);

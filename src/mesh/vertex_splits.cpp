@@ -223,8 +223,10 @@ VertexSplitter::bestCut (Index v, Index p, const Return* given)
     consider (cut.from, cut.to, cut.has_begin, cut.has_end);
     return best;
   }
+  // Of a huge fan only narrow parts, which take no quadratic time.
+  const std::size_t widest = limits_.most_cuts / m + 1;
   for (std::size_t from = 0; from < (is_open ? ring : m); ++from)
-    for (std::size_t to = from + 1; to < (is_open ? ring : from + m); ++to)
+    for (std::size_t to = from + 1; to < (is_open ? ring : from + m) && to <= from + widest; ++to)
       consider (from, to, true, true);
   if (is_open)
     for (std::size_t k = 0; k < ring; ++k) {

@@ -14,14 +14,15 @@ namespace pcl::floater {
 /// chosen by hand; without one of them, crossing triangles or folds became many times as many.
 struct SplitLimits
 {
-  std::size_t near = 3;       ///< nearest vertices of a point, whose fans may be split
-  std::size_t near_folds = 6; ///< the same where it is at a fold
-  double fold = 30.0;         ///< of a fold, or a triangle without area, in longest edges of
-                              ///< the fan
-  double flat = 0.03;         ///< sine of an angle; below, a triangle has no area
-  double boundary = 6.28;     ///< of an edge of the boundary, per length: else fins grow there
-  double far = 10.0;          ///< per length from the point to the vertex that is split
-  std::size_t passes = 10;    ///< over the points at folds
+  std::size_t near = 3;         ///< nearest vertices of a point, whose fans may be split
+  std::size_t near_folds = 6;   ///< the same where it is at a fold
+  std::size_t most_cuts = 4096; ///< tried of a fan, about
+  double fold = 30.0;           ///< of a fold, or a triangle without area, in longest edges of
+                                ///< the fan
+  double flat = 0.03;           ///< sine of an angle; below, a triangle has no area
+  double boundary = 6.28;       ///< of an edge of the boundary, per length: else fins grow there
+  double far = 10.0;            ///< per length from the point to the vertex that is split
+  std::size_t passes = 10;      ///< over the points at folds
 };
 
 /// Changes made.

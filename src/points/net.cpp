@@ -166,7 +166,7 @@ chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings
   std::vector<Index> kept (points.size ());
   for (Index p = 0; p < kept.size (); ++p)
     kept[p] = p;
-  for (;;) {
+  for (std::size_t round = 0; round < limits.rounds; ++round) {
     const std::vector<Index> aside = pointsTooNear (net.positions, neighbors, is_stacked, limits);
     if (aside.empty ())
       break;

@@ -29,6 +29,7 @@ struct NetLimits
   /// A point that has its six nearest within this part of the distance to the last one is in a
   /// cluster: its spacing is `cluster_spacing` of that distance, as between 20 points on a plane.
   double cluster = 0.1, cluster_spacing = 0.4;
+  std::size_t rounds = 20; ///< at most. Clouds of the air took up to 10
 };
 
 /// Points set aside.
