@@ -100,8 +100,9 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   std::atomic<bool> is_any_block{false}, is_any_equal{false};
   const auto areStacked = [&limits] (std::vector<double> cosines, std::size_t points) {
     const double share = static_cast<double> (cosines.size ()) / static_cast<double> (points);
-    return share > limits.share ||
-           (share > limits.share_along_normal && median (cosines) > limits.cosine);
+    return points >= limits.least_points &&
+           (share > limits.share ||
+            (share > limits.share_along_normal && median (cosines) > limits.cosine));
   };
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::vector<double>& cosines = cosines_of[first / RANGE_LENGTH];
@@ -176,10 +177,15 @@ chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings
     erase (kept, aside);
     neighbors = renewNeighbors (net, aside, neighbors, settings, run);
   }
+  constexpr std::size_t FEWEST = 4; // of a surface
   Stacks stacks;
   stacks.points = points.size () - kept.size ();
   if (stacks.points == 0)
     return {};
+  if (kept.size () < FEWEST) {
+    neighbors = findNeighbors (points, settings, run, tree);
+    return {};
+  }
   setAside (points, kept, run);
   const StackedPoints& stacked = points.stacked;
   std::vector<double> heights;

@@ -17,6 +17,7 @@ struct NetLimits
   double gap = 0.2;    ///< spacings; of two points nearer to each other, one is set aside
   double equal = 1e-3; ///< spacings; nearer points are the same but for rounding. Among 100,000
                        ///< random points there is one such pair by chance in every third cloud
+  std::size_t least_points = 100; ///< in smaller clouds, shares are chance
   /// Share of points in a block that others set aside: above it, whatever the direction. A random
   /// sample has 0.04.
   double share = 0.1;

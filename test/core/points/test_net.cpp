@@ -115,7 +115,8 @@ TEST (Net, IsNotForPointsThatLieSideBySide)
   for (const Positions& cloud :
        {random, lines, samples::surface (SurfaceKind::SPHERE, 5000, 0.3),
         samples::surface (SurfaceKind::HEMISPHERE, 5000, 0.0, 30.0),
-        stackedSheet (40, 0, 0, 0, true), Positions{}, samples::randomPoints (3, 1)}) {
+        stackedSheet (40, 0, 0, 0, true), Positions{}, samples::randomPoints (3, 1),
+        stackedSheet (6, 36, 1, 0.1, true), stackedSheet (1, 1, 5, 1e-9, true)}) {
     const auto [points, stacks] = chosen (cloud);
     EXPECT_EQ (stacks.points, 0U);
     EXPECT_EQ (points.size (), cloud.size ());
