@@ -68,7 +68,7 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
   if (outliers.empty ())
     return;
   const std::vector<Index> cloud_indices = removePoints (points, outliers);
-  reportOutliers (cloud_indices, points.size (), report);
+  reportOutliers (cloud_indices, points.total (), report);
 }
 
 bool
@@ -101,7 +101,7 @@ takeScatter (Points& points, const std::vector<Index>& scatter, const Options& o
   reportScatter (points, scatter, drops && options.scatter == ScatterPolicy::AUTO, report);
   if (drops) {
     removePoints (points, scatter);
-    report.statistics.working_points = points.size ();
+    report.statistics.working_points = points.total ();
   }
   return drops;
 }

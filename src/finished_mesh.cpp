@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finished_mesh.h"
 
+#include "cloud_geometry.h"
 #include "mesh/flips.h"
 #include "mesh/self_intersection_removal.h"
 #include "mesh/trimming.h"
+#include "mesh/vertex_splits.h"
 #include "report/report_mesh.h"
 
 #include <utility>
@@ -41,6 +43,29 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
                     request.limits.check);
 }
 
+Points
+addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
+            const Request& request)
+{
+  const std::vector<Index>& of = points.stacked.of;
+  const auto extend = [&of] (auto& values) {
+    if (!values.empty ())
+      for (const Index p : of)
+        values.push_back (values[p]);
+  };
+  extend (geometry.spacing);
+  extend (geometry.own_spacing);
+  extend (geometry.stars.normals);
+  geometry.neighbors = {};
+  std::vector<Index> added;
+  for (std::size_t i = 0; i < of.size (); ++i)
+    if (mesh.triangle_of[of[i]] != NONE)
+      added.push_back (static_cast<Index> (points.size () + i));
+  Points all = withStacked (points);
+  splitVertices (mesh, all.positions, added, request.limits.splits, request.run);
+  return all;
+}
+
 bool
 removesCrossings (const Points& points, const Options& options)
 {
@@ -58,6 +83,9 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
     return;
   if (complete)
     complete ();
+  if (geometry.neighbors.rows () == 0)
+    geometry.neighbors =
+        findNeighbors (points, neighborSettings (request.options, nullptr), request.run);
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, points.positions, normals, request.run);
   const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),

@@ -21,6 +21,13 @@ MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request);
 
+/// Adds the points that were set aside to the mesh, unless the point that stands for them is not in
+/// it; extends the geometry, without neighbours.
+/// \return all points
+Points
+addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
+            const Request& request);
+
 /// Whether self-intersections are removed. Not where noisy points were projected: the true
 /// triangles cross each other there.
 bool

@@ -137,15 +137,19 @@ reconstructSurface (Points& points, LocalGeometry geometry, const Request& reque
     proposed = known->triangles ();
   Surface surface = makeSurface (points, geometry, settings, request.run, std::move (proposed));
   reportOrientationSeam (points, surface.orientation_seam, report);
-  MeshExamination found = examine (surface.mesh, points, geometry, request);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
-  uncross (surface.mesh, found, points, geometry, request, report.statistics,
-           std::move (surface.finish.crossing), [&] {
+  std::optional<Points> all;
+  if (!points.stacked.of.empty ())
+    all = addStacked (surface.mesh, points, geometry, request);
+  const Points& vertices = all ? *all : points;
+  MeshExamination found = examine (surface.mesh, vertices, geometry, request);
+  uncross (surface.mesh, found, vertices, geometry, request, report.statistics,
+           all ? std::nullopt : std::move (surface.finish.crossing), [&] {
              if (known != nullptr && geometry.neighbors.rows () == 0)
                geometry = known->geometry (known->planes (), false);
            });
-  return useMesh (std::move (surface.mesh), surface.finish, found, points, geometry, request,
+  return useMesh (std::move (surface.mesh), surface.finish, found, vertices, geometry, request,
                   result);
 }
 
@@ -179,6 +183,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   CsrLists neighbors = known != nullptr
                            ? CsrLists{}
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
+  if (known == nullptr && !as_disc)
+    reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
   const std::size_t searched = points.size ();
   if (known != nullptr)
     removeOutliers (points, known->outliers (), report);

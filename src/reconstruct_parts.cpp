@@ -7,6 +7,8 @@
 #include "parts/local_parts.h"
 #include "report/report_mesh.h"
 
+#include <pcl/surface/floater/vertex_normals.h>
+
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -58,7 +60,7 @@ private:
 
 // Assembles the whole mesh from its parts, for example to trim it.
 Problem
-useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& geometry,
+useAssembled (PartsInWork surface, const Points& points, LocalGeometry& geometry,
               const Request& request, Result& result)
 {
   TriangleMesh mesh;
@@ -66,9 +68,19 @@ useAssembled (PartsInWork surface, const Points& points, const LocalGeometry& ge
   mesh.triangles = assembleTriangles (checked.mesh, surface.made.checks, surface.parts,
                                       *surface.work, request.run);
   surface.work.reset ();
-  if (asksForTrimming (request.options.trimming) && checked.found.isManifold () &&
+  const bool is_stacked = !points.stacked.of.empty ();
+  if ((asksForTrimming (request.options.trimming) || is_stacked) && checked.found.isManifold () &&
       !mesh.connect (points.size (), request.run))
     throw std::logic_error ("the finished parts do not fit");
+  if (is_stacked && checked.found.isManifold ()) {
+    geometry.stars.normals =
+        vertexNormals (points.positions, mesh.triangles, request.run.threads ());
+    const Points all = addStacked (mesh, points, geometry, request);
+    checked.found = examine (mesh, all, geometry, request);
+    uncross (mesh, checked.found, all, geometry, request, result.report.statistics);
+    return useMesh (std::move (mesh), surface.made.surface.finish, std::move (checked.found), all,
+                    geometry, request, result);
+  }
   return useMesh (std::move (mesh), surface.made.surface.finish, std::move (checked.found), points,
                   geometry, request, result);
 }

@@ -80,13 +80,19 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   report.topology = Topology::SURFACE;
   report.statistics.holes_filled = surface.holes_filled;
   reportView (points, viewpoint, surface, report);
+  std::optional<Points> all;
+  if (!points.stacked.of.empty ()) {
+    all = addStacked (surface.mesh, points, geometry, request);
+    found = examine (surface.mesh, *all, geometry, request);
+  }
+  const Points& vertices = all ? *all : points;
   if (is_doubtful)
-    reportDoubtfulView (points, found.unused.size (), report);
+    reportDoubtfulView (vertices, found.unused.size (), report);
   if (options.remove_outliers)
-    reportOutliersOfView (points, found.unused, report);
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), request.run),
-                        report);
-  return useMesh (std::move (surface.mesh), surface.finish, std::move (found), points, geometry,
+    reportOutliersOfView (vertices, found.unused, report);
+  reportCoordinateGrid (
+      vertices, findCoordinateGrid (vertices, geometry.meshSpacing (), request.run), report);
+  return useMesh (std::move (surface.mesh), surface.finish, std::move (found), vertices, geometry,
                   request, result);
 }
 

@@ -12,7 +12,9 @@
 #include "local/stars.h"
 #include "mesh/check.h"
 #include "mesh/self_intersection_removal.h"
+#include "mesh/vertex_splits.h"
 #include "parts/part_mesh.h"
+#include "points/net.h"
 #include "points/noise.h"
 #include "points/outliers.h"
 #include "view/view_method.h"
@@ -23,6 +25,7 @@ namespace pcl::floater {
 struct Limits
 {
   GrossOutlierLimits gross_outliers;
+  NetLimits net;
   OutlierLimits outliers;
   NoiseLimits noise;
   ScatterLimits scatter;
@@ -35,6 +38,7 @@ struct Limits
   LoopLimits loop;
   DiscLimits disc;
   CheckLimits check;
+  SplitLimits splits;
   UncrossingLimits uncrossing;
 };
 

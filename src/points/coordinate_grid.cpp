@@ -53,7 +53,7 @@ sortedCoordinates (const Points& points, int axis, std::size_t one_of, const Run
   ProgressLoop progress (run); // each of them may bring pages into memory
   for (std::size_t p = 0; p < points.size (); p += stride) {
     progress.next ();
-    values.push_back (points.positions[p][axis]);
+    values.push_back (points.ownPositions ()[p][axis]);
   }
   sortUnique (values);
   return values;

@@ -3,6 +3,7 @@
 #include "points/points.h"
 
 #include "core/geometry.h"
+#include "core/parallel.h"
 #include "points/hilbert_curve.h"
 
 #include <Eigen/Geometry>
@@ -13,18 +14,35 @@
 
 namespace pcl::floater {
 namespace {
-// Equal points are consecutive; the first, with the smallest cloud index, represents the others.
+// Equal but for rounding, as where sines and cosines close a circle: in multiples of 2e-16, which is
+// the precision of a coordinate of 1. Near the origin, numbers differ by less.
+bool
+areEqual (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  const auto rounded = [] (const Eigen::Vector3d& p) {
+    constexpr double UNIT = 1.5; // coordinates are below 1/2
+    return Eigen::Vector3d ((p.array () + UNIT) - UNIT);
+  };
+  return a == b || rounded (a) == rounded (b);
+}
+
+// Equal points are consecutive; that with the smallest cloud index represents the others.
 void
 leaveDuplicatesOut (Points& points)
 {
+  const std::size_t n = points.positions.size ();
   std::size_t kept = 0;
-  for (std::size_t p = 0; p < points.positions.size (); ++p) {
-    if (kept > 0 && points.positions[kept - 1] == points.positions[p]) {
-      points.duplicates.push_back ({points.cloud_index[p], points.cloud_index[kept - 1]});
-      continue;
-    }
-    points.positions[kept] = points.positions[p];
-    points.cloud_index[kept] = points.cloud_index[p];
+  for (std::size_t first = 0, last = 0; first < n; first = last) {
+    std::size_t smallest = first;
+    for (last = first + 1; last < n && areEqual (points.positions[first], points.positions[last]);
+         ++last)
+      if (points.cloud_index[last] < points.cloud_index[smallest])
+        smallest = last;
+    for (std::size_t p = first; p < last; ++p)
+      if (p != smallest)
+        points.duplicates.push_back ({points.cloud_index[p], points.cloud_index[smallest]});
+    points.positions[kept] = points.positions[smallest];
+    points.cloud_index[kept] = points.cloud_index[smallest];
     ++kept;
   }
   points.positions.resize (kept);
@@ -49,6 +67,29 @@ isLineSeenFromWithin (const std::vector<Eigen::Vector3d>& positions)
   for (const Eigen::Vector3d& p : positions)
     beside += direction.cross (p - from).norm () > STRAIGHT * (p - from).norm () ? 1 : 0;
   return 4 * beside < positions.size ();
+}
+
+// Removes the points that stand on removed ones, and renumbers the others.
+void
+removeStacked (StackedPoints& stacked, const std::vector<Index>& removed, std::size_t points_left,
+               std::vector<Index>& cloud_indices)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < stacked.of.size (); ++i) {
+    const auto place = std::lower_bound (removed.begin (), removed.end (), stacked.of[i]);
+    if (place != removed.end () && *place == stacked.of[i]) {
+      cloud_indices.push_back (stacked.cloud_index[i]);
+      continue;
+    }
+    stacked.positions[kept] = stacked.positions[i];
+    stacked.cloud_index[kept] = stacked.cloud_index[i];
+    stacked.of[kept] = stacked.of[i] - static_cast<Index> (place - removed.begin ());
+    ++kept;
+  }
+  stacked.positions.resize (kept);
+  stacked.cloud_index.resize (kept);
+  stacked.of.resize (kept);
+  stacked.own.resize (points_left);
 }
 
 } // namespace
@@ -140,10 +181,14 @@ removePoints (Points& points, const std::vector<Index>& removed)
     for (std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
       if (!normals->empty ())
         (*normals)[kept] = (*normals)[p];
+    if (!points.stacked.own.empty ())
+      points.stacked.own[kept] = points.stacked.own[p];
     ++kept;
   }
   points.positions.resize (kept);
   points.cloud_index.resize (kept);
+  if (!points.stacked.of.empty ())
+    removeStacked (points.stacked, removed, kept, cloud_indices);
   for (std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
     if (!normals->empty ())
       normals->resize (kept);
@@ -156,14 +201,69 @@ removePoints (Points& points, const std::vector<Index>& removed)
     std::frexp (diagonal, &exponent);
     exponent = std::min (exponent, 0); // a box of diagonal 1 stays as it is
     if (exponent != 0)
-      for (Eigen::Vector3d& position : points.positions)
-        position = Eigen::Vector3d (std::ldexp (position.x (), -exponent),
-                                    std::ldexp (position.y (), -exponent),
-                                    std::ldexp (position.z (), -exponent));
+      for (auto* positions : {&points.positions, &points.stacked.positions, &points.stacked.own})
+        for (Eigen::Vector3d& position : *positions)
+          position = Eigen::Vector3d (std::ldexp (position.x (), -exponent),
+                                      std::ldexp (position.y (), -exponent),
+                                      std::ldexp (position.z (), -exponent));
     points.diagonal = std::ldexp (diagonal, -exponent);
     points.scale = std::ldexp (points.scale, exponent);
   }
   return cloud_indices;
+}
+
+void
+setAside (Points& points, const std::vector<Index>& kept, const RunContext& run)
+{
+  StackedPoints stacked;
+  std::vector<Index> aside;
+  for (Index p = 0; p < points.size (); ++p)
+    if (aside.size () + kept.size () == p || kept[p - aside.size ()] != p) {
+      aside.push_back (p);
+      stacked.positions.push_back (points.positions[p]);
+      stacked.cloud_index.push_back (points.cloud_index[p]);
+    }
+  const double scale = points.scale;
+  removePoints (points, aside);
+  for (Eigen::Vector3d& position : stacked.positions)
+    position *= scale / points.scale; // a power of two
+  stacked.of.resize (aside.size ());
+  const KdTree tree (points.positions, run, PointOrder::ALONG_CURVE);
+  parallelRanges (run, aside.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    for (std::size_t i = first; i < last; ++i) {
+      tree.nearest (stacked.positions[i], 1, found);
+      stacked.of[i] = found.front ().point;
+    }
+  });
+  stacked.own = points.positions;
+  std::vector<double> count (points.size (), 1.0);
+  for (std::size_t i = 0; i < aside.size (); ++i) {
+    points.positions[stacked.of[i]] += stacked.positions[i];
+    count[stacked.of[i]] += 1.0;
+  }
+  for (Index p = 0; p < points.size (); ++p)
+    if (count[p] > 1.0)
+      points.positions[p] /= count[p];
+  points.stacked = std::move (stacked);
+}
+
+Points
+withStacked (const Points& points)
+{
+  Points all = points;
+  const StackedPoints stacked = std::move (all.stacked);
+  all.stacked = {};
+  all.projected.clear ();
+  all.positions = stacked.own;
+  all.positions.insert (all.positions.end (), stacked.positions.begin (), stacked.positions.end ());
+  all.cloud_index.insert (all.cloud_index.end (), stacked.cloud_index.begin (),
+                          stacked.cloud_index.end ());
+  for (std::vector<Eigen::Vector3f>* normals : {&all.normals, &all.facing_normals})
+    if (!normals->empty ())
+      for (const Index p : stacked.of)
+        normals->push_back ((*normals)[p]);
+  return all;
 }
 
 } // namespace pcl::floater

@@ -14,6 +14,15 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Points that lie on others, which stand for them until there is a mesh (see setAside).
+struct StackedPoints
+{
+  std::vector<Eigen::Vector3d> positions; ///< in the order of the curve
+  std::vector<Index> cloud_index;         ///< of each
+  std::vector<Index> of;                  ///< the point of the working set that stands for it
+  std::vector<Eigen::Vector3d> own;       ///< positions of the working set itself
+};
+
 /// The working set: finite, distinct points in the order of a space-filling curve, so near points
 /// are near in memory. The order depends only on the coordinates.
 struct Points
@@ -27,6 +36,7 @@ struct Points
   std::vector<Eigen::Vector3f> facing_normals;       ///< normals towards the front, as above
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
+  StackedPoints stacked; ///< if any: each position is the mean of a point and those it stands for
   std::size_t lattice_width = 0; ///< organized cloud: points of a row; otherwise 0
   double diagonal =
       1.0; ///< of the bounding box of the positions; 1/2 to 1 after points were removed
@@ -41,23 +51,32 @@ struct Points
 
   std::size_t size () const { return hasPositions () ? positions.size () : cloud_index.size (); }
 
+  /// Number of points, those set aside included.
+  std::size_t total () const { return size () + stacked.of.size (); }
+
   /// Positions by which points are connected. The mesh uses `positions`.
   const std::vector<Eigen::Vector3d>& workingPositions () const
   {
     return projected.empty () ? positions : projected;
   }
 
+  /// The positions of the points themselves; `positions` may be means of stacks.
+  const std::vector<Eigen::Vector3d>& ownPositions () const
+  {
+    return stacked.own.empty () ? positions : stacked.own;
+  }
+
   /// A position in the frame of the cloud.
   Eigen::Vector3d inCloud (Index point) const
   {
-    return centre + scale * (hasPositions () ? positions[point] : position_elsewhere (point));
+    return centre + scale * (hasPositions () ? ownPositions ()[point] : position_elsewhere (point));
   }
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
 /// (the smallest cloud index represents them), and sorts along a Hilbert curve, fine enough for
 /// objects many orders of magnitude smaller than the box. O(n log n). Points are compared after
-/// scaling: points nearer than 1e-16 of the diagonal may become equal, and could not be resolved
+/// scaling: points nearer than 2e-16 of the diagonal may become equal, and could not be resolved
 /// later.
 /// \param cloud_index of each position; distinct
 Points
@@ -77,11 +96,22 @@ checkPoints (const Points& points);
 
 /// Removes points and keeps the order of the others. If the bounding box shrinks, positions are
 /// scaled again, by a power of two, which keeps all comparisons of distances. Duplicates of a
-/// removed point stay listed. Not for projected points. O(n).
+/// removed point stay listed. Points on a removed one are removed with it. Not for projected points.
+/// O(n).
 /// \param removed points, ascending
-/// \return their cloud indices, ascending
+/// \return cloud indices of all, ascending
 std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed);
+
+/// Leaves the kept points in the working set, each at the mean of itself and of the others to which
+/// it is the nearest: these become Points::stacked. O(n log n).
+/// \param kept ascending, not all
+void
+setAside (Points& points, const std::vector<Index>& kept, const RunContext& run);
+
+/// The inverse: all points at their own positions, those set aside after the others.
+Points
+withStacked (const Points& points);
 
 /// Scales: every point, every fourth, every sixteenth. On a surface, spacings double from one to
 /// the next.

@@ -36,6 +36,10 @@ constexpr Sentence SENTENCES[] = {
     {FindingId::OUTLIERS, "outliers", Severity::NOTE,
      "{0:point lies|points lie} off any surface, {0?|among them }point {n1}: {0?it was|they were} "
      "left out"},
+    {FindingId::STACKED_POINTS, "stacked_points", Severity::NOTE,
+     "{0:point lies|points lie} on another one, {n1} % of the cloud, at a distance of {n2} local "
+     "spacings (median; at most {n3}), {0?|among them }{p0}, such as in overlapping scans: {0?it "
+     "came|they came} into the mesh after the others"},
     {FindingId::SCATTER, "scatter", Severity::NOTE,
      "{0:point lies|points lie} on no surface at any scale, such as leaves: {n1} % of the cloud, "
      "{0?|among them }{p0}. {0?It was|They were} left out; the scatter policy decides that"},

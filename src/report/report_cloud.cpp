@@ -86,12 +86,27 @@ reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_
   report.scatter.clear ();
   for (const Index p : scatter)
     report.scatter.push_back (points.cloud_index[p]);
+  for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
+    if (std::binary_search (scatter.begin (), scatter.end (), points.stacked.of[i]))
+      report.scatter.push_back (points.stacked.cloud_index[i]);
   std::sort (report.scatter.begin (), report.scatter.end ());
-  report.statistics.scatter_points = scatter.size ();
+  report.statistics.scatter_points = report.scatter.size ();
   if (is_unasked && !scatter.empty ())
-    addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, scatter.size (),
-                100.0 * static_cast<double> (scatter.size ()) /
-                    static_cast<double> (points.size ()));
+    addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, report.scatter.size (),
+                100.0 * static_cast<double> (report.scatter.size ()) /
+                    static_cast<double> (points.total ()));
+}
+
+void
+reportStacks (const Points& points, const Stacks& stacks, Report& report)
+{
+  report.statistics.stacked_points = stacks.points;
+  report.statistics.stack_height = stacks.median;
+  report.statistics.largest_stack_height = stacks.largest;
+  if (stacks.points > 0)
+    addFinding (report, FindingId::STACKED_POINTS, points, {stacks.at}, stacks.points,
+                100.0 * static_cast<double> (stacks.points) / static_cast<double> (points.total ()),
+                stacks.median, stacks.largest);
 }
 
 void

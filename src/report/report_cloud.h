@@ -6,6 +6,7 @@
 #include "core/problem.h"
 #include "core/types.h"
 #include "points/coordinate_grid.h"
+#include "points/net.h"
 #include "points/noise.h"
 #include "points/points.h"
 #include "view/view_method.h"
@@ -41,6 +42,10 @@ reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, 
 void
 reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_unasked,
                Report& report);
+
+/// Reports the points that lie on others.
+void
+reportStacks (const Points& points, const Stacks& stacks, Report& report);
 
 /// Reports the noise, and warns if points are connected by their projections.
 void

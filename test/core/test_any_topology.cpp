@@ -169,6 +169,21 @@ TEST (OneSided, IsNeverPassedOffAsRight)
   }
 }
 
+// Each point again, up to `offset` away: the same surface, of stacks.
+KnownSurface
+stacked (KnownSurface surface, std::size_t copies, double offset, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  const std::size_t n = surface.points.size ();
+  for (std::size_t i = 0; i < copies * n; ++i)
+    surface.points.push_back (
+        surface.points[i % n] +
+        offset * Eigen::Vector3d (random.normal (), random.normal (), random.normal ()) / 2.0);
+  surface.sharp_length += 0.002 * static_cast<double> (copies * n); // needles are folded at times
+  surface.is_even = false;
+  return surface;
+}
+
 // With so many loops, of which some holes are filled.
 KnownSurface
 filled (KnownSurface surface, std::size_t loops)
@@ -281,6 +296,13 @@ cases ()
          [=] { return withNoise (annulus (tenths), noise, tenths + 1); });
     add ("sphere_noise_" + std::to_string (tenths),
          [=] { return withNoise (sphere (3000, tenths), noise, tenths + 5); });
+  }
+  for (const double offset : {1e-12, 1e-3, 0.05}) {
+    const std::string name = "_stacked_" + std::to_string (all.size ());
+    add ("torus" + name, [=] {
+      return stacked (generated ({Kind::TORUS, 3000, 2}), 1, offset, 1);
+    });
+    add ("annulus" + name, [=] { return stacked (annulus (1), 2, offset, 2); });
   }
   // Sampling that is far from even.
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

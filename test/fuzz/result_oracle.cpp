@@ -34,7 +34,7 @@ named (std::uint32_t point)
 }
 
 // Largest distance of two points that count as equal: rounding of the positions while they are
-// centred and scaled.
+// centred and scaled, and of each coordinate to multiples of 2e-16.
 double
 equalityOf (const std::vector<Eigen::Vector3d>& positions)
 {
@@ -42,7 +42,7 @@ equalityOf (const std::vector<Eigen::Vector3d>& positions)
   for (const Eigen::Vector3d& position : positions)
     if (position.allFinite ())
       box.extend (position);
-  return 2.0 * std::numeric_limits<double>::epsilon () *
+  return 6.0 * std::numeric_limits<double>::epsilon () *
          (0.5 * box.max () - 0.5 * box.min ()).stableNorm ();
 }
 

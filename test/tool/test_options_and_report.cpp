@@ -443,6 +443,22 @@ TEST_F (CommandLineTest, TheReportHasFindingsAsData)
   EXPECT_EQ (findings[0].at ("numbers"), (Json{1, sample_.size ()}));
 }
 
+TEST_F (CommandLineTest, PointsOnOthersAreInTheMeshAndInTheReport)
+{
+  std::vector<Eigen::Vector3d> points = sample_.points;
+  for (const Eigen::Vector3d& p : sample_.points)
+    points.emplace_back (p + Eigen::Vector3d (0, 0, 0.01));
+  writeFile ("in.pcd", pcdText (points));
+  const Json all = report ({});
+  EXPECT_EQ (all.at ("statistics").at ("used_points"), points.size ());
+  EXPECT_EQ (all.at ("statistics").at ("stacked_points"), sample_.size ());
+  EXPECT_LT (all.at ("statistics").at ("largest_stack_height"), 0.03);
+  EXPECT_EQ (all.at ("findings").at (0).at ("id"), "stacked_points");
+  EXPECT_EQ (all.at ("findings").at (0).at ("severity"), "note");
+  EXPECT_THAT (succeed ({"in.pcd", "out.ply"}).out, HasSubstr ("\nstacks     "));
+  EXPECT_EQ (report ({"--topology", "disc"}).at ("statistics").at ("stacked_points"), 0);
+}
+
 TEST_F (CommandLineTest, TheReportTellsWhatTheMeshIs)
 {
   const Json all = report ({"--topology", "disc"});

@@ -17,13 +17,14 @@ to_json (Json& nlohmann_json_j, const Statistics& nlohmann_json_t)
 {
   NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
       NLOHMANN_JSON_TO, cloud_points, selected_points, non_finite_points, duplicate_points,
-      working_points, outlier_points, scatter_points, noise, noise_quantile_90, largest_noise,
-      projected_points, coordinate_step, trimmed_triangles, opened_triangles, trimmed_components,
-      trimmed_points, view_steps, view_gaps, holes_filled, used_points, relinked_points,
-      boundary_candidates, loop_points, triangles, levels, flips, folds, remade_points,
-      self_intersections_found, self_intersection_flips, self_intersection_moves,
-      self_intersection_rebuilds, unknowns, nnz_matrix, nnz_factors, fill_in, residual,
-      relative_residual, iterations_u, iterations_v, reciprocal_condition, factorization_bytes))
+      working_points, outlier_points, scatter_points, stacked_points, stack_height,
+      largest_stack_height, noise, noise_quantile_90, largest_noise, projected_points,
+      coordinate_step, trimmed_triangles, opened_triangles, trimmed_components, trimmed_points,
+      view_steps, view_gaps, holes_filled, used_points, relinked_points, boundary_candidates,
+      loop_points, triangles, levels, flips, folds, remade_points, self_intersections_found,
+      self_intersection_flips, self_intersection_moves, self_intersection_rebuilds, unknowns,
+      nnz_matrix, nnz_factors, fill_in, residual, relative_residual, iterations_u, iterations_v,
+      reciprocal_condition, factorization_bytes))
 }
 
 static void

@@ -272,6 +272,10 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                   report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
                   report.viewpoint[1], report.viewpoint[2],
                   counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
+  if (statistics.stacked_points > 0)
+    std::fprintf (to, "stacks     %s on other points, %.2g spacings from them (largest %.2g)\n",
+                  counted (statistics.stacked_points, "point").c_str (), statistics.stack_height,
+                  statistics.largest_stack_height);
   if (report.denoised)
     std::fprintf (to,
                   "noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "

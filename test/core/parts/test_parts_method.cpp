@@ -348,6 +348,32 @@ TEST (PartsMethod, MakesTheSurfaceOfTheWhole)
   }
 }
 
+// The parts are those of the net; all other points come into the mesh of the whole.
+TEST (PartsMethod, PointsThatLieOnOneAnother)
+{
+  const auto twice = [] (Positions points) {
+    RandomStream random (1);
+    for (std::size_t p = 0, n = points.size (); p < n; ++p)
+      points.emplace_back (points[p] + 0.03 * samples::normalVector (random));
+    return points;
+  };
+  for (const SurfaceKind kind : {SurfaceKind::TORUS, SurfaceKind::CUT_OUT}) {
+    const Positions once = surface (kind, 4000), all = twice (once);
+    const Result net = reconstructInParts (once, 900), result = reconstructInParts (all, 900);
+    EXPECT_GT (expectShapeOfWhole (result, all), 0.95);
+    EXPECT_EQ (result.report.check.genus, net.report.check.genus);
+    EXPECT_EQ (result.report.check.components, net.report.check.components);
+    EXPECT_EQ (result.report.statistics.used_points, all.size ());
+    EXPECT_GT (result.report.statistics.stacked_points, 3900U);
+  }
+  // With triangles to uncross.
+  const Positions sheets = twice (closeSheets (2500, 0.2, 1.8));
+  const Result result = reconstructInParts (sheets, 900);
+  EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+  EXPECT_GT (result.report.statistics.self_intersections_found, 0U);
+  EXPECT_EQ (result.report.statistics.used_points, sheets.size ());
+}
+
 TEST (PartsMethod, WhereItIsHard)
 {
   // More of the parts is looked at until that is enough.

@@ -110,13 +110,13 @@ TEST (Points, PointsThatScalingCannotTellApartAreOne)
   const Points points = workingPoints (cloud);
   expectWorkable (points, cloud);
   EXPECT_EQ (points.positions.size (), 3U);
-  // At the centre of the box they are different after scaling, too.
+  // At the centre of the box they are different after scaling, but not beyond rounding.
   cloud[1] = {-1, -1, -1};
   cloud[2] = {-1, 0, 0};
   cloud.emplace_back (1, 1, 1);
   const Points around_centre = workingPoints (cloud);
   expectWorkable (around_centre, cloud);
-  EXPECT_GT (around_centre.positions.size (), 40U);
+  EXPECT_EQ (around_centre.positions.size (), 4U);
 }
 
 TEST (Points, ABoxAsSmallAsOneDigit)

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "points/net.h"
+
+#include "core/geometry.h"
+#include "core/order_statistics.h"
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace pcl::floater {
+namespace {
+double
+lengthTo (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
+{
+  return (positions[q] - positions[p]).norm ();
+}
+
+// Spacing around a point, by its row of neighbours; that of a cluster, by the points around it.
+// \param is_bound a bound suffices, which takes less time
+double
+spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
+               const NetLimits& limits, bool is_bound = false)
+{
+  const std::size_t count = std::min<std::size_t> (row.size (), SPACING_NEIGHBORS);
+  const double last = lengthTo (positions, p, row[row.size () - 1]);
+  const double sixth = lengthTo (positions, p, row[count - 1]);
+  if (sixth < limits.cluster * last)
+    return limits.cluster_spacing * last;
+  if (is_bound)
+    return sixth;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += lengthTo (positions, p, row[i]);
+  return sum / static_cast<double> (count);
+}
+
+// Calls visit (q, distance, spacing) for the neighbours nearer than the gap, nearest first, until it
+// returns false.
+template <typename Visit>
+void
+visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
+              const NetLimits& limits, Visit&& visit)
+{
+  // Most points are well spaced.
+  if (row.size () == 0 || lengthTo (positions, p, row[0]) >=
+                              limits.gap * spacingAround (positions, p, row, limits, true))
+    return;
+  const double spacing = spacingAround (positions, p, row, limits);
+  for (const Index q : row) {
+    const double d = lengthTo (positions, p, q);
+    if (d >= limits.gap * spacing || !visit (q, d, spacing))
+      return;
+  }
+}
+
+// Points that an earlier one sets aside, ascending.
+std::vector<Index>
+pointsTooNear (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+               const std::vector<std::uint8_t>& is_stacked, const NetLimits& limits)
+{
+  std::vector<Index> aside;
+  std::vector<std::uint8_t> is_aside (positions.size (), 0);
+  for (Index p = 0; p < positions.size (); ++p)
+    if (is_stacked[p] != 0)
+      visitTooNear (positions, p, neighbors.row (p), limits, [&] (Index q, double, double) {
+        if (q > p || is_aside[q] != 0)
+          return true;
+        is_aside[p] = 1;
+        aside.push_back (p);
+        return false;
+      });
+  return aside;
+}
+
+template <typename Value>
+void
+erase (std::vector<Value>& values, const std::vector<Index>& removed)
+{
+  std::size_t next = 0, kept = 0;
+  for (std::size_t i = 0; i < values.size (); ++i)
+    if (next < removed.size () && removed[next] == i)
+      ++next;
+    else
+      values[kept++] = values[i];
+  values.resize (kept);
+}
+
+} // namespace
+
+std::vector<std::uint8_t>
+findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                   const NetLimits& limits, const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  std::vector<std::uint8_t> is_equal (n, 0), is_stacked_block (n / RANGE_LENGTH + 1, 0);
+  std::vector<std::vector<double>> cosines_of (n / RANGE_LENGTH + 1);
+  std::atomic<bool> is_any_block{false}, is_any_equal{false};
+  const auto areStacked = [&limits] (std::vector<double> cosines, std::size_t points) {
+    const double share = static_cast<double> (cosines.size ()) / static_cast<double> (points);
+    return points >= limits.least_points &&
+           (share > limits.share ||
+            (share > limits.share_along_normal && median (cosines) > limits.cosine));
+  };
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    std::vector<double>& cosines = cosines_of[first / RANGE_LENGTH];
+    for (auto p = static_cast<Index> (first); p < last; ++p) {
+      const Row row = neighbors.row (p);
+      Index by = NONE;
+      visitTooNear (positions, p, row, limits, [&] (Index q, double d, double spacing) {
+        if (d < limits.equal * spacing)
+          is_equal[p] = 1;
+        if (q < p)
+          by = q;
+        return by == NONE;
+      });
+      if (is_equal[p] != 0)
+        is_any_equal = true;
+      if (by == NONE)
+        continue;
+      PlaneFit fit;
+      for (const Index q : row)
+        fit.add (positions[q] - positions[p]);
+      const Plane plane = fit.plane ();
+      if (plane.aspect >= limits.least_aspect)
+        cosines.push_back (
+            std::abs (plane.normal.dot ((positions[by] - positions[p]).normalized ())));
+    }
+    if (areStacked (cosines, last - first)) {
+      is_stacked_block[first / RANGE_LENGTH] = 1;
+      is_any_block = true;
+    }
+  });
+  if (!is_any_block && !is_any_equal)
+    return {};
+  std::vector<double> cosines; // of the whole cloud
+  for (const std::vector<double>& some : cosines_of)
+    cosines.insert (cosines.end (), some.begin (), some.end ());
+  if (areStacked (std::move (cosines), n))
+    return std::vector<std::uint8_t> (n, 1);
+  std::vector<std::uint8_t> is_stacked = std::move (is_equal);
+  const auto isInBlock = [&] (Index p) { return is_stacked_block[p / RANGE_LENGTH] != 0; };
+  if (is_any_block)
+    parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+      for (auto p = static_cast<Index> (first); p < last; ++p) {
+        const Row row = neighbors.row (p);
+        if (isInBlock (p) || std::any_of (row.begin (), row.end (), isInBlock))
+          is_stacked[p] = 1;
+      }
+    });
+  return is_stacked;
+}
+
+Stacks
+chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
+           const NetLimits& limits, const RunContext& run, std::optional<KdTree>* tree)
+{
+  std::vector<std::uint8_t> is_stacked =
+      findStackedPlaces (points.positions, neighbors, limits, run);
+  if (is_stacked.empty ())
+    return {};
+  Points net; // without scaling it again
+  net.positions = points.positions;
+  net.cloud_index = points.cloud_index;
+  std::vector<Index> kept (points.size ());
+  for (Index p = 0; p < kept.size (); ++p)
+    kept[p] = p;
+  for (std::size_t round = 0; round < limits.rounds; ++round) {
+    const std::vector<Index> aside = pointsTooNear (net.positions, neighbors, is_stacked, limits);
+    if (aside.empty ())
+      break;
+    erase (net.positions, aside);
+    erase (net.cloud_index, aside);
+    erase (is_stacked, aside);
+    erase (kept, aside);
+    neighbors = renewNeighbors (net, aside, neighbors, settings, run);
+  }
+  constexpr std::size_t FEWEST = 4; // of a surface
+  Stacks stacks;
+  stacks.points = points.size () - kept.size ();
+  if (stacks.points == 0)
+    return {};
+  if (kept.size () < FEWEST) {
+    neighbors = findNeighbors (points, settings, run, tree);
+    return {};
+  }
+  setAside (points, kept, run);
+  const StackedPoints& stacked = points.stacked;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < stacked.of.size (); ++i) {
+    const Index p = stacked.of[i];
+    const double spacing = spacingAround (stacked.own, p, neighbors.row (p), limits);
+    heights.push_back ((stacked.positions[i] - stacked.own[p]).norm () / spacing);
+    if (heights.back () > stacks.largest || stacks.at == NONE) {
+      stacks.largest = heights.back ();
+      stacks.at = p;
+    }
+  }
+  stacks.median = median (heights);
+  neighbors = findNeighbors (points, settings, run, tree);
+  return stacks;
+}
+
+} // namespace pcl::floater
