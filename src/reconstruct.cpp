@@ -229,11 +229,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (stars.reach_beyond && geometry.stars.neighbors.rows () > 0)
     if (Problem problem = checkCurves (points, geometry, request))
       return problem;
-  const auto isStrongNow = [&] {
+  const auto isStrongNow = [&] (double disturbed_share) {
     return options.denoise && noise.noisy_points > 0 &&
-           isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
+           isStrong (noise, starAgreement (geometry.stars, run), disturbed_share);
   };
-  noise.is_strong = isStrongNow ();
+  noise.is_strong = isStrongNow (limits.noise.disturbed_share);
   const std::vector<Index> scatter =
       is_measured ? scatterOf (points, geometry, noise, request) : std::vector<Index>{};
   // Errors along the rays of a scan look like noise and scatter.
@@ -256,12 +256,18 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     planes = findPlanes (points, settings, request);
     noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-    noise.is_strong = isStrongNow ();
+    noise.is_strong = isStrongNow (limits.noise.disturbed_share);
   }
   if (!options.denoise)
     noise = {};
   if (noise.is_strong) {
+    const bool may_be_hopeless = isStrongNow (limits.noise.hopeless_share);
     geometry = projectNoise (points, std::move (geometry), noise, settings, request);
+    if (may_be_hopeless && noise.noisy_points == 0)
+      return {RunStatus::DEGENERATE,
+              "the points are too noisy for a mesh that goes through them, by more than their "
+              "spacing: smooth the cloud, thin it by a voxel grid, or use a method that smooths, "
+              "such as Poisson reconstruction; denoise off connects them nevertheless"};
     known = nullptr;
   }
   reportNoise (noise, noise.is_strong && noise.noisy_points > 0, report);

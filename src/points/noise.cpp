@@ -415,7 +415,7 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
 }
 
 bool
-isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits)
+isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share)
 {
   const auto points = static_cast<double> (agreement.size ());
   if (noise.noisy_points == 0)
@@ -424,7 +424,7 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLi
   for (std::size_t p = 0; p < agreement.size (); ++p)
     if (noise.at_point[p] > 0.0F)
       disturbed += 1.0 - static_cast<double> (agreement[p]);
-  return disturbed >= limits.disturbed_share * points;
+  return disturbed >= disturbed_share * points;
 }
 
 bool

@@ -37,6 +37,10 @@ struct NoiseLimits
   /// of 0.3 spacings 0.07, of 0.5 spacings 0.18. Clean clouds of the benchmark have at most 0.020,
   /// its depth cameras at least 0.038. Chosen between these: close to both, and not certain.
   double disturbed_share = 0.035;
+  /// The same share, from which on a cloud is too noisy for any mesh through its points, if
+  /// projection explains it nowhere: noise of 2 spacings has 0.23 or more. Clouds that make a mesh
+  /// without projection have up to 0.15.
+  double hopeless_share = 0.2;
   /// Noise explains the disagreement of the stars in a region if projection leaves at most this
   /// share of it. It leaves 0.34 or less of sheets with noise of up to one spacing, 0.4 of noise of
   /// 1.5 spacings, 0.54 or more of two walls, blades, thin tubes, and noise of 3 spacings.
@@ -107,9 +111,10 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
 /// Whether points have to be projected before they are connected: enough are noisy, and their stars
 /// disagree. At creases and thin sheets of clean clouds points look noisy, but their stars agree.
 /// O(n).
-/// \param agreement of the star of each point, see starAgreement
+/// \param agreement       of the star of each point, see starAgreement
+/// \param disturbed_share see NoiseLimits
 bool
-isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits);
+isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share);
 
 /// Keeps noise only in regions of noisy points where it explains the disagreement of the stars, and
 /// counts the noisy points again. O(n).

@@ -79,7 +79,7 @@ TEST (Noise, IsStrongWhereStarsOfNoisyPointsDisagree)
   const auto isStrongIf = [&noise] (std::size_t noisy, float agreement) {
     std::fill_n (noise.at_point.begin (), noisy, 1.0F);
     noise.noisy_points = noisy;
-    return isStrong (noise, std::vector<float> (100, agreement), {});
+    return isStrong (noise, std::vector<float> (100, agreement), NoiseLimits{}.disturbed_share);
   };
   EXPECT_FALSE (isStrongIf (0, 0.8F));
   EXPECT_FALSE (isStrongIf (17, 0.8F));
