@@ -6,10 +6,12 @@
 #include "local/scatter.h"
 #include "points/noise.h"
 #include "points/outliers.h"
+#include "report/findings.h"
 #include "report/report_cloud.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace pcl::floater {
@@ -71,6 +73,24 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
   reportOutliers (cloud_indices, points.total (), report);
 }
 
+Problem
+checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
+{
+  const Limits& limits = request.limits;
+  const Curves curves = findCurves (
+      points.positions, geometry, static_cast<std::size_t> (request.options.neighbors.k),
+      limits.planes.least_aspect, limits.reach, limits.curves, request.run);
+  if (!curves.are_all)
+    return {};
+  const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
+                                                     " times as far apart as the points along them"
+                                               : "too far apart";
+  return {RunStatus::DEGENERATE,
+          "the points lie along curves, such as profiles of a scanner, " + apart +
+              ": for a surface, profiles should be at most 10 times as far apart as their points. "
+              "Take more profiles, or fewer points of each (a voxel grid thins them out)"};
+}
+
 bool
 dropsScatter (const Options& options)
 {
@@ -82,11 +102,9 @@ std::vector<Index>
 scatterOf (const Points& points, const LocalGeometry& geometry, const Noise& noise,
            const Request& request)
 {
-  if (noise.unevenness.empty ())
-    return {};
   const Limits& limits = request.limits;
   std::vector<Index> scatter =
-      findScatter (geometry.neighbors, geometry.stars, noise.unevenness, limits.noise.uneven,
+      findScatter (geometry, noise, limits.noise.uneven,
                    request.options.scatter == ScatterPolicy::AUTO, limits.scatter, request.run);
   return dropsScatter (request.options)
              ? exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop)
@@ -135,14 +153,29 @@ findPlanes (const Points& points, const NeighborSettings& settings, const Reques
 }
 
 LocalGeometry
-projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
+projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
               const NeighborSettings& settings, const Request& request)
 {
+  const RunContext& run = request.run;
+  const std::vector<float> before = starAgreement (geometry.stars, run);
+  const auto renewGeometry = [&] {
+    geometry = {};
+    geometry = makeLocalGeometry (points, findPlanes (points, settings, request),
+                                  starSettings (request), run);
+  };
   points.projected =
-      projectNoisyPoints (points.positions, neighbors, noise, request.limits.noise, request.run);
-  neighbors = {};
-  LocalPlanes planes = findPlanes (points, settings, request);
-  return makeLocalGeometry (points, std::move (planes), starSettings (request), request.run);
+      projectNoisyPoints (points.positions, geometry.neighbors, noise, request.limits.noise, run);
+  renewGeometry ();
+  const std::vector<float> after = starAgreement (geometry.stars, run);
+  if (!keepExplained (geometry.neighbors, before, after, request.limits.noise, noise))
+    return geometry;
+  for (std::size_t p = 0; p < points.size (); ++p)
+    if (noise.at_point[p] <= 0.0F)
+      points.projected[p] = points.positions[p];
+  if (noise.noisy_points == 0)
+    points.projected.clear ();
+  renewGeometry ();
+  return geometry;
 }
 
 FacingHints

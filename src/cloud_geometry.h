@@ -26,6 +26,10 @@ removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& set
 void
 removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report);
 
+/// DEGENERATE if the cloud is curves that are too far apart for a surface.
+Problem
+checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request);
+
 /// Whether scatter is left out of the mesh.
 bool
 dropsScatter (const Options& options);
@@ -50,12 +54,14 @@ starSettings (const Request& request);
 LocalPlanes
 findPlanes (const Points& points, const NeighborSettings& settings, const Request& request);
 
-/// Beyond TW 385: projects noisy points on local planes, by which they are connected. The mesh has
-/// triangles only, so the user's points stay unchanged.
-/// \param neighbors of the unprojected points
+/// Beyond TW 385: projects noisy points on local planes, by which they are connected, where noise
+/// explains the disagreement of their stars. The mesh has triangles only, so the user's points stay
+/// unchanged.
+/// \param geometry around each point
+/// \param noise    in: to project; out: of the projected points
 /// \return the geometry around each projected point
 LocalGeometry
-projectNoise (Points& points, CsrLists neighbors, const Noise& noise,
+projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
               const NeighborSettings& settings, const Request& request);
 
 /// Evidence for the front of a component, as the options ask for it. Refers to the normals of the

@@ -29,6 +29,8 @@
 
 namespace pcl::floater {
 namespace {
+constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as others
+
 DiscSettings
 discSettings (const Points& points, const Request& request)
 {
@@ -220,7 +222,9 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   Noise noise;
   if (is_measured)
     noise = measureNoise (points.positions, table, limits.noise, run, probes ? &*probes : nullptr);
-  const bool reads_stars = noise.noisy_points > 0 || !noise.unevenness.empty ();
+  const bool reads_stars =
+      noise.noisy_points > 0 || !noise.unevenness.empty () ||
+      (is_measured && known != nullptr && hasFarPoints (known->spacing (), limits.scatter));
   LocalGeometry geometry;
   if (known == nullptr)
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
@@ -230,12 +234,16 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     table.all ();
     geometry = known->geometry (std::move (planes), reads_stars);
   }
-  const auto isStrongNow = [&] {
+  if (stars.reach_beyond && geometry.stars.neighbors.rows () > 0)
+    if (Problem problem = checkCurves (points, geometry, request))
+      return problem;
+  const auto isStrongNow = [&] (double disturbed_share) {
     return options.denoise && noise.noisy_points > 0 &&
-           isStrong (noise, starAgreement (geometry.stars, run), limits.noise);
+           isStrong (noise, starAgreement (geometry.stars, run), disturbed_share);
   };
-  noise.is_strong = isStrongNow ();
-  const std::vector<Index> scatter = scatterOf (points, geometry, noise, request);
+  noise.is_strong = isStrongNow (limits.noise.disturbed_share);
+  const std::vector<Index> scatter =
+      is_measured ? scatterOf (points, geometry, noise, request) : std::vector<Index>{};
   // Errors along the rays of a scan look like noise and scatter.
   if (may_be_seen && (noise.is_strong || !scatter.empty ()))
     if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
@@ -244,29 +252,33 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (takeScatter (points, scatter, options, report)) {
     known = nullptr; // the known stages do not fit fewer points
     geometry = {};
-    if (Problem problem = checkPoints (points)) {
-      problem.status = RunStatus::DEGENERATE;
-      problem.message =
-          "the cloud is no surface: " + counted (scatter.size (), "point lies", "points lie") +
-          " on none at any scale, such as leaves, a solid, or many depth frames with "
-          "errors, and without them " +
-          problem.message + "; take a part that is a surface, or keep the scatter";
-      return problem;
-    }
+    if (checkPoints (points) || scatter.size () >= NEARLY_ALL * points.size ())
+      return {RunStatus::DEGENERATE,
+              "the cloud is no surface: " + counted (scatter.size (), "point lies", "points lie") +
+                  " on none at any scale, such as leaves, a solid, or a scan with errors of more "
+                  "than its spacing, and only " +
+                  std::to_string (points.size ()) +
+                  " on one; take a part that is a surface, smooth the cloud or thin it by a voxel "
+                  "grid, use a method that smooths, such as Poisson reconstruction, or keep the "
+                  "scatter"};
     planes = findPlanes (points, settings, request);
     noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-    noise.is_strong = isStrongNow ();
+    noise.is_strong = isStrongNow (limits.noise.disturbed_share);
   }
   if (!options.denoise)
     noise = {};
   if (noise.is_strong) {
-    CsrLists around = std::move (geometry.neighbors);
-    geometry = {};
-    geometry = projectNoise (points, std::move (around), noise, settings, request);
+    const bool may_be_hopeless = isStrongNow (limits.noise.hopeless_share);
+    geometry = projectNoise (points, std::move (geometry), noise, settings, request);
+    if (may_be_hopeless && noise.noisy_points == 0)
+      return {RunStatus::DEGENERATE,
+              "the points are too noisy for a mesh that goes through them, by more than their "
+              "spacing: smooth the cloud, thin it by a voxel grid, or use a method that smooths, "
+              "such as Poisson reconstruction; denoise off connects them nevertheless"};
     known = nullptr;
   }
-  reportNoise (noise, noise.is_strong, report);
+  reportNoise (noise, noise.is_strong && noise.noisy_points > 0, report);
   noise = {};
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), run), report);
 

@@ -157,7 +157,10 @@ findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t sho
     ++length[rows.find (t)];
   const auto longest = std::max_element (length.begin (), length.end ());
   std::vector<Triangle> row;
-  if (longest == length.end () || *longest < shortest_seam)
+  // Of that length. Moebius strips, noisy or at random, have up to 4.1, glued leaves 6.4.
+  constexpr std::size_t MOST_ROWS = 5;
+  if (longest == length.end () || *longest < shortest_seam ||
+      MOST_ROWS * *longest < contradicting.size ())
     return row;
   const auto root = static_cast<Index> (longest - length.begin ());
   for (Index t = 0; t < contradicting.size (); ++t)

@@ -47,8 +47,9 @@ private:
 
 /// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
 /// are connected by edges. An orientation that spreads round such a surface contradicts itself
-/// along a whole row across it; a wrong triangle between two sheets stands alone. Fails for strips
-/// less than about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
+/// along a whole row across it; a wrong triangle between two sheets stands alone, and where thin
+/// sheets are glued, there are many short rows. Fails for strips less than about 4 spacings wide:
+/// their rows are too short. O(m log m) for m triangles.
 /// \param contradicting see ConsensusMesh::seam
 /// \param shortest_seam triangles; see ConsensusLimits
 /// \return the triangles of the row, in the order of `contradicting`; empty if it is too short

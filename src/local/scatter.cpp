@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "local/scatter.h"
 
-#include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "points/regions.h"
+
+#include <algorithm>
 
 namespace pcl::floater {
 namespace {
@@ -22,48 +25,85 @@ agreeingShare (const Stars& stars, Index p)
   return triangles == 0 ? 0.0F : static_cast<float> (agreeing) / static_cast<float> (triangles);
 }
 
+// Spacings from which on points are far, and around far ones.
+struct FarSpacing
+{
+  FarSpacing (std::vector<float> spacing, const ScatterLimits& limits)
+      : middle (static_cast<double> (median (spacing))), far_away (limits.far_spacing * middle),
+        around (limits.around_far * middle)
+  {
+  }
+
+  double middle, far_away, around;
+};
+
 } // namespace
 
+bool
+hasFarPoints (const std::vector<float>& spacing, const ScatterLimits& limits)
+{
+  const double least = FarSpacing (spacing, limits).far_away;
+  return static_cast<std::size_t> (
+             std::count_if (spacing.begin (), spacing.end (), [least] (float x) {
+               return static_cast<double> (x) >= least;
+             })) >= limits.least_far;
+}
+
 std::vector<Index>
-findScatter (const CsrLists& neighbors, const Stars& stars, const std::vector<float>& unevenness,
-             double uneven, bool is_certain, const ScatterLimits& limits, const RunContext& run)
+findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, bool is_certain,
+             const ScatterLimits& limits, const RunContext& run)
 {
   constexpr std::size_t NEAREST = 20;
-  const double strong_share = is_certain ? limits.certain_share : limits.strong_share;
-  const std::size_t least = is_certain ? limits.certain_least : limits.least;
-  const std::size_t n = unevenness.size ();
+  const bool may_be_uneven = !noise.unevenness.empty ();
+  const bool may_be_far = hasFarPoints (geometry.spacing, limits);
+  if (!may_be_uneven && !may_be_far)
+    return {};
+  const FarSpacing far_spacing (geometry.spacing, limits);
+  const std::size_t n = geometry.spacing.size ();
   std::vector<float> share (n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p)
-      share[p] = agreeingShare (stars, static_cast<Index> (p));
+      share[p] = agreeingShare (geometry.stars, static_cast<Index> (p));
   });
-  std::vector<std::uint8_t> is_weak (n), is_strong (n);
+  RegionPoints strewn{std::vector<std::uint8_t> (n), std::vector<std::uint8_t> (n),
+                      std::vector<float> (n)};
+  RegionPoints distant = strewn;
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      const auto here = static_cast<double> (unevenness[p]);
-      if (here < limits.weak_unevenness)
+      const double unevenness = may_be_uneven ? static_cast<double> (noise.unevenness[p]) : 0.0;
+      const auto spacing = static_cast<double> (geometry.spacing[p]);
+      const bool is_distant = may_be_far && spacing >= far_spacing.around;
+      if (unevenness < limits.weak_unevenness && !is_distant)
         continue;
-      const Row row = neighbors.first (static_cast<Index> (p), NEAREST);
+      const Row row = geometry.neighbors.first (static_cast<Index> (p), NEAREST);
       auto around = static_cast<double> (share[p]);
       for (const Index q : row)
         around += static_cast<double> (share[q]);
       around /= static_cast<double> (row.size () + 1);
-      is_weak[p] = around <= limits.weak_share ? 1 : 0;
-      is_strong[p] = around <= strong_share && here >= uneven ? 1 : 0;
+      if (unevenness >= limits.weak_unevenness) {
+        strewn.is_inside[p] = around <= limits.weak_share ? 1 : 0;
+        strewn.is_counted[p] = around <= limits.strong_share && unevenness >= uneven ? 1 : 0;
+        strewn.value[p] = noise.dimension[p];
+      }
+      distant.is_inside[p] = is_distant && around <= limits.strong_share ? 1 : 0;
+      distant.is_counted[p] = spacing >= far_spacing.far_away ? 1 : 0;
+      distant.value[p] = around <= limits.far_share ? 1.0F : 0.0F;
     }
   });
-  DisjointSets regions (n);
-  for (Index p = 0; p < n; ++p)
-    if (is_weak[p] != 0)
-      for (const Index q : neighbors.first (p, NEAREST))
-        if (is_weak[q] != 0)
-          regions.join (p, q);
-  std::vector<std::size_t> strong (n, 0);
-  for (Index p = 0; p < n; ++p)
-    strong[regions.find (p)] += is_strong[p];
+  std::vector<std::uint8_t> is_scatter (n), is_not_noise (n);
+  takeRegions (geometry.neighbors, strewn, limits.least, is_certain ? limits.dimension : 0.0,
+               is_scatter);
+  if (is_certain) {
+    for (std::size_t p = 0; p < n; ++p)
+      strewn.value[p] = noise.at_point[p] > 0.0F ? 0.0F : 1.0F;
+    takeRegions (geometry.neighbors, strewn, limits.least, limits.not_noisy, is_not_noise);
+    for (std::size_t p = 0; p < n; ++p)
+      is_scatter[p] &= is_not_noise[p];
+  }
+  takeRegions (geometry.neighbors, distant, limits.least_far, 0.5, is_scatter);
   std::vector<Index> scatter;
   for (Index p = 0; p < n; ++p)
-    if (is_weak[p] != 0 && strong[regions.find (p)] >= least)
+    if (is_scatter[p] != 0)
       scatter.push_back (p);
   return scatter;
 }

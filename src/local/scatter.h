@@ -3,42 +3,62 @@
 // Scatter: points that lie on no surface at any scale, such as leaves.
 #pragma once
 
-#include "local/stars.h"
+#include "local/local_geometry.h"
+#include "points/noise.h"
 
 #include <vector>
 
 namespace pcl::floater {
-/// Thresholds of scatter. Two measures of a point: its unevenness (see Noise), and the share of the
-/// triangles of the stars around it that are in the stars of all their corners. Measured on 17
-/// generated families of 300,000 points: points strewn into volumes and lattices have an unevenness
-/// of 0.49 or more and a share of 0.49 or less, leaves 0.25 to 0.6 and 0.2 to 0.85. Sheets with
-/// noise of one spacing have 0.37 or less; thin walls, edges and contacts 0.5 or less, with a share
-/// of 0.4 or more. Neither measure alone tells these apart, nor both of them at single points. In
-/// regions, each threshold can be moved by a fifth without one point of a sheet being lost.
+/// Thresholds of scatter. Measures of a point: its unevenness and its dimension (see Noise), and
+/// the share of the triangles of the stars around it that are in the stars of all their corners.
+/// Measured on 24 generated families of 1.4 million points. Points strewn into volumes and lattices
+/// have an unevenness of 0.49 or more and a share of 0.49 or less, leaves 0.25 to 0.6 and 0.2 to
+/// 0.85. Sheets with noise of one spacing have 0.37 or less; thin walls, edges and contacts 0.5 or
+/// less, with a share of 0.4 or more. Neither measure tells these apart, nor both of them at single
+/// points. Regions of thin, noisy things, such as legs, ears and heads with eyes inside, look the
+/// same by both, but only a volume has more than two dimensions.
 struct ScatterLimits
 {
   double strong_share = 0.6;    ///< of agreeing triangles; at most so many at a strong point, where
                                 ///< the cloud is uneven
   double weak_unevenness = 0.2; ///< a point may be scatter from here on, ...
   double weak_share = 0.9;      ///< ... and with at most this share
-  std::size_t least = 150; ///< strong points of a region: thin walls of scanned statues have up
-                           ///< to 48
+  std::size_t least = 250;      ///< strong points of a region
+  /// Mean of the strong points of a region that certainly is scatter: between those of surfaces, 2,
+  /// and of volumes, 3, nearer to the former since the boundary of a small volume counts. Volumes
+  /// and lattices measure 2.6 to 2.9, leaves 2.31 to 2.6, trees of more than 900 points 2.3 to 2.6;
+  /// legs, ears, spikes, blades, heads with eyes inside, and balls within balls at most 2.31 with
+  /// noise of up to 0.3 spacings, and at most 2.3, but for balls within balls, with noise of 0.5.
+  double dimension = 2.31;
+  /// At least this share of its strong points is not noisy: where noise falls with the scale, it is a
+  /// thick sheet. Volumes, leaves and trees have 0.15 or more, 0.12 where density falls with the
+  /// distance; sheets with noise of 1.5 spacings 0, two near ones with noise of 0.5 at most 0.15.
+  double not_noisy = 0.1;
 
-  /// The same for what is certainly scatter. The head of a sparsely sampled cat, with eyes and jaws
-  /// inside, has 330 strong points by the limits above, and 190 by this share.
-  double certain_share = 0.45;
-  std::size_t certain_least = 500;
+  /// Spacing, in medians of the cloud, from which on a point is far: such triangles have 64 times
+  /// the area, so that 2 % of them are more than half of a mesh.
+  double far_spacing = 8.0;
+  double around_far = 2.0; ///< the same of points that may belong to a region of far ones
+  /// Share at far points on no surface. Points strewn into a cone have 0.28 to 0.35 on average,
+  /// coarse walls, terrain and balls with noise of up to 0.3 of their spacings 0.54 or more. Half
+  /// of the far points of a region must have so little.
+  double far_share = 0.45;
+  std::size_t least_far = 10; ///< far points of a region, so that the half is certain
 };
 
+/// Whether enough points are far to look for scatter among them. O(n).
+/// \param spacing of each point, see localSpacing
+bool
+hasFarPoints (const std::vector<float>& spacing, const ScatterLimits& limits);
+
 /// Finds scatter as regions: points that may be scatter and hang together by their nearest
-/// neighbours, many of which are strong. O(n).
-/// \param neighbors  of each point, nearest first
-/// \param unevenness of each point
+/// neighbours, many of which are strong; and likewise among far points. O(n).
+/// \param noise      its unevenness may be empty
 /// \param uneven     unevenness of strong points
 /// \param is_certain only regions that certainly are scatter
 /// \return ascending
 std::vector<Index>
-findScatter (const CsrLists& neighbors, const Stars& stars, const std::vector<float>& unevenness,
-             double uneven, bool is_certain, const ScatterLimits& limits, const RunContext& run);
+findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, bool is_certain,
+             const ScatterLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

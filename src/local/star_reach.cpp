@@ -82,7 +82,8 @@ reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double ra
   return found.size () == wanted ? std::sqrt (found.back ().sqr_distance) : radius;
 }
 
-// The line through a point and its neighbours, if they lie on one.
+} // namespace
+
 std::optional<Line>
 lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, double least_aspect)
 {
@@ -97,7 +98,14 @@ lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, do
   return line.aspect < least_aspect ? std::optional (line) : std::nullopt;
 }
 
-} // namespace
+bool
+liesBeside (const Line& line, const Eigen::Vector3d& offset, const ReachLimits& limits)
+{
+  const double along = line.direction.dot (offset);
+  const double sqr_lateral = (offset - line.direction * along).squaredNorm ();
+  return sqr_lateral > limits.thicknesses * limits.thicknesses * line.mean_square &&
+         sqr_lateral >= limits.line_sine * limits.line_sine * offset.squaredNorm ();
+}
 
 bool
 isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
@@ -133,18 +141,11 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
       if (!found_line)
         continue;
       const Line& line = *found_line;
-      const double sqr_thickness = limits.thicknesses * limits.thicknesses * line.mean_square;
-      const auto lateral = [&] (const Eigen::Vector3d& position) -> Eigen::Vector3d {
-        const Eigen::Vector3d offset = position - here;
-        return offset - line.direction * line.direction.dot (offset);
-      };
       Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
-      const auto is_beside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
-        if (!ahead.isZero (0.0) && !isInFront (ahead, position - here))
-          return false;
-        const double sqr_lateral = lateral (position).squaredNorm ();
-        return sqr_lateral > sqr_thickness &&
-               sqr_lateral >= limits.line_sine * limits.line_sine * neighbor.sqr_distance;
+      const auto is_beside = [&] (const Neighbor&, const Eigen::Vector3d& position) {
+        const Eigen::Vector3d offset = position - here;
+        return (ahead.isZero (0.0) || isInFront (ahead, offset)) &&
+               liesBeside (line, offset, limits);
       };
       // First on the side of the nearest one, then on the opposite side.
       double smaller = 0.0;
@@ -161,7 +162,8 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
         smaller = is_first ? distance : std::min (smaller, distance);
         if (!is_first)
           beside.reach[p] = static_cast<float> (smaller);
-        ahead = -lateral (positions[found.front ().point]);
+        const Eigen::Vector3d offset = positions[found.front ().point] - here;
+        ahead = line.direction * line.direction.dot (offset) - offset;
         std::vector<Index>& range = ranges[first / RANGE_LENGTH];
         const auto begin = range.end () - static_cast<std::ptrdiff_t> (lists.offsets[p + 1]);
         std::vector<Index> listed (begin, range.end ());

@@ -10,6 +10,7 @@
 #include "points/kd_tree.h"
 #include "points/neighbors.h"
 
+#include <optional>
 #include <vector>
 
 namespace pcl::floater {
@@ -39,6 +40,15 @@ struct ReachLimits
 /// circumradius of a triangle between two rows of points; on even samplings it stays below the
 /// spacing.
 constexpr float REACH_AS_SPACING = 0.5F;
+
+/// The line through a point and its neighbours, if they lie on one.
+/// \param least_aspect see PlaneLimits
+std::optional<Line>
+lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, double least_aspect);
+
+/// Whether a point, at an offset from one on a line, lies beside the line.
+bool
+liesBeside (const Line& line, const Eigen::Vector3d& offset, const ReachLimits& limits);
 
 /// Neighbours beside the points whose nearest neighbours are collinear, as in scan lines.
 struct BesideLines

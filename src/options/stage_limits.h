@@ -7,6 +7,7 @@
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
 #include "floater/floater_method.h"
+#include "local/curves.h"
 #include "local/planes.h"
 #include "local/scatter.h"
 #include "local/stars.h"
@@ -29,6 +30,7 @@ struct Limits
   OutlierLimits outliers;
   NoiseLimits noise;
   ScatterLimits scatter;
+  CurveLimits curves;
   PlaneLimits planes;
   SheetLimits sheets;
   ReachLimits reach;

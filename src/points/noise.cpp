@@ -6,6 +6,7 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "points/points.h"
+#include "points/regions.h"
 
 #include <Eigen/Cholesky>
 
@@ -75,13 +76,14 @@ public:
   {
     float noise = 0.0F;
     float unevenness = 0.0F; // residual in spacings at the flattest scale; below 0: unknown
+    float dimension = 0.0F;  // 0: unknown
   };
 
   Place measure (Index p, bool is_unevenness_needed)
   {
     const auto isRough = [this] (double one) { return one >= limits_.strong; };
     std::size_t lines = 0;
-    std::array<double, SCALES> residual{}, relative{};
+    std::array<double, SCALES> residual{}, relative{}, half{}, whole{};
     const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
     relative.fill (-1.0); // unknown
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
@@ -92,6 +94,10 @@ public:
       gather (p, scale);
       if (offsets_.size () < FEWEST)
         continue;
+      if (offsets_.size () > LOOKED_AT) {
+        half[scale] = offsets_[LOOKED_AT / 2].norm ();
+        whole[scale] = offsets_[LOOKED_AT].norm ();
+      }
       double spacing = 0.0;
       for (std::size_t i = 1; i <= SPACING_OF; ++i)
         spacing += offsets_[i].norm () / static_cast<double> (SPACING_OF);
@@ -116,10 +122,19 @@ public:
             relative[larger] < limits_.falls_to * relative[scale])
           noise = std::max (noise, residual[scale]);
     return {static_cast<float> (noise),
-            lines == SCALES ? NO_SURFACE : static_cast<float> (smallestKnown (relative))};
+            lines == SCALES ? NO_SURFACE : static_cast<float> (smallestKnown (relative)),
+            static_cast<float> (0.5 * (growth (half[1], half[2]) + growth (whole[1], whole[2])))};
   }
 
 private:
+  // By which power of the distance the number of points grows from the second scale to the third.
+  static double growth (double smaller, double larger)
+  {
+    return smaller > 0.0 && larger > smaller
+               ? std::log (STRIDES[2] / STRIDES[1]) / std::log (larger / smaller)
+               : 0.0;
+  }
+
   static double smallestKnown (const std::array<double, SCALES>& relative)
   {
     double smallest = -1.0;
@@ -221,12 +236,14 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
   NoiseProbes probes;
   probes.noise.resize (points.size ());
   probes.unevenness.resize (points.size ());
+  probes.dimension.resize (points.size ());
   parallelRanges (run, points.size (), [&] (std::size_t first, std::size_t last) {
     NoiseMeter meter (positions, neighbors, samples, limits);
     for (std::size_t i = first; i < last; ++i) {
       const NoiseMeter::Place place = meter.measure (points[i], is_unevenness_needed);
       probes.noise[i] = place.noise;
       probes.unevenness[i] = place.unevenness;
+      probes.dimension[i] = place.dimension;
     }
   });
   return probes;
@@ -257,7 +274,7 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
 // Measurements at each centre.
 struct Places
 {
-  std::vector<float> noise, unevenness;
+  std::vector<float> noise, unevenness, dimension;
   bool are_noisy = true, are_uneven = true; // enough of them
 };
 
@@ -321,18 +338,19 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTabl
         places.are_noisy && static_cast<double> (noisy) >= FEW * static_cast<double> (count);
     places.are_uneven = places.are_uneven &&
                         static_cast<std::size_t> (uneven) * stride * CENTRES >= limits.least_uneven;
+    places.dimension = std::move (measured.dimension); // those of the first pass are not read
     if (!places.are_noisy && !places.are_uneven)
       break;
   }
   return places;
 }
 
-// The unevenness around each point.
+// The median around each point.
 std::vector<float>
-spread (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& unevenness,
+spread (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
         const PointSample& centres, const RunContext& run)
 {
-  const std::vector<float> around = smoothed (positions, unevenness, centres, 0.5, run);
+  const std::vector<float> around = smoothed (positions, at_centre, centres, 0.5, run);
   std::vector<float> at_point (positions.size ());
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
@@ -369,8 +387,10 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
   if (!places.are_noisy && !places.are_uneven)
     return noise;
   const PointSample centres (positions, CENTRES, run);
-  if (places.are_uneven)
+  if (places.are_uneven) {
     noise.unevenness = spread (positions, places.unevenness, centres, run);
+    noise.dimension = spread (positions, places.dimension, centres, run);
+  }
   if (!places.are_noisy)
     return noise;
   const std::vector<float> around =
@@ -395,7 +415,7 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
 }
 
 bool
-isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits)
+isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share)
 {
   const auto points = static_cast<double> (agreement.size ());
   if (noise.noisy_points == 0)
@@ -404,7 +424,33 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLi
   for (std::size_t p = 0; p < agreement.size (); ++p)
     if (noise.at_point[p] > 0.0F)
       disturbed += 1.0 - static_cast<double> (agreement[p]);
-  return disturbed >= limits.disturbed_share * points;
+  return disturbed >= disturbed_share * points;
+}
+
+bool
+keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
+               const std::vector<float>& after, const NoiseLimits& limits, Noise& noise)
+{
+  const std::size_t n = noise.at_point.size ();
+  RegionPoints noisy{std::vector<std::uint8_t> (n), {}, std::vector<float> (n)};
+  for (std::size_t p = 0; p < n; ++p) {
+    noisy.is_inside[p] = noise.at_point[p] > 0.0F ? 1 : 0;
+    noisy.value[p] = after[p] - before[p];
+  }
+  noisy.is_counted = noisy.is_inside;
+  std::vector<std::uint8_t> is_explained (n);
+  takeRegions (neighbors, noisy, 1, limits.gain, is_explained);
+  for (std::size_t p = 0; p < n; ++p) // less what it has to be
+    noisy.value[p] -= static_cast<float> (1.0 - limits.unexplained) * (1.0F - before[p]);
+  takeRegions (neighbors, noisy, 1, 0.0, is_explained);
+  const std::size_t measured = noise.noisy_points;
+  noise.noisy_points = 0;
+  for (std::size_t p = 0; p < n; ++p)
+    if (is_explained[p] != 0)
+      ++noise.noisy_points;
+    else
+      noise.at_point[p] = 0.0F;
+  return noise.noisy_points < measured;
 }
 
 std::vector<Eigen::Vector3d>

@@ -37,9 +37,21 @@ struct NoiseLimits
   /// of 0.3 spacings 0.07, of 0.5 spacings 0.18. Clean clouds of the benchmark have at most 0.020,
   /// its depth cameras at least 0.038. Chosen between these: close to both, and not certain.
   double disturbed_share = 0.035;
+  /// The same share, from which on a cloud is too noisy for any mesh through its points, if
+  /// projection explains it nowhere: noise of 2 spacings has 0.23 or more. Clouds that make a mesh
+  /// without projection have up to 0.15.
+  double hopeless_share = 0.2;
+  /// Noise explains the disagreement of the stars in a region if projection leaves at most this
+  /// share of it. It leaves 0.34 or less of sheets with noise of up to one spacing, 0.4 of noise of
+  /// 1.5 spacings, 0.54 or more of two walls, blades, thin tubes, and noise of 3 spacings.
+  double unexplained = 0.5;
+  /// Or if agreement rises by so much: leaves, two walls with noise of half their distance, and noise
+  /// of 2 spacings have no good mesh either way, but fewer crossings if projected. Thin things, where
+  /// projection makes them, gain 0.065 or less.
+  double gain = 0.07;
   /// Unevenness from which on a point may lie on no surface. Points strewn into a box or a ball
   /// have 0.49 or more, sheets with noise of one spacing 0.37 or less.
-  double uneven = 0.42;
+  double uneven = 0.38;
   std::size_t least_uneven = 100; ///< points; if there are fewer, unevenness is not measured at all
 };
 
@@ -52,6 +64,10 @@ struct Noise
   /// Unevenness of each point: the residual in spacings at the scale where it is smallest, median
   /// of the probes around. Empty if hardly any point is uneven.
   std::vector<float> unevenness;
+  /// Dimension of each point: by which power of the distance the number of points around grows,
+  /// from 40 to 160 and from 80 to 320 points, median of the probes around; 2 on a surface. Empty
+  /// as unevenness is.
+  std::vector<float> dimension;
   double median = 0.0, quantile_90 = 0.0, largest = 0.0; ///< over all points, in local spacings
   bool is_strong = false;                                ///< see isStrong; set by the caller
 };
@@ -61,6 +77,7 @@ struct NoiseProbes
 {
   std::vector<float> noise;      ///< standard deviation across the surface; 0: there is none
   std::vector<float> unevenness; ///< residual in spacings at the flattest scale; below 0: unknown
+  std::vector<float> dimension;  ///< see Noise::dimension; 0: unknown
 };
 
 /// Every 64th point is measured first. If none of these is noisy, the cloud has no noise.
@@ -94,9 +111,20 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
 /// Whether points have to be projected before they are connected: enough are noisy, and their stars
 /// disagree. At creases and thin sheets of clean clouds points look noisy, but their stars agree.
 /// O(n).
-/// \param agreement of the star of each point, see starAgreement
+/// \param agreement       of the star of each point, see starAgreement
+/// \param disturbed_share see NoiseLimits
 bool
-isStrong (const Noise& noise, const std::vector<float>& agreement, const NoiseLimits& limits);
+isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share);
+
+/// Keeps noise only in regions of noisy points where it explains the disagreement of the stars, and
+/// counts the noisy points again. O(n).
+/// \param neighbors of each point, nearest first
+/// \param before agreement of the star of each point, by the positions of the points
+/// \param after  the same with projected points
+/// \return whether noise was removed
+bool
+keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
+               const std::vector<float>& after, const NoiseLimits& limits, Noise& noise);
 
 /// Projects every noisy point on the plane of up to 60 points around it within NoiseLimits::radius,
 /// weighted by distance. A second pass leaves out points far off the first plane, such as

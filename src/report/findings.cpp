@@ -44,7 +44,8 @@ constexpr Sentence SENTENCES[] = {
      "{0:point lies|points lie} on no surface at any scale, such as leaves: {n1} % of the cloud, "
      "{0?|among them }{p0}. {0?It was|They were} left out; the scatter policy decides that"},
     {FindingId::NOISE, "noise", Severity::DOUBT,
-     "{0:point is|points are} noisy, by up to {n1} local spacings (median of all points {n2}, 90 % "
+     "{0:point is|points are} noisy ({n4} % of the cloud), by up to {n1} local spacings (median of "
+     "all points {n2}, 90 % "
      "below {n3}): {0?it was connected by its place on the plane|they were connected by their "
      "places on the planes} of the points around; the vertices of the mesh are the points "
      "themselves"},
@@ -88,8 +89,10 @@ constexpr Sentence SENTENCES[] = {
      "{0:edge is|edges are} folded by more than 120 degrees{at}: sheets of the surface come close "
      "there, or a feature is thinly sampled"},
     {FindingId::CROSSING_TRIANGLES, "crossing_triangles", Severity::FLAW,
-     "{0:pair of triangles crosses|pairs of triangles cross} each other{at}: sheets of the surface "
-     "come closer there than their points are, or a feature is thinly sampled"},
+     "{0:pair of triangles crosses|pairs of triangles cross} each other{at}: "
+     "{1+the points are noisy, }sheets of the surface come closer there than their points are, or "
+     "a "
+     "feature is thinly sampled"},
     {FindingId::LONG_EDGES, "long_edges", Severity::DOUBT,
      "{0:edge inside the surface is|edges inside the surface are} much longer than the local "
      "spacing, {0?|the longest one }of {n1} spacings from {p0} to {p1}: a hole may be bridged "

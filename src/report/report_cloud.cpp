@@ -119,7 +119,9 @@ reportNoise (const Noise& noise, bool denoised, Report& report)
   report.denoised = denoised;
   if (denoised)
     addFinding (report, FindingId::NOISE, {}, {}, noise.noisy_points, noise.largest, noise.median,
-                noise.quantile_90);
+                noise.quantile_90,
+                100.0 * static_cast<double> (noise.noisy_points) /
+                    static_cast<double> (noise.at_point.size ()));
 }
 
 void

@@ -76,8 +76,8 @@ TEST (RunStatus, OfRunsThatFail)
       {RunStatus::TOO_FEW_POINTS, "0 distinct", Positions (20, {0, 0, std::nan ("")}), {}},
       {RunStatus::DEGENERATE, "one line", line, {}},
       // Points along a curve are in no triangle: an empty mesh is no success.
-      {RunStatus::DEGENERATE, "no three points", curve, {}},
-      {RunStatus::DEGENERATE, "no three points", curve, made_surface},
+      {RunStatus::DEGENERATE, "along curves", curve, {}},
+      {RunStatus::DEGENERATE, "along curves", curve, made_surface},
       {RunStatus::NO_BOUNDARY, "closed", surface (SurfaceKind::SPHERE, 3000), discOptions ()},
       {RunStatus::NO_BOUNDARY, "closed", surface (SurfaceKind::TORUS, 3000), discOptions ()},
       {RunStatus::UNREACHABLE, "do not connect", three_discs, discOptions ()},

@@ -146,6 +146,41 @@ TEST (Scatter, SmallBushesStay)
   EXPECT_GT (reportOn (positions, ScatterPolicy::DROP).scatter.size (), 350U);
 }
 
+// Two balls, one in the other, look as uneven as leaves, but have two dimensions.
+TEST (Scatter, ThinThingsStayHoweverNoisy)
+{
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    RandomStream random (seed);
+    Positions shells;
+    for (const double radius : {1.0, 0.85})
+      for (const Eigen::Vector3d& p : samples::surface (SurfaceKind::SPHERE, 1000, 0.0))
+        shells.push_back (radius * (p + 0.3 * Eigen::Vector3d (random.normal (), random.normal (),
+                                                               random.normal ())));
+    EXPECT_TRUE (reportOn (shells, ScatterPolicy::AUTO).scatter.empty ());
+  }
+}
+
+// A few points far behind a ball, ever farther apart, have most of the area; a coarse wall is one.
+TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
+{
+  const Positions ball = samples::placed (samples::surface (SurfaceKind::SPHERE, 2000, 0.0),
+                                          Eigen::Vector3d::Zero (), 0.08); // radius 1
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    RandomStream random (seed);
+    Positions strewn = ball, wall = ball;
+    for (int i = 0; i < 200; ++i) {
+      const double distance = 3.0 * std::pow (10.0, random.uniform ());
+      strewn.emplace_back (distance * random.normal (), distance * random.normal (),
+                           4.0 + distance);
+      wall.emplace_back (i % 16 + 0.2 * random.uniform (), i / 16, 4.0 + 0.1 * random.normal ());
+    }
+    const Report report = reportOn (strewn, ScatterPolicy::AUTO);
+    EXPECT_GE (report.scatter.size () + report.outliers.size (), 190U);
+    EXPECT_TRUE (report.scatter.empty () || report.scatter.front () >= ball.size ());
+    EXPECT_TRUE (reportOn (wall, ScatterPolicy::AUTO).scatter.empty ());
+  }
+}
+
 TEST (Scatter, ACloudOfNothingElseIsDegenerate)
 {
   const Report report = reportOn (strewn (Strewn::BOX, 4000, 1), ScatterPolicy::AUTO);

@@ -79,12 +79,36 @@ TEST (Noise, IsStrongWhereStarsOfNoisyPointsDisagree)
   const auto isStrongIf = [&noise] (std::size_t noisy, float agreement) {
     std::fill_n (noise.at_point.begin (), noisy, 1.0F);
     noise.noisy_points = noisy;
-    return isStrong (noise, std::vector<float> (100, agreement), {});
+    return isStrong (noise, std::vector<float> (100, agreement), NoiseLimits{}.disturbed_share);
   };
   EXPECT_FALSE (isStrongIf (0, 0.8F));
   EXPECT_FALSE (isStrongIf (17, 0.8F));
   EXPECT_TRUE (isStrongIf (18, 0.8F));
   EXPECT_FALSE (isStrongIf (100, 1.0F));
+}
+
+// Two chains of points; projection explains the first, and only moves the disagreement of the other.
+TEST (Noise, IsKeptInRegionsThatItExplains)
+{
+  Noise noise;
+  noise.at_point.assign (20, 1.0F);
+  noise.at_point[0] = 0.0F;
+  noise.noisy_points = 19;
+  CsrLists chains;
+  chains.offsets = {0};
+  for (Index p = 0; p < 20; ++p) {
+    if (p % 10 != 9)
+      chains.ids.push_back (p + 1);
+    chains.offsets.push_back (static_cast<Index> (chains.ids.size ()));
+  }
+  const std::vector<float> before (20, 0.8F);
+  std::vector<float> after (20, 0.95F);
+  std::fill (after.begin () + 10, after.end (), 0.85F);
+  EXPECT_TRUE (keepExplained (chains, before, after, {}, noise));
+  EXPECT_EQ (noise.noisy_points, 9U);
+  EXPECT_EQ (noise.at_point[9], 1.0F);
+  EXPECT_EQ (noise.at_point[10], 0.0F);
+  EXPECT_FALSE (keepExplained (chains, before, after, {}, noise));
 }
 
 TEST (Noise, ThinSheetsAreNone)
