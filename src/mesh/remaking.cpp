@@ -126,9 +126,10 @@ public:
   {
   }
 
+  // \param is_noise   out: see RemadePlace
   // \param is_careful accepts neither a change of the topology nor more folds
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, bool is_careful) const
+  std::optional<NewZone> remake (Row zone, bool is_careful, std::uint8_t& is_noise) const
   {
     std::vector<Index> points (zone.begin (), zone.end ());
     addRing (points);
@@ -137,6 +138,7 @@ public:
     std::vector<Triangle> old;
     const Place place = makePlace (points, zone, frame, old);
     const RemadePlace made = remakePlace (place, run_);
+    is_noise = made.is_noise ? 1 : 0;
     if (!made.is_right || hasLid (made, points))
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
@@ -362,16 +364,22 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
                                                      pass.rings, limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
+    std::vector<std::uint8_t> is_noise (made.size (), 0);
     if (made.empty ())
       return done;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), pass.is_careful);
+      made[zone] = remaker.remake (zones.points.row (zone), pass.is_careful, is_noise[zone]);
     });
     TriangleMesh spliced;
     spliced.triangles = ZoneSplicing (mesh, zones, made).splice ();
     done.failed = static_cast<std::size_t> (std::count (made.begin (), made.end (), std::nullopt));
+    std::size_t noisy_points = 0;
+    for (std::size_t zone = 0; zone < made.size (); ++zone)
+      noisy_points += is_noise[zone] != 0 ? zones.points.row (zone).size () : 0;
+    if (4 * noisy_points > positions.size ())
+      return done; // the cloud is noise
     if (done.failed == made.size () || !spliced.connect (positions.size (), run))
       continue;
     for (std::size_t zone = 0; zone < made.size (); ++zone)

@@ -18,6 +18,10 @@ namespace pcl::floater {
 namespace {
 constexpr int MENDING_ROUNDS = 50; // ends it where each change causes another one
 
+// One flawed point in so many is noise. Generated bodies with thin walls and sharp edges had at most
+// one in 25, noisy scans one in 8 to 14.
+constexpr std::size_t NOISE = 16, FEW_FLAWED = 16;
+
 // Sets of tetrahedra on the same or on opposite sides. A step that leaves a free point without a
 // second side is undone.
 class SidesOfSpace
@@ -149,6 +153,8 @@ public:
     joinOutside ();
     placeFacets ();
     decide ();
+    if ((made.is_noise = isNoise ()))
+      return made;
     mend ();
     take (made);
     return made;
@@ -387,6 +393,18 @@ private:
           pieces->push_back (std::move (members));
       }
     return count[0] == 0 || count[1] == 0 ? ENCLOSED : count[0] + count[1] - 2;
+  }
+
+  // Whether the surface is no manifold at too many points.
+  bool isNoise ()
+  {
+    std::size_t free = 0, flawed = 0;
+    for (Index p = 0; p < place_.positions.size (); ++p)
+      if (place_.is_free[p] != 0) {
+        ++free;
+        flawed += flawsAt (p) > 0 ? 1 : 0;
+      }
+    return flawed > FEW_FLAWED && flawed * NOISE > free;
   }
 
   // Moves tetrahedra, one or a piece around a point, to the other side where the surface is no
