@@ -37,21 +37,22 @@ spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row
   return sum / static_cast<double> (count);
 }
 
-// Calls visit (q, distance, spacing) for the neighbours nearer than the gap, nearest first, until it
+// Calls visit (q, distance, spacing) for the neighbours nearer than a gap, nearest first, until it
 // returns false.
+// \param gap in spacings
 template <typename Visit>
 void
-visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
+visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row, double gap,
               const NetLimits& limits, Visit&& visit)
 {
   // Most points are well spaced.
-  if (row.size () == 0 || lengthTo (positions, p, row[0]) >=
-                              limits.gap * spacingAround (positions, p, row, limits, true))
+  if (row.size () == 0 ||
+      lengthTo (positions, p, row[0]) >= gap * spacingAround (positions, p, row, limits, true))
     return;
   const double spacing = spacingAround (positions, p, row, limits);
   for (const Index q : row) {
     const double d = lengthTo (positions, p, q);
-    if (d >= limits.gap * spacing || !visit (q, d, spacing))
+    if (d >= gap * spacing || !visit (q, d, spacing))
       return;
   }
 }
@@ -65,13 +66,14 @@ pointsTooNear (const std::vector<Eigen::Vector3d>& positions, const CsrLists& ne
   std::vector<std::uint8_t> is_aside (positions.size (), 0);
   for (Index p = 0; p < positions.size (); ++p)
     if (is_stacked[p] != 0)
-      visitTooNear (positions, p, neighbors.row (p), limits, [&] (Index q, double, double) {
-        if (q > p || is_aside[q] != 0)
-          return true;
-        is_aside[p] = 1;
-        aside.push_back (p);
-        return false;
-      });
+      visitTooNear (positions, p, neighbors.row (p), limits.gap, limits,
+                    [&] (Index q, double, double) {
+                      if (q > p || is_aside[q] != 0)
+                        return true;
+                      is_aside[p] = 1;
+                      aside.push_back (p);
+                      return false;
+                    });
   return aside;
 }
 
@@ -109,13 +111,14 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
     for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Row row = neighbors.row (p);
       Index by = NONE;
-      visitTooNear (positions, p, row, limits, [&] (Index q, double d, double spacing) {
-        if (d < limits.equal * spacing)
-          is_equal[p] = 1;
-        if (q < p)
-          by = q;
-        return by == NONE;
-      });
+      visitTooNear (positions, p, row, limits.near, limits,
+                    [&] (Index q, double d, double spacing) {
+                      if (d < limits.equal * spacing)
+                        is_equal[p] = 1;
+                      if (q < p)
+                        by = q;
+                      return by == NONE;
+                    });
       if (is_equal[p] != 0)
         is_any_equal = true;
       if (by == NONE)

@@ -14,7 +14,9 @@ namespace pcl::floater {
 /// strips, merged scans: points apart along the normal, by a few percent of the spacing.
 struct NetLimits
 {
-  double gap = 0.2;    ///< spacings; of two points nearer to each other, one is set aside
+  double near = 0.2;   ///< spacings; nearer points show that there are stacks
+  double gap = 0.3;    ///< spacings, between points of the net, where there are. With 0.2, several
+                       ///< points of a stack as high as 0.15 were in the net, and made it noisy
   double equal = 1e-3; ///< spacings; nearer points are the same but for rounding. Among 100,000
                        ///< random points there is one such pair by chance in every third cloud
   std::size_t least_points = 100; ///< in smaller clouds, shares are chance

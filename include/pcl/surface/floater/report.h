@@ -201,9 +201,10 @@ struct Statistics
   std::size_t scatter_points = 0; ///< points of regions that are no surface at any scale, such as
                                   ///< leaves. Not searched in a view, in fewer than 320 points,
                                   ///< and without denoising if scatter is kept
-  std::size_t stacked_points = 0; ///< points that lie on others, nearer than a fifth of the local
-                                  ///< spacing, and came into the mesh after these
-  double stack_height = 0.0;      ///< median of their distances, in local spacings
+  std::size_t stacked_points =
+      0;                     ///< points that lie on others, nearer than three tenths of the local
+                             ///< spacing, and came into the mesh after these
+  double stack_height = 0.0; ///< median of their distances, in local spacings
   double largest_stack_height = 0.0; ///< maximum of these
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
                       ///< surface, in local spacings; below 0.15 it counts as 0. Not for views
