@@ -16,6 +16,8 @@ findCurves (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& 
             const CurveLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size (), stride = n / limits.samples + 1;
+  if (n < limits.least_points)
+    return {};
   const std::size_t looked_at = (n + stride - 1) / stride;
   std::vector<std::pair<Index, Line>> on_line;
   for (std::size_t i = 0; i < n; i += stride) {

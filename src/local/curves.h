@@ -13,15 +13,16 @@ namespace pcl::floater {
 /// 0.02 or less, profiles with corners 20 to 40 times as far apart up to 0.28.
 struct CurveLimits
 {
-  double on_lines = 0.9;      ///< share of the points that lie on a line with their neighbours
-  double joined = 0.35;       ///< at most this share of them is joined to another curve
-  std::size_t samples = 1000; ///< points looked at
+  double on_lines = 0.9;          ///< share of the points that lie on a line with their neighbours
+  double joined = 0.35;           ///< at most this share of them is joined to another curve
+  std::size_t samples = 1000;     ///< points looked at
+  std::size_t least_points = 100; ///< fewer lie along lines by chance
 };
 
 struct Curves
 {
   bool are_all = false; ///< the cloud is curves that are not joined
-  double apart = 0.0;   ///< median distance to points beside the curve, in steps along it; 0: unknown
+  double apart = 0.0; ///< median distance to points beside the curve, in steps along it; 0: unknown
 };
 
 /// Whether a cloud is curves. A point is joined to another curve if a triangle that its corners

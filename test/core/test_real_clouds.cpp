@@ -223,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P (
                      Known{"hill_lidar", 1, 1, 0, 30}, Known{"igea", 1, 1, 0, 0},
                      Known{"field_lidar", 1, 1, 0, 0}, Known{"spot_closed", 1, 0, 0, 0},
                      Known{"rocker_arm_closed", 1, 0, 1, 0}, Known{"fertility_closed", 1, 0, 4, 0},
-                     Known{"two_objects", 2, 0, 1, 0}, Known{"max_planck_mask", 1, 4, 0, 0},
+                     Known{"two_objects", 2, 0, 1, 46}, Known{"max_planck_mask", 1, 4, 0, 0},
                      Known{"beetle_windows", 1, 11, 0, 0},
                      Known{"bunny_holes", 1, 5, 0, 0, HolePolicy::KEEP_COUNT, 5}),
     [] (const testing::TestParamInfo<Known>& cloud) { return std::string (cloud.param.name); });

@@ -223,7 +223,7 @@ class Surfaces(Case):
         data = os.environ.get("PCL_FLOATER_DATA", "")
         if not os.path.isdir(data):
             self.skipTest(f"there is no folder of real clouds: PCL_FLOATER_DATA is '{data}'")
-        names = ["raw_milk", "raw_slope_lidar"]
+        names = ["raw_milk", "raw_sparse_cat"]
         clouds = sorted(pathlib.Path(data).glob("*.pcd")) if OPTIONS.long else [
             pathlib.Path(data) / f"{name}.pcd" for name in names]
         for cloud in clouds:
