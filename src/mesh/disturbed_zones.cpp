@@ -247,8 +247,8 @@ private:
   {
     std::set<Index> seen; // triangles
     std::vector<Index> fan;
-    for (std::size_t i = 0; i < free_.size (); ++i) {
-      mesh_.fan (free_[i], fan);
+    for (std::size_t next = 0; next < free_.size ();) { // their number grows
+      mesh_.fan (free_[next++], fan);
       for (const Index first : fan)
         for (const Index t : mesh_.neighbors[first])
           if (t != NONE && !hasFree (t) && seen.insert (t).second)
@@ -276,8 +276,8 @@ private:
   void takeEnclosed ()
   {
     std::vector<Index> fan, around;
-    for (std::size_t i = 0; i < free_.size (); ++i) {
-      mesh_.fan (free_[i], fan);
+    for (std::size_t next = 0; next < free_.size ();) { // their number grows
+      mesh_.fan (free_[next++], fan);
       for (const Index t : fan)
         for (const Index q : mesh_.triangles[t]) {
           mesh_.fan (q, around);

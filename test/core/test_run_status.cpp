@@ -51,7 +51,7 @@ TEST (RunStatus, OfRunsThatFail)
   Positions line, curve, three_discs;
   for (int i = 0; i < 100; ++i)
     line.emplace_back (0.1F * static_cast<float> (i), 0.7F * static_cast<float> (i), 3.0);
-  for (int i = 0; i < 60; ++i)
+  for (int i = 0; i < 120; ++i)
     curve.emplace_back (i, 1e-3 * std::sin (7.0 * i), 1e-3 * std::cos (5.0 * i));
   for (std::uint64_t i = 0; i < 3; ++i)
     for (const Eigen::Vector3d& p : discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1))

@@ -47,10 +47,12 @@ strewn (Strewn kind, std::size_t count, std::uint64_t seed)
       }
       p = centres[i / 8] + 0.01 * (random.normal () * along + random.normal () * across);
     }
-    else if (kind == Strewn::LATTICE)
-      p = Eigen::Vector3d (static_cast<double> (i % side), static_cast<double> (i / side % side),
-                           static_cast<double> (i / side / side)) +
+    else if (kind == Strewn::LATTICE) {
+      const std::size_t row = i / side, layer = row / side;
+      p = Eigen::Vector3d (static_cast<double> (i % side), static_cast<double> (row % side),
+                           static_cast<double> (layer)) +
           0.02 * normal ();
+    }
   }
   return positions;
 }
