@@ -32,7 +32,7 @@ struct RemadePlace
   std::vector<Triangle> triangles;     ///< each with a free corner
   std::vector<std::uint8_t> is_turned; ///< of each patch: its back is the front of `triangles`
   bool is_noise = false; ///< the balls of noisy points tell no sides; nothing else is set
-  bool is_right = false;               ///< the new triangles are one fan around each free point
+  bool is_right = false; ///< the new triangles are one fan around each free point
 };
 
 /// Makes the triangles of a place from the Delaunay triangulation of its points in space.
