@@ -50,8 +50,4 @@ findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
                     const std::vector<CrossingPair>& crossing, int rings,
                     const DisturbanceLimits& limits, const RunContext& run);
 
-/// Whether the surface bends by more than 60 degrees between two normals of any length.
-bool
-isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other);
-
 } // namespace pcl::floater
