@@ -11,12 +11,15 @@
 namespace pcl::floater {
 ClosedHoles
 closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,
-            const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, double unit, const HoleOptions& holes,
-            const HoleClosingLimits& limits, const RunContext& run)
+            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals, double unit,
+            const HoleOptions& holes, const HoleClosingLimits& limits, const RunContext& run)
 {
   const std::vector<LoopJudgement> judgements =
-      judgeLoops (mesh, loops, positions, neighbors, normals, limits.open_loops, run);
+      holes.policy == HolePolicy::AUTO
+          ? widenHoles (mesh, loops, positions, spacing, neighbors, normals, limits.open_loops,
+                        limits.hole_widening, run)
+          : judgeLoops (mesh, loops, positions, neighbors, normals, limits.open_loops, run);
   chooseOpenLoops (loops, judgements, components, holes, unit);
   const TriangleCost cost (positions, normals, nullptr, limits.cost);
   ClosedHoles closed;

@@ -6,6 +6,7 @@
 #include "consensus/candidates.h"
 #include "core/csr_lists.h"
 #include "mesh/hole_filling.h"
+#include "mesh/hole_widening.h"
 #include "mesh/loops.h"
 #include "mesh/triangle_mesh.h"
 
@@ -16,6 +17,7 @@ namespace pcl::floater {
 struct HoleClosingLimits
 {
   OpenLoopLimits open_loops;
+  HoleWideningLimits hole_widening;
   HoleFillingLimits hole_filling;
   CostLimits cost;
 };
@@ -33,16 +35,17 @@ struct ClosedHoles
   std::vector<JudgedLoop> doubtful; ///< in the order of their smallest points, see isDoubtful
 };
 
-/// Decides which loops stay open and fills the others. O(n) plus judgeLoops () and fillHoles ().
+/// Decides which loops stay open, widens those by the automatic policy (see widenHoles), and fills
+/// the others. O(n) plus judgeLoops () and fillHoles ().
 /// \param loops of the mesh, ascending by their smallest points
 /// \param components number of components of the mesh
-/// \param neighbors, normals of each point; read for points of loops and those around
+/// \param spacing, neighbors, normals of each point; read for points of loops and those around
 /// \param unit length of one unit of the cloud in the unit of the positions
 ClosedHoles
 closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,
-            const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, double unit, const HoleOptions& holes,
-            const HoleClosingLimits& limits, const RunContext& run);
+            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals, double unit,
+            const HoleOptions& holes, const HoleClosingLimits& limits, const RunContext& run);
 
 /// Limits of the consensus mesh.
 struct ConsensusLimits

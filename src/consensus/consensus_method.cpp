@@ -56,8 +56,9 @@ closeHolesOf (TriangleMesh& mesh, const Points& points, const LocalGeometry& geo
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   const MeshComponents components = findComponents (mesh, run);
   return closeHoles (mesh, findBoundaryLoops (mesh, components, positions, geometry.spacing, run),
-                     components.count, positions, geometry.neighbors, geometry.stars.normals,
-                     1.0 / points.scale, settings.holes, settings.limits.holeClosing (), run);
+                     components.count, positions, geometry.spacing, geometry.neighbors,
+                     geometry.stars.normals, 1.0 / points.scale, settings.holes,
+                     settings.limits.holeClosing (), run);
 }
 
 // Leaves out the loops that were to stay open, but are no boundary any more.

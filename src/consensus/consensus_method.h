@@ -38,10 +38,14 @@ struct SurfaceLimits
 {
   ConsensusLimits consensus;
   OpenLoopLimits open_loops;
+  HoleWideningLimits hole_widening;
   HoleFillingLimits hole_filling;
   FinishLimits finish;
 
-  HoleClosingLimits holeClosing () const { return {open_loops, hole_filling, finish.cost}; }
+  HoleClosingLimits holeClosing () const
+  {
+    return {open_loops, hole_widening, hole_filling, finish.cost};
+  }
 };
 
 struct SurfaceSettings

@@ -271,6 +271,7 @@ lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
   const double edge = std::sqrt (squares / static_cast<double> (count));
   evidence.depth = findDepth (loop.points, positions, filling) / edge;
   evidence.irregularity = edges[2].deviation ();
+  evidence.edge = std::exp (edges[2].mean ());
   evidence.growth = edges[3].isEmpty () ? 0.0 : edges[0].mean () - edges[3].mean ();
   evidence.turning = std::clamp (curvature / (2.0 * PI), -MOST_TURNING, +MOST_TURNING);
   return evidence;

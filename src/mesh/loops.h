@@ -46,8 +46,8 @@ struct EmptySectorLimits
   SheetLimits sheet;    ///< which neighbours lie on another sheet, as for the stars
 };
 
-/// Features that separate boundaries of the surface from gaps in the sampling. All are
-/// dimensionless.
+/// Features that separate boundaries of the surface from gaps in the sampling. All but `edge`
+/// are dimensionless.
 struct LoopEvidence
 {
   double open_share = 0.0;   ///< share of its points with a sector of EmptySectorLimits::angle or
@@ -58,6 +58,7 @@ struct LoopEvidence
                              ///< ragged loop; area in the direction of the area vector
   double irregularity = 0.0; ///< of the sampling around: standard deviation of the logarithms of
                              ///< the edges that begin two rings into the surface
+  double edge = 0.0;         ///< geometric mean of these edges, in the unit of the positions
   double growth = 0.0;       ///< of the spacing towards the loop: logarithm of the mean edge at the
                              ///< loop over the mean edge that begins three rings into the surface;
                              ///< 0 if there are none
@@ -89,9 +90,7 @@ findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
 /// The coefficients belong to a logistic regression: the sum of evidence times coefficient is the
 /// logarithm of the odds that the loop is a boundary. They were fitted to loops of generated
 /// surfaces: windows of 4 to 40 spacings, borders, and gaps, on ten shapes in thirteen samplings,
-/// and on random bodies in four. `pcl_floater_open_loops --fit` repeats the fit; without an option
-/// it prints the error rates on other surfaces. A gap that stays open counts as four windows that
-/// are filled.
+/// and on random bodies in four. A gap that stays open counts as four windows that are filled.
 struct OpenLoopLimits
 {
   EmptySectorLimits sectors;

@@ -46,7 +46,8 @@ std::optional<std::vector<BoundaryLoop>>
 findLoops (const TriangleMesh& mesh, const MeshComponents& components, const JoinedRims& joined,
            const RunContext& run)
 {
-  constexpr std::size_t EDGES = 3; // neighbourhood of a loop in findEvidence, in edges
+  // Rings removed by widenHoles, then the neighbourhood of a loop in findEvidence, in edges.
+  constexpr std::size_t EDGES = 6;
   std::vector<BoundaryLoop> loops;
   std::vector<Index> ends;
   for (BoundaryLoop& loop :
@@ -169,9 +170,9 @@ stitch (JoinedRims joined, const Parts& parts, double unit, const SurfaceSetting
     if (joined.normals[p].dot (joined.smoothed[p]) < 0.0F)
       joined.normals[p] = -joined.normals[p];
   const std::size_t unfilled = mesh->triangles.size ();
-  stitching.holes =
-      closeHoles (*mesh, std::move (*loops), components.count, joined.positions, joined.neighbors,
-                  joined.normals, unit, settings.holes, limits.holeClosing (), run);
+  stitching.holes = closeHoles (*mesh, std::move (*loops), components.count, joined.positions,
+                                joined.spacing, joined.neighbors, joined.normals, unit,
+                                settings.holes, limits.holeClosing (), run);
   for (JudgedLoop& judged : stitching.holes.doubtful)
     for (Index& p : judged.loop.points)
       p = joined.points.pointAt (p);

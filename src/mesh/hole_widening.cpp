@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/hole_widening.h"
+
+#include "core/geometry.h"
+#include "mesh/open_boundary.h"
+#include "mesh/trimming.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace pcl::floater {
+namespace {
+double
+circumradius (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+{
+  const Eigen::Vector3d a = positions[t[1]] - positions[t[0]],
+                        b = positions[t[2]] - positions[t[0]];
+  return a.norm () * b.norm () * (b - a).norm () / (2.0 * a.cross (b).norm ()); // flat: infinite
+}
+
+bool
+staysOpen (const LoopJudgement& judgement)
+{
+  return judgement.log_odds > 0.0 || judgement.is_too_deep;
+}
+
+// Of each point on a loop: the loop.
+std::vector<Index>
+loopsOfPoints (const std::vector<BoundaryLoop>& loops, std::size_t points)
+{
+  std::vector<Index> loop_of (points, NONE);
+  for (Index i = 0; i < loops.size (); ++i)
+    for (const Index p : loops[i].points)
+      loop_of[p] = i;
+  return loop_of;
+}
+
+// The loops that follow from the removal of triangles, in the places of those that they replace.
+std::vector<BoundaryLoop>
+widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loops,
+              const std::vector<std::pair<Index, Index>>& removed,
+              const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+              const RunContext& run)
+{
+  std::vector<std::uint8_t> is_widened (loops.size (), 0);
+  for (const auto& [triangle, loop] : removed)
+    is_widened[loop] = 1;
+  const std::vector<Index> loop_of = loopsOfPoints (loops, positions.size ());
+  std::vector<BoundaryLoop> found = loops;
+  for (std::vector<Index>& points : boundaryLoops (widened, run)) {
+    const auto own = std::find_if (points.begin (), points.end (),
+                                   [&loop_of] (Index p) { return loop_of[p] != NONE; });
+    if (own == points.end () || is_widened[loop_of[*own]] == 0)
+      continue;
+    BoundaryLoop& loop = found[loop_of[*own]];
+    loop.points = std::move (points);
+    measureLoop (loop, positions, spacing);
+  }
+  return found;
+}
+
+std::vector<std::uint8_t>
+flagsOf (const std::vector<std::pair<Index, Index>>& over, const TriangleMesh& mesh)
+{
+  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
+  for (const auto& [triangle, loop] : over)
+    is_removed[triangle] = 1;
+  return is_removed;
+}
+
+} // namespace
+
+std::vector<std::pair<Index, Index>>
+trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
+                    const std::vector<LoopEvidence>& evidence,
+                    const std::vector<std::uint8_t>& is_looked,
+                    const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits,
+                    const RunContext& run)
+{
+  const std::vector<Index> loop_of = loopsOfPoints (loops, positions.size ());
+  BoundaryPeel peel (mesh, positions.size (), run);
+  std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
+  for (const MeshEdge e : peel.edges ())
+    if (const Index loop = loop_of[mesh.from (e)]; loop != NONE && is_looked[loop] != 0)
+      edges.emplace_back (e, loop);
+  std::vector<std::pair<Index, Index>> over;
+  for (std::size_t ring = 0; ring < limits.rings && !edges.empty (); ++ring, edges.swap (next)) {
+    std::vector<std::tuple<double, MeshEdge, Index>> large;
+    for (const auto& [e, loop] : edges) {
+      const double radius = circumradius (mesh.triangles[e.triangle], positions);
+      const double most = limits.evenness + limits.spread * evidence[loop].irregularity;
+      if (radius > evidence[loop].edge * std::max (1.0, most))
+        large.emplace_back (radius, e, loop);
+    }
+    std::stable_sort (large.begin (), large.end (), [] (const auto& a, const auto& b) {
+      return std::get<0> (a) > std::get<0> (b);
+    });
+    next.clear ();
+    for (const auto& [radius, e, loop] : large) {
+      if (!peel.mayTake (e))
+        continue;
+      peel.take (e);
+      over.emplace_back (e.triangle, loop);
+      for (const std::uint8_t side : {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)})
+        if (const MeshEdge beyond = mesh.mate ({e.triangle, side}); beyond.triangle != NONE)
+          next.emplace_back (beyond, loop);
+    }
+  }
+  return over;
+}
+
+std::vector<LoopJudgement>
+widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
+            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
+            const OpenLoopLimits& open_loops, const HoleWideningLimits& limits,
+            const RunContext& run)
+{
+  const std::vector<LoopEvidence> evidence =
+      findEvidence (mesh, loops, positions, neighbors, normals, open_loops.sectors, run);
+  std::vector<LoopJudgement> judgements;
+  std::vector<std::uint8_t> is_looked;
+  for (std::size_t i = 0; i < loops.size (); ++i) {
+    judgements.push_back (judgeLoop (loops[i], evidence[i], open_loops));
+    is_looked.push_back (staysOpen (judgements.back ()) ? 0 : 1);
+  }
+  std::vector<std::pair<Index, Index>> over =
+      trianglesOverHoles (mesh, loops, evidence, is_looked, positions, limits, run);
+  if (over.empty ())
+    return judgements;
+  TriangleMesh widened = mesh;
+  removeTriangles (widened, flagsOf (over, mesh), run);
+  std::vector<BoundaryLoop> wide = widenedLoops (widened, loops, over, positions, spacing, run);
+  const std::vector<LoopJudgement> wide_judgements =
+      judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
+  over.erase (
+      std::remove_if (over.begin (), over.end (),
+                      [&] (const auto& one) { return !staysOpen (wide_judgements[one.second]); }),
+      over.end ());
+  if (over.empty ())
+    return judgements;
+  removeTriangles (mesh, flagsOf (over, mesh), run);
+  for (const auto& [triangle, loop] : over) {
+    judgements[loop] = wide_judgements[loop];
+    if (is_looked[loop] != 0)
+      loops[loop] = std::move (wide[loop]);
+    is_looked[loop] = 0;
+  }
+  return judgements;
+}
+
+} // namespace pcl::floater
