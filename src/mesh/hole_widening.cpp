@@ -134,10 +134,11 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
   std::vector<BoundaryLoop> wide = widenedLoops (widened, loops, over, positions, spacing, run);
   const std::vector<LoopJudgement> wide_judgements =
       judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
-  over.erase (
-      std::remove_if (over.begin (), over.end (),
-                      [&] (const auto& one) { return !staysOpen (wide_judgements[one.second]); }),
-      over.end ());
+  over.erase (std::remove_if (over.begin (), over.end (),
+                              [&] (const auto& one) {
+                                return wide_judgements[one.second].log_odds < limits.log_odds;
+                              }),
+              over.end ());
   if (over.empty ())
     return judgements;
   removeTriangles (mesh, flagsOf (over, mesh), run);
