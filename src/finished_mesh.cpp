@@ -8,6 +8,7 @@
 #include "mesh/trimming.h"
 #include "mesh/vertex_splits.h"
 #include "report/report_mesh.h"
+#include "report/verdict.h"
 
 #include <utility>
 
@@ -123,6 +124,7 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   mesh = {};
   Problem problem =
       reportFinished (triangles.size (), finish, found, trimming, points, request, report);
+  report.check.largest_area_share = largestAreaShare (triangles, points.positions);
   result.triangles = inCloud (points, std::move (triangles));
   return problem;
 }

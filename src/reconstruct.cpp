@@ -18,6 +18,7 @@
 #include "report/findings.h"
 #include "report/report_cloud.h"
 #include "report/report_mesh.h"
+#include "report/verdict.h"
 
 #include <algorithm>
 #include <limits>
@@ -328,6 +329,7 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))
         result.report.warnings.push_back (std::move (unused));
+      result.report.verdict = judge (result.report);
       monitor.finish ();
     }
   }

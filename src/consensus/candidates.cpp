@@ -18,16 +18,13 @@ setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
                       Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
-  const Eigen::Vector3d ab = positions[b] - positions[a];
-  const Eigen::Vector3d ac = positions[c] - positions[a];
   double mean_spacing = (spacing[a] + spacing[b] + spacing[c]) / 3.0;
   if (!reach.empty ())
     mean_spacing =
         std::max (mean_spacing, static_cast<double> (REACH_AS_SPACING *
                                                      std::max ({reach[a], reach[b], reach[c]})));
-  const double circumradius = ab.norm () * ac.norm () * (positions[c] - positions[b]).norm () /
-                              (2.0 * ab.cross (ac).norm ());
-  candidate.circumradius_ratio = static_cast<float> (circumradius / mean_spacing);
+  candidate.circumradius_ratio =
+      static_cast<float> (circumradius (positions[a], positions[b], positions[c]) / mean_spacing);
 }
 
 void

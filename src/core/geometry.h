@@ -27,6 +27,23 @@ areaVector (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vec
   return (b - a).cross (c - a);
 }
 
+/// Radius of the circle through three points; infinite, or not a number, if they lie on one line.
+inline double
+circumradius (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  const Eigen::Vector3d ab = b - a, ac = c - a;
+  return ab.norm () * ac.norm () * (c - b).norm () / (2.0 * ab.cross (ac).norm ());
+}
+
+/// From point a to the centre of the circle through a, b and c.
+/// \param normal (b - a) x (c - a)
+inline Eigen::Vector3d
+toCircumcentre (const Eigen::Vector3d& ab, const Eigen::Vector3d& ac, const Eigen::Vector3d& normal)
+{
+  return (ab.squaredNorm () * ac.cross (normal) + ac.squaredNorm () * normal.cross (ab)) /
+         (2.0 * normal.squaredNorm ());
+}
+
 /// Whether the surface is folded at an edge: the normals of its two triangles are more than 120
 /// degrees apart. The normals may have any lengths; a triangle without area is not folded.
 inline bool

@@ -35,8 +35,7 @@ public:
     const Eigen::Vector3d ab = positions[triangle[1]] - corner_,
                           ac = positions[triangle[2]] - corner_;
     normal_ = ab.cross (ac);
-    to_centre_ = (ab.squaredNorm () * ac.cross (normal_) + ac.squaredNorm () * normal_.cross (ab)) /
-                 (2.0 * normal_.squaredNorm ());
+    to_centre_ = toCircumcentre (ab, ac, normal_);
   }
 
   // Excludes the balls with this point inside. The centre of a ball is that of the circle plus a

@@ -161,9 +161,7 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost&
   VertexRepair repair (mesh, neighbors, targets, cost, limits, run);
   const std::size_t moves = repair.moveAll (std::move (bad), costs.left ());
   const std::size_t kicks = repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
-  const std::size_t rebuilds =
-      repair.rebuildAll (verticesAt (findFolds (mesh, positions, run), mesh));
-  return moves_in_blocks + moves + kicks + rebuilds;
+  return moves_in_blocks + moves + kicks;
 }
 
 } // namespace pcl::floater

@@ -7,7 +7,6 @@
 #include "mesh/triangle_mesh.h"
 #include "mesh/vertex_repair.h"
 
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -24,23 +23,6 @@ addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
   }
   sortUnique (wider);
   patch.swap (wider);
-}
-
-/// Calls attempt (patch) for some orders of a patch, until it returns true. The orders are
-/// deterministic.
-/// \return whether an attempt returned true
-template <typename Attempt>
-bool
-tryOrders (std::vector<Index> patch, std::size_t orders, Attempt&& attempt)
-{
-  std::mt19937 random (1);
-  for (std::size_t order = 0; order < orders; ++order) {
-    if (attempt (patch))
-      return true;
-    for (std::size_t i = patch.size (); i > 1; --i)
-      std::swap (patch[i - 1], patch[random () % i]);
-  }
-  return false;
 }
 
 /// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).

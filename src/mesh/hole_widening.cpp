@@ -11,14 +11,6 @@
 
 namespace pcl::floater {
 namespace {
-double
-circumradius (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
-{
-  const Eigen::Vector3d a = positions[t[1]] - positions[t[0]],
-                        b = positions[t[2]] - positions[t[0]];
-  return a.norm () * b.norm () * (b - a).norm () / (2.0 * a.cross (b).norm ()); // flat: infinite
-}
-
 bool
 staysOpen (const LoopJudgement& judgement)
 {
@@ -88,7 +80,8 @@ trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& l
   for (std::size_t ring = 0; ring < limits.rings && !edges.empty (); ++ring, edges.swap (next)) {
     std::vector<std::tuple<double, MeshEdge, Index>> large;
     for (const auto& [e, loop] : edges) {
-      const double radius = circumradius (mesh.triangles[e.triangle], positions);
+      const auto& [a, b, c] = mesh.triangles[e.triangle];
+      const double radius = circumradius (positions[a], positions[b], positions[c]);
       const double most = limits.evenness + limits.spread * evidence[loop].irregularity;
       if (radius > evidence[loop].edge * std::max (1.0, most))
         large.emplace_back (radius, e, loop);

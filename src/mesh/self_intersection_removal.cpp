@@ -10,10 +10,28 @@
 
 #include <algorithm>
 #include <limits>
+#include <random>
 #include <unordered_map>
 
 namespace pcl::floater {
 namespace {
+// Calls attempt (patch) for some orders of a patch, until it returns true. The orders are
+// deterministic.
+// \return whether an attempt returned true
+template <typename Attempt>
+bool
+tryOrders (std::vector<Index> patch, std::size_t orders, Attempt&& attempt)
+{
+  std::mt19937 random (1);
+  for (std::size_t order = 0; order < orders; ++order) {
+    if (attempt (patch))
+      return true;
+    for (std::size_t i = patch.size (); i > 1; --i)
+      std::swap (patch[i - 1], patch[random () % i]);
+  }
+  return false;
+}
+
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
 constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // equivalent in time: an estimate
 

@@ -103,10 +103,8 @@ private:
         const Eigen::Vector3d& a = place_.positions[facet[0]];
         const Eigen::Vector3d ab = place_.positions[facet[1]] - a,
                               ac = place_.positions[facet[2]] - a;
-        Eigen::Vector3d normal = -ab.cross (ac); // into the tetrahedron
-        const Eigen::Vector3d to_centre =
-            (ab.squaredNorm () * ac.cross (normal) + ac.squaredNorm () * normal.cross (ab)) /
-            (-2.0 * normal.squaredNorm ());
+        Eigen::Vector3d normal = ac.cross (ab); // into the tetrahedron
+        const Eigen::Vector3d to_centre = toCircumcentre (ab, ac, -normal);
         normal.normalize ();
         const double radius = to_centre.norm ();
         const Eigen::Vector3d centre = a + to_centre;

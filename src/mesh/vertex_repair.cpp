@@ -191,41 +191,4 @@ VertexRepair::allowKicksAround (std::vector<Index>& again)
     }
 }
 
-std::size_t
-VertexRepair::rebuildAll (const std::vector<Index>& vertices)
-{
-  std::size_t tries = 0, successes = 0;
-  ProgressLoop progress (run_, vertices.size ());
-  for (const Index v : vertices) {
-    progress.next ();
-    if (!isAtFold (v))
-      continue;
-    if (isSpent () || tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
-      break;
-    successes += rebuildAround (v) ? 1 : 0;
-  }
-  return successes;
-}
-
-// Rebuilds a patch around a vertex if this helps: a small one, or else a wider one.
-bool
-VertexRepair::rebuildAround (Index v)
-{
-  std::vector<Index> patch{v};
-  for (std::size_t ring = 0; ring < limits_.rebuilt_rings; ++ring) {
-    addRing (mesh_, patch);
-    if (tryOrders (patch, limits_.rebuilt_orders, [this] (const std::vector<Index>& order) {
-          run_.poll ();
-          mover_.start ();
-          double change = 0.0;
-          if (mover_.rebuild (order, change) && change < -VertexMover::IMPROVES)
-            return true;
-          mover_.undo ();
-          return false;
-        }))
-      return true;
-  }
-  return false;
-}
-
 } // namespace pcl::floater

@@ -23,13 +23,8 @@ struct RepairLimits
   int passes_after_kick = 2;         ///< moves of the vertices around
   std::size_t places_after_kick = 3; ///< `places` in these moves
 
-  std::size_t rebuilt_rings = 2;  ///< sizes of the patches that are removed and reinserted
-  std::size_t rebuilt_orders = 4; ///< reinsertion orders of their vertices
-  std::size_t vain_rebuilds = 16; ///< failures to rebuild around folded vertices before giving up
-  std::size_t rebuilds_per_success = 8; ///< additional failures allowed for each success
-
   /// Maximum number of requested costs (CachedCost::asked), per point of the mesh and minimum: by
-  /// moves, and by kicks and rebuilt patches. Each takes some 40 nanoseconds in total, and all else
+  /// moves, and by kicks. Each takes some 40 nanoseconds in total, and all else
   /// for an ordinary point 10 microseconds, so a mesh takes at most six times as long with the
   /// repair. Laser scans of trees and rooms request up to 560 and 930, points in nearly coinciding
   /// pairs 3000 and 860 without a limit.
@@ -60,11 +55,6 @@ public:
   /// \return number of kicks that were kept
   std::size_t kickAll (std::vector<Index> vertices);
 
-  /// Removes patches around the vertices at folds among these, and reinserts them in an order of
-  /// lower cost, if there is one.
-  /// \return number of patches that were changed
-  std::size_t rebuildAll (const std::vector<Index>& vertices);
-
   /// Number of requested costs.
   std::size_t costs () const { return cost_.asked (); }
 
@@ -77,7 +67,6 @@ private:
   double moveAfterKick (double change_by_kick);
   bool noteRing (Index v);
   void allowKicksAround (std::vector<Index>& again);
-  bool rebuildAround (Index v);
   bool isSpent () const { return costs () >= most_costs_; }
 
   TriangleMesh& mesh_;
@@ -88,7 +77,7 @@ private:
   const std::vector<RepairTarget>& targets_;
   std::vector<std::uint8_t> next_rank_; // per point: rank of its next kick
   std::size_t kicks_left_ = 0;
-  std::size_t most_costs_ = 0;            // limit for kicks and rebuilds
+  std::size_t most_costs_ = 0;            // limit for kicks
   std::vector<std::vector<Index>> rings_; // neighbours at the triangles tried so far
   std::vector<Index> fan_, around_, changed_;
 };

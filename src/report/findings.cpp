@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/findings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -86,13 +88,13 @@ constexpr Sentence SENTENCES[] = {
      "{0:point is|points are} in no triangle, {p0}{0?: it does| among them: they do} not connect "
      "to the rest of the surface"},
     {FindingId::FOLDS, "folds", Severity::FLAW,
-     "{0:edge is|edges are} folded by more than 120 degrees{at}: sheets of the surface come close "
-     "there, or a feature is thinly sampled"},
+     "{0:edge is|edges are} folded by more than 120 degrees{at}: {1+the points are noisy, }sheets "
+     "of "
+     "the surface come close there, or a feature is thinly sampled"},
     {FindingId::CROSSING_TRIANGLES, "crossing_triangles", Severity::FLAW,
      "{0:pair of triangles crosses|pairs of triangles cross} each other{at}: "
      "{1+the points are noisy, }sheets of the surface come closer there than their points are, or "
-     "a "
-     "feature is thinly sampled"},
+     "a feature is thinly sampled"},
     {FindingId::LONG_EDGES, "long_edges", Severity::DOUBT,
      "{0:edge inside the surface is|edges inside the surface are} much longer than the local "
      "spacing, {0?|the longest one }of {n1} spacings from {p0} to {p1}: a hole may be bridged "
@@ -252,11 +254,19 @@ severityName (Severity severity)
 void
 describeFindings (Report& report)
 {
-  for (Finding& finding : report.findings) {
-    const Sentence& sentence = SENTENCES[static_cast<std::size_t> (finding.id)];
-    finding.severity = sentence.severity;
-    report.warnings.push_back (fill (sentence.text, finding));
-  }
+  const auto sentenceOf = [] (const Finding& finding) -> const Sentence& {
+    return SENTENCES[static_cast<std::size_t> (finding.id)];
+  };
+  for (Finding& finding : report.findings)
+    finding.severity = sentenceOf (finding).severity;
+  const auto cost = [&sentenceOf] (const Finding& finding) { // of what there are most
+    const bool has_count = std::string_view (sentenceOf (finding).text).substr (0, 3) == "{0:";
+    return std::make_pair (finding.severity, has_count ? finding.numbers.at (0) : 0.0);
+  };
+  std::stable_sort (report.findings.begin (), report.findings.end (),
+                    [&cost] (const Finding& a, const Finding& b) { return cost (a) > cost (b); });
+  for (const Finding& finding : report.findings)
+    report.warnings.push_back (fill (sentenceOf (finding).text, finding));
 }
 
 } // namespace pcl::floater

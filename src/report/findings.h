@@ -40,7 +40,8 @@ addFinding (Report& report, FindingId id, const Points& points, std::initializer
   report.findings.push_back (std::move (finding));
 }
 
-/// Sets the severity of each finding, and adds its sentence to the warnings. Called once, at the end
+/// Sets the severity of each finding, sorts them by severity and number, and adds the sentence of
+/// each to the warnings. Called once, at the end
 /// of a run.
 void
 describeFindings (Report& report);

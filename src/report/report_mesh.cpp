@@ -29,7 +29,8 @@ findShape (const Points& points, const MeshExamination& found, Report& report)
 {
   const MeshCheck& check = found.check;
   if (check.folds > 0)
-    addFinding (report, FindingId::FOLDS, points, {found.fold_at}, check.folds);
+    addFinding (report, FindingId::FOLDS, points, {found.fold_at}, check.folds,
+                report.denoised ? 1 : 0);
   if (check.self_intersections > 0)
     addFinding (report, FindingId::CROSSING_TRIANGLES, points, {found.crossing_at},
                 check.self_intersections, report.denoised ? 1 : 0);

@@ -168,16 +168,17 @@ def test_failures(points, arguments, status, text):
     assert (str(clone), clone.status, clone.report) == (str(error), status, error.report)
 
 
-def test_strict_refuses_warnings(terrain_points):
+def test_strict_refuses_lost_points_and_poor_meshes(terrain_points):
     assert pcl_floater.reconstruct(terrain_points, strict=True).report["strict"] is True
-    no_effect = dict(kept_loops=3)
-    mesh = pcl_floater.reconstruct(terrain_points, **no_effect)
+    mesh = pcl_floater.reconstruct(terrain_points, kept_loops=3)
     assert len(mesh.warnings) == 1 and mesh.report["strict"] is False
     assert mesh.report["warnings"] == list(mesh.warnings)
+    assert mesh.report["verdict"] == {"value": "good", "cause": "", "remedy": ""}
+    island = np.array([[1e3 + i, j, 0] for i in range(6) for j in range(6)])
     with pytest.raises(pcl_floater.FloaterError) as raised:
-        pcl_floater.reconstruct(terrain_points, strict=np.bool_(True), **no_effect)
-    assert raised.value.status == raised.value.report["status"] == "WARNINGS"
-    assert str(raised.value) == f"1 warning, which strict does not allow; the first: {mesh.warnings[0]}"
+        pcl_floater.reconstruct(np.vstack([terrain_points, island]), topology="disc", strict=np.bool_(True))
+    assert raised.value.status == raised.value.report["status"] == "REFUSED"
+    assert str(raised.value) == "36 points are in no triangle, which strict does not allow"
 
 
 def test_numbers_of_numpy_are_numbers(terrain_points):

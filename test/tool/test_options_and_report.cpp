@@ -222,8 +222,6 @@ TEST_F (CommandLineTest, TheMethodOfTheReportAndOptionsWithoutEffect)
                HasSubstr ("options have no effect: --scatter, --flips; --method tw385"));
   std::vector<std::string> options = withOptions ("--topology surface --solver gauss-seidel");
   EXPECT_THAT (succeed (options).err, HasSubstr ("warning: an option has no effect: solver"));
-  options.emplace_back ("--strict");
-  EXPECT_EQ (run (options).code, WARNINGS);
 }
 
 // Share of the triangles that face up.
@@ -370,7 +368,6 @@ TEST_F (ShiftTest, CoarseCoordinatesAreTold)
     const Json all = report ({"-q"}, input);
     EXPECT_GT (all.at ("statistics").at ("coordinate_step").get<double> (), 0.1);
     EXPECT_THAT (all.at ("warnings").dump (), HasSubstr ("the coordinates are coarse"));
-    expectFailure ({input, "out.ply", "--strict"}, WARNINGS, "--shift");
   }
   succeed ({"double.pcd", "out.ply", "--precision", "double", "--strict"});
   succeed ({"text.pcd", "out.ply", "--strict", "--shift", "auto"});
@@ -498,7 +495,7 @@ TEST_F (CommandLineTest, TheReportTellsWhatTheMeshIs)
   EXPECT_GT (loop.at ("width_spacings").get<double> (), 5.0);
 }
 
-TEST_F (CommandLineTest, StrictTakesWarningsForAFailure)
+TEST_F (CommandLineTest, StrictRefusesLostPointsAndPoorMeshes)
 {
   writeFile ("out.ply", "what was there before");
   std::vector<Eigen::Vector3d> with_island = makeSample (false, 24).points;
@@ -510,15 +507,16 @@ TEST_F (CommandLineTest, StrictTakesWarningsForAFailure)
   for (const std::string quiet : {"--quiet", "--threads=0"}) {
     const Outcome outcome = run (
         {"island.pcd", "out.ply", "--report", "out.json", "--topology", "disc", quiet, "--strict"});
-    EXPECT_EQ (outcome.code, WARNINGS);
+    EXPECT_EQ (outcome.code, REFUSED);
     EXPECT_EQ (outcome.out, "");
     EXPECT_THAT (outcome.err, StartsWith ("pcl_floater_reconstruct: cannot reconstruct "
-                                          "'island.pcd': 1 warning, which --strict does not allow "
-                                          "(WARNINGS)"));
+                                          "'island.pcd': 36 points are in no triangle, which "
+                                          "--strict does not allow "
+                                          "(REFUSED)"));
     EXPECT_THAT (outcome.err, HasSubstr ("warning: " + cause));
     EXPECT_EQ (readFile ("out.ply"), "what was there before");
     const Json all = Json::parse (readFile ("out.json"));
-    EXPECT_EQ (all.at ("status"), "WARNINGS");
+    EXPECT_EQ (all.at ("status"), "REFUSED");
     EXPECT_EQ (all.at ("strict"), true);
     EXPECT_EQ (all.at ("output"), Json ());
     ASSERT_EQ (all.at ("warnings").size (), 1U);
@@ -529,10 +527,10 @@ TEST_F (CommandLineTest, StrictTakesWarningsForAFailure)
   }
   const Outcome summary =
       run ({"island.pcd", "out.ply", "--topology", "disc", "--strict", "--json"});
-  EXPECT_EQ (Json::parse (summary.out).at ("status"), "WARNINGS");
+  EXPECT_EQ (Json::parse (summary.out).at ("status"), "REFUSED");
   EXPECT_EQ (Json::parse (summary.out).at ("output"), Json ());
   succeed ({"island.pcd", "lax.ply", "--topology", "disc", "-q"});
-  // A run without warnings writes its mesh; a run that fails anyway fails as without --strict.
+  // A good mesh is written; a run that fails anyway fails as without --strict.
   succeed ({"in.pcd", "good.ply", "--strict", "-q"});
   EXPECT_EQ (readMesh (path ("good.ply")).points, sample_.points);
   expectFailure ({"line.pcd", "out.ply", "--strict"}, RECONSTRUCTION_FAILED, "(DEGENERATE)");

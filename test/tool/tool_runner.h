@@ -30,7 +30,7 @@ constexpr int INPUT_FAILED = 2;
 constexpr int RECONSTRUCTION_FAILED = 3;
 constexpr int OUTPUT_FAILED = 4;
 constexpr int INTERNAL_ERROR = 5;
-constexpr int WARNINGS = 6;
+constexpr int REFUSED = 6;
 
 // A sanitizer's own memory is resident, too.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -93,8 +93,9 @@ struct CommandLine
   std::vector<std::string> changed_limits; ///< NAME=VALUE
   Limits limits;                           ///< with the changes
   bool quiet = false;
+  bool verbose = false; ///< print all warnings, and what the run is not sure of
   bool json = false;
-  bool strict = false;                 ///< write no mesh if there is a warning
+  bool strict = false;                 ///< write no poor mesh, and none with points left out
   std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
 
   /// The format of the input, if anything tells it.

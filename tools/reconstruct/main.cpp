@@ -159,18 +159,18 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
         "run again on a file that does not change");
 }
 
-/// Writes the outputs, or only the report if there is no mesh or --strict refuses it.
+/// Writes the outputs, or only the report if there is no mesh, or if --strict refuses it.
 void
 stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
 {
   Report& report = result.report;
   if (report.status == RunStatus::SUCCESS)
     stageOutputs (line, cloud, result, run, files);
-  run.is_refused = line.strict && report.status == RunStatus::SUCCESS && !report.warnings.empty ();
+  const std::string objection = line.strict ? objectionTo (report) : "";
+  run.is_refused = !objection.empty ();
   if (run.is_refused) {
     files.clear ();
-    report.message =
-        counted (report.warnings.size (), "warning") + ", which --strict does not allow";
+    report.message = objection + ", which --strict does not allow";
   }
   stageReport (line, report, run, files);
 }

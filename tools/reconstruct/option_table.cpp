@@ -109,7 +109,8 @@ Exit codes:
   3  the cloud cannot be reconstructed; the message and the report name the status
   4  an output cannot be written, or nothing can be printed; no file is changed
   5  out of memory, or an internal error
-  6  with --strict: there are warnings; the report is written, but no mesh
+  6  with --strict: the mesh is poor, or points are in no triangle; the report
+     is written, but no mesh
 )";
 
 void
@@ -194,7 +195,12 @@ addGeneral (CLI::App& app, CommandLine& line)
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);
-  app.add_flag ("--strict", line.strict, "treat warnings as a failure: write no mesh")
+  app.add_flag ("-v,--verbose", line.verbose,
+                "print all warnings, and the decisions that are not sure")
+      ->group (GENERAL)
+      ->excludes ("--quiet");
+  app.add_flag ("--strict", line.strict,
+                "write no mesh if it is poor, or if points are in no triangle")
       ->group (GENERAL);
 }
 

@@ -71,7 +71,7 @@ to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
   NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
       NLOHMANN_JSON_TO, nonmanifold_edges, nonmanifold_vertices, orientation_conflicts, components,
       euler_characteristic, genus, folds, degenerate_triangles, self_intersections,
-      self_intersections_at, longest_edge, longest_edge_at, loops))
+      self_intersections_at, largest_area_share, longest_edge, longest_edge_at, loops))
 }
 
 namespace {
@@ -201,7 +201,11 @@ viewpointJson (const Report& report)
 nlohmann::ordered_json
 resultJson (const Report& report)
 {
-  return {{"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
+  return {{"verdict",
+           {{"value", qualityName (report.verdict.value)},
+            {"cause", report.verdict.cause},
+            {"remedy", report.verdict.remedy}}},
+          {"topology", choiceName (TOPOLOGY_CHOICES, report.topology)},
           {"topology_reason", report.topology_reason},
           {"viewpoint", viewpointJson (report)},
           {"denoised", report.denoised},

@@ -70,9 +70,22 @@ peakMemory ()
 }
 
 std::string
+objectionTo (const Report& report)
+{
+  if (report.status != RunStatus::SUCCESS)
+    return "";
+  if (report.verdict.value == Quality::POOR)
+    return "the mesh is poor: " + report.verdict.cause;
+  return report.unused.empty ()
+             ? ""
+             : counted (report.unused.size (), "point") +
+                   (report.unused.size () == 1 ? " is" : " are") + " in no triangle";
+}
+
+std::string
 outcomeName (const Report& report, const RunFigures& run)
 {
-  return run.is_refused ? "WARNINGS" : statusName (report.status);
+  return run.is_refused ? "REFUSED" : statusName (report.status);
 }
 
 std::string
@@ -126,6 +139,7 @@ summaryLine (const CommandLine& line, const Report& report, const RunFigures& ru
   const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
   return dump ({{"status", outcomeName (report, run)},
                 {"message", report.message},
+                {"verdict", qualityName (report.verdict.value)},
                 {"points", run.input_points},
                 {"used_points", report.statistics.used_points},
                 {"triangles", report.statistics.triangles},
@@ -164,11 +178,27 @@ reportMemory (const CommandLine& line, Report& report)
 }
 
 namespace {
+// Prints the warnings; without --verbose the first ones, which matter most.
 void
-printWarnings (const Report& report)
+printWarnings (const Report& report, bool is_verbose)
 {
-  for (const std::string& warning : report.warnings)
-    std::fprintf (stderr, "warning: %s\n", warning.c_str ());
+  constexpr std::size_t MOST = 3;
+  const std::size_t count = report.warnings.size ();
+  const std::size_t shown = is_verbose ? count : std::min (count, MOST);
+  for (std::size_t i = 0; i < shown; ++i)
+    std::fprintf (stderr, "warning: %s\n", report.warnings[i].c_str ());
+  if (shown < count)
+    std::fprintf (stderr, "%s more: --verbose prints them\n",
+                  counted (count - shown, "warning").c_str ());
+}
+
+void
+printVerdict (std::FILE* to, const Verdict& verdict)
+{
+  std::fprintf (to, "verdict    %s%s%s\n", qualityName (verdict.value),
+                verdict.cause.empty () ? "" : ": ", verdict.cause.c_str ());
+  if (!verdict.remedy.empty ())
+    std::fprintf (to, "           what helps: %s\n", verdict.remedy.c_str ());
 }
 
 /// Prints boundary loops that may have been wrongly kept open or filled, the least sure ones.
@@ -241,6 +271,7 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
 {
   const Statistics& statistics = report.statistics;
   constexpr double MEGABYTE = 1e6;
+  printVerdict (to, report.verdict);
   std::fprintf (
       to,
       "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
@@ -254,8 +285,10 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                                                               : "left out");
   std::fprintf (to, "triangles  %zu\n", statistics.triangles);
   printShape (to, report);
-  printLoopDecisions (to, report);
-  printFacingDecisions (to, report);
+  if (line.verbose) {
+    printLoopDecisions (to, report);
+    printFacingDecisions (to, report);
+  }
   if (statistics.trimmed_triangles > 0)
     std::fprintf (to, "cut off    %s (%zu to open crossings), %s, %s\n",
                   counted (statistics.trimmed_triangles, "triangle").c_str (),
@@ -314,7 +347,7 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
                   inputName (line.input).c_str (), report.message.c_str (),
                   outcomeName (report, figures).c_str ());
   if (figures.is_refused || (is_ok && !line.quiet))
-    printWarnings (report);
+    printWarnings (report, line.verbose || figures.is_refused);
   if (is_ok && !line.quiet)
     printSummary (to, line, report, figures);
   if (line.json)

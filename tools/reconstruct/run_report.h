@@ -22,7 +22,7 @@ struct RunFigures
   bool single_precision = true;                     ///< whether the coordinates are 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< subtracted from all coordinates
   std::size_t vertices = 0;                         ///< vertices of the output
-  bool is_refused = false; ///< --strict: no mesh is written because of warnings
+  bool is_refused = false; ///< --strict: no mesh is written, see objectionTo
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;
   double write_seconds = 0.0;
@@ -44,7 +44,11 @@ peakMemory ();
 void
 reportMemory (const CommandLine& line, Report& report);
 
-/// Name of the status, or "WARNINGS" if the mesh is refused because of warnings.
+/// Why --strict refuses a mesh: it is poor, or points are in no triangle. Empty if it does not.
+std::string
+objectionTo (const Report& report);
+
+/// Name of the status, or "REFUSED" if --strict refuses the mesh.
 std::string
 outcomeName (const Report& report, const RunFigures& run);
 

@@ -154,7 +154,7 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
     loop : sequence of int, optional
         The boundary loop of a disc: indices of points, in order. Makes a disc.
     strict : bool
-        Take warnings for a failure: raise `FloaterError` with the status "WARNINGS".
+        Raise `FloaterError` with the status "REFUSED" if the mesh is poor, or if points are in no triangle.
     progress : callable, optional
         Called as progress(stage, fraction) by this thread, when a stage begins and up to 20 times a
         second: the name of the stage, and the fraction of the run that is done, from 0 to 1. An
@@ -200,10 +200,13 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
         array, columns, None if normals is None else _as_list("normals", normals)[0], sensor_origin,
         options, progress)
     arrays = {name: None if values is None else np.asarray(values) for name, values in arrays.items()}
-    if strict and status == "SUCCESS" and warnings:
-        status = "WARNINGS"
-        message = (f"{len(warnings)} warning{'' if len(warnings) == 1 else 's'}, which strict does not "
-                   f"allow; the first: {warnings[0]}")
+    if strict and status == "SUCCESS":
+        unused = len(arrays["unused"])
+        if known["verdict"]["value"] == "poor":
+            status, message = "REFUSED", f"the mesh is poor: {known['verdict']['cause']}, which strict does not allow"
+        elif unused:
+            status = "REFUSED"
+            message = f"{unused} point{' is' if unused == 1 else 's are'} in no triangle, which strict does not allow"
     report = {
         "version": __version__,
         "input": {"points": len(array), "coordinates": "float" if array.itemsize == 4 else "double"},

@@ -9,7 +9,7 @@ class FloaterError(RuntimeError):
     Attributes
     ----------
     status : str
-        The outcome in one word, such as "TOO_FEW_POINTS" or "NO_BOUNDARY"; "WARNINGS" if it was
+        The outcome in one word, such as "TOO_FEW_POINTS" or "NO_BOUNDARY"; "REFUSED" if it was
         `strict` that refused the mesh. doc/troubleshooting.md has all of them.
     report : dict
         The report on the run, as `Mesh.report`. Its "message" is the text of the exception. Empty if it

@@ -162,6 +162,27 @@ struct Finding
   std::vector<std::pair<std::uint32_t, std::array<double, 3>>> places;
 };
 
+/// How good a mesh is, by its own flaws.
+enum class Quality
+{
+  NO_MESH, ///< there is no mesh
+  GOOD,    ///< hardly a flaw
+  USABLE,  ///< flaws in places
+  POOR     ///< flaws all over: not for use as it is
+};
+
+/// Short name in lower case ("usable").
+PCL_FLOATER_EXPORT const char*
+qualityName (Quality quality);
+
+/// What a run makes of its mesh, in one word, with what explains most of it.
+struct Verdict
+{
+  Quality value = Quality::NO_MESH; ///< the word
+  std::string cause;                ///< why it is no better, with the figure; empty if it is good
+  std::string remedy;               ///< what to do about it; empty if it is good
+};
+
 /// Result of the final check. It uses only triangles and positions.
 struct MeshCheck
 {
@@ -179,9 +200,11 @@ struct MeshCheck
       ///< corners: they cross, touch or overlap. 0 without a search
       ///< if Report::is_view
   std::vector<std::array<std::uint32_t, 2>>
-      self_intersections_at;                      ///< the first ten of them, each by a point of
-                                                  ///< either triangle
-  double longest_edge = 0.0;                      ///< in local spacings
+      self_intersections_at;       ///< the first ten of them, each by a point of
+                                   ///< either triangle
+  double largest_area_share = 0.0; ///< share of the area in the largest 1 % of the triangles; 0 if
+                                   ///< the mesh was made in parts
+  double longest_edge = 0.0;       ///< in local spacings
   std::array<std::uint32_t, 2> longest_edge_at{}; ///< end points of that edge, as cloud indices
   std::vector<LoopSummary> loops;                 ///< longest first
 };
@@ -255,7 +278,9 @@ struct Report
 {
   RunStatus status = RunStatus::NOT_RUN; ///< outcome
   std::string message;           ///< one sentence: the cause and what to do; empty after SUCCESS
-  std::vector<Finding> findings; ///< oddities of cloud and mesh, in the order of the run
+  Verdict verdict;               ///< how good the mesh is, why, and what helps
+  std::vector<Finding> findings; ///< oddities of cloud and mesh: flaws, then doubts, then notes;
+                                 ///< those that concern most first
   std::vector<std::string>
       warnings; ///< a sentence for each finding, and for options without effect
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE

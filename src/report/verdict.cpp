@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/verdict.h"
+
+#include "core/geometry.h"
+#include "report/findings.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace pcl::floater {
+namespace {
+struct Reason
+{
+  std::string cause, remedy;
+};
+
+struct Measure
+{
+  double share;
+  VerdictBounds bounds;
+  std::function<Reason ()> reason;
+
+  Quality quality () const
+  {
+    return share >= bounds.poor  ? Quality::POOR
+           : share > bounds.good ? Quality::USABLE
+                                 : Quality::GOOD;
+  }
+};
+
+// Two digits: "1.8 %", "12 %".
+std::string
+percent (double share)
+{
+  const double value = 100.0 * share;
+  const double digits = value < 10.0 ? 10.0 : 1.0;
+  return rounded (std::round (digits * value) / digits) + " %";
+}
+
+double
+numberOf (const Report& report, FindingId id)
+{
+  const auto found = std::find_if (report.findings.begin (), report.findings.end (),
+                                   [id] (const Finding& finding) { return finding.id == id; });
+  return found == report.findings.end () || found->numbers.empty () ? 0.0 : found->numbers[0];
+}
+
+bool
+has (const Report& report, FindingId id)
+{
+  return std::any_of (report.findings.begin (), report.findings.end (),
+                      [id] (const Finding& finding) { return finding.id == id; });
+}
+
+Reason
+noisy (const Statistics& statistics)
+{
+  return {"the points are noisy, by up to " + rounded (statistics.noise_quantile_90) +
+              " local spacings for nine tenths of them",
+          "thin the cloud with a voxel grid several times as wide as the noise, smooth it "
+          "(pcl::MovingLeastSquares), or take a method that smooths, such as Poisson"};
+}
+
+// Why triangles cross.
+Reason
+whyCrossing (const Report& report, double points, const VerdictLimits& limits)
+{
+  const Statistics& statistics = report.statistics;
+  if (statistics.coordinate_step > limits.coarse_step)
+    return {"the coordinates are coarse: their step is " + rounded (statistics.coordinate_step) +
+                " of the local spacing",
+            has (report, FindingId::COORDINATES_IN_FLOAT)
+                ? "subtract an origin before coordinates are stored in 32 bits (--shift)"
+                : "store the coordinates with more digits"};
+  const auto stacked = static_cast<double> (statistics.stacked_points);
+  const auto projected = static_cast<double> (statistics.projected_points);
+  const auto scattered = static_cast<double> (report.scatter.size ());
+  const double most = std::max ({stacked, projected, scattered, limits.many * points});
+  if (stacked == most)
+    return {"points lie on one another, such as in overlapping scans",
+            "thin the cloud with a voxel grid of about half the spacing"};
+  if (projected == most)
+    return noisy (statistics);
+  if (scattered == most)
+    return {"points lie on no surface, such as leaves", "leave them out: --scatter drop"};
+  return {"sheets of the surface come closer to each other than their points",
+          "scan more densely there; --open-crossings cuts such triangles off"};
+}
+
+std::vector<Measure>
+measure (const Report& report, const VerdictLimits& limits)
+{
+  const Statistics& statistics = report.statistics;
+  const auto triangles = static_cast<double> (std::max<std::size_t> (1, statistics.triangles));
+  const auto points = static_cast<double> (std::max<std::size_t> (1, statistics.working_points));
+  const auto share = [] (std::size_t count, double of) { return static_cast<double> (count) / of; };
+  const double crossing = share (report.check.self_intersections, triangles);
+  const double area = report.is_view ? 0.0 : report.check.largest_area_share;
+  const double unused = share (report.unused.size (), points);
+  const double scatter =
+      share (report.scatter.size (), points + static_cast<double> (report.scatter.size ()));
+  const bool is_guess =
+      has (report, FindingId::GUESSED_OUTSIDE) || has (report, FindingId::GUESSED_UP) ||
+      has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
+  return {
+      {crossing, limits.crossing,
+       [&report, crossing, points, limits] {
+         const Reason why = whyCrossing (report, points, limits);
+         return Reason{percent (crossing) + " crossing pairs per triangle, since " + why.cause,
+                       why.remedy};
+       }},
+      {area, limits.area,
+       [area] {
+         return Reason{percent (area) +
+                           " of the area is in 1 % of the triangles, since far or sparse points "
+                           "are joined to the rest",
+                       "cut off triangles with long edges: --max-edge-ratio 8"};
+       }},
+      {unused, limits.unused,
+       [unused, &report] {
+         return Reason{percent (unused) + " of the points are in no triangle",
+                       report.is_view ? "give the place of the sensor, or --viewpoint none"
+                                      : "look at them (points of Report::unused): the sampling is "
+                                        "too thin there, or they are no surface"};
+       }},
+      {scatter, limits.scatter,
+       [scatter] {
+         return Reason{percent (scatter) +
+                           " of the points lie on no surface, such as leaves or far background",
+                       "cut them out of the cloud, or keep them with --scatter keep"};
+       }},
+      {share (statistics.projected_points, points), limits.noise,
+       [&statistics] { return noisy (statistics); }},
+      {numberOf (report, FindingId::LONG_EDGES) / triangles, limits.long_edges,
+       [] {
+         return Reason{"edges inside are much longer than the spacing: the sampling is too sparse "
+                       "there, or a gap was filled",
+                       "more points there, or --max-edge-ratio 8"};
+       }},
+      {has (report, FindingId::ONE_SIDED) ? 1.0 : 0.0,
+       {0.5, 2.0},
+       [] {
+         return Reason{"the surface was cut open, since it seems one-sided",
+                       "look at the cut: thin sheets may be joined there"};
+       }},
+      {is_guess ? 1.0 : 0.0,
+       {0.5, 2.0},
+       [] {
+         return Reason{"which side is the front is a guess",
+                       "give the place of the sensor (--viewpoint), or choose --facing"};
+       }},
+  };
+}
+
+} // namespace
+
+Verdict
+judge (const Report& report, const VerdictLimits& limits)
+{
+  Verdict verdict;
+  verdict.value = Quality::GOOD;
+  double excess = 0.0;
+  for (const Measure& one : measure (report, limits)) {
+    const Quality quality = one.quality ();
+    const double beyond = one.share / one.bounds.good;
+    if (quality == Quality::GOOD || quality < verdict.value ||
+        (quality == verdict.value && beyond <= excess))
+      continue;
+    verdict.value = quality;
+    excess = beyond;
+    const Reason reason = one.reason ();
+    verdict.cause = reason.cause;
+    verdict.remedy = reason.remedy;
+  }
+  return verdict;
+}
+
+double
+largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                  const std::vector<Eigen::Vector3d>& positions)
+{
+  std::vector<float> areas;
+  areas.reserve (triangles.size ());
+  for (const auto& [a, b, c] : triangles)
+    areas.push_back (
+        static_cast<float> (areaVector (positions[a], positions[b], positions[c]).norm ()));
+  const double all = std::accumulate (areas.begin (), areas.end (), 0.0);
+  const auto largest = std::min (areas.size (), std::max<std::size_t> (1, areas.size () / 100));
+  std::nth_element (areas.begin (), areas.begin () + static_cast<std::ptrdiff_t> (largest),
+                    areas.end (), std::greater<> ());
+  const double of_largest =
+      std::accumulate (areas.begin (), areas.begin () + static_cast<std::ptrdiff_t> (largest), 0.0);
+  return all > 0.0 ? of_largest / all : 0.0;
+}
+
+const char*
+qualityName (Quality quality)
+{
+  static constexpr const char* NAMES[] = {"none", "good", "usable", "poor"};
+  const auto i = static_cast<std::size_t> (quality);
+  return i < sizeof NAMES / sizeof *NAMES ? NAMES[i] : "unknown";
+}
+
+} // namespace pcl::floater

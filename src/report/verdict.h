@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How good a mesh is, by what a run has found out.
+#pragma once
+
+#include <pcl/surface/floater/report.h>
+
+namespace pcl::floater {
+/// Up to which share a mesh is good, and from which on it is poor.
+struct VerdictBounds
+{
+  double good;
+  double poor;
+};
+
+/// Measured on generated bodies, sheets and places, clean and noisy: of meshes
+/// that are right, none has a crossing pair, and nine tenths of those from noise of half a spacing
+/// on a thin or sharp body have one in 20 triangles or more.
+struct VerdictLimits
+{
+  VerdictBounds crossing = {0.0005, 0.05};  ///< crossing pairs for each triangle
+  VerdictBounds area = {0.25, 0.5};         ///< share of the area in the largest 1 % of the
+                                            ///< triangles: 2 % if even, 4 % with noise, 12 % on
+                                            ///< terrain seen from afar; not for views
+  VerdictBounds unused = {0.002, 0.1};      ///< share of the points without a triangle
+  VerdictBounds scatter = {0.05, 0.6};      ///< share of the points on no surface
+  VerdictBounds noise = {0.1, 2.0};         ///< share of the points that were projected; never poor
+                                            ///< by itself
+  VerdictBounds long_edges = {0.002, 0.05}; ///< long edges for each triangle
+  double coarse_step = 0.2; ///< step of the coordinates, in local spacings, that explains flaws
+  double many = 0.02;       ///< share of stacked, noisy or scattered points that explains flaws
+};
+
+/// Judges a finished mesh. The cause is that of the measure which is farthest beyond its bound.
+/// \param report of a successful run, complete but for its verdict
+Verdict
+judge (const Report& report, const VerdictLimits& limits = {});
+
+/// Share of the total area that the largest 1 % of the triangles have, at least one triangle; 0 if
+/// there is no area. O(n).
+double
+largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                  const std::vector<Eigen::Vector3d>& positions);
+
+} // namespace pcl::floater
