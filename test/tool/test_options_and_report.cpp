@@ -548,7 +548,7 @@ TEST_F (CommandLineTest, TheReportTellsWhichSideMayNotBeTheFront)
     bowl.emplace_back (radius * std::cos (angle), radius * std::sin (angle), -depth);
   }
   writeFile ("bowl.pcd", pcdText (bowl));
-  EXPECT_THAT (succeed ({"bowl.pcd", "out.ply"}).out,
+  EXPECT_THAT (succeed ({"bowl.pcd", "out.ply", "--verbose"}).out,
                HasSubstr ("not sure   which side is the front of 1 part\n"));
   const Json all = report ({}, "bowl.pcd");
   ASSERT_EQ (all.at ("facing_decisions").size (), 1U);
