@@ -249,13 +249,18 @@ severityName (Severity severity)
   return i < sizeof NAMES / sizeof *NAMES ? NAMES[i] : "unknown";
 }
 
+std::string
+sentenceOf (const Finding& finding)
+{
+  return fill (SENTENCES[static_cast<std::size_t> (finding.id)].text, finding);
+}
+
 void
 describeFindings (Report& report)
 {
   for (Finding& finding : report.findings) {
-    const Sentence& sentence = SENTENCES[static_cast<std::size_t> (finding.id)];
-    finding.severity = sentence.severity;
-    report.warnings.push_back (fill (sentence.text, finding));
+    finding.severity = SENTENCES[static_cast<std::size_t> (finding.id)].severity;
+    report.warnings.push_back (sentenceOf (finding));
   }
 }
 

@@ -40,6 +40,10 @@ addFinding (Report& report, FindingId id, const Points& points, std::initializer
   report.findings.push_back (std::move (finding));
 }
 
+/// The sentence of a finding.
+std::string
+sentenceOf (const Finding& finding);
+
 /// Sets the severity of each finding, and adds its sentence to the warnings. Called once, at the end
 /// of a run.
 void

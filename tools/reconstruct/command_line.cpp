@@ -218,8 +218,8 @@ checkPaths (const CommandLine& line)
                      ", or give its format by --input-format");
   }
   for (const auto& [name, path] :
-       {std::pair ("--report", &line.report), std::pair ("--loop", &line.loop),
-        std::pair ("--parameterization", &line.parameterization)})
+       {std::pair ("--report", &line.report), std::pair ("--html", &line.html),
+        std::pair ("--loop", &line.loop), std::pair ("--parameterization", &line.parameterization)})
     if (isStandardStream (*path))
       throw UsageError (std::string (name) + " takes the name of a file, not -");
   struct Named
@@ -229,11 +229,12 @@ checkPaths (const CommandLine& line)
     bool is_output;
   };
   const std::filesystem::path materials = materialsOf (line);
-  const std::array<Named, 7> all{{{"INPUT", &line.input, false},
+  const std::array<Named, 8> all{{{"INPUT", &line.input, false},
                                   {"--loop", &line.loop, false},
                                   {"OUTPUT", &line.output, true},
                                   {"--parameterization", &line.parameterization, true},
                                   {"--report", &line.report, true},
+                                  {"--html", &line.html, true},
                                   {"the file of materials", &materials, true},
                                   {"--texture", &line.texture, true}}};
   for (std::size_t i = 0; i < all.size (); ++i)

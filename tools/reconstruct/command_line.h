@@ -75,6 +75,7 @@ struct CommandLine
   std::filesystem::path input;
   std::filesystem::path output;
   std::filesystem::path report;
+  std::filesystem::path html; ///< the report as a page
   std::filesystem::path parameterization;
   std::filesystem::path loop;
   std::filesystem::path texture;           ///< image of the colours of the points
