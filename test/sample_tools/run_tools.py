@@ -381,8 +381,25 @@ class Page(PageCase):
                          {name: len(report[name]) for name in ("scatter", "outliers", "unused")})
         self.assertLess(dots["outliers"]["shown"], dots["outliers"]["count"])  # one is too far away to be shown
 
+    def test_a_large_mesh_is_thinned_but_for_its_flaws(self):
+        cloud = self.noisy()
+        (whole, _), (some, report) = self.page(cloud), self.page(cloud, "--limit", "page.triangles=2000")
+        mesh = some["mesh"]
+        self.assertEqual((mesh["triangles"], mesh["thinned"]), (report["statistics"]["triangles"], True))
+        self.assertTrue(1000 < mesh["shown"] <= 2000)
+        self.assertEqual([f["count"] for f in mesh["flaws"]], [f["count"] for f in whole["mesh"]["flaws"]])
+        self.assertEqual(some["histograms"], whole["histograms"])
+        corners = self.numbers(mesh["corners"], "H")
+        triangles = list(zip(*[iter(corners)] * 3))
+        self.assertEqual((len(triangles), max(corners)), (mesh["shown"], len(self.numbers(mesh["positions"], "H")) / 3 - 1))
+        self.assertTrue(all(len(set(t)) == 3 for t in triangles))
+        few = self.page(cloud, "--limit", "page.triangles=100")[0]["mesh"]  # less than there are flaws
+        self.assertEqual((mesh["all_flaws"], few["all_flaws"]), (True, False))
+        self.assertTrue(0 < few["shown"] <= 100)
+
     def test_no_name_or_text_becomes_html(self):
         name = "</script><img src=x onerror=alert(1)>&amp;\"'\u2028.ply"
+        os.mkdir(self.path("<"))
         os.rename(self.noisy(), self.path(name))
         data, report = self.page(name)
         self.assertEqual(data["report"]["input"]["file"], name)
@@ -409,11 +426,12 @@ class Browser(PageCase):
 
     def test_a_browser_shows_the_mesh_and_goes_to_a_flaw(self):
         self.page(self.noisy())
-        front, flaw = ((lambda p: p[2] > p[0] + 20 and p[0] > 70), (lambda p: p[0] > p[2] + 100))
-        whole = self.show()
+        front, flaw, ring = (lambda p: p[2] > p[0] + 20 and p[0] > 70), (lambda p: p[0] > p[2] + 100), (11, 108, 255)
+        whole, near = self.show(), self.show("#place=1")
         self.assertGreater(sum(map(front, whole)), 20000)
-        near = self.show("#place=1")
-        self.assertGreater(sum(map(flaw, near)), 3 * sum(map(flaw, whole)))
+        self.assertEqual(whole.count(ring), 0)
+        self.assertGreater(near.count(ring), 100)
+        self.assertGreater(sum(map(flaw, near)), 1000)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ readLoop (const std::filesystem::path& path)
 }
 
 std::optional<std::string>
-setLimit (const std::string& setting, Limits& limits)
+setLimit (const std::string& setting, CommandLine& line)
 {
   const std::size_t equals = setting.find ('=');
   const std::string name = setting.substr (0, equals);
@@ -92,8 +92,9 @@ setLimit (const std::string& setting, Limits& limits)
     else
       problem = "'" + word + "' is no value of " + name;
   };
-  offer ("parts.points", limits.parts.points, std::size_t{1000});
-  offer ("parts.rings", limits.parts.rings, std::size_t{1});
+  offer ("parts.points", line.limits.parts.points, std::size_t{1000});
+  offer ("parts.rings", line.limits.parts.rings, std::size_t{1});
+  offer ("page.triangles", line.shown_triangles, std::size_t{100});
   return problem;
 }
 

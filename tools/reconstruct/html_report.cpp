@@ -99,6 +99,7 @@ struct Drawing
   std::vector<Flaw> flaws;
   double median_spacing = 0.0;
   bool is_thinned = false;
+  bool has_all_flaws = true;
 };
 
 void
@@ -217,27 +218,35 @@ findFlaws (const TriangleMesh& mesh, const Drawing& drawing, const Report& repor
 
 /// Joins the vertices within the cells of a grid that is just wide enough, but those of flaws.
 void
-thin (Drawing& drawing)
+thin (Drawing& drawing, std::size_t most)
 {
   std::vector<Index> flawed;
   for (const Flaw& flaw : drawing.flaws)
     flawed.insert (flawed.end (), flaw.triangles.begin (), flaw.triangles.end ());
   sortUnique (flawed);
   std::vector<std::uint8_t> stays (drawing.positions.size ());
-  if (flawed.size () < MOST_SHOWN_TRIANGLES / 4)
-    for (const Index t : flawed)
-      for (const Index p : drawing.triangles[t])
-        stays[p] = 1;
+  for (const Index t : flawed)
+    for (const Index p : drawing.triangles[t])
+      stays[p] = 1;
   Box box;
   for (const Eigen::Vector3d& position : drawing.positions)
     box.extend (position);
   constexpr double CELLS = 1 << 20, GROWTH = 1.2;
-  double cell = std::max ({drawing.median_spacing, box.sizes ().maxCoeff () / CELLS, 1e-300});
+  const double widest = box.sizes ().maxCoeff ();
+  const double too_many = static_cast<double> (drawing.triangles.size ()) / double (most);
+  const double narrowest =
+      std::max ({drawing.median_spacing * std::sqrt (too_many) / GROWTH, widest / CELLS, 1e-300});
+  double cell = narrowest;
   std::vector<Index> joined (stays.size ());
   Triangles kept;
   std::vector<Index> number; // of each triangle among those kept
   do {
     cell *= GROWTH;
+    if (cell > widest && drawing.has_all_flaws) { // there are too many
+      drawing.has_all_flaws = false;
+      std::fill (stays.begin (), stays.end (), std::uint8_t{0});
+      cell = narrowest;
+    }
     std::unordered_map<std::uint64_t, Index> first;
     for (Index p = 0; p < joined.size (); ++p) {
       std::uint64_t key = 0;
@@ -257,7 +266,7 @@ thin (Drawing& drawing)
       number[t] = static_cast<Index> (kept.size ());
       kept.push_back (triangle);
     }
-  } while (kept.size () > MOST_SHOWN_TRIANGLES);
+  } while (kept.size () > most);
   for (Flaw& flaw : drawing.flaws) {
     for (Index& t : flaw.triangles)
       t = number[t];
@@ -407,8 +416,8 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   mesh.triangles = drawing.triangles;
   if (mesh.connect (drawing.positions.size (), run))
     drawing.flaws = findFlaws (mesh, drawing, result.report, run);
-  if (drawing.triangles.size () > MOST_SHOWN_TRIANGLES)
-    thin (drawing);
+  if (drawing.triangles.size () > line.shown_triangles)
+    thin (drawing, line.shown_triangles);
   return drawing;
 }
 
@@ -461,6 +470,7 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
   return {{"triangles", triangles},
           {"shown", drawing.triangles.size ()},
           {"thinned", drawing.is_thinned},
+          {"all_flaws", drawing.has_all_flaws},
           {"origin", {origin.x (), origin.y (), origin.z ()}},
           {"step", quantizer.step},
           {"floats", quantizer.is_fine},

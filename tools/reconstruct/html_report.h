@@ -11,13 +11,11 @@
 #include <string>
 
 namespace pcl::floater {
-/// Most triangles that a page shows. Larger meshes are thinned; triangles with flaws stay.
-constexpr std::size_t MOST_SHOWN_TRIANGLES = 1'000'000;
-
 /// The report as one page of HTML that refers to nothing outside: outcome, figures, histograms,
 /// findings and uncertain decisions with their places, and the mesh, drawn by WebGL. All that
 /// depends on the run is in one JSON text, which holds the report of reportJson () without its lists
-/// of points. O(n log n); takes 200 bytes per point, and the text up to 20 MB.
+/// of points. Meshes of more than CommandLine::shown_triangles are thinned, but for triangles with
+/// flaws. O(n log n); takes 200 bytes per point, and the text up to 20 MB.
 /// \param cloud  the cloud, from which points without finite coordinates may have been removed
 /// \param result its triangles are indices into the cloud; none: the points are shown
 std::string

@@ -290,7 +290,7 @@ void
 addLimit (CLI::App& app, CommandLine& line)
 {
   const auto change = [&line] (const std::string& setting) {
-    if (const std::optional<std::string> problem = setLimit (setting, line.limits))
+    if (const std::optional<std::string> problem = setLimit (setting, line))
       throw CLI::ValidationError ("--limit", *problem);
   };
   app.add_option ("--limit", line.changed_limits)
