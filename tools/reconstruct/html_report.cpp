@@ -98,30 +98,35 @@ struct Drawing
   std::vector<float> height;  // of each vertex above those around, in spacings
   std::vector<Flaw> flaws;
   double median_spacing = 0.0;
-  bool is_thinned = false;
   bool has_all_flaws = true;
 };
 
-void
-takeMesh (const Cloud& cloud, const Triangles& triangles, Drawing& drawing)
+Box
+boxAround (const std::vector<Eigen::Vector3d>& positions)
 {
-  std::vector<Index> number (cloud.size (), NONE);
-  for (const Triangle& triangle : triangles)
-    for (const Index p : triangle)
-      number[p] = 0;
   Box box;
-  for (std::size_t p = 0; p < number.size (); ++p)
-    if (number[p] != NONE) {
-      number[p] = static_cast<Index> (drawing.positions.size ());
-      box.extend (drawing.positions.emplace_back (cloud.position (p)));
-    }
-  drawing.centre = box.center ();
-  for (Eigen::Vector3d& position : drawing.positions)
-    position -= drawing.centre;
-  drawing.triangles = triangles;
-  for (Triangle& triangle : drawing.triangles)
-    for (Index& p : triangle)
+  for (const Eigen::Vector3d& position : positions)
+    box.extend (position);
+  return box;
+}
+
+/// The positions of the vertices of triangles, which are renumbered in their order.
+/// \param points number of points; corners are below
+template <typename Position>
+std::vector<Eigen::Vector3d>
+takeVertices (std::size_t points, const Position& positionOf, Triangles& triangles)
+{
+  std::vector<Index> number (points, NONE);
+  std::vector<Eigen::Vector3d> positions;
+  for (Triangle& triangle : triangles)
+    for (Index& p : triangle) {
+      if (number[p] == NONE) {
+        number[p] = static_cast<Index> (positions.size ());
+        positions.push_back (positionOf (p));
+      }
       p = number[p];
+    }
+  return positions;
 }
 
 /// The height of each vertex above the mean of those that it is connected to, in spacings.
@@ -228,9 +233,7 @@ thin (Drawing& drawing, std::size_t most)
   for (const Index t : flawed)
     for (const Index p : drawing.triangles[t])
       stays[p] = 1;
-  Box box;
-  for (const Eigen::Vector3d& position : drawing.positions)
-    box.extend (position);
+  const Box box = boxAround (drawing.positions);
   constexpr double CELLS = 1 << 20, GROWTH = 1.2;
   const double widest = box.sizes ().maxCoeff ();
   const double too_many = static_cast<double> (drawing.triangles.size ()) / double (most);
@@ -273,20 +276,9 @@ thin (Drawing& drawing, std::size_t most)
     flaw.triangles.erase (std::remove (flaw.triangles.begin (), flaw.triangles.end (), NONE),
                           flaw.triangles.end ());
   }
-  // The vertices that are left.
-  std::vector<Index> place (joined.size (), NONE);
-  std::vector<Eigen::Vector3d> positions;
-  for (Triangle& triangle : kept)
-    for (Index& p : triangle) {
-      if (place[p] == NONE) {
-        place[p] = static_cast<Index> (positions.size ());
-        positions.push_back (drawing.positions[p]);
-      }
-      p = place[p];
-    }
-  drawing.positions = std::move (positions);
+  drawing.positions = takeVertices (
+      joined.size (), [&drawing] (Index p) { return drawing.positions[p]; }, kept);
   drawing.triangles = std::move (kept);
-  drawing.is_thinned = true;
 }
 
 /// Numbers as base64, little end first.
@@ -401,7 +393,12 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   Drawing drawing;
   if (result.triangles.empty ())
     return drawing;
-  takeMesh (cloud, result.triangles, drawing);
+  drawing.triangles = result.triangles;
+  drawing.positions = takeVertices (
+      cloud.size (), [&cloud] (Index p) { return cloud.position (p); }, drawing.triangles);
+  drawing.centre = boxAround (drawing.positions).center ();
+  for (Eigen::Vector3d& position : drawing.positions)
+    position -= drawing.centre;
   constexpr int NEAREST = 6; // that localSpacing takes
   const RunContext run (std::max (line.options.threads, 0));
   drawing.spacing = localSpacing (
@@ -424,9 +421,7 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
 Json
 meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_dots)
 {
-  Box box;
-  for (const Eigen::Vector3d& position : drawing.positions)
-    box.extend (position);
+  Box box = boxAround (drawing.positions);
   if (box.isEmpty ()) // the dots of all points are the first
     box = bulkOf (all_dots.front ());
   if (box.isEmpty ())
@@ -438,8 +433,7 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
     const auto isFar = [&shown] (const Eigen::Vector3d& p) { return !shown.contains (p); };
     dots.positions.erase (std::remove_if (dots.positions.begin (), dots.positions.end (), isFar),
                           dots.positions.end ());
-    for (const Eigen::Vector3d& position : dots.positions)
-      box.extend (position);
+    box.extend (boxAround (dots.positions));
   }
   const Quantizer quantizer (box, drawing.median_spacing);
   const auto written = [&quantizer] (const std::vector<Eigen::Vector3d>& positions) {
@@ -469,7 +463,6 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
   const Eigen::Vector3d origin = drawing.centre + quantizer.origin;
   return {{"triangles", triangles},
           {"shown", drawing.triangles.size ()},
-          {"thinned", drawing.is_thinned},
           {"all_flaws", drawing.has_all_flaws},
           {"origin", {origin.x (), origin.y (), origin.z ()}},
           {"step", quantizer.step},
