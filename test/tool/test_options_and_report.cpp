@@ -124,6 +124,7 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {"--max-memory 2G --topology disc", "of a disc"},
       {"--max-memory 2G --parameterization flat.ply", "of a disc"},
       {"--max-memory 2G --uv", "--max-memory"},
+      {"--max-memory 2G --html page.html", "--max-memory"},
       {"--texture c.jpg", "no PNG file"},
       {"--texture-size 512", "without --texture"},
       {"--texture c.png --texture-size 7", "--texture-size"},

@@ -113,6 +113,8 @@ checkMemoryLimit (CommandLine& line)
     throw UsageError ("--max-memory cannot limit the memory for the linear system of a disc; use "
                       "it with --topology surface or auto, and without --loop and "
                       "--parameterization");
+  if (!line.html.empty ())
+    throw UsageError ("--max-memory cannot limit the memory of --html; leave one of them out");
   if (line.scratch.empty ())
     line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }

@@ -55,8 +55,9 @@ headlineJson (const Report& report, const RunFigures& run)
 
 /// Counts in bins of equal width, of the values or of their logarithms. Values beyond the ends are
 /// in the first and the last bin.
+/// \param unit of the values; the result is in units of the cloud
 Json
-histogramJson (std::vector<float> values, bool is_log)
+histogramJson (std::vector<float> values, double unit, bool is_log)
 {
   constexpr std::size_t BINS = 48;
   constexpr double TAIL = 0.005;
@@ -70,15 +71,10 @@ histogramJson (std::vector<float> values, bool is_log)
     const double bin = width > 0.0 ? std::floor ((scaled (value) - from) / width) : 0.0;
     ++counts[static_cast<std::size_t> (std::clamp (bin, 0.0, BINS - 1.0))];
   }
-  return {{"log", is_log},
-          {"from", low},
-          {"to", high},
-          {"counts", counts},
-          {"least", quantile (values, 0.0)},
-          {"quantile_10", quantile (values, 0.1)},
-          {"median", quantile (values, 0.5)},
-          {"quantile_90", quantile (values, 0.9)},
-          {"largest", quantile (values, 1.0)}};
+  const auto at = [&] (double share) { return unit * quantile (values, share); };
+  return {{"log", is_log},      {"from", unit * low},      {"to", unit * high},
+          {"counts", counts},   {"least", at (0.0)},       {"quantile_10", at (0.1)},
+          {"median", at (0.5)}, {"quantile_90", at (0.9)}, {"largest", at (1.0)}};
 }
 
 /// Triangles of one kind of flaw.
@@ -88,10 +84,11 @@ struct Flaw
   std::vector<Index> triangles; // ascending
 };
 
-/// The mesh as it is drawn: only its vertices, around the origin.
+/// The mesh as it is drawn: only its vertices, around the origin, in a unit that float can square.
 struct Drawing
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); // of the cloud, where the origin is
+  double unit = 1.0;                                 // in units of the cloud; a power of two
   std::vector<Eigen::Vector3d> positions;
   Triangles triangles;
   std::vector<float> spacing; // of each vertex; empty if there is no mesh
@@ -330,7 +327,7 @@ struct Quantizer
   {
     constexpr double STEPS = 65535.0, LEAST = 16.0;
     step = box.sizes ().maxCoeff () / STEPS;
-    is_fine = spacing < LEAST * step;
+    is_fine = spacing > 0.0 && spacing < LEAST * step;
     if (is_fine || !(step > 0.0))
       step = 1.0;
   }
@@ -364,9 +361,11 @@ Dots
 takeDots (const char* name, std::size_t count, const Position& positionOf)
 {
   Dots dots{name, count, {}};
+  constexpr double FARTHEST = 1e100; // beyond, squares overflow
   const std::size_t step = count / MOST_SHOWN_POINTS + 1;
   for (std::size_t i = 0; i < count; i += step)
-    if (const Eigen::Vector3d position = positionOf (i); position.allFinite ())
+    if (const Eigen::Vector3d position = positionOf (i);
+        (position.array ().abs () < FARTHEST).all ())
       dots.positions.push_back (position);
   return dots;
 }
@@ -396,9 +395,12 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   drawing.triangles = result.triangles;
   drawing.positions = takeVertices (
       cloud.size (), [&cloud] (Index p) { return cloud.position (p); }, drawing.triangles);
-  drawing.centre = boxAround (drawing.positions).center ();
+  const Box box = boxAround (drawing.positions);
+  drawing.centre = box.center ();
+  if (const double size = box.sizes ().maxCoeff (); size > 0.0)
+    drawing.unit = std::ldexp (1.0, std::ilogb (size));
   for (Eigen::Vector3d& position : drawing.positions)
-    position -= drawing.centre;
+    position = (position - drawing.centre) / drawing.unit;
   constexpr int NEAREST = 6; // that localSpacing takes
   const RunContext run (std::max (line.options.threads, 0));
   drawing.spacing = localSpacing (
@@ -460,15 +462,15 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
                           {"count", dots.count},
                           {"shown", dots.positions.size ()},
                           {"positions", written (dots.positions)}});
-  const Eigen::Vector3d origin = drawing.centre + quantizer.origin;
+  const Eigen::Vector3d origin = drawing.centre + drawing.unit * quantizer.origin;
   return {{"triangles", triangles},
           {"shown", drawing.triangles.size ()},
           {"all_flaws", drawing.has_all_flaws},
           {"origin", {origin.x (), origin.y (), origin.z ()}},
-          {"step", quantizer.step},
+          {"step", drawing.unit * quantizer.step},
           {"floats", quantizer.is_fine},
           {"short", are_short},
-          {"spacing", drawing.median_spacing},
+          {"spacing", drawing.unit * drawing.median_spacing},
           {"positions", written (drawing.positions)},
           {"corners", corners.take ()},
           {"flaws", flaws},
@@ -514,7 +516,7 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
   const Drawing drawing = makeDrawing (line, cloud, result);
   const auto dotsAt = [&] (const char* name, const std::vector<std::uint32_t>& points) {
     return takeDots (name, points.size (), [&] (std::size_t i) -> Eigen::Vector3d {
-      return cloud.positionOfRow (points[i]) - drawing.centre;
+      return (cloud.positionOfRow (points[i]) - drawing.centre) / drawing.unit;
     });
   };
   std::vector<Dots> dots;
@@ -531,8 +533,8 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
                      {"other_warnings", std::move (others)},
                      {"places", placesJson (report, cloud)},
                      {"histograms",
-                      {{"spacing", histogramJson (drawing.spacing, true)},
-                       {"height", histogramJson (drawing.height, false)}}},
+                      {{"spacing", histogramJson (drawing.spacing, drawing.unit, true)},
+                       {"height", histogramJson (drawing.height, 1.0, false)}}},
                      {"mesh", meshJson (drawing, result.triangles.size (), std::move (dots))}};
   // No text can end the element of HTML that holds it.
   std::string text (HTML_BEFORE_DATA);
