@@ -63,8 +63,8 @@ install (FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_
          COMPONENT development)
 install (FILES "${PROJECT_SOURCE_DIR}/README.md"
          DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
-# README.md shows these.
-foreach (picture tools/picture/example.png test/benchmark/figures/figure6_mesh_bunny.png
+# README.md and doc/page.md show these.
+foreach (picture tools/picture/example.png tools/reconstruct/page.png test/benchmark/figures/figure6_mesh_bunny.png
                  test/benchmark/figures/figure4_sparsity_bunny.png test/benchmark/figures/figure6_mesh_igea.png)
   get_filename_component (folder "${picture}" DIRECTORY)
   install (FILES "${PROJECT_SOURCE_DIR}/${picture}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}"

@@ -251,22 +251,28 @@ severityName (Severity severity)
   return i < sizeof NAMES / sizeof *NAMES ? NAMES[i] : "unknown";
 }
 
+std::string
+sentenceOf (const Finding& finding)
+{
+  return fill (SENTENCES[static_cast<std::size_t> (finding.id)].text, finding);
+}
+
 void
 describeFindings (Report& report)
 {
-  const auto sentenceOf = [] (const Finding& finding) -> const Sentence& {
+  const auto rowOf = [] (const Finding& finding) -> const Sentence& {
     return SENTENCES[static_cast<std::size_t> (finding.id)];
   };
   for (Finding& finding : report.findings)
-    finding.severity = sentenceOf (finding).severity;
-  const auto cost = [&sentenceOf] (const Finding& finding) { // of what there are most
-    const bool has_count = std::string_view (sentenceOf (finding).text).substr (0, 3) == "{0:";
+    finding.severity = rowOf (finding).severity;
+  const auto cost = [&rowOf] (const Finding& finding) { // of what there are most
+    const bool has_count = std::string_view (rowOf (finding).text).substr (0, 3) == "{0:";
     return std::make_pair (finding.severity, has_count ? finding.numbers.at (0) : 0.0);
   };
   std::stable_sort (report.findings.begin (), report.findings.end (),
                     [&cost] (const Finding& a, const Finding& b) { return cost (a) > cost (b); });
   for (const Finding& finding : report.findings)
-    report.warnings.push_back (fill (sentenceOf (finding).text, finding));
+    report.warnings.push_back (sentenceOf (finding));
 }
 
 } // namespace pcl::floater

@@ -40,9 +40,12 @@ addFinding (Report& report, FindingId id, const Points& points, std::initializer
   report.findings.push_back (std::move (finding));
 }
 
+/// The sentence of a finding.
+std::string
+sentenceOf (const Finding& finding);
+
 /// Sets the severity of each finding, sorts them by severity and number, and adds the sentence of
-/// each to the warnings. Called once, at the end
-/// of a run.
+/// each to the warnings. Called once, at the end of a run.
 void
 describeFindings (Report& report);
 

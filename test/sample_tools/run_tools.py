@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the tools for samples and pictures, the quick start and the contact sheet as a user would: files, exit codes,
-messages.
+"""Runs the tools for samples and pictures, the quick start, the contact sheet and the page of --html as a user would:
+files, exit codes, messages.
 
 Usage: run_tools.py pcl_floater_generate pcl_floater_picture BUILD_FOLDER CLASS
 CLASS: of tests, below; the scripts take the programs of BUILD_FOLDER
 """
 
+import base64
+import html.parser
 import json
 import os
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -20,6 +23,7 @@ import unittest
 import zlib
 
 GENERATE, PICTURE, BUILD = sys.argv[1:4]
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 CORNERS = (0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
@@ -77,6 +81,30 @@ class Case(unittest.TestCase):
         return done.stdout
 
 
+    def pixels(self, name):
+        """The rows of a picture, of (red, green, blue)."""
+        data = self.read(name)
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        width, height = struct.unpack(">II", data[16:24])
+        packed, at = b"", 8
+        while at < len(data):
+            length = struct.unpack(">I", data[at:at + 4])[0]
+            if data[at + 4:at + 8] == b"IDAT":
+                packed += data[at + 8:at + 8 + length]
+            at += length + 12
+        data, rows, above = zlib.decompress(packed), [], bytes(3 * width + 3)
+        self.assertEqual(len(data), height * (3 * width + 1))
+        for first in range(0, len(data), 3 * width + 1):
+            line = bytearray(3)  # a pixel to the left of the first
+            for i, value in enumerate(data[first + 1:first + 3 * width + 1], 3):
+                a, b, c = line[i - 3], above[i], above[i - 3]
+                nearest = min((a, b, c), key=lambda x, p=a + b - c: abs(p - x))
+                line.append((value + (0, a, b, (a + b) // 2, nearest)[data[first]]) % 256)
+            rows.append([tuple(line[i:i + 3]) for i in range(3, len(line), 3)])
+            above = line
+        return rows
+
+
 class Generate(Case):
     def test_generate_writes_the_same_points_as_pcd_and_ply(self):
         for name in ("a.pcd", "b.pcd", "a.ply"):
@@ -108,29 +136,6 @@ class Generate(Case):
 class Picture(Case):
     def picture(self, code, *arguments, says=""):
         self.check(code, PICTURE, *arguments, says=says)
-
-    def pixels(self, name):
-        """The rows of a picture, of (red, green, blue)."""
-        data = self.read(name)
-        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
-        width, height = struct.unpack(">II", data[16:24])
-        packed, at = b"", 8
-        while at < len(data):
-            length = struct.unpack(">I", data[at:at + 4])[0]
-            if data[at + 4:at + 8] == b"IDAT":
-                packed += data[at + 8:at + 8 + length]
-            at += length + 12
-        data, rows, above = zlib.decompress(packed), [], bytes(3 * width + 3)
-        self.assertEqual(len(data), height * (3 * width + 1))
-        for first in range(0, len(data), 3 * width + 1):
-            line = bytearray(3)  # a pixel to the left of the first
-            for i, value in enumerate(data[first + 1:first + 3 * width + 1], 3):
-                a, b, c = line[i - 3], above[i], above[i - 3]
-                nearest = min((a, b, c), key=lambda x, p=a + b - c: abs(p - x))
-                line.append((value + (0, a, b, (a + b) // 2, nearest)[data[first]]) % 256)
-            rows.append([tuple(line[i:i + 3]) for i in range(3, len(line), 3)])
-            above = line
-        return rows
 
     def draw(self, mesh, *options):
         """The pixels of a picture of a mesh."""
@@ -300,10 +305,142 @@ class ContactSheet(Case):
         self.check(1, script, "--build", BUILD, "none.pcd", says="none.pcd")
 
 
+class PageCase(Case):
+    """Of the page that --html writes."""
+    RECONSTRUCT = os.path.join(BUILD, "tools/reconstruct/pcl_floater_reconstruct")
+
+    def page(self, cloud, *options, code=0, says=""):
+        """Writes page.html and report.json. Returns the data of the page, and the report."""
+        self.check(code, self.RECONSTRUCT, cloud, "mesh.ply", "-q", "--html", "page.html", "--report", "report.json",
+                   *options, says=says)
+        text = self.read("page.html").decode()
+        elements, data = [], []
+
+        class Reader(html.parser.HTMLParser):
+            def handle_starttag(self, tag, attributes):
+                elements.append((tag, dict(attributes)))
+
+            def handle_data(self, text):
+                if elements and elements[-1] == ("script", {"type": "application/json", "id": "data"}):
+                    data.append(text)
+
+        Reader().feed(text)
+        # Nothing from outside: no address but the name of a standard, no element or style that loads one.
+        self.assertEqual(set(re.findall(r"https?://[^\s\"'<)]*", text)) - {"http://www.w3.org/2000/svg"}, set())
+        self.assertFalse({tag for tag, _ in elements} & {"link", "img", "iframe", "object", "embed", "base", "form"})
+        self.assertFalse([a for _, a in elements if {"src", "href"} & set(a)])
+        self.assertNotIn("url(", text)
+        self.assertNotIn("@import", text)
+        self.assertEqual(sum(tag == "script" for tag, _ in elements), 2)
+        self.assertIn("default-src 'none'", text)
+        return json.loads("".join(data)), json.loads(self.read("report.json"))
+
+    def numbers(self, text, kind):
+        packed = base64.b64decode(text, validate=True)
+        return struct.unpack(f"<{len(packed) // struct.calcsize(kind)}{kind}", packed)
+
+    def noisy(self, *options):
+        """A cloud with flaws, and with a point far away."""
+        self.check(0, GENERATE, "torus", "torus.ply", "--points", "3000", "--noise", "0.9")
+        head, points = self.read("torus.ply").split(b"end_header\n", 1)
+        head = head.replace(b"element vertex 3000", b"element vertex 3002")
+        return self.write("noisy.ply", head + b"end_header\n" + points + struct.pack("<6f", 1e9, 0, 0, 300, 300, 300))
+
+
+class Page(PageCase):
+    def test_counts_are_those_of_the_report(self):
+        data, report = self.page(self.noisy())
+        for key in set(report) - {"seconds", "peak_memory_bytes", "loop", "unused", "outliers", "scatter", "non_finite",
+                                  "duplicates"}:
+            self.assertEqual(data["report"][key], report[key])
+        for key in ("loop", "unused", "outliers", "scatter", "non_finite", "duplicates"):
+            self.assertEqual(data["report"][key], len(report[key]))
+        flaws = sum(f["numbers"][0] for f in report["findings"] if f["severity"] == "flaw")
+        self.assertGreater(flaws, 0)
+        self.assertIn(f"{flaws:.0f} flaw", data["headline"]["text"])
+        self.assertEqual(sorted(data["sentences"] + data["other_warnings"]), sorted(report["warnings"]))
+        mesh = data["mesh"]
+        self.assertEqual(mesh["triangles"], report["statistics"]["triangles"])
+        corners = self.numbers(mesh["corners"], "H" if mesh["short"] else "I")
+        self.assertEqual(len(corners), 3 * mesh["shown"])
+        self.assertEqual(mesh["shown"], mesh["triangles"])
+        positions = self.numbers(mesh["positions"], "f" if mesh["floats"] else "H")
+        self.assertEqual(len(positions), 3 * report["statistics"]["used_points"])
+        self.assertEqual(set(corners), set(range(len(positions) // 3)))
+        for name, histogram in data["histograms"].items():
+            self.assertEqual(sum(histogram["counts"]), report["statistics"]["used_points"], name)
+        for flaw in mesh["flaws"]:
+            triangles = self.numbers(flaw["triangles"], "I")
+            self.assertEqual(len(set(triangles)), flaw["count"])
+            self.assertLess(max(triangles, default=0), mesh["shown"])
+            expected = {"crossing": "self_intersections", "folded": "folds", "flat": "degenerate_triangles"}
+            if flaw["name"] in expected:
+                self.assertEqual(flaw["count"] > 0, report["check"][expected[flaw["name"]]] > 0, flaw["name"])
+        dots = {kind["name"]: kind for kind in mesh["dots"]}
+        self.assertEqual({name: kind["count"] for name, kind in dots.items()},
+                         {name: len(report[name]) for name in ("scatter", "outliers", "unused")})
+        self.assertLess(dots["outliers"]["shown"], dots["outliers"]["count"])  # one is too far away to be shown
+
+    def test_a_large_mesh_is_thinned_but_for_its_flaws(self):
+        cloud = self.noisy()
+        (whole, _), (some, report) = self.page(cloud), self.page(cloud, "--limit", "page.triangles=2000")
+        mesh = some["mesh"]
+        self.assertEqual(mesh["triangles"], report["statistics"]["triangles"])
+        self.assertTrue(1000 < mesh["shown"] <= 2000)
+        self.assertEqual([f["count"] for f in mesh["flaws"]], [f["count"] for f in whole["mesh"]["flaws"]])
+        self.assertEqual(some["histograms"], whole["histograms"])
+        corners = self.numbers(mesh["corners"], "H")
+        triangles = list(zip(*[iter(corners)] * 3))
+        self.assertEqual((len(triangles), max(corners)), (mesh["shown"], len(self.numbers(mesh["positions"], "H")) / 3 - 1))
+        self.assertTrue(all(len(set(t)) == 3 for t in triangles))
+        few = self.page(cloud, "--limit", "page.triangles=100")[0]["mesh"]  # less than there are flaws
+        self.assertEqual((mesh["all_flaws"], few["all_flaws"]), (True, False))
+        self.assertTrue(0 < few["shown"] <= 100)
+
+    def test_no_name_or_text_becomes_html(self):
+        name = "</script><img src=x onerror=alert(1)>&amp;\"'\u2028.ply"
+        os.mkdir(self.path("<"))
+        os.rename(self.noisy(), self.path(name))
+        data, report = self.page(name)
+        self.assertEqual(data["report"]["input"]["file"], name)
+        self.assertEqual(report["input"]["file"], name)
+
+    def test_a_failure_has_a_page_with_the_points(self):
+        self.write("line.xyz", "".join(f"{i} 0 0\n" for i in range(50)))
+        data, report = self.page("line.xyz", code=3, says="line.xyz")
+        self.assertEqual(data["headline"], {"level": "failed", "word": "no mesh", "text": report["message"]})
+        self.assertEqual((data["mesh"]["shown"], data["mesh"]["dots"][0]["shown"]), (0, 50))
+        data, report = self.page(self.noisy(), "--strict", code=6, says="--strict")
+        self.assertEqual((report["status"], data["headline"]["level"]), ("WARNINGS", "failed"))
+        self.assertGreater(data["mesh"]["shown"], 0)
+
+
+class Browser(PageCase):
+    def show(self, anchor=""):
+        """The pixels of the page in a browser."""
+        self.check(0, BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle",
+                   "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
+                   "--user-data-dir=" + self.path("profile"), "--window-size=1000,700", "--virtual-time-budget=4000",
+                   "--screenshot=" + self.path("page.png"), "file://" + self.path("page.html") + anchor)
+        return [pixel for row in self.pixels("page.png") for pixel in row]
+
+    def test_a_browser_shows_the_mesh_and_goes_to_a_flaw(self):
+        self.page(self.noisy())
+        front, flaw, ring = (lambda p: p[2] > p[0] + 20 and p[0] > 70), (lambda p: p[0] > p[2] + 100), (11, 108, 255)
+        whole, near = self.show(), self.show("#place=1")
+        self.assertGreater(sum(map(front, whole)), 20000)
+        self.assertEqual(whole.count(ring), 0)
+        self.assertGreater(near.count(ring), 100)
+        self.assertGreater(sum(map(flaw, near)), 1000)
+
+
 if __name__ == "__main__":
     # contact_sheet.py is run by this interpreter of Debian.
     if sys.argv[4] == "ContactSheet" and subprocess.run(
             ["/usr/bin/python3", "-c", "import matplotlib, numpy, scipy"], stderr=subprocess.DEVNULL).returncode != 0:
         print("NumPy, SciPy or Matplotlib is missing")
+        sys.exit(77)
+    if sys.argv[4] == "Browser" and BROWSER is None:
+        print("Chromium is missing")
         sys.exit(77)
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -85,6 +85,7 @@ TEST_F (CommandLineTest, OutputsThatCannotBeWritten)
     expectFailure ({"in.pcd", output}, OUTPUT_FAILED, "cannot write '" + output + "'");
     expectFailure ({"in.pcd", output}, OUTPUT_FAILED, cause);
     expectFailure ({"in.pcd", "out.ply", "--report", output}, OUTPUT_FAILED, cause);
+    expectFailure ({"in.pcd", "out.ply", "--html", output}, OUTPUT_FAILED, cause);
     expectFailure ({"in.pcd", "out.ply", "--parameterization", output}, OUTPUT_FAILED, cause);
   }
   expectFailure ({"in.pcd", "out.xyz"}, OUTPUT_FAILED, "its extension '.xyz' is unknown");
@@ -111,6 +112,8 @@ TEST_F (CommandLineTest, WriteThatFailsHalfWay)
   const std::size_t limit = std::filesystem::file_size (path ("fits.ply")) + 100;
   expectFailure ({"in.pcd", "out.ply", "--parameterization", "flat.ply"}, OUTPUT_FAILED,
                  "cannot write 'flat.ply'", {limit});
+  expectFailure ({"in.pcd", "out.ply", "--html", "out.html"}, OUTPUT_FAILED,
+                 "cannot write 'out.html'", {limit});
   EXPECT_EQ (readFile ("out.ply"), BEFORE);
 }
 

@@ -124,11 +124,13 @@ TEST_F (CommandLineTest, BadOptionsAreRefused)
       {"--max-memory 2G --topology disc", "of a disc"},
       {"--max-memory 2G --parameterization flat.ply", "of a disc"},
       {"--max-memory 2G --uv", "--max-memory"},
+      {"--max-memory 2G --html page.html", "--max-memory"},
       {"--texture c.jpg", "no PNG file"},
       {"--texture-size 512", "without --texture"},
       {"--texture c.png --texture-size 7", "--texture-size"},
       {"--texture c.png", "have no colours"},
       {"--report -", "--report takes the name of a file, not -"},
+      {"--html -", "--html takes the name of a file, not -"},
       {"--loop -", "--loop takes the name of a file, not -"},
       {"--parameterization -", "--parameterization takes the name of a file, not -"}};
   for (const auto& [options, cause] : mistakes)
@@ -144,6 +146,9 @@ TEST_F (CommandLineTest, SameFileTwice)
     expectFailure ({"cloud.ply", output}, USAGE, "INPUT and OUTPUT are the same file");
   expectFailure ({"in.pcd", "a.ply", "--report", "./a.ply"}, USAGE,
                  "OUTPUT and --report are the same file");
+  expectFailure ({"in.pcd", "a.ply", "--html", "./a.ply"}, USAGE,
+                 "OUTPUT and --html are the same file");
+  expectFailure ({"in.pcd", "a.ply", "--report", "a", "--html", "a"}, USAGE, "are the same file");
   expectFailure ({"in.pcd", "a.ply", "--parameterization", "a.ply"}, USAGE, "are the same file");
   expectFailure ({"in.pcd", "a.ply", "--report", "in.pcd"}, USAGE,
                  "INPUT and --report are the same file");

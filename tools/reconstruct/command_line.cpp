@@ -78,7 +78,7 @@ readLoop (const std::filesystem::path& path)
 }
 
 std::optional<std::string>
-setLimit (const std::string& setting, Limits& limits)
+setLimit (const std::string& setting, CommandLine& line)
 {
   const std::size_t equals = setting.find ('=');
   const std::string name = setting.substr (0, equals);
@@ -92,8 +92,9 @@ setLimit (const std::string& setting, Limits& limits)
     else
       problem = "'" + word + "' is no value of " + name;
   };
-  offer ("parts.points", limits.parts.points, std::size_t{1000});
-  offer ("parts.rings", limits.parts.rings, std::size_t{1});
+  offer ("parts.points", line.limits.parts.points, std::size_t{1000});
+  offer ("parts.rings", line.limits.parts.rings, std::size_t{1});
+  offer ("page.triangles", line.shown_triangles, std::size_t{100});
   return problem;
 }
 
@@ -112,6 +113,8 @@ checkMemoryLimit (CommandLine& line)
     throw UsageError ("--max-memory cannot limit the memory for the linear system of a disc; use "
                       "it with --topology surface or auto, and without --loop and "
                       "--parameterization");
+  if (!line.html.empty ())
+    throw UsageError ("--max-memory cannot limit the memory of --html; leave one of them out");
   if (line.scratch.empty ())
     line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }
@@ -218,8 +221,8 @@ checkPaths (const CommandLine& line)
                      ", or give its format by --input-format");
   }
   for (const auto& [name, path] :
-       {std::pair ("--report", &line.report), std::pair ("--loop", &line.loop),
-        std::pair ("--parameterization", &line.parameterization)})
+       {std::pair ("--report", &line.report), std::pair ("--html", &line.html),
+        std::pair ("--loop", &line.loop), std::pair ("--parameterization", &line.parameterization)})
     if (isStandardStream (*path))
       throw UsageError (std::string (name) + " takes the name of a file, not -");
   struct Named
@@ -229,11 +232,12 @@ checkPaths (const CommandLine& line)
     bool is_output;
   };
   const std::filesystem::path materials = materialsOf (line);
-  const std::array<Named, 7> all{{{"INPUT", &line.input, false},
+  const std::array<Named, 8> all{{{"INPUT", &line.input, false},
                                   {"--loop", &line.loop, false},
                                   {"OUTPUT", &line.output, true},
                                   {"--parameterization", &line.parameterization, true},
                                   {"--report", &line.report, true},
+                                  {"--html", &line.html, true},
                                   {"the file of materials", &materials, true},
                                   {"--texture", &line.texture, true}}};
   for (std::size_t i = 0; i < all.size (); ++i)

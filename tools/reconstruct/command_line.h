@@ -55,11 +55,6 @@ describeException (const char* if_no_memory, std::string& message);
 std::vector<std::uint32_t>
 readLoop (const std::filesystem::path& path);
 
-/// Changes the limit that a setting such as "parts.points=5000" names.
-/// \return why it cannot, if so
-std::optional<std::string>
-setLimit (const std::string& setting, Limits& limits);
-
 /// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
 /// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
 enum class Precision
@@ -75,6 +70,8 @@ struct CommandLine
   std::filesystem::path input;
   std::filesystem::path output;
   std::filesystem::path report;
+  std::filesystem::path html;              ///< the report as a page
+  std::size_t shown_triangles = 1'000'000; ///< most triangles of the page
   std::filesystem::path parameterization;
   std::filesystem::path loop;
   std::filesystem::path texture;           ///< image of the colours of the points
@@ -117,6 +114,11 @@ struct CommandLine
            (options.facing == Facing::AUTO && use_input_normals);
   }
 };
+
+/// Changes the limit that a setting such as "parts.points=5000" names.
+/// \return why it cannot, if so
+std::optional<std::string>
+setLimit (const std::string& setting, CommandLine& line);
 
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};

@@ -7,6 +7,7 @@
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "format.h"
+#include "html_report.h"
 #include "large_arrays.h"
 #include "memory_limit.h"
 #include "mesh_output.h"
@@ -106,13 +107,18 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
 using Files = std::vector<std::unique_ptr<AtomicFile>>;
 
 void
-stageReport (const CommandLine& line, const Report& report, const RunFigures& run, Files& files)
+stageReports (const CommandLine& line, const Cloud& cloud, const Result& result,
+              const RunFigures& run, Files& files)
 {
-  if (line.report.empty ())
-    return;
-  AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (line.report));
-  file.write (reportText (line, report, run));
-  file.close ();
+  const auto stage = [&files] (const std::filesystem::path& path, const std::string& text) {
+    AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (path));
+    file.write (text);
+    file.close ();
+  };
+  if (!line.report.empty ())
+    stage (line.report, reportText (line, result.report, run));
+  if (!line.html.empty ())
+    stage (line.html, htmlReport (line, cloud, result, run));
 }
 
 /// Writes all outputs under temporary names, so that none is visible yet.
@@ -172,7 +178,7 @@ stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run
     files.clear ();
     report.message = objection + ", which --strict does not allow";
   }
-  stageReport (line, report, run, files);
+  stageReports (line, cloud, result, run, files);
 }
 
 void

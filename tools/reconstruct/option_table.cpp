@@ -247,6 +247,9 @@ addFiles (CLI::App& app, CommandLine& line)
          "give the vertices normals, made from the triangles; those of the input are replaced")
       ->group (output);
   addPath (app, "--report", line.report, "write a report on the run as JSON", output);
+  addPath (app, "--html", line.html,
+           "write the report as a page for a browser: figures, findings and the mesh, which turns",
+           output);
   addPath (app, "--parameterization", line.parameterization,
            "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc",
            output);
@@ -293,7 +296,7 @@ void
 addLimit (CLI::App& app, CommandLine& line)
 {
   const auto change = [&line] (const std::string& setting) {
-    if (const std::optional<std::string> problem = setLimit (setting, line.limits))
+    if (const std::optional<std::string> problem = setLimit (setting, line))
       throw CLI::ValidationError ("--limit", *problem);
   };
   app.add_option ("--limit", line.changed_limits)

@@ -18,14 +18,6 @@ namespace pcl::floater {
 namespace {
 using Json = nlohmann::ordered_json;
 
-/// JSON is UTF-8; in names of files, bytes that are not are replaced.
-std::string
-dump (const Json& json)
-{
-  constexpr int ONE_LINE = -1;
-  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
-}
-
 Json
 fileName (const std::filesystem::path& path)
 {
@@ -60,6 +52,13 @@ textureJson (const CommandLine& line, const RunFigures& run)
 
 } // namespace
 
+std::string
+dump (const nlohmann::ordered_json& json)
+{
+  constexpr int ONE_LINE = -1;
+  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
+}
+
 std::size_t
 peakMemory ()
 {
@@ -88,8 +87,8 @@ outcomeName (const Report& report, const RunFigures& run)
   return run.is_refused ? "REFUSED" : statusName (report.status);
 }
 
-std::string
-reportText (const CommandLine& line, const Report& report, const RunFigures& run)
+nlohmann::ordered_json
+reportJson (const CommandLine& line, const Report& report, const RunFigures& run)
 {
   const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
   Json all = {{"tool", "pcl_floater_reconstruct"},
@@ -127,6 +126,13 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
   all["scatter"] = report.scatter;
   all["non_finite"] = report.non_finite;
   all["duplicates"] = report.duplicates;
+  return all;
+}
+
+std::string
+reportText (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const Json all = reportJson (line, report, run);
   std::string text;
   for (const auto& [key, value] : all.items ())
     text += (text.empty () ? "{\n  " : ",\n  ") + dump (key) + ": " + dump (value);
@@ -332,6 +338,8 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
     std::fprintf (to, "flat mesh  %s\n", line.parameterization.c_str ());
   if (!line.report.empty ())
     std::fprintf (to, "report     %s\n", line.report.c_str ());
+  if (!line.html.empty ())
+    std::fprintf (to, "page       %s\n", line.html.c_str ());
 }
 
 } // namespace

@@ -9,6 +9,8 @@
 #include <pcl/surface/floater/report.h>
 #include <pcl/surface/floater/texture_coordinates.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <chrono>
 #include <string>
 
@@ -52,7 +54,15 @@ objectionTo (const Report& report);
 std::string
 outcomeName (const Report& report, const RunFigures& run);
 
-/// The whole report as a JSON object, with one line for each of its keys.
+/// JSON on one line. It is UTF-8; in names of files, bytes that are not are replaced.
+std::string
+dump (const nlohmann::ordered_json& json);
+
+/// The whole report as a JSON object.
+nlohmann::ordered_json
+reportJson (const CommandLine& command_line, const Report& report, const RunFigures& run);
+
+/// The same as text, with one line for each of its keys.
 std::string
 reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
 

@@ -1,0 +1,537 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "html_report.h"
+
+#include "core/geometry.h"
+#include "core/order_statistics.h"
+#include "format.h"
+#include "html_template.h"
+#include "local/planes.h"
+#include "mesh/fold_repair.h"
+#include "mesh/self_intersections.h"
+#include "points/neighbors.h"
+#include "report/findings.h"
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+#include <pcl/surface/floater/vertex_normals.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace pcl::floater {
+namespace {
+using Json = nlohmann::ordered_json;
+using Box = Eigen::AlignedBox3d;
+
+constexpr std::size_t MOST_SHOWN_POINTS = 50'000; // of each kind
+constexpr std::size_t MOST_LISTED_LOOPS = 20;
+
+/// What the page says first.
+Json
+headlineJson (const Report& report, const RunFigures& run)
+{
+  if (report.status != RunStatus::SUCCESS || run.is_refused)
+    return {{"level", "failed"}, {"word", "no mesh"}, {"text", report.message}};
+  const Verdict& verdict = report.verdict;
+  return {{"level", verdict.value == Quality::GOOD     ? "good"
+                    : verdict.value == Quality::USABLE ? "doubts"
+                                                       : "flaws"},
+          {"word", qualityName (verdict.value)},
+          {"text", verdict.cause.empty () ? "Hardly a flaw in the mesh"
+                                          : verdict.cause + ". What helps: " + verdict.remedy}};
+}
+
+/// Counts in bins of equal width, of the values or of their logarithms. Values beyond the ends are
+/// in the first and the last bin.
+/// \param unit of the values; the result is in units of the cloud
+Json
+histogramJson (std::vector<float> values, double unit, bool is_log)
+{
+  constexpr std::size_t BINS = 48;
+  constexpr double TAIL = 0.005;
+  if (values.empty ())
+    return {};
+  const auto scaled = [is_log] (double value) { return is_log ? std::log (value) : value; };
+  const double low = is_log ? quantile (values, TAIL) : 0.0F, high = quantile (values, 1 - TAIL);
+  const double from = scaled (low), width = (scaled (high) - from) / BINS;
+  std::vector<std::size_t> counts (BINS);
+  for (const float value : values) {
+    const double bin = width > 0.0 ? std::floor ((scaled (value) - from) / width) : 0.0;
+    ++counts[static_cast<std::size_t> (std::clamp (bin, 0.0, BINS - 1.0))];
+  }
+  const auto at = [&] (double share) { return unit * quantile (values, share); };
+  return {{"log", is_log},      {"from", unit * low},      {"to", unit * high},
+          {"counts", counts},   {"least", at (0.0)},       {"quantile_10", at (0.1)},
+          {"median", at (0.5)}, {"quantile_90", at (0.9)}, {"largest", at (1.0)}};
+}
+
+/// Triangles of one kind of flaw.
+struct Flaw
+{
+  const char* name;
+  std::vector<Index> triangles; // ascending
+};
+
+/// The mesh as it is drawn: only its vertices, around the origin, in a unit that float can square.
+struct Drawing
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero (); // of the cloud, where the origin is
+  double unit = 1.0;                                 // in units of the cloud; a power of two
+  std::vector<Eigen::Vector3d> positions;
+  Triangles triangles;
+  std::vector<float> spacing; // of each vertex; empty if there is no mesh
+  std::vector<float> height;  // of each vertex above those around, in spacings
+  std::vector<Flaw> flaws;
+  double median_spacing = 0.0;
+  bool has_all_flaws = true;
+};
+
+Box
+boxAround (const std::vector<Eigen::Vector3d>& positions)
+{
+  Box box;
+  for (const Eigen::Vector3d& position : positions)
+    box.extend (position);
+  return box;
+}
+
+/// The positions of the vertices of triangles, which are renumbered in their order.
+/// \param points number of points; corners are below
+template <typename Position>
+std::vector<Eigen::Vector3d>
+takeVertices (std::size_t points, const Position& positionOf, Triangles& triangles)
+{
+  std::vector<Index> number (points, NONE);
+  std::vector<Eigen::Vector3d> positions;
+  for (Triangle& triangle : triangles)
+    for (Index& p : triangle) {
+      if (number[p] == NONE) {
+        number[p] = static_cast<Index> (positions.size ());
+        positions.push_back (positionOf (p));
+      }
+      p = number[p];
+    }
+  return positions;
+}
+
+/// The height of each vertex above the mean of those that it is connected to, in spacings.
+std::vector<float>
+heights (const Drawing& drawing, int threads)
+{
+  const std::vector<Eigen::Vector3f> normals =
+      vertexNormals (drawing.positions, drawing.triangles, threads);
+  std::vector<double> sums (normals.size ());
+  std::vector<std::uint32_t> terms (normals.size ());
+  for (const Triangle& triangle : drawing.triangles)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (const std::size_t other : {(c + 1) % 3, (c + 2) % 3}) {
+        const Index p = triangle[c];
+        sums[p] += normals[p].cast<double> ().dot (drawing.positions[triangle[other]] -
+                                                   drawing.positions[p]);
+        ++terms[p];
+      }
+  std::vector<float> result;
+  for (std::size_t p = 0; p < sums.size (); ++p)
+    if (drawing.spacing[p] > 0.0F)
+      result.push_back (
+          static_cast<float> (std::abs (sums[p]) / (terms[p] * double (drawing.spacing[p]))));
+  return result;
+}
+
+/// How often a run has found something.
+std::size_t
+timesFound (const Report& report, FindingId id)
+{
+  for (const Finding& finding : report.findings)
+    if (finding.id == id)
+      return static_cast<std::size_t> (finding.numbers.at (0));
+  return 0;
+}
+
+/// The flaws that the report counts. It has places of some only, so they are found again; of long
+/// edges and of triangles without area, the worst ones.
+std::vector<Flaw>
+findFlaws (const TriangleMesh& mesh, const Drawing& drawing, const Report& report,
+           const RunContext& run)
+{
+  const std::vector<Eigen::Vector3d>& positions = drawing.positions;
+  Flaw crossing{"crossing", {}}, folds{"folded", {}}, flat{"flat", {}}, far{"long", {}};
+  const auto addSides = [&mesh] (MeshEdge edge, Flaw& flaw) {
+    flaw.triangles.insert (flaw.triangles.end (), {edge.triangle, mesh.mate (edge).triangle});
+  };
+  if (report.check.self_intersections > 0)
+    for (const CrossingPair& pair : findSelfIntersections (mesh.triangles, positions, run))
+      crossing.triangles.insert (crossing.triangles.end (), {pair.first, pair.second});
+  for (const MeshEdge edge : findFolds (mesh, positions, run))
+    addSides (edge, folds);
+
+  using Rated = std::pair<double, MeshEdge>; // the larger, the worse
+  std::vector<Rated> edges, triangles;
+  const std::size_t long_edges = timesFound (report, FindingId::LONG_EDGES);
+  const std::size_t without_area = report.check.degenerate_triangles;
+  constexpr double FAR = 2.0, FLAT = 0.01; // others are none of them for sure
+  for (Index t = 0; t < mesh.triangles.size () && long_edges + without_area > 0; ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    double longest = 0.0;
+    for (const std::uint8_t side : {0, 1, 2}) {
+      const MeshEdge edge{t, side};
+      const Index from = mesh.from (edge), to = mesh.to (edge), other = mesh.mate (edge).triangle;
+      const double length = (positions[to] - positions[from]).norm ();
+      const double spacing = 0.5 * (drawing.spacing[from] + drawing.spacing[to]);
+      longest = std::max (longest, length);
+      if (other != NONE && other > t && length > FAR * spacing)
+        edges.emplace_back (length / spacing, edge);
+    }
+    const double height = areaVector (positions[a], positions[b], positions[c]).norm () / longest;
+    if (!(height >= FLAT * longest))
+      triangles.emplace_back (-height, MeshEdge{t, 0});
+  }
+  const auto takeWorst = [] (std::vector<Rated>& rated, std::size_t count, const auto& take) {
+    count = std::min (count, rated.size ());
+    std::partial_sort (rated.begin (), rated.begin () + static_cast<std::ptrdiff_t> (count),
+                       rated.end (), [] (const Rated& a, const Rated& b) {
+                         return a.first != b.first ? a.first > b.first
+                                                   : a.second.triangle < b.second.triangle;
+                       });
+    for (std::size_t i = 0; i < count; ++i)
+      take (rated[i].second);
+  };
+  takeWorst (edges, long_edges, [&] (MeshEdge edge) { addSides (edge, far); });
+  takeWorst (triangles, without_area,
+             [&flat] (MeshEdge edge) { flat.triangles.push_back (edge.triangle); });
+  std::vector<Flaw> flaws{std::move (crossing), std::move (folds), std::move (flat),
+                          std::move (far)};
+  for (Flaw& flaw : flaws)
+    sortUnique (flaw.triangles);
+  return flaws;
+}
+
+/// Joins the vertices within the cells of a grid that is just wide enough, but those of flaws.
+void
+thin (Drawing& drawing, std::size_t most)
+{
+  std::vector<Index> flawed;
+  for (const Flaw& flaw : drawing.flaws)
+    flawed.insert (flawed.end (), flaw.triangles.begin (), flaw.triangles.end ());
+  sortUnique (flawed);
+  std::vector<std::uint8_t> stays (drawing.positions.size ());
+  for (const Index t : flawed)
+    for (const Index p : drawing.triangles[t])
+      stays[p] = 1;
+  const Box box = boxAround (drawing.positions);
+  constexpr double CELLS = 1 << 20, GROWTH = 1.2;
+  const double widest = box.sizes ().maxCoeff ();
+  const double too_many = static_cast<double> (drawing.triangles.size ()) / double (most);
+  const double narrowest =
+      std::max ({drawing.median_spacing * std::sqrt (too_many) / GROWTH, widest / CELLS, 1e-300});
+  double cell = narrowest;
+  std::vector<Index> joined (stays.size ());
+  Triangles kept;
+  std::vector<Index> number; // of each triangle among those kept
+  do {
+    cell *= GROWTH;
+    if (cell > widest && drawing.has_all_flaws) { // there are too many
+      drawing.has_all_flaws = false;
+      std::fill (stays.begin (), stays.end (), std::uint8_t{0});
+      cell = narrowest;
+    }
+    std::unordered_map<std::uint64_t, Index> first;
+    for (Index p = 0; p < joined.size (); ++p) {
+      std::uint64_t key = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        key = key << 21U |
+              static_cast<std::uint64_t> ((drawing.positions[p][axis] - box.min ()[axis]) / cell);
+      joined[p] = stays[p] != 0 ? p : first.try_emplace (key, p).first->second;
+    }
+    kept.clear ();
+    number.assign (drawing.triangles.size (), NONE);
+    for (std::size_t t = 0; t < number.size (); ++t) {
+      Triangle triangle = drawing.triangles[t];
+      for (Index& p : triangle)
+        p = joined[p];
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+        continue;
+      number[t] = static_cast<Index> (kept.size ());
+      kept.push_back (triangle);
+    }
+  } while (kept.size () > most);
+  for (Flaw& flaw : drawing.flaws) {
+    for (Index& t : flaw.triangles)
+      t = number[t];
+    flaw.triangles.erase (std::remove (flaw.triangles.begin (), flaw.triangles.end (), NONE),
+                          flaw.triangles.end ());
+  }
+  drawing.positions = takeVertices (
+      joined.size (), [&drawing] (Index p) { return drawing.positions[p]; }, kept);
+  drawing.triangles = std::move (kept);
+}
+
+/// Numbers as base64, little end first.
+class Base64
+{
+public:
+  template <typename Number>
+  void add (Number number)
+  {
+    constexpr std::size_t SIZE = sizeof number;
+    std::array<unsigned char, SIZE> bytes;
+    copyNumber<Number> (bytes.data (), &number, ByteOrder::LITTLE);
+    for (const unsigned char byte : bytes) {
+      bits_ = bits_ << 8U | byte;
+      if (++bytes_ % 3 == 0)
+        flush ();
+    }
+  }
+
+  std::string take ()
+  {
+    const std::size_t missing = (3 - bytes_ % 3) % 3;
+    if (missing > 0) {
+      bits_ <<= 8U * static_cast<unsigned> (missing);
+      flush ();
+      text_.replace (text_.size () - missing, missing, missing, '=');
+    }
+    return std::move (text_);
+  }
+
+private:
+  void flush ()
+  {
+    for (int shift = 18; shift >= 0; shift -= 6)
+      text_ +=
+          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"[bits_ >> shift & 63U];
+    bits_ = 0;
+  }
+
+  std::string text_;
+  std::uint32_t bits_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+/// How positions are written: as steps of 16 bits within a box, if the spacing is many of these.
+struct Quantizer
+{
+  Quantizer (const Box& box, double spacing) : origin (box.min ())
+  {
+    constexpr double STEPS = 65535.0, LEAST = 16.0;
+    step = box.sizes ().maxCoeff () / STEPS;
+    is_fine = spacing > 0.0 && spacing < LEAST * step;
+    if (is_fine || !(step > 0.0))
+      step = 1.0;
+  }
+
+  void add (const Eigen::Vector3d& position, Base64& to) const
+  {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = (position[axis] - origin[axis]) / step;
+      if (is_fine)
+        to.add (static_cast<float> (value));
+      else
+        to.add (static_cast<std::uint16_t> (std::lround (value)));
+    }
+  }
+
+  Eigen::Vector3d origin;
+  double step = 1.0;
+  bool is_fine = false;
+};
+
+/// Points that are drawn as dots.
+struct Dots
+{
+  const char* name;
+  std::size_t count = 0;                  // of all
+  std::vector<Eigen::Vector3d> positions; // of some, with the centre of the drawing at the origin
+};
+
+template <typename Position>
+Dots
+takeDots (const char* name, std::size_t count, const Position& positionOf)
+{
+  Dots dots{name, count, {}};
+  constexpr double FARTHEST = 1e100; // beyond, squares overflow
+  const std::size_t step = count / MOST_SHOWN_POINTS + 1;
+  for (std::size_t i = 0; i < count; i += step)
+    if (const Eigen::Vector3d position = positionOf (i);
+        (position.array ().abs () < FARTHEST).all ())
+      dots.positions.push_back (position);
+  return dots;
+}
+
+/// The box of nearly all of the dots.
+Box
+bulkOf (const Dots& dots)
+{
+  constexpr double TAIL = 0.01;
+  Box box;
+  for (int axis = 0; axis < 3 && !dots.positions.empty (); ++axis) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& position : dots.positions)
+      values.push_back (position[axis]);
+    box.min ()[axis] = quantile (values, TAIL);
+    box.max ()[axis] = quantile (values, 1.0 - TAIL);
+  }
+  return box;
+}
+
+Drawing
+makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
+{
+  Drawing drawing;
+  if (result.triangles.empty ())
+    return drawing;
+  drawing.triangles = result.triangles;
+  drawing.positions = takeVertices (
+      cloud.size (), [&cloud] (Index p) { return cloud.position (p); }, drawing.triangles);
+  const Box box = boxAround (drawing.positions);
+  drawing.centre = box.center ();
+  if (const double size = box.sizes ().maxCoeff (); size > 0.0)
+    drawing.unit = std::ldexp (1.0, std::ilogb (size));
+  for (Eigen::Vector3d& position : drawing.positions)
+    position = (position - drawing.centre) / drawing.unit;
+  constexpr int NEAREST = 6; // that localSpacing takes
+  const RunContext run (std::max (line.options.threads, 0));
+  drawing.spacing = localSpacing (
+      drawing.positions,
+      findNearestNeighbors (drawing.positions, Rows::all (drawing.positions.size ()), NEAREST,
+                            static_cast<std::size_t> (line.options.blocks), run),
+      run);
+  std::vector<float> spacing = drawing.spacing;
+  drawing.median_spacing = median (spacing);
+  drawing.height = heights (drawing, line.options.threads);
+  TriangleMesh mesh;
+  mesh.triangles = drawing.triangles;
+  if (mesh.connect (drawing.positions.size (), run))
+    drawing.flaws = findFlaws (mesh, drawing, result.report, run);
+  if (drawing.triangles.size () > line.shown_triangles)
+    thin (drawing, line.shown_triangles);
+  return drawing;
+}
+
+Json
+meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_dots)
+{
+  Box box = boxAround (drawing.positions);
+  if (box.isEmpty ()) // the dots of all points are the first
+    box = bulkOf (all_dots.front ());
+  if (box.isEmpty ())
+    return {};
+  // What is far away is not shown, because nothing else would be seen.
+  const Eigen::Vector3d beside = Eigen::Vector3d::Constant (0.5 * box.diagonal ().norm ());
+  const Box shown (box.min () - beside, box.max () + beside);
+  for (Dots& dots : all_dots) {
+    const auto isFar = [&shown] (const Eigen::Vector3d& p) { return !shown.contains (p); };
+    dots.positions.erase (std::remove_if (dots.positions.begin (), dots.positions.end (), isFar),
+                          dots.positions.end ());
+    box.extend (boxAround (dots.positions));
+  }
+  const Quantizer quantizer (box, drawing.median_spacing);
+  const auto written = [&quantizer] (const std::vector<Eigen::Vector3d>& positions) {
+    Base64 text;
+    for (const Eigen::Vector3d& position : positions)
+      quantizer.add (position, text);
+    return text.take ();
+  };
+  const bool are_short = drawing.positions.size () <= 1U << 16U;
+  Base64 corners;
+  for (const Triangle& triangle : drawing.triangles)
+    for (const Index p : triangle)
+      are_short ? corners.add (static_cast<std::uint16_t> (p)) : corners.add (p);
+  Json flaws = Json::array (), dots_json = Json::array ();
+  for (const Flaw& flaw : drawing.flaws) {
+    Base64 numbers;
+    for (const Index t : flaw.triangles)
+      numbers.add (t);
+    flaws.push_back (
+        {{"name", flaw.name}, {"count", flaw.triangles.size ()}, {"triangles", numbers.take ()}});
+  }
+  for (const Dots& dots : all_dots)
+    dots_json.push_back ({{"name", dots.name},
+                          {"count", dots.count},
+                          {"shown", dots.positions.size ()},
+                          {"positions", written (dots.positions)}});
+  const Eigen::Vector3d origin = drawing.centre + drawing.unit * quantizer.origin;
+  return {{"triangles", triangles},
+          {"shown", drawing.triangles.size ()},
+          {"all_flaws", drawing.has_all_flaws},
+          {"origin", {origin.x (), origin.y (), origin.z ()}},
+          {"step", drawing.unit * quantizer.step},
+          {"floats", quantizer.is_fine},
+          {"short", are_short},
+          {"spacing", drawing.unit * drawing.median_spacing},
+          {"positions", written (drawing.positions)},
+          {"corners", corners.take ()},
+          {"flaws", flaws},
+          {"dots", dots_json}};
+}
+
+/// The positions of the points that the report names, by their cloud index.
+Json
+placesJson (const Report& report, const Cloud& cloud)
+{
+  Json places = Json::object ();
+  const auto add = [&] (std::uint32_t point) {
+    const Eigen::Vector3d at = cloud.positionOfRow (point);
+    places[std::to_string (point)] = {at.x (), at.y (), at.z ()};
+  };
+  for (const LoopDecision& decision : report.loop_decisions)
+    add (decision.at);
+  for (const FacingDecision& decision : report.facing_decisions)
+    add (decision.at);
+  for (std::size_t i = 0; i < std::min (report.check.loops.size (), MOST_LISTED_LOOPS); ++i)
+    add (report.check.loops[i].at);
+  return places;
+}
+
+} // namespace
+
+std::string
+htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
+            const RunFigures& run)
+{
+  const Report& report = result.report;
+  Json without_lists = reportJson (line, report, run);
+  for (const char* list : {"loop", "unused", "outliers", "scatter", "non_finite", "duplicates"})
+    without_lists[list] = without_lists[list].size ();
+  std::unordered_set<std::string> told;
+  Json sentences = Json::array (), others = Json::array ();
+  for (const Finding& finding : report.findings)
+    sentences.push_back (*told.insert (sentenceOf (finding)).first);
+  for (const std::string& warning : report.warnings)
+    if (told.count (warning) == 0)
+      others.push_back (warning);
+
+  const Drawing drawing = makeDrawing (line, cloud, result);
+  const auto dotsAt = [&] (const char* name, const std::vector<std::uint32_t>& points) {
+    return takeDots (name, points.size (), [&] (std::size_t i) -> Eigen::Vector3d {
+      return (cloud.positionOfRow (points[i]) - drawing.centre) / drawing.unit;
+    });
+  };
+  std::vector<Dots> dots;
+  if (drawing.triangles.empty ())
+    dots.push_back (takeDots ("points", cloud.rows,
+                              [&] (std::size_t row) { return cloud.positionOfRow (row); }));
+  dots.push_back (dotsAt ("scatter", report.scatter));
+  dots.push_back (dotsAt ("outliers", report.outliers));
+  dots.push_back (dotsAt ("unused", report.unused));
+
+  const Json data = {{"headline", headlineJson (report, run)},
+                     {"report", std::move (without_lists)},
+                     {"sentences", std::move (sentences)},
+                     {"other_warnings", std::move (others)},
+                     {"places", placesJson (report, cloud)},
+                     {"histograms",
+                      {{"spacing", histogramJson (drawing.spacing, drawing.unit, true)},
+                       {"height", histogramJson (drawing.height, 1.0, false)}}},
+                     {"mesh", meshJson (drawing, result.triangles.size (), std::move (dots))}};
+  // No text can end the element of HTML that holds it.
+  std::string text (HTML_BEFORE_DATA);
+  for (const char c : dump (data))
+    c == '<' ? text += "\\u003c" : text += c;
+  return text + HTML_AFTER_DATA;
+}
+
+} // namespace pcl::floater
