@@ -106,9 +106,13 @@ measure (const Report& report, const VerdictLimits& limits)
       has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
   return {
       {crossing, limits.crossing,
-       [&report, crossing, points, limits] {
+       [&report, triangles, points, limits] {
+         const std::size_t pairs = report.check.self_intersections;
          const Reason why = whyCrossing (report, points, limits);
-         return Reason{percent (crossing) + " crossing pairs per triangle, since " + why.cause,
+         return Reason{counted (pairs, "pair of triangles crosses", "pairs of triangles cross") +
+                           ", one for each " +
+                           rounded (std::ceil (triangles / static_cast<double> (pairs))) +
+                           " triangles, since " + why.cause,
                        why.remedy};
        }},
       {area, limits.area,

@@ -39,7 +39,7 @@ TEST (Verdict, CrossingTrianglesAreExplainedByWhatIsAround)
   Report report = cleanReport ();
   report.check.self_intersections = 6;
   EXPECT_EQ (judge (report).value, Quality::USABLE);
-  expectIn (judge (report).cause, "0.1 % crossing pairs per triangle");
+  expectIn (judge (report).cause, "6 pairs of triangles cross, one for each 1667 triangles");
   report.check.self_intersections = 500;
   EXPECT_EQ (judge (report).value, Quality::POOR);
   expectIn (judge (report).cause, "sheets");

@@ -355,9 +355,9 @@ class Page(PageCase):
             self.assertEqual(data["report"][key], report[key])
         for key in ("loop", "unused", "outliers", "scatter", "non_finite", "duplicates"):
             self.assertEqual(data["report"][key], len(report[key]))
-        flaws = sum(f["numbers"][0] for f in report["findings"] if f["severity"] == "flaw")
-        self.assertGreater(flaws, 0)
-        self.assertIn(f"{flaws:.0f} flaw", data["headline"]["text"])
+        verdict = report["verdict"]
+        self.assertEqual(data["headline"]["word"], verdict["value"])
+        self.assertEqual(data["headline"]["text"], f"{verdict['cause']}. What helps: {verdict['remedy']}")
         self.assertEqual(sorted(data["sentences"] + data["other_warnings"]), sorted(report["warnings"]))
         mesh = data["mesh"]
         self.assertEqual(mesh["triangles"], report["statistics"]["triangles"])
@@ -410,8 +410,9 @@ class Page(PageCase):
         data, report = self.page("line.xyz", code=3, says="line.xyz")
         self.assertEqual(data["headline"], {"level": "failed", "word": "no mesh", "text": report["message"]})
         self.assertEqual((data["mesh"]["shown"], data["mesh"]["dots"][0]["shown"]), (0, 50))
-        data, report = self.page(self.noisy(), "--strict", code=6, says="--strict")
-        self.assertEqual((report["status"], data["headline"]["level"]), ("WARNINGS", "failed"))
+        self.check(0, GENERATE, "torus", "torus.ply", "--points", "3000", "--noise", "1.5")
+        data, report = self.page("torus.ply", "--scatter", "keep", "--strict", code=6, says="--strict")
+        self.assertEqual((report["status"], data["headline"]["level"]), ("REFUSED", "failed"))
         self.assertGreater(data["mesh"]["shown"], 0)
 
 
