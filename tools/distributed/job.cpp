@@ -55,8 +55,6 @@ describeCloud (const Cloud& cloud, const Input& input, Plan& plan)
       std::count_if (input.positions.begin (), input.positions.end (),
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
   plan.is_single = cloud.single_precision;
-  plan.fits_single =
-      cloud.single_precision || fitSinglePrecision (input.positions, cloud.are_decimals);
 }
 
 void
@@ -221,9 +219,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
   figures.single_precision = plan.is_single;
   figures.input_fields = plan.fields;
   std::vector<std::string> warnings = plan.warnings;
-  const bool is_single = choosePrecision (
-      line.precision, *line.meshFormat (), [&plan] { return plan.fits_single; },
-      line.auto_shift || line.shift, warnings);
+  const bool is_single = line.precision != Precision::DOUBLE;
   figures.writes_single = is_single;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), warnings.begin (), warnings.end ());

@@ -65,7 +65,6 @@ forMembers (Of& plan, const Visit& visit)
   visit ("warnings", plan.warnings);
   visit ("finite_points", plan.finite_points);
   visit ("is_single", plan.is_single);
-  visit ("fits_single", plan.fits_single);
 }
 
 // All but the id and the checksum.
@@ -243,7 +242,7 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
   if (firsts != nullptr)
     firsts->assign (1, 0);
   const auto read = [&] (const std::filesystem::path& file) {
-    return readNamed (file, [&] { return readCloud (file, all_digits); });
+    return readNamed (file, [&] { return readCloud (file, {all_digits, {}}); });
   };
   if (files.size () == 1) {
     Cloud cloud = read (files.front ());
@@ -253,13 +252,11 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
   }
   std::vector<Cloud> clouds;
   Cloud merged;
-  merged.are_decimals = true;
   for (const std::filesystem::path& file : files) {
     const Cloud& cloud = clouds.emplace_back (read (file));
     for (const std::string& warning : cloud.warnings)
       merged.warnings.push_back ("'" + file.string () + "': " + warning);
     merged.single_precision = merged.single_precision && cloud.single_precision;
-    merged.are_decimals = merged.are_decimals && cloud.are_decimals;
     merged.rows += cloud.rows;
     if (firsts != nullptr)
       firsts->push_back (merged.rows);

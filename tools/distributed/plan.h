@@ -38,8 +38,7 @@ struct Plan
   double scale = 1.0;
   std::vector<std::string> fields, warnings; ///< of the cloud, but for its coordinates
   std::size_t finite_points = 0;             ///< of the cloud
-  bool is_single = true;                     ///< its coordinates are 32-bit floats, ...
-  bool fits_single = true;                   ///< ... or these hold them
+  bool is_single = true;                     ///< its coordinates are 32-bit floats
 };
 
 /// \throws ReadError if a file is missing

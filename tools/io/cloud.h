@@ -271,10 +271,8 @@ private:
 /// all rows of the file, also those of points that have been left out since.
 struct Cloud
 {
-  std::array<Field, 3> coordinates; ///< x, y, z; one value each
-  bool single_precision = true;     ///< the coordinates were given as 32-bit floats
-  bool are_decimals =
-      false; ///< the coordinates are decimals of a text that does not tell their type
+  std::array<Field, 3> coordinates;                 ///< x, y, z; one value each
+  bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates

@@ -4,20 +4,25 @@
 
 #include "format.h"
 
+#include <cmath>
+
 namespace pcl::floater {
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path)
 {
-  static constexpr std::array<std::pair<const char*, CloudFormat>, 10> KNOWN{
+  static constexpr std::array<std::pair<const char*, CloudFormat>, 13> KNOWN{
       {{".pcd", CloudFormat::PCD},
        {".ply", CloudFormat::PLY},
        {".obj", CloudFormat::OBJ},
        {".stl", CloudFormat::STL},
+       {".vtk", CloudFormat::VTK},
        {".las", CloudFormat::LAS},
+       {".bin", CloudFormat::BIN},
        {".xyz", CloudFormat::XYZ},
        {".txt", CloudFormat::XYZ},
        {".csv", CloudFormat::XYZ},
        {".asc", CloudFormat::XYZ},
+       {".pwn", CloudFormat::XYZ},
        {".pts", CloudFormat::PTS}}};
   const std::string extension = lowerExtension (path);
   for (const auto& [known, format] : KNOWN)
@@ -26,41 +31,92 @@ cloudFormatOf (const std::filesystem::path& path)
   return std::nullopt;
 }
 
-Cloud
-readCloud (const std::filesystem::path& path, bool all_digits)
+void
+requireReadable (const std::filesystem::path& path)
 {
-  const std::optional<CloudFormat> format = cloudFormatOf (path);
-  if (lowerExtension (path) == ".laz")
+  const std::string extension = lowerExtension (path);
+  if (extension == ".laz")
     throw ReadError (LAZ_ADVICE);
-  if (!format)
-    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
-                     CLOUD_EXTENSIONS);
-  return readCloud (path, *format, all_digits);
+  if (extension == ".e57")
+    throw ReadError ("it is an E57 file, which cannot be read; convert it: pdal translate a.e57 "
+                     "a.las, or CloudCompare -SILENT -O a.e57 -C_EXPORT_FMT PLY -SAVE_CLOUDS");
 }
 
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, bool all_digits)
+parseBin (const FileBytes& file)
+{
+  constexpr double FARTHEST = 1e6; // metres
+  constexpr double MOST_RINGS = 256.0;
+  const std::size_t bytes = file.view ().size ();
+  for (const std::size_t count : {std::size_t{5}, std::size_t{4}}) {
+    std::vector<Field> fields;
+    for (const char* name : {"x", "y", "z", "intensity", "ring"})
+      if (fields.size () < count)
+        fields.push_back ({name, ScalarType::FLOAT32});
+    const std::size_t points = bytes / (count * sizeof (float));
+    viewRows (pointersTo (fields), file.at (0), ByteOrder::LITTLE);
+    bool fits = points > 0 && bytes == points * count * sizeof (float);
+    for (std::size_t p = 0; p < points && fits; ++p) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        fits &= std::abs (fields[axis].asDouble (p)) < FARTHEST;
+      const double ring = fields.back ().asDouble (p);
+      fits &= count == 4 || (ring >= 0.0 && ring < MOST_RINGS && ring == std::floor (ring));
+    }
+    if (!fits)
+      continue;
+    Cloud cloud = makeCloud (std::move (fields), points);
+    cloud.file = file;
+    return cloud;
+  }
+  throw ReadError ("it does not hold four floats for each point, x, y, z and intensity, as KITTI's "
+                   "files do, nor five, with a ring");
+}
+
+Cloud
+readCloud (const std::filesystem::path& path, const ReadOptions& options)
+{
+  const std::optional<CloudFormat> format = cloudFormatOf (path);
+  requireReadable (path);
+  if (!format)
+    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
+                     CLOUD_EXTENSIONS);
+  return readCloud (path, *format, options);
+}
+
+Cloud
+readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
 {
   const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
                                              : "the file is empty");
+  if (options.columns[0] > 0 && format != CloudFormat::XYZ && format != CloudFormat::PTS)
+    throw ReadError ("--columns is for text with a point in each line");
   switch (format) {
   case CloudFormat::PCD:
-    return parsePcd (file, all_digits);
+    return parsePcd (file, options.all_digits);
   case CloudFormat::PLY:
-    return parsePly (file, all_digits);
+    return parsePly (file, options.all_digits);
   case CloudFormat::OBJ:
     return parseObj (file);
   case CloudFormat::STL:
     return parseStl (file);
+  case CloudFormat::VTK: {
+    Triangles faces;
+    Cloud cloud = parseVtk (file, faces);
+    if (!faces.empty ())
+      cloud.warnings.push_back (facesLeftOut (faces.size ()));
+    return cloud;
+  }
   case CloudFormat::LAS:
     return parseLas (file);
+  case CloudFormat::BIN:
+    return parseBin (file);
   case CloudFormat::XYZ:
   case CloudFormat::PTS:
     break;
   }
-  return parseTable (file, format == CloudFormat::PTS);
+  return parseTable (file, format == CloudFormat::PTS, options.columns);
 }
 
 } // namespace pcl::floater

@@ -123,31 +123,18 @@ fieldAt (const FileBytes& file, const LasHeader& header, const std::string& name
   return field;
 }
 
-/// The three channels, of 16 bits by the specification. Many programs write 8 bits into them, so
-/// that no value is above 255.
-void
-addColors (const FileBytes& file, const LasHeader& header, std::vector<Field>& fields,
-           std::vector<std::string>& warnings)
+/// Whether any of the three channels of any point is not black.
+bool
+hasColors (std::string_view bytes, const LasHeader& header)
 {
-  constexpr unsigned LARGEST_BYTE = 255;
-  const auto count = static_cast<std::size_t> (header.count);
-  const char* const first = file.view ().data () + header.points_at + header.format.color_at;
-  unsigned largest = 0;
-  for (std::size_t p = 0; p < count && largest <= LARGEST_BYTE; ++p)
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      largest = std::max<unsigned> (largest,
-                                    readNumber<std::uint16_t> (first + p * header.record_size +
-                                                                   channel * sizeof (std::uint16_t),
-                                                               ByteOrder::LITTLE));
-  if (largest == 0) {
-    warnings.emplace_back ("all colours of the input file are black: they were left out");
-    return;
+  constexpr std::size_t CHANNELS = 3 * sizeof (std::uint16_t);
+  for (std::size_t p = 0; p < header.count; ++p) {
+    const std::string_view color =
+        bytes.substr (header.points_at + p * header.record_size + header.format.color_at, CHANNELS);
+    if (color.find_first_not_of ('\0') != std::string_view::npos)
+      return true;
   }
-  const std::size_t byte = largest > LARGEST_BYTE ? 1 : 0; // of the two of a channel
-  constexpr std::array<const char*, 3> NAMES{"red", "green", "blue"};
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    fields.push_back (fieldAt (file, header, NAMES[channel], ScalarType::UINT8,
-                               header.format.color_at + channel * sizeof (std::uint16_t) + byte));
+  return false;
 }
 
 } // namespace
@@ -174,8 +161,12 @@ parseLas (const FileBytes& file)
   }
   fields.push_back (fieldAt (file, header, "intensity", ScalarType::UINT16, INTENSITY_AT));
   std::vector<std::string> warnings;
-  if (header.format.color_at > 0)
-    addColors (file, header, fields, warnings);
+  if (header.format.color_at > 0 && !hasColors (bytes, header))
+    warnings.emplace_back ("all colours of the input file are black: they were left out");
+  else if (header.format.color_at > 0) // of 16 bits by the specification, often 8 in fact
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      fields.push_back (fieldAt (file, header, std::string (1, "rgb"[channel]), ScalarType::UINT16,
+                                 header.format.color_at + channel * sizeof (std::uint16_t)));
   Cloud cloud =
       makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
   cloud.file = file;

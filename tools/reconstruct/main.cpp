@@ -77,7 +77,7 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   static const double zero = 0.0;
   const std::vector<Eigen::Vector2d>& parameters = result.report.parameters;
   Cloud flat;
-  flat.single_precision = precision == Precision::SINGLE;
+  flat.single_precision = precision != Precision::DOUBLE;
   flat.rows = parameters.size ();
   const auto view = [&flat] (std::size_t axis, const double* first, std::size_t stride) {
     Field& field = flat.coordinates[axis];
@@ -195,8 +195,9 @@ run (CommandLine line)
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   const bool is_shift_asked = line.auto_shift || line.shift; // all digits of a text count then
-  Cloud cloud = readNamed (
-      line.input, [&] { return readCloud (line.input, *line.cloudFormat (), is_shift_asked); });
+  Cloud cloud = readNamed (line.input, [&] {
+    return readCloud (line.input, *line.cloudFormat (), {is_shift_asked, line.columns});
+  });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
@@ -209,15 +210,14 @@ run (CommandLine line)
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
-  cloud.single_precision =
-      choosePrecision (line.precision, *line.meshFormat (), input.positions, is_shift_asked, cloud);
-  figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();
   if (memory_limit)
     line.options.task_callback = [&memory_limit] { memory_limit->makeRoom (); };
   Result result = reconstructInput (std::move (input), line.options, line.limits, progress);
   figures.reconstruct_seconds = secondsSince (start);
+  cloud.single_precision = writesSingle (line, result.triangles, cloud);
+  figures.writes_single = cloud.single_precision;
   Report& report = result.report;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prepared_input.h"
 
+#include "mesh_writer.h"
 #include "points/outliers.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -109,69 +109,26 @@ chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
   return unit * (box.center () / unit).array ().round ().matrix ();
 }
 
-namespace {
-/// The number that the shortest decimal of a float is.
-double
-shortestDecimal (float value)
-{
-  constexpr std::size_t LONGEST = 32; // characters; a float takes at most 15
-  std::array<char, LONGEST> text{};
-  const auto end = std::to_chars (text.data (), text.data () + text.size (), value).ptr;
-  double decimal = 0.0;
-  std::from_chars (text.data (), end, decimal);
-  return decimal;
-}
-
-} // namespace
-
 bool
-fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals)
+writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
 {
-  constexpr double LARGEST = std::numeric_limits<float>::max ();
-  const auto fits = [are_decimals] (double value) {
-    if (!std::isfinite (value))
-      return true;
-    if (std::abs (value) > LARGEST) // must not be converted
-      return false;
-    const auto single = static_cast<float> (value);
-    return static_cast<double> (single) == value ||
-           (are_decimals && shortestDecimal (single) == value);
-  };
-  return std::all_of (positions.begin (), positions.end (), [&] (const Eigen::Vector3d& position) {
-    return fits (position.x ()) && fits (position.y ()) && fits (position.z ());
-  });
-}
-
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
-                 bool is_shift_asked, std::vector<std::string>& warnings)
-{
-  if (wanted != Precision::AUTO)
-    return wanted == Precision::SINGLE;
-  if (fits_single ())
+  if (line.precision != Precision::AUTO || cloud.single_precision)
+    return line.precision != Precision::DOUBLE;
+  if (countMergedInSinglePrecision (cloud, triangles) == 0)
     return true;
-  if (output == MeshFormat::PLY)
-    warnings.emplace_back (
-        "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
-        "as 0: use --precision single or another format for PCL, " +
-        std::string (is_shift_asked ? "" : "--shift if they are far from zero, ") +
-        "or --precision double if doubles are wanted");
+  cloud.warnings.emplace_back (
+      "the coordinates are written as doubles, since 32-bit numbers would put corners of a "
+      "triangle "
+      "together; PCL reads doubles of a .ply file into its points as 0: use --precision single or "
+      "another format for PCL");
   return false;
-}
-
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
-                 bool is_shift_asked, Cloud& cloud)
-{
-  const auto fits = [&] {
-    return cloud.single_precision || fitSinglePrecision (positions, cloud.are_decimals);
-  };
-  return choosePrecision (wanted, output, fits, is_shift_asked, cloud.warnings);
 }
 
 void
 shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
 {
+  // Unless doubles are asked for, floats are written: near zero they are fine enough.
+  line.auto_shift |= !line.shift && line.precision == Precision::AUTO && !cloud.single_precision;
   if (line.auto_shift)
     cloud.shift = chooseShift (input.positions, line.options.threads);
   else if (line.shift)

@@ -11,8 +11,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <functional>
-
 namespace pcl::floater {
 /// Calls read (), and adds the name of the file to a ReadError.
 template <typename Read>
@@ -49,28 +47,15 @@ takeNormals (const CommandLine& line, const Cloud& cloud, Input& input);
 Eigen::Vector3d
 chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads);
 
-/// Subtracts the origin that was asked for, from the viewpoints as well.
+/// Subtracts the origin that was asked for, from the viewpoints as well; without one, that of
+/// chooseShift, unless the file has 32-bit numbers or a precision is asked for.
 void
 shiftOrigin (CommandLine& line, Cloud& cloud, Input& input);
 
-/// Whether 32-bit floats hold all finite coordinates. O(n).
-/// \param are_decimals the coordinates come from a text without types: a float holds one if its
-/// shortest decimal is that number; otherwise, if it is equal
+/// Whether to write 32-bit floats: unless doubles are asked for, or floats would put corners of a
+/// triangle together, of which a warning tells.
 bool
-fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals);
-
-/// Whether to write 32-bit floats, and a warning if readers may not expect what is written.
-/// \param fits_single whether they hold all coordinates; asked only if that decides
-/// \param is_shift_asked so that the warning does not advise it
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
-                 bool is_shift_asked, std::vector<std::string>& warnings);
-
-/// The same for a cloud.
-/// \param positions of the cloud, after the shift
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
-                 bool is_shift_asked, Cloud& cloud);
+writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud);
 
 /// The exit code of a run.
 int

@@ -263,8 +263,11 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                   counted (statistics.trimmed_components, "component").c_str (),
                   counted (statistics.trimmed_points, "point").c_str ());
   if (!run.shift.isZero (0.0))
-    std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates\n",
-                  run.shift.x (), run.shift.y (), run.shift.z ());
+    std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates%s\n",
+                  run.shift.x (), run.shift.y (), run.shift.z (),
+                  line.auto_shift ? ": 32-bit numbers are too coarse for them; --precision double "
+                                    "keeps them"
+                                  : "");
   if (report.is_view)
     std::fprintf (to,
                   "viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
