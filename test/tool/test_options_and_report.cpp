@@ -273,6 +273,25 @@ TEST_F (CommandLineTest, ViewpointsReachTheRunAndAreShifted)
   EXPECT_EQ (shareUp (readMesh (path ("out.ply"))), 1.0);
 }
 
+// Pixels without a return are no vertices, and neither are those with a NaN.
+TEST_F (CommandLineTest, PixelsWithoutReturnAreLeftOut)
+{
+  std::vector<Eigen::Vector3d> points (20, Eigen::Vector3d (0, 0, 0));
+  for (const Eigen::Vector3d& p : sample_.points)
+    points.emplace_back (p + Eigen::Vector3d (0, 0, 30));
+  points.emplace_back (std::nan (""), 0, 0);
+  writeFile ("zeros.pcd", pcdText (points));
+  const Json all = report ({}, "zeros.pcd");
+  EXPECT_EQ (all["findings"][0]["id"], "invalid_pixels");
+  EXPECT_EQ (all["non_finite"].size (), 21U);
+  EXPECT_EQ (all["output"]["vertices"], sample_.size ());
+  EXPECT_THAT (all["warnings"].dump (), HasSubstr ("20 points are at (0, 0, 0)"));
+  EXPECT_THAT (all["warnings"].dump (), HasSubstr ("1 point without finite coordinates"));
+  EXPECT_EQ (readMesh (path ("out.ply")).points.size (), sample_.size ());
+  EXPECT_EQ (report ({"--remove-outliers", "off"}, "zeros.pcd")["output"]["vertices"],
+             sample_.size () + 20);
+}
+
 // Coordinates far from zero: --shift, and the warning on coordinates that are too coarse.
 class ShiftTest : public CommandLineTest
 {

@@ -470,6 +470,73 @@ TEST_F (Readers, EveryVersionAndPointFormatOfLas)
     }
 }
 
+// Points of ground, of noise and withheld, and one that was made up.
+TEST_F (Readers, ClassesOfLas)
+{
+  for (const bool is_long : {false, true}) {
+    SCOPED_TRACE (is_long);
+    LasFile file = lasFile (4, is_long ? 6 : 1);
+    file.points.push_back ({1, 2, 3});
+    std::string bytes = lasBytes (file);
+    const std::size_t record = (bytes.size () - 375) / 4;
+    const std::array<int, 4> classes{2, 7, 6, 5};
+    for (std::size_t p = 0; p < 4; ++p) {
+      const std::size_t at = 375 + p * record + 14;
+      const int withheld = p == 2 ? 1 : 0, synthetic = p == 3 ? 1 : 0;
+      putNumber (bytes, at, static_cast<std::uint8_t> (is_long ? 0x52 : 0x2A)); // second of five
+      putNumber (bytes, at + 1,
+                 static_cast<std::uint8_t> (is_long
+                                                ? synthetic + 4 * withheld
+                                                : classes[p] + 32 * synthetic + 128 * withheld));
+      if (is_long)
+        putNumber (bytes, at + 2, static_cast<std::uint8_t> (classes[p]));
+      putNumber (bytes, at + (is_long ? 6 : 4), static_cast<std::uint16_t> (300 + p));
+      putNumber (bytes, at + (is_long ? 8 : 6), 0.25 * static_cast<double> (p));
+    }
+    const Cloud cloud = read ("a.las", bytes);
+    EXPECT_EQ (fieldsOf (cloud),
+               "intensity 0 7 14 21, return_number 2 2 2 2, number_of_returns 5 5 5 5, "
+               "classification 2 7 6 5, synthetic 0 0 0 1, withheld 0 0 1 0, "
+               "point_source_id 300 301 302 303, gps_time 0 0.25 0.5 0.75");
+    EXPECT_EQ (cloud.left_out, (std::vector<bool>{false, true, true, false}));
+    EXPECT_THAT (cloud.notes, ElementsAre ("1 point that the file marks as withheld was left out",
+                                           "1 point of class 7 (1) was left out"));
+    const auto leftOut = [this] (const std::vector<int>& chosen) {
+      return readCloud (path ("a.las"), {false, {}, chosen}).left_out;
+    };
+    EXPECT_EQ (leftOut ({7, 5}), (std::vector<bool>{true, false, true, false}));
+    EXPECT_THROW (leftOut ({6}), ReadError); // which is withheld
+    EXPECT_THAT (read ("a.las", lasBytes (lasFile ())).left_out, IsEmpty ());
+  }
+  writeFile ("a.xyz", "1 2 3\n4 5 6\n");
+  expectFailure ({"--classes", "2,6", "a.xyz", "o.ply"}, INPUT_FAILED, "no field 'classification'");
+  expectFailure ({"--classes", "2,six", "a.xyz", "o.ply"}, USAGE, "no numbers of classes");
+}
+
+// A quarter turn about z, and a move; the scans have 2 x 2 and 3 x 1 pixels.
+TEST_F (Readers, ScansOfPtx)
+{
+  const std::string head = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
+  const std::string first = "2\n2\n" + head + "1 2 3 .5\n0 0 0 .5\n4 5 6 .25\n7 8 9 1\n";
+  const Cloud one = read ("a.ptx", first);
+  EXPECT_EQ (one.lattice_width, 2U);
+  EXPECT_EQ (one.sensor_origin, (std::array<double, 3>{10, 20, 30}));
+  EXPECT_EQ (one.position (0), Eigen::Vector3d (8, 21, 33));
+  EXPECT_EQ (one.left_out, (std::vector<bool>{false, true, false, false}));
+  EXPECT_EQ (fieldsOf (one), "intensity 0.5 0.5 0.25 1");
+  EXPECT_THAT (one.notes, ElementsAre ("1 scan: 2 x 2 pixels from (10, 20, 30)",
+                                       "1 point without a return was left out"));
+  const Cloud two = read ("a.ptx", first + "3\n1\n" + head + "1 0 0 1\n1 0 1 1\n1 0 2 1\n\n");
+  EXPECT_EQ (two.size (), 7U);
+  EXPECT_EQ (two.lattice_width, 0U);
+  EXPECT_EQ (two.towards_sensors.size (), 7U);
+  EXPECT_EQ (two.find ("scan")->asDouble (4), 1.0);
+  EXPECT_EQ (fieldsOf (read ("a.ptx", "1\n1\n" + head + "1 2 3 .5 7 8 9\n")),
+             "intensity 0.5, red 7, green 8, blue 9");
+  EXPECT_THAT (errorOf ("a.ptx", first.substr (0, first.size () - 9)), HasSubstr ("truncated"));
+  EXPECT_THAT (errorOf ("a.ptx", "9\n999\n" + head), HasSubstr ("no number of the rows"));
+}
+
 TEST_F (Readers, OddLasFiles)
 {
   LasFile file = lasFile (2, 2); // colours that were written as 8 bits
@@ -697,6 +764,9 @@ TEST_F (Readers, EveryPrefixIsRefusedOrWhole)
       rows, [] (const FileBytes& file) { return parseTable (file); }, rows.size () - 1);
   check (stlBytes (SQUARE), parseStl, stlBytes (SQUARE).size ());
   check (SQUARE_TEXT, parseStl, SQUARE_TEXT.rfind ("endsolid") + 8);
+  const std::string scan =
+      "1\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 1\n4 5 6 1";
+  check (scan, parsePtx, scan.size () - 2);
   for (const int minor : {2, 4}) {
     const std::string las = lasBytes (lasFile (minor, 3));
     check (las, parseLas, las.size ());

@@ -291,17 +291,44 @@ shiftText (const Cloud& cloud)
   return text;
 }
 
+void
+leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what)
+{
+  const auto count = static_cast<std::size_t> (std::count (rows.begin (), rows.end (), true));
+  if (count == 0)
+    return;
+  cloud.notes.push_back (counted (count, "point") + " " + what + (count == 1 ? " was" : " were") +
+                         " left out");
+  cloud.left_out.resize (cloud.rows, false);
+  for (std::size_t row = 0; row < cloud.rows; ++row)
+    cloud.left_out[row] = cloud.left_out[row] || rows[row];
+}
+
+void
+leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows)
+{
+  for (const std::uint32_t row : rows)
+    if (cloud.positionOfRow (row).allFinite ()) {
+      cloud.left_out.resize (cloud.rows, false);
+      cloud.left_out[row] = true;
+    }
+}
+
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 {
-  cloud.kept = KeptPoints (
-      cloud.rows, [&cloud] (std::size_t row) { return cloud.positionOfRow (row).allFinite (); });
+  std::size_t not_finite = 0;
+  cloud.kept = KeptPoints (cloud.rows, [&cloud, &not_finite] (std::size_t row) {
+    const bool is_finite = cloud.positionOfRow (row).allFinite ();
+    not_finite += is_finite || cloud.isLeftOut (row) ? 0 : 1;
+    return is_finite && !cloud.isLeftOut (row);
+  });
   if (cloud.kept.areAll ())
     return 0;
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
       corner = cloud.kept.number (corner);
-  return cloud.rows - cloud.kept.size ();
+  return not_finite;
 }
 
 namespace {

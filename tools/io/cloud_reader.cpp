@@ -3,14 +3,18 @@
 #include "cloud_reader.h"
 
 #include "format.h"
+#include "text_scanner.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 namespace pcl::floater {
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path)
 {
-  static constexpr std::array<std::pair<const char*, CloudFormat>, 13> KNOWN{
+  static constexpr std::array<std::pair<const char*, CloudFormat>, 14> KNOWN{
       {{".pcd", CloudFormat::PCD},
        {".ply", CloudFormat::PLY},
        {".obj", CloudFormat::OBJ},
@@ -18,6 +22,7 @@ cloudFormatOf (const std::filesystem::path& path)
        {".vtk", CloudFormat::VTK},
        {".las", CloudFormat::LAS},
        {".bin", CloudFormat::BIN},
+       {".ptx", CloudFormat::PTX},
        {".xyz", CloudFormat::XYZ},
        {".txt", CloudFormat::XYZ},
        {".csv", CloudFormat::XYZ},
@@ -83,13 +88,47 @@ readCloud (const std::filesystem::path& path, const ReadOptions& options)
   return readCloud (path, *format, options);
 }
 
-Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
+void
+chooseClasses (Cloud& cloud, const std::vector<int>& classes)
 {
-  const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
-  if (file.view ().empty ())
-    throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
-                                             : "the file is empty");
+  constexpr double LOW_NOISE = 7.0, HIGH_NOISE = 18.0;
+  const auto find = [&cloud] (const char* name) -> const Field* {
+    for (const Field& field : cloud.fields)
+      if (isWord (field.name, name) && field.count == 1)
+        return &field;
+    return nullptr;
+  };
+  const Field* const classification = find ("classification");
+  const Field* const withheld = find ("withheld");
+  if (classification == nullptr && !classes.empty ())
+    throw ReadError ("--classes: the points have no field 'classification'");
+  std::vector<bool> others (cloud.rows, false), are_withheld (cloud.rows, false);
+  std::map<double, std::size_t> counts; // of classes that are left out
+  for (std::size_t row = 0; row < cloud.rows; ++row) {
+    are_withheld[row] = withheld != nullptr && withheld->asDouble (row) != 0.0;
+    const double its = classification == nullptr ? 0.0 : classification->asDouble (row);
+    others[row] =
+        !are_withheld[row] &&
+        (classes.empty () ? withheld != nullptr && (its == LOW_NOISE || its == HIGH_NOISE)
+                          : std::find (classes.begin (), classes.end (), its) == classes.end ());
+    if (others[row])
+      ++counts[its];
+  }
+  leaveOut (cloud, are_withheld, "that the file marks as withheld");
+  std::ostringstream text;
+  text << "of class";
+  for (const auto& [its, count] : counts)
+    text << (its == counts.begin ()->first ? " " : ", ") << its << " (" << count << ")";
+  leaveOut (cloud, others, text.str ());
+  if (std::count (cloud.left_out.begin (), cloud.left_out.end (), true) ==
+      static_cast<std::ptrdiff_t> (cloud.rows))
+    throw ReadError ("none of its points is of the classes that are taken: --classes chooses them");
+}
+
+namespace {
+Cloud
+parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options)
+{
   if (options.columns[0] > 0 && format != CloudFormat::XYZ && format != CloudFormat::PTS)
     throw ReadError ("--columns is for text with a point in each line");
   switch (format) {
@@ -112,11 +151,27 @@ readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOpti
     return parseLas (file);
   case CloudFormat::BIN:
     return parseBin (file);
+  case CloudFormat::PTX:
+    return parsePtx (file);
   case CloudFormat::XYZ:
   case CloudFormat::PTS:
     break;
   }
   return parseTable (file, format == CloudFormat::PTS, options.columns);
+}
+
+} // namespace
+
+Cloud
+readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
+{
+  const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
+  if (file.view ().empty ())
+    throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
+                                             : "the file is empty");
+  Cloud cloud = parseCloud (file, format, options);
+  chooseClasses (cloud, options.classes);
+  return cloud;
 }
 
 } // namespace pcl::floater

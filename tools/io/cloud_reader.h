@@ -59,13 +59,14 @@ enum class CloudFormat
   VTK,
   LAS,
   BIN, ///< floats of a spinning lidar
+  PTX,
   XYZ, ///< text with a point in each line
   PTS  ///< the same, as scanners write it: the intensity comes before the colour
 };
 
 /// The extensions of clouds, for messages.
 constexpr const char* CLOUD_EXTENSIONS =
-    ".pcd, .ply, .obj, .stl, .vtk, .las, .bin, .xyz, .txt, .csv, .asc, .pts or .pwn";
+    ".pcd, .ply, .obj, .stl, .vtk, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
 
 /// What to do with a compressed LAS file.
 constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read; decompress it: "
@@ -88,7 +89,14 @@ struct ReadOptions
   /// Cloud::single_precision is as the file says
   bool all_digits = false;
   std::array<std::size_t, 3> columns{}; ///< of x, y and z in text, from 1; zeros: found
+  std::vector<int> classes{};           ///< of airborne scans; empty: all but those of noise
 };
+
+/// Leaves out the points of other classes than those, by the field `classification`; by default,
+/// those of low and high noise (7 and 18) of LAS. Always those of the field `withheld`.
+/// \throws ReadError if there are no classes, or no such points
+void
+chooseClasses (Cloud& cloud, const std::vector<int>& classes);
 
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input
@@ -133,8 +141,15 @@ parseStl (const FileBytes& file);
 Cloud
 parseBin (const FileBytes& file);
 
-/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity and colour. A colour
-/// is the higher 8 of its 16 bits, or the lower ones if none is above 255.
+/// PTX: all scans of the file, in their common frame, with intensity and colour. Pixels without a
+/// return are left out. A single scan is organized and has the place of its sensor; of several, each
+/// point has the number of its scan.
+Cloud
+parsePtx (const FileBytes& file);
+
+/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity, colour, returns, class,
+/// the flags synthetic and withheld, source and time. A colour is the higher 8 of its 16 bits, or
+/// the lower ones if none is above 255.
 Cloud
 parseLas (const FileBytes& file);
 

@@ -119,6 +119,12 @@ public:
     return text_.substr (first, end_ - first);
   }
 
+  /// Whether nothing is left but blanks and ends of lines.
+  bool restIsBlank () const
+  {
+    return rest ().find_first_not_of (" \t\r\n\v\f") == std::string_view::npos;
+  }
+
   /// What ends a line.
   char newline () const { return newline_; }
 

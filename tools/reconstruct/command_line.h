@@ -84,6 +84,7 @@ struct CommandLine
   std::optional<CloudFormat> input_format; ///< nothing: that of its extension
   std::optional<MeshFormat> output_format; ///< nothing: that of its extension
   std::array<std::size_t, 3> columns{};    ///< of x, y and z in text, from 1; zeros: found
+  std::vector<int> classes;                ///< of airborne scans; empty: all but noise
   std::filesystem::path scratch;           ///< folder; used with a limit only
   std::size_t max_memory = 0;              ///< bytes; 0: no limit
   std::optional<Eigen::Vector3d> shift;    ///< --shift x,y,z
@@ -122,7 +123,7 @@ struct CommandLine
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
 
-constexpr Choices<std::optional<CloudFormat>, 10> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
+constexpr Choices<std::optional<CloudFormat>, 11> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
                                                                         {"pcd", CloudFormat::PCD},
                                                                         {"ply", CloudFormat::PLY},
                                                                         {"obj", CloudFormat::OBJ},
@@ -130,6 +131,7 @@ constexpr Choices<std::optional<CloudFormat>, 10> CLOUD_FORMAT_CHOICES{{{"auto",
                                                                         {"vtk", CloudFormat::VTK},
                                                                         {"las", CloudFormat::LAS},
                                                                         {"bin", CloudFormat::BIN},
+                                                                        {"ptx", CloudFormat::PTX},
                                                                         {"xyz", CloudFormat::XYZ},
                                                                         {"pts", CloudFormat::PTS}}};
 

@@ -127,6 +127,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
+  leaveOut (cloud, result.report.non_finite);
   if (line.compute_normals)
     replaceNormals (cloud, result.triangles, line.options.threads);
   if (!line.parameterization.empty ()) {
@@ -194,9 +195,8 @@ run (CommandLine line)
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
-  const bool is_shift_asked = line.auto_shift || line.shift; // all digits of a text count then
   Cloud cloud = readNamed (line.input, [&] {
-    return readCloud (line.input, *line.cloudFormat (), {is_shift_asked, line.columns});
+    return readCloud (line.input, *line.cloudFormat (), readOptionsOf (line));
   });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
@@ -205,6 +205,7 @@ run (CommandLine line)
   shiftOrigin (line, cloud, input);
   RunFigures figures;
   figures.shift = cloud.shift;
+  figures.notes = cloud.notes;
   figures.read_seconds = secondsSince (start);
   figures.input_points = cloud.size ();
   figures.single_precision = cloud.single_precision;

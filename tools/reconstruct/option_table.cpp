@@ -315,6 +315,17 @@ void
 addCoordinates (CLI::App& app, CommandLine& line)
 {
   addShift (app, line);
+  const auto parse = [&line] (const std::string& word) {
+    std::stringstream words (word);
+    for (std::string one; std::getline (words, one, ',');)
+      if (!parseNumber (std::string_view (one), line.classes.emplace_back ()))
+        throw CLI::ValidationError ("--classes",
+                                    "'" + word + "' are no numbers of classes, such as 2,6");
+  };
+  addParsed (app, "--classes", parse,
+             "classes of an airborne scan that are taken, such as 2,6 for ground and buildings; by "
+             "default all but those of noise, 7 and 18. Withheld points are never taken",
+             "N,N,...", GENERAL);
   addChoice (
       app, "--precision", line.precision, PRECISION_CHOICES,
       "precision of coordinates in outputs; auto: single, with --shift auto for doubles. PCL reads "

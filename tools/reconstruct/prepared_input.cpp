@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace pcl::floater {
 int
@@ -47,19 +46,24 @@ makeInput (const Cloud& cloud)
   Input input;
   input.positions = cloud.positions ();
   input.cloud_size = cloud.size ();
-  if (cloud.size () == cloud.rows)
-    input.lattice_width = cloud.lattice_width;
+  input.lattice_width = cloud.lattice_width;
   input.sensor_origin = cloud.sensor_origin;
-  input.cloud_index.resize (cloud.size ());
-  std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
+  for (std::size_t row = 0; row < cloud.size (); ++row)
+    if (!cloud.isLeftOut (row)) {
+      input.positions[input.cloud_index.size ()] = input.positions[row];
+      input.cloud_index.push_back (static_cast<std::uint32_t> (row));
+    }
+  input.positions.resize (input.cloud_index.size ());
   cloud.file.giveBack ();
   return input;
 }
 
 void
-takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
+takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
 {
   const bool for_facing = line.usesNormalsForFacing ();
+  if (line.options.facing == Facing::AUTO && !for_facing)
+    input.facing_normals = std::move (cloud.towards_sensors);
   if (!line.use_input_normals && !for_facing)
     return;
   const FieldTriple fields = normalFields (cloud);
@@ -75,6 +79,11 @@ takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
       normals[p][axis] =
           static_cast<float> (fields[static_cast<std::size_t> (axis)]->asDouble (cloud.row (p)));
   cloud.file.giveBack ();
+  if (std::none_of (normals.begin (), normals.end (), [] (const Eigen::Vector3f& normal) {
+        return normal.allFinite () && !normal.isZero (0.0F);
+      }))
+    cloud.warnings.emplace_back (
+        "all normals of the input file are zero or not finite: none is used");
   if (line.use_input_normals)
     input.normals = normals;
   if (for_facing)
@@ -135,6 +144,7 @@ shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
     cloud.shift = *line.shift;
   if (cloud.shift.isZero (0.0))
     return;
+  Eigen::Map<Eigen::Vector3d> (input.shift.data ()) = cloud.shift;
   for (Eigen::Vector3d& position : input.positions)
     position -= cloud.shift;
   Eigen::Map<Eigen::Vector3d> (line.options.view.viewpoint.data ()) -= cloud.shift;

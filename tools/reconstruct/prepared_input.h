@@ -30,14 +30,22 @@ readNamed (const std::filesystem::path& path, Read&& read)
 void
 checkMemory (const CommandLine& line, std::size_t points, double kept_per_point = KEPT_PER_POINT);
 
-/// Copies the positions. The other fields of the cloud stay in its file until they are written.
+/// How the command line wants the input read: all digits of a text count if it is shifted.
+inline ReadOptions
+readOptionsOf (const CommandLine& line)
+{
+  return {line.auto_shift || line.shift, line.columns, line.classes};
+}
+
+/// Copies the positions of the points that are not left out. The other fields of the cloud stay in its file until they are written.
 Input
 makeInput (const Cloud& cloud);
 
-/// The normals of all points, for what the command line uses them.
+/// The normals of all points, for what the command line uses them; of several scans,
+/// those towards the sensors, for the facing.
 /// \throws UsageError if the cloud has none
 void
-takeNormals (const CommandLine& line, const Cloud& cloud, Input& input);
+takeNormals (const CommandLine& line, Cloud& cloud, Input& input);
 
 /// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
 /// bounding box of all finite points that are no gross outliers, rounded to the power of ten below

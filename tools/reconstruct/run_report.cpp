@@ -85,7 +85,8 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
                {{"file", fileName (line.input)},
                 {"points", run.input_points},
                 {"coordinates", run.single_precision ? "float" : "double"},
-                {"fields", run.input_fields}}},
+                {"fields", run.input_fields},
+                {"notes", run.notes}}},
               {"shift", {run.shift.x (), run.shift.y (), run.shift.z ()}},
               {"output", is_ok ? Json{{"file", fileName (line.output)},
                                       {"coordinates", run.writes_single ? "float" : "double"},
@@ -241,9 +242,10 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
 {
   const Statistics& statistics = report.statistics;
   constexpr double MEGABYTE = 1e6;
+  for (const std::string& note : run.notes)
+    std::fprintf (to, "input      %s\n", note.c_str ());
   std::fprintf (
-      to,
-      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
+      to, "points     %zu, %zu of them in the mesh (%zu repeated, %zu invalid, %s, %zu unused)\n",
       run.input_points, statistics.used_points, statistics.duplicate_points,
       statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
       report.unused.size ());
