@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options are understood or refused, and reach the run. The report, the summary as JSON, and
 // warnings that --strict does not allow.
+#include "cloud_reader.h"
 #include "suggestion.h"
 #include "tool_runner.h"
 
@@ -271,6 +272,39 @@ TEST_F (CommandLineTest, ViewpointsReachTheRunAndAreShifted)
   }
   report ({"--facing", "viewpoint", "--shift", "5,5,40"}); // not a sensor below the ground
   EXPECT_EQ (shareUp (readMesh (path ("out.ply"))), 1.0);
+}
+
+// Longitude and latitude with heights in metres, by names, by the scales of LAS, or by extents.
+TEST_F (CommandLineTest, DegreesAreTold)
+{
+  LasFile las;
+  las.scale = {1e-7, 1e-7, 0.01};
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 900; ++i) {
+    const double x = i % 30 * 1e-4, y = i / 30 * 1e-4, z = 5.0 * std::sin (0.3 * (i % 30));
+    points.emplace_back (-70.1 + x, -33.2 + y, z);
+    las.points.push_back ({static_cast<int> (1e7 * points.back ().x ()),
+                           static_cast<int> (1e7 * points.back ().y ()),
+                           static_cast<int> (100.0 * z)});
+  }
+  const auto told = [this] (const std::string& file, const std::string& bytes) {
+    writeFile (file, bytes);
+    return run ({file, "out.ply"}).err;
+  };
+  const auto text = [&points] (const std::string& header, double scale = 1.0) {
+    std::ostringstream lines;
+    lines << std::setprecision (10) << header;
+    for (const Eigen::Vector3d& p : points)
+      lines << scale * p.x () << ',' << scale * p.y () << ',' << p.z () << '\n';
+    return lines.str ();
+  };
+  const auto isTold = HasSubstr ("+proj=utm +zone=19 +south (of");
+  EXPECT_THAT (told ("a.csv", text ("longitude,latitude,depth\n")), isTold);
+  EXPECT_THAT (told ("b.csv", text ("")), isTold);
+  EXPECT_THAT (told ("c.las", lasBytes (las)), HasSubstr ("out_srs=EPSG:32719"));
+  told ("d.csv", text ("longitude_m,latitude_m,z\n"));
+  EXPECT_FALSE (readCloud (path ("d.csv")).may_be_degrees);
+  EXPECT_THAT (told ("e.csv", text ("", 111e3)), Not (HasSubstr ("degrees")));
 }
 
 // Pixels without a return are no vertices, and neither are those with a NaN.

@@ -333,8 +333,7 @@ TEST_F (Readers, RowsOfAnOrganizedCloudAreTold)
 {
   const std::string text = "FIELDS x y z\n" + XYZ_FLOATS + "WIDTH 3\nHEIGHT 2\nDATA ascii\n" +
                            "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n2 1 0\n";
-  EXPECT_THAT (read ("a.pcd", text).warnings,
-               ElementsAre (HasSubstr ("organized in 2 rows of 3 points")));
+  EXPECT_THAT (read ("a.pcd", text).notes, ElementsAre (HasSubstr ("in 2 rows of 3 points")));
 }
 
 // KITTI stores four floats of a point, nuScenes five.

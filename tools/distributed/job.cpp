@@ -129,6 +129,7 @@ planStep (const Job& job, FolderStore& store)
   checkMemory (line, cloud.size (), KEPT_BY_STEP);
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
+  warnOfDegrees (input.positions, cloud);
   shiftOrigin (line, cloud, input);
   describeCloud (cloud, input, plan);
   const EffectiveOptions effective (line);

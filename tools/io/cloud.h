@@ -274,6 +274,7 @@ struct Cloud
   std::array<Field, 3> coordinates;                 ///< x, y, z; one value each
   bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
+  bool may_be_degrees = false;                      ///< names or scales say so of x and y
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates
   std::size_t rows = 0;                  ///< points of the file

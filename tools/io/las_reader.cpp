@@ -211,6 +211,9 @@ parseLas (const FileBytes& file)
                                  header.format.color_at + channel * sizeof (std::uint16_t)));
   Cloud cloud =
       makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
+  // A centimetre of height is 1e-7 degrees.
+  constexpr double FINER = 1e3;
+  cloud.may_be_degrees = FINER * std::abs (header.scales[0]) <= std::abs (header.scales[2]);
   cloud.file = file;
   return cloud;
 }

@@ -650,7 +650,13 @@ parseTable (const FileBytes& file, bool is_intensity_first,
     const char* const first = fields[axis].first.get () + points * fields[axis].stride;
     fields.back ().first = {fields[axis].first, first};
   }
+  const bool may_be_degrees =
+      std::any_of (head.columns.begin (), head.columns.end (), [] (const Column& column) {
+        return column.kind == X && column.name.rfind ("lon", 0) == 0 &&
+               (withoutUnit (column.name) == column.name || column.name.back () == 'g');
+      });
   Cloud cloud = makeCloud (std::move (fields), points, std::move (warnings));
+  cloud.may_be_degrees = may_be_degrees;
   return cloud;
 }
 

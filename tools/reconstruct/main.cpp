@@ -202,6 +202,7 @@ run (CommandLine line)
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   checkTextureColours (line, cloud);
+  warnOfDegrees (input.positions, cloud);
   shiftOrigin (line, cloud, input);
   RunFigures figures;
   figures.shift = cloud.shift;

@@ -90,6 +90,39 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
     input.facing_normals = std::move (normals);
 }
 
+void
+warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud)
+{
+  constexpr double LONGITUDES = 180.0, LATITUDES = 90.0, ZONE = 6.0; // degrees
+  constexpr double SMALL = 5.0;   // degrees; larger areas are not reconstructed as they are
+  constexpr double STEEP = 200.0; // metres for each degree: hardly a hill, but a high wall
+  constexpr double OFF = 10.0;    // extents from (0, 0), which is in the sea
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : positions)
+    if (position.allFinite ())
+      box.extend (position);
+  if (box.isEmpty ())
+    return;
+  const Eigen::Vector3d size = box.sizes (), centre = box.center ();
+  const double extent = std::max (size.x (), size.y ());
+  const bool are_in_range = std::max (-box.min ().x (), box.max ().x ()) <= LONGITUDES &&
+                            std::max (-box.min ().y (), box.max ().y ()) <= LATITUDES;
+  const bool seem = extent > 0.0 && extent < SMALL && size.z () > STEEP * extent &&
+                    centre.head<2> ().norm () > OFF * extent;
+  if (!are_in_range || !(seem || (cloud.may_be_degrees && size.z () > extent)))
+    return;
+  const int zone = static_cast<int> (std::floor ((centre.x () + LONGITUDES) / ZONE)) % 60 + 1;
+  const bool is_south = centre.y () < 0.0;
+  const std::string number = (zone < 10 ? "0" : "") + std::to_string (zone);
+  cloud.warnings.push_back (
+      "x and y seem to be degrees of longitude and latitude, and z metres: distances make no sense "
+      "so. Project them first, such as by cs2cs -f %.3f +proj=longlat +to +proj=utm +zone=" +
+      std::to_string (zone) + (is_south ? " +south" : "") +
+      " (of lines x y z), or pdal translate a.las b.las reprojection "
+      "--filters.reprojection.in_srs=EPSG:4326 --filters.reprojection.out_srs=EPSG:32" +
+      (is_south ? "7" : "6") + number);
+}
+
 Eigen::Vector3d
 chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
 {
@@ -115,7 +148,7 @@ chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
   if (float_step < FINE * diagonal / std::sqrt (static_cast<double> (count)))
     return Eigen::Vector3d::Zero ();
   const double unit = std::pow (10.0, std::floor (std::log10 (diagonal)));
-  return unit * (box.center () / unit).array ().round ().matrix ();
+  return (unit * (box.center () / unit).array ().round () + 0.0).matrix (); // no -0
 }
 
 bool

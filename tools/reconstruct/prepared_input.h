@@ -47,6 +47,13 @@ makeInput (const Cloud& cloud);
 void
 takeNormals (const CommandLine& line, Cloud& cloud, Input& input);
 
+/// Warns if x and y seem to be degrees of longitude and latitude beside heights in metres, with the
+/// command that projects them. They are in their range, and names or scales say so; or they are a
+/// small area away from the origin, and their extents far below that of z. O(n).
+/// \param positions of the cloud, before any shift
+void
+warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud);
+
 /// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
 /// bounding box of all finite points that are no gross outliers, rounded to the power of ten below
 /// its diagonal. (0, 0, 0) if floats hold them well as they are: if the distance of two floats of

@@ -318,7 +318,7 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
     std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct %s: %s (%s)\n",
                   inputName (line.input).c_str (), report.message.c_str (),
                   outcomeName (report, figures).c_str ());
-  if (figures.is_refused || (is_ok && !line.quiet))
+  if (figures.is_refused || !line.quiet)
     printWarnings (report);
   if (is_ok && !line.quiet)
     printSummary (to, line, report, figures);
