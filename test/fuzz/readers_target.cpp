@@ -89,6 +89,7 @@ const std::map<std::string, std::vector<Parse>> FORMATS{
     {"obj", {[] (const FileBytes& file) { return parseObj (file); }}},
     {"stl", {[] (const FileBytes& file) { return parseStl (file); }}},
     {"las", {[] (const FileBytes& file) { return parseLas (file); }}},
+    {"vtp", {[] (const FileBytes& file) { return parseVtp (file); }}},
     {"ptx", {[] (const FileBytes& file) { return parsePtx (file); }}},
     {"bin", {[] (const FileBytes& file) { return parseBin (file); }}},
     {"table",

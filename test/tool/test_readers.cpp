@@ -6,6 +6,14 @@
 #include "cloud_reader.h"
 #include "tool_runner.h"
 
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -334,6 +342,51 @@ TEST_F (Readers, RowsOfAnOrganizedCloudAreTold)
   const std::string text = "FIELDS x y z\n" + XYZ_FLOATS + "WIDTH 3\nHEIGHT 2\nDATA ascii\n" +
                            "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n2 1 0\n";
   EXPECT_THAT (read ("a.pcd", text).notes, ElementsAre (HasSubstr ("in 2 rows of 3 points")));
+}
+
+// As VTK writes them.
+TEST_F (Readers, EveryEncodingOfVtp)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkUnsignedCharArray> colors;
+  vtkNew<vtkDoubleArray> weights;
+  colors->SetName ("RGB");
+  colors->SetNumberOfComponents (3);
+  weights->SetName ("weight");
+  for (int i = 0; i < 50; ++i) {
+    points->InsertNextPoint (0.5 * i, 2.0, -i);
+    colors->InsertNextTuple3 (5 * i, 6, 7);
+    weights->InsertNextValue (0.1 * i);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints (points);
+  data->GetPointData ()->SetScalars (colors);
+  data->GetPointData ()->AddArray (weights);
+  for (int kind = 0; kind < 24; ++kind) {
+    SCOPED_TRACE (kind);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData (data);
+    writer->SetFileName (path ("a.vtp").c_str ());
+    writer->SetDataMode (kind % 3);
+    writer->SetEncodeAppendedData (kind / 3 % 2);
+    if (kind / 6 % 2 == 0)
+      writer->SetCompressorTypeToNone ();
+    else
+      writer->SetBlockSize (64);
+    if (kind >= 12) {
+      writer->SetHeaderTypeToUInt64 ();
+      writer->SetByteOrderToBigEndian ();
+    }
+    writer->Write ();
+    const Cloud cloud = readCloud (path ("a.vtp"));
+    ASSERT_EQ (cloud.size (), 50U);
+    EXPECT_EQ (cloud.position (49), Eigen::Vector3d (24.5, 2.0, -49.0));
+    EXPECT_EQ (colorFields (cloud)[0]->asDouble (49), 245.0);
+    EXPECT_EQ (cloud.find ("weight")->asDouble (30), 0.1 * 30);
+    const std::string bytes = readFile ("a.vtp");
+    for (std::size_t length = 0; length < bytes.find ("</DataArray"); length += 37)
+      EXPECT_NE (errorOf ("a.vtp", bytes.substr (0, length)), "none") << length;
+  }
 }
 
 // KITTI stores four floats of a point, nuScenes five.

@@ -14,12 +14,13 @@ namespace pcl::floater {
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path)
 {
-  static constexpr std::array<std::pair<const char*, CloudFormat>, 14> KNOWN{
+  static constexpr std::array<std::pair<const char*, CloudFormat>, 15> KNOWN{
       {{".pcd", CloudFormat::PCD},
        {".ply", CloudFormat::PLY},
        {".obj", CloudFormat::OBJ},
        {".stl", CloudFormat::STL},
        {".vtk", CloudFormat::VTK},
+       {".vtp", CloudFormat::VTP},
        {".las", CloudFormat::LAS},
        {".bin", CloudFormat::BIN},
        {".ptx", CloudFormat::PTX},
@@ -147,6 +148,8 @@ parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& option
       cloud.warnings.push_back (facesLeftOut (faces.size ()));
     return cloud;
   }
+  case CloudFormat::VTP:
+    return parseVtp (file);
   case CloudFormat::LAS:
     return parseLas (file);
   case CloudFormat::BIN:

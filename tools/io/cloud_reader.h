@@ -57,6 +57,7 @@ enum class CloudFormat
   OBJ,
   STL,
   VTK,
+  VTP, ///< VTK's format in XML
   LAS,
   BIN, ///< floats of a spinning lidar
   PTX,
@@ -66,7 +67,7 @@ enum class CloudFormat
 
 /// The extensions of clouds, for messages.
 constexpr const char* CLOUD_EXTENSIONS =
-    ".pcd, .ply, .obj, .stl, .vtk, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
+    ".pcd, .ply, .obj, .stl, .vtk, .vtp, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
 
 /// What to do with a compressed LAS file.
 constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read; decompress it: "
@@ -125,6 +126,11 @@ parsePly (const FileBytes& file, bool all_digits = false, Triangles* triangles =
 /// of POLYDATA, the polygons (both layouts). All other data are left out.
 Cloud
 parseVtk (const FileBytes& file, Triangles& triangles);
+
+/// VTK's format in XML, of one piece: points and their arrays, as text, in base64 or raw, also compressed
+/// by zlib.
+Cloud
+parseVtp (const FileBytes& file);
 
 /// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
 /// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other

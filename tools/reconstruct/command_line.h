@@ -123,12 +123,13 @@ struct CommandLine
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
 
-constexpr Choices<std::optional<CloudFormat>, 11> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
+constexpr Choices<std::optional<CloudFormat>, 12> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
                                                                         {"pcd", CloudFormat::PCD},
                                                                         {"ply", CloudFormat::PLY},
                                                                         {"obj", CloudFormat::OBJ},
                                                                         {"stl", CloudFormat::STL},
                                                                         {"vtk", CloudFormat::VTK},
+                                                                        {"vtp", CloudFormat::VTP},
                                                                         {"las", CloudFormat::LAS},
                                                                         {"bin", CloudFormat::BIN},
                                                                         {"ptx", CloudFormat::PTX},
