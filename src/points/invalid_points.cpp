@@ -89,15 +89,16 @@ findNearby (const PositionList& positions, const Eigen::Vector3d& place, double 
 
 // How many of the nearest points are pixels without a return.
 std::size_t
-countPixels (const NearPoints& nearby, std::size_t fewest, double least_next, std::size_t size,
+countPixels (const NearPoints& nearby, std::size_t fewest, double spacing, std::size_t size,
              const InvalidPointLimits& limits)
 {
   const auto& points = nearby.points;
   for (std::size_t count = points.size (); count >= fewest; --count) {
     const double range = points[count - 1].first;
     const double next = count < points.size () ? points[count].first : nearby.next;
-    // A small object among far ones would be most of the cloud.
-    if (range <= limits.near * next && next > least_next && (range == 0.0 || 2 * count < size))
+    // A small object among far ones is larger than their spacing, or most of the cloud.
+    if (range <= limits.near * next && next > limits.apart * spacing &&
+        (range == 0.0 || (range <= spacing && 2 * count < size)))
       return count;
   }
   return 0;
@@ -120,10 +121,10 @@ findPixels (const PositionList& positions, const PositionList& sample,
     if (!is_origin)
       fewest = std::max (fewest, limits.share * size);
     const double most = rangeOfMost (sample, place);
-    const NearPoints nearby = findNearby (positions, place, is_origin ? limits.scale * most : 0.0);
+    const NearPoints nearby = findNearby (positions, place, is_origin ? limits.near * most : 0.0);
     const std::size_t count =
         countPixels (nearby, static_cast<std::size_t> (std::ceil (fewest)),
-                     limits.apart * 2.0 * most / std::sqrt (size), positions.size (), limits);
+                     2.0 * most / std::sqrt (size), positions.size (), limits);
     for (std::size_t i = 0; i < count; ++i)
       found.pixels.push_back (nearby.points[i].second);
     found.place = place;

@@ -75,7 +75,7 @@ TEST (InvalidPoints, PixelsWithoutReturn)
     const std::size_t fifth = (all.size () + 4) / 5;
     expectInvalid (all, 0, 0);
     expectInvalid (withPlace (all, origin), fifth, 0);
-    expectInvalid (withPlace (all, origin, 1e-3), fifth, 0);
+    expectInvalid (withPlace (all, origin, 5e-3), fifth, 0);
     expectInvalid (placed (withPlace (all, origin), ON_A_MAP), fifth, 0); // where the sensor was
     expectInvalid (placed (withPlace (all, origin), -ON_A_MAP), fifth, 0, ON_A_MAP);
   }
@@ -105,6 +105,10 @@ TEST (InvalidPoints, RepeatedPointsOfASurface)
   for (Eigen::Vector3d& p : small)
     p *= 1e-4;
   expectInvalid (joined (small, torus), 0, 0);
+  Positions room = frame (100);
+  for (const Eigen::Vector3d& p : surface (SurfaceKind::TORUS, 3000))
+    room.push_back (0.003 * p);
+  expectInvalid (room, 0, 0);
 }
 
 TEST (InvalidPoints, CellsWithoutData)
