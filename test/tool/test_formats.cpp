@@ -384,6 +384,53 @@ TEST_F (Formats, DoublesAreWrittenWhereFloatsMergePoints)
   }
 }
 
+// A room that two scanners see from inside: without them, a closed body would face outwards.
+TEST_F (Formats, ScansOfPtxAreFacedFromTheirSensors)
+{
+  const Eigen::Vector3d low (-3, -2, 0), high (3, 2, 2.6);
+  std::ostringstream text;
+  for (const Eigen::Vector3d& sensor :
+       {Eigen::Vector3d (-1, 0, 1.2), Eigen::Vector3d (1.5, -1, 1.5)}) {
+    constexpr int COLUMNS = 60, ROWS = 30;
+    text << COLUMNS << '\n'
+         << ROWS << "\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+         << sensor.transpose () << " 1\n";
+    for (int i = 0; i < COLUMNS * ROWS; ++i) {
+      const double turn = 0.01 + 6.2831853 * (i / ROWS) / COLUMNS,
+                   up = -1.19 + 2.4 * (i % ROWS) / ROWS;
+      const Eigen::Vector3d ray (std::cos (turn) * std::cos (up), std::sin (turn) * std::cos (up),
+                                 std::sin (up));
+      const Eigen::Vector3d ranges =
+          (ray.array () > 0.0).select ((high - sensor).array (), (low - sensor).array ()) /
+          ray.array ();
+      text << (i % 50 == 7 ? 0.0 : ranges.minCoeff ()) * ray.transpose () << " 1\n";
+    }
+  }
+  writeFile ("room.ptx", text.str ());
+  EXPECT_THAT (succeed ({"room.ptx", "out.ply"}).out,
+               HasSubstr ("72 points without a return were left out"));
+  const MeshContent mesh = readMesh (path ("out.ply"));
+  EXPECT_EQ (mesh.points.size (), 3600U - 72U);
+  double area = 0.0, inwards = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.points[t[0]];
+    const Eigen::Vector3d across = (mesh.points[t[1]] - a).cross (mesh.points[t[2]] - a);
+    area += across.norm ();
+    inwards += across.dot (0.5 * (low + high) - a) > 0.0 ? across.norm () : 0.0;
+  }
+  EXPECT_GT (inwards, 0.99 * area);
+}
+
+TEST_F (Formats, NormalsThatAreAllZeroAreTold)
+{
+  Sample sample = makeSample (false);
+  sample.normals.assign (sample.size (), Eigen::Vector3f (0.0F, 0.0F, 0.0F));
+  writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
+  const std::string told = "all normals of the input file are zero";
+  EXPECT_THAT (succeed ({"in.pcd", "out.ply", "--use-input-normals", "on"}).err, HasSubstr (told));
+  EXPECT_THAT (succeed ({"in.pcd", "out.ply"}).err, Not (HasSubstr (told)));
+}
+
 TEST_F (Formats, OffNamesWhatItHolds)
 {
   writeFile ("plain.pcd", pcdText (makeSample (false).points));
