@@ -77,10 +77,12 @@ findNearby (const PositionList& positions, const Eigen::Vector3d& place, double 
 {
   NearPoints nearby;
   for (std::size_t row = 0; row < positions.size (); ++row) {
+    if (!positions[row].allFinite ())
+      continue;
     const double range = (positions[row] - place).lpNorm<Eigen::Infinity> ();
     if (range <= limit)
       nearby.points.emplace_back (range, static_cast<Index> (row));
-    else if (range < nearby.next) // not a NaN
+    else if (range < nearby.next)
       nearby.next = range;
   }
   std::sort (nearby.points.begin (), nearby.points.end ());

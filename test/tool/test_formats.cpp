@@ -382,6 +382,10 @@ TEST_F (Formats, DoublesAreWrittenWhereFloatsMergePoints)
                size == 1.0);
     EXPECT_EQ (readMesh (path ("out.ply")).is_double, size != 1.0);
   }
+  // Also of points that no triangle has.
+  writeFile ("in.obj", objText (makeSample (false)) + "v 1e300 0 0 0 0 0\n");
+  succeed ({"in.obj", "out.ply"});
+  EXPECT_TRUE (readMesh (path ("out.ply")).is_double);
 }
 
 // A room that two scanners see from inside: without them, a closed body would face outwards.

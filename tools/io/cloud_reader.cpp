@@ -103,6 +103,8 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
   const Field* const withheld = find ("withheld");
   if (classification == nullptr && !classes.empty ())
     throw ReadError ("--classes: the points have no field 'classification'");
+  if (classes.empty () && withheld == nullptr)
+    return;
   std::vector<bool> others (cloud.rows, false), are_withheld (cloud.rows, false);
   std::map<double, std::size_t> counts; // of classes that are left out
   for (std::size_t row = 0; row < cloud.rows; ++row) {
@@ -110,7 +112,7 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
     const double its = classification == nullptr ? 0.0 : classification->asDouble (row);
     others[row] =
         !are_withheld[row] &&
-        (classes.empty () ? withheld != nullptr && (its == LOW_NOISE || its == HIGH_NOISE)
+        (classes.empty () ? (its == LOW_NOISE || its == HIGH_NOISE)
                           : std::find (classes.begin (), classes.end (), its) == classes.end ());
     if (others[row])
       ++counts[its];

@@ -94,7 +94,8 @@ Notes:
   files are then read with all their digits, also where the file says float.
   Of a mesh, only the points are read. pcl_viewer opens .vtk. With - for OUTPUT, the summary goes to
   the standard error stream, and the mesh comes when it is complete.
-  Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
+  Points with a NaN or infinite coordinate, pixels without a return, cells without data, and what an
+  airborne scan marks as withheld or noise are left out of the output, so that the vertices after
   them move up. All other points are vertices of the output, also those that are in no triangle:
   outliers, repeated points, and points that could not be connected. The report lists them all.
   With --uv, points on seams are several vertices in .ply and .vtk: the others follow after all
