@@ -79,6 +79,8 @@ parametersText (const Job& job)
   json["shift"] = job.line.auto_shift ? nlohmann::ordered_json ("auto") : nlohmann::ordered_json ();
   if (job.line.shift)
     json["shift"] = {job.line.shift->x (), job.line.shift->y (), job.line.shift->z ()};
+  if (job.line.columns[0] > 0)
+    json["columns"] = job.line.columns;
   if (!job.line.classes.empty ())
     json["classes"] = job.line.classes;
   if (!job.line.changed_limits.empty ())

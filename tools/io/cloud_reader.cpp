@@ -118,10 +118,14 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
       ++counts[its];
   }
   leaveOut (cloud, are_withheld, "that the file marks as withheld");
+  constexpr std::size_t MOST = 12; // classes in the note
   std::ostringstream text;
   text << "of class";
+  std::size_t told = 0;
   for (const auto& [its, count] : counts)
-    text << (its == counts.begin ()->first ? " " : ", ") << its << " (" << count << ")";
+    if (told++ < MOST)
+      text << (told == 1 ? " " : ", ") << its << " (" << count << ")";
+  text << (counts.size () > MOST ? " and others" : "");
   leaveOut (cloud, others, text.str ());
   if (std::count (cloud.left_out.begin (), cloud.left_out.end (), true) ==
       static_cast<std::ptrdiff_t> (cloud.rows))

@@ -233,22 +233,6 @@ addFiles (CLI::App& app, CommandLine& line)
   addChoice (app, "--input-format", line.input_format, CLOUD_FORMAT_CHOICES,
              "format of INPUT; auto: that of its extension; xyz: text with a point in each line",
              files);
-  addParsed (
-      app, "--columns",
-      [&line] (const std::string& word) {
-        const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
-        for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
-          line.columns[static_cast<std::size_t> (axis)] =
-              static_cast<std::size_t> (std::max (0.0, (*numbers)[axis]));
-        const auto& [x, y, z] = line.columns;
-        if (!numbers || x == 0 || y == 0 || z == 0 || x == y || y == z || z == x)
-          throw CLI::ValidationError ("--columns", "'" + word +
-                                                       "' is no three different numbers of "
-                                                       "columns, such as 2,3,4");
-      },
-      "columns of x, y and z in text with a point in each line, from 1; by default those that the "
-      "first line names, or the first three",
-      "X,Y,Z", files);
   addChoice (app, "--output-format", line.output_format, MESH_FORMAT_CHOICES,
              "format of OUTPUT; auto: that of its extension", files);
   const std::string output = "More output";
@@ -316,6 +300,22 @@ void
 addCoordinates (CLI::App& app, CommandLine& line)
 {
   addShift (app, line);
+  addParsed (
+      app, "--columns",
+      [&line] (const std::string& word) {
+        const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
+        for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
+          line.columns[static_cast<std::size_t> (axis)] =
+              static_cast<std::size_t> (std::max (0.0, (*numbers)[axis]));
+        const auto& [x, y, z] = line.columns;
+        if (!numbers || x == 0 || y == 0 || z == 0 || x == y || y == z || z == x)
+          throw CLI::ValidationError ("--columns", "'" + word +
+                                                       "' is no three different numbers of "
+                                                       "columns, such as 2,3,4");
+      },
+      "columns of x, y and z in text with a point in each line, from 1; by default those that the "
+      "first line names, or the first three",
+      "X,Y,Z", GENERAL);
   const auto parse = [&line] (const std::string& word) {
     std::stringstream words (word);
     for (std::string one; std::getline (words, one, ',');)
