@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The clouds of doc/tuning.md, doc/formats.md and doc/pipelines.md that pcl_floater_generate does not make. One unit of
-# length is about one spacing.
+# The clouds of doc/tuning.md, doc/formats.md, doc/airborne.md and doc/pipelines.md that pcl_floater_generate does not
+# make. One unit of length is about one spacing.
 set -euo pipefail
 
 if (($# > 0)); then
@@ -72,3 +72,17 @@ slope_on_map double >map_double.ply
     x = i + 0.4 * r(); y = j + 0.4 * r()
     print x, y, 2 * sin(i / 9), 4 * i, 120, 4 * j, 0, 0, 1, int(100 * r()) }'
 } >coloured.ply
+
+# Airborne: ground with a house (class 6) and a tree (5), of which pulses go on to the ground; noise; withheld points.
+{
+  echo x,y,z,return_number,number_of_returns,classification,withheld
+  cloud 6 'for (i = 0; i < 80; i++) for (j = 0; j < 80; j++) {
+      x = i + 0.4 * r(); y = j + 0.4 * r(); d = sqrt((x - 60)^2 + (y - 50)^2); h = x - 26 > 0 ? x - 26 : 26 - x
+      house = i > 17 && i < 35 && j > 23 && j < 49; ground = 2 * sin(i / 15)
+      row = sprintf("%.2f,%.2f", 500000 + x, 5500000 + y)
+      print row "," (house ? 14 - 0.6 * h : ground) "," (d < 9 ? "2,2" : "1,1") "," (house ? 6 : 2) ",0"
+      if (d < 9 && r() < 0.8) print row "," (ground + 6 + 9 * r()) ",1,2,5,0"
+      if (r() < 0.002) print row "," (70 + 9 * r()) ",1,1,18,0"
+      if (r() < 0.002) print row "," (-30 - 9 * r()) ",1,1,7,0"
+      if (r() < 0.002) print row "," (ground + 3) ",1,1,2,1" }'
+} >airborne.csv

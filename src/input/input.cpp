@@ -5,10 +5,12 @@
 #include "core/types.h"
 #include "options/check_options.h"
 #include "options/stage_limits.h"
+#include "report/findings.h"
 #include "report/report_cloud.h"
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace pcl::floater {
@@ -91,22 +93,51 @@ takeOut (Input& input, const std::vector<std::uint8_t>& is_taken)
   return taken;
 }
 
+// Makes them points that are not finite.
+template <typename MayGo>
+void
+leaveOutInvalid (Input& input, const MayGo& mayGo, const InvalidPointLimits& limits, Report& report)
+{
+  const Eigen::Vector3d shift (input.shift.data ());
+  const InvalidPoints found = findInvalidPoints (input.positions, shift, limits);
+  const auto tell = [&] (std::vector<Index> rows, const auto& add) {
+    rows.erase (
+        std::remove_if (rows.begin (), rows.end (), [&] (Index row) { return !mayGo (row); }),
+        rows.end ());
+    for (const Index row : rows)
+      input.positions[row].setConstant (std::numeric_limits<double>::quiet_NaN ());
+    if (!rows.empty ())
+      add (static_cast<double> (rows.size ()));
+  };
+  tell (found.pixels, [&] (double count) {
+    constexpr double PERCENT = 100.0;
+    const Eigen::Vector3d place = found.place + shift;
+    addFinding (report, FindingId::INVALID_PIXELS, {}, {}, count,
+                PERCENT * count / static_cast<double> (input.positions.size ()), place.x (),
+                place.y (), place.z ());
+  });
+  tell (found.cells, [&] (double count) {
+    addFinding (report, FindingId::INVALID_CELLS, {}, {}, count, found.height, found.gap);
+  });
+}
+
 } // namespace
 
 Problem
-cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limits,
-            const RunContext& run, Report& report)
+cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
+            Report& report)
 {
-  constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are not outliers
-  const GrossOutliers found = findGrossOutliers (input.positions, run, limits);
-  if (found.isolated.empty () && found.unbearable.empty ())
-    return {};
   std::vector<Index> given = options.disc.boundary.loop;
   std::sort (given.begin (), given.end ());
   const auto mayGo = [&] (Index row) {
     return options.remove_outliers &&
            !std::binary_search (given.begin (), given.end (), input.cloud_index[row]);
   };
+  leaveOutInvalid (input, mayGo, limits.invalid, report);
+  constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are not outliers
+  const GrossOutliers found = findGrossOutliers (input.positions, run, limits.gross_outliers);
+  if (found.isolated.empty () && found.unbearable.empty ())
+    return {};
   const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
   std::vector<std::uint8_t> is_taken (input.positions.size (), 0);
   for (const Index row : found.unbearable) {
@@ -137,7 +168,7 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
     run.setMethod (Topology::DISC);
 
   run.beginStage (Stage::WORKING_SET);
-  if (Problem problem = cleanInput (input, options, request.limits.gross_outliers, run, report))
+  if (Problem problem = cleanInput (input, options, request.limits, run, report))
     return problem;
   points = makePoints (input.positions, input.cloud_index, run);
   points.lattice_width = input.lattice_width;

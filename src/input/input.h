@@ -6,7 +6,6 @@
 #include "core/problem.h"
 #include "core/run_context.h"
 #include "options/stage_limits.h"
-#include "points/outliers.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -26,12 +25,12 @@ isSensorKnown (const std::array<double, 3>& sensor_origin);
 Problem
 checkFacing (const Input& input, const Options& options);
 
-/// Removes and reports gross outliers, if outliers are to be left out. Points of the user's loop
-/// are kept.
+/// Removes and reports gross outliers, if outliers are to be left out, and makes points that stand
+/// for no measurement not finite. Points of the user's loop are kept.
 /// \return DEGENERATE if a remaining point is too far from the others for double precision
 Problem
-cleanInput (Input& input, const Options& options, const GrossOutlierLimits& limits,
-            const RunContext& run, Report& report);
+cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
+            Report& report);
 
 /// First step of a run: removes gross outliers and makes the working set. Frees each array of the
 /// input after reading it.

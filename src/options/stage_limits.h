@@ -15,6 +15,7 @@
 #include "mesh/self_intersection_removal.h"
 #include "mesh/vertex_splits.h"
 #include "parts/part_mesh.h"
+#include "points/invalid_points.h"
 #include "points/net.h"
 #include "points/noise.h"
 #include "points/outliers.h"
@@ -25,6 +26,7 @@
 namespace pcl::floater {
 struct Limits
 {
+  InvalidPointLimits invalid;
   GrossOutlierLimits gross_outliers;
   NetLimits net;
   OutlierLimits outliers;

@@ -32,6 +32,14 @@ constexpr Sentence SENTENCES[] = {
      "{0:point coincides|points coincide} with another one, point {n1} with point {n2}"
      "{0?| among them}: one point of each place is in the mesh; coordinates may have been rounded, "
      "or a cloud may be in the file twice"},
+    {FindingId::INVALID_PIXELS, "invalid_pixels", Severity::NOTE,
+     "{0:point is|points are} at ({n2}, {n3}, {n4}), {n1} % of the cloud, and nothing else is "
+     "near: "
+     "{0?it is a pixel|they are pixels} without a return, and {0?was|were} left out"},
+    {FindingId::INVALID_CELLS, "invalid_cells", Severity::NOTE,
+     "{0:point has|points have} the height {n1}, {n2} away from all others: {0?it is a cell|they "
+     "are "
+     "cells} without data, and {0?was|were} left out"},
     {FindingId::GROSS_OUTLIERS, "gross_outliers", Severity::NOTE,
      "{0:point is|points are} over a thousand times as far away as all others, {0?|among them }"
      "point {n1}: {0?it was|they were} left out"},

@@ -44,11 +44,13 @@ useCloud (Cloud& cloud)
     fail ("there are more numbers than values");
   colorFields (cloud);
   normalFields (cloud);
-  std::size_t finite = 0;
-  for (const Eigen::Vector3d& position : positions)
-    finite += position.allFinite () ? 1 : 0;
+  std::size_t finite = 0, left_out = 0;
+  for (std::size_t row = 0; row < cloud.rows; ++row) {
+    left_out += cloud.isLeftOut (row) ? 1 : 0;
+    finite += !cloud.isLeftOut (row) && positions[row].allFinite () ? 1 : 0;
+  }
   Triangles none;
-  if (removeNonFinitePoints (cloud, none) + finite != positions.size ())
+  if (removeNonFinitePoints (cloud, none) + finite + left_out != positions.size ())
     fail ("the points that are not finite are not those that were left out");
   for (std::size_t point = 0; point < finite; ++point)
     if (!cloud.position (point).allFinite ())
@@ -87,6 +89,9 @@ const std::map<std::string, std::vector<Parse>> FORMATS{
     {"obj", {[] (const FileBytes& file) { return parseObj (file); }}},
     {"stl", {[] (const FileBytes& file) { return parseStl (file); }}},
     {"las", {[] (const FileBytes& file) { return parseLas (file); }}},
+    {"vtp", {[] (const FileBytes& file) { return parseVtp (file); }}},
+    {"ptx", {[] (const FileBytes& file) { return parsePtx (file); }}},
+    {"bin", {[] (const FileBytes& file) { return parseBin (file); }}},
     {"table",
      {[] (const FileBytes& file) { return parseTable (file, false); },
       [] (const FileBytes& file) { return parseTable (file, true); }}}};

@@ -20,7 +20,8 @@ TEST_F (CommandLineTest, InputsThatCannotBeRead)
 {
   std::filesystem::create_directory (path ("folder.pcd"));
   writeFile ("empty.pcd", "");
-  for (const std::string name : {"bad.ply", "bad.obj", "bad.stl", "bad.las", "bad.csv", "bad.e57"})
+  for (const std::string name :
+       {"bad.ply", "bad.obj", "bad.stl", "bad.las", "bad.csv", "bad.off", "bad.e57"})
     writeFile (name, "hello\n");
   for (const auto& [name, cause] : std::vector<std::pair<std::string, std::string>>{
            {"missing.pcd", "there is no such file"},
@@ -31,8 +32,9 @@ TEST_F (CommandLineTest, InputsThatCannotBeRead)
            {"bad.stl", "it is too short for a binary STL file"},
            {"bad.las", "it is not a LAS file"},
            {"bad.csv", "it has no points"},
-           {"bad.e57", "its extension '.e57' is unknown; use .pcd, .ply"},
-           {"bad.e57", "or give its format by --input-format"}})
+           {"bad.off", "its extension '.off' is unknown; use .pcd, .ply"},
+           {"bad.off", "or give its format by --input-format"},
+           {"bad.e57", "pdal translate a.e57"}})
     expectFailure ({name, "out.ply", "--report", "out.json"}, INPUT_FAILED, cause);
   EXPECT_THAT (run ({"bad.ply", "out.ply"}).err, HasSubstr ("cannot read 'bad.ply': "));
 }
@@ -107,11 +109,11 @@ TEST_F (CommandLineTest, WriteThatFailsHalfWay)
   for (const std::string name : {"out.vtk", "out.ply", "out.obj", "out.stl", "out.off", "out.glb"})
     expectFailure ({"in.pcd", name, "--report", "out.json"}, OUTPUT_FAILED,
                    "cannot write '" + name + "': File too large", {1000});
-  // The mesh fits, the flat mesh in double precision does not: neither appears.
+  // The mesh fits, the flat mesh as text does not: neither appears.
   succeed ({"in.pcd", "fits.ply", "-q", "--topology", "disc"});
   const std::size_t limit = std::filesystem::file_size (path ("fits.ply")) + 100;
-  expectFailure ({"in.pcd", "out.ply", "--parameterization", "flat.ply"}, OUTPUT_FAILED,
-                 "cannot write 'flat.ply'", {limit});
+  expectFailure ({"in.pcd", "out.ply", "--parameterization", "flat.obj"}, OUTPUT_FAILED,
+                 "cannot write 'flat.obj'", {limit});
   expectFailure ({"in.pcd", "out.ply", "--html", "out.html"}, OUTPUT_FAILED,
                  "cannot write 'out.html'", {limit});
   EXPECT_EQ (readFile ("out.ply"), BEFORE);

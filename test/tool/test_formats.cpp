@@ -83,7 +83,8 @@ TEST_F (Formats, PointsAndFieldsOfEveryInputComeBack)
     for (const auto& [file, bytes] : inputs) {
       SCOPED_TRACE (bytes.substr (0, 60) + " in " + file);
       writeFile (file, bytes);
-      const std::string warnings = succeed ({file, "out.ply"}).err;
+      const std::string warnings =
+          succeed ({file, "out.ply", "--precision", is_double ? "double" : "auto"}).err;
       const MeshContent mesh = readMesh (path ("out.ply"));
       EXPECT_EQ (mesh.is_double, is_double);
       EXPECT_EQ (mesh.points, sample.points);
@@ -101,10 +102,9 @@ TEST_F (Formats, PointsAndFieldsOfEveryInputComeBack)
         return warnings.find (what) != std::string::npos;
       };
       EXPECT_EQ (isTold ("the list 'marks'"), has_list);
-      EXPECT_EQ (isTold ("written as doubles"), is_double);
       EXPECT_EQ (isTold ("1 face of the input file was left out"), has_face);
       EXPECT_EQ (std::count (warnings.begin (), warnings.end (), '\n'),
-                 (has_list ? 1 : 0) + (is_double ? 1 : 0) + (has_face ? 1 : 0));
+                 (has_list ? 1 : 0) + (has_face ? 1 : 0));
     }
   }
 }
@@ -125,7 +125,7 @@ TEST_F (Formats, MapCoordinatesOfLas)
     file.colors.push_back ({red, 512, 65535});
   }
   writeFile ("in.las", lasBytes (file));
-  succeed ({"in.las", "out.vtk", "--strict"});
+  succeed ({"in.las", "out.vtk", "--strict", "--precision", "double"});
   const MeshContent mesh = readMesh (path ("out.vtk"));
   EXPECT_TRUE (mesh.is_double);
   ASSERT_EQ (mesh.points.size (), file.points.size ());
@@ -135,7 +135,8 @@ TEST_F (Formats, MapCoordinatesOfLas)
                  file.points[p][static_cast<std::size_t> (axis)] * 0.001 + file.offset[axis]);
   EXPECT_EQ (mesh.colors[4], (Color{5, 2, 255}));
   EXPECT_EQ (mesh.fields.at ("intensity")[2], 14.0);
-  succeed ({"in.las", "out.ply", "--shift", "auto", "--precision", "single"});
+  EXPECT_THAT (succeed ({"in.las", "out.ply", "--strict"}).out, HasSubstr ("shift      654330 "));
+  EXPECT_FALSE (readMesh (path ("out.ply")).is_double);
   EXPECT_EQ (readMesh (path ("out.ply")).triangles, mesh.triangles);
 }
 
@@ -149,7 +150,7 @@ protected:
 
   MeshContent reconstructTo (const std::string& name) const
   {
-    succeed ({"in.pcd", name});
+    succeed ({"in.pcd", name, "--precision", GetParam () ? "double" : "auto"});
     return readMesh (path (name));
   }
 
@@ -213,9 +214,9 @@ TEST_P (OutputFormats, FormatsOfFloatsAreRefused)
       EXPECT_EQ (run ({"in.pcd", file}).err, "");
       continue;
     }
-    expectFailure ({"in.pcd", file}, OUTPUT_FAILED, name + " holds 32-bit floats");
-    EXPECT_THAT (succeed ({"in.pcd", file, "--shift", "600000,5000000,100"}).err,
-                 HasSubstr (name + " holds single precision"));
+    expectFailure ({"in.pcd", file, "--precision", "double"}, OUTPUT_FAILED,
+                   name + " holds 32-bit floats");
+    EXPECT_EQ (succeed ({"in.pcd", file, "--shift", "600000,5000000,100"}).err, "");
     EXPECT_EQ (readMesh (path (file)).triangles.size (), vtk.triangles.size ());
     EXPECT_EQ (readFile (file).find ("\"shift\":\"600000 5000000 100\"") == std::string::npos,
                file == "out.stl");
@@ -337,16 +338,18 @@ TEST_F (Formats, GlbHoldsEveryPoint)
     EXPECT_EQ (mesh.normals.at (p), Eigen::Vector3f (0, 0, 1));
 }
 
-// Doubles that floats hold are written as floats: most programs with PCL read these only.
-TEST_F (Formats, PrecisionIsThatNeededOrAskedFor)
+// Floats, of which the error is far below the spacing: most programs with PCL read these only.
+TEST_F (Formats, DoublesAreWrittenOnDemand)
 {
   Sample sample = makeSample (false);
   sample.is_double = true;
+  for (Eigen::Vector3d& p : sample.points)
+    p *= 1.0 + 1e-9; // no float
   writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
   writeFile ("in.obj", objText (sample));
   for (const std::string input : {"in.pcd", "in.obj"}) {
-    EXPECT_THAT (succeed ({input, "out.ply"}).err, Not (HasSubstr ("written as doubles")));
-    EXPECT_EQ (loadWithPcl (path ("out.ply")).points, sample.points);
+    EXPECT_THAT (succeed ({input, "out.ply"}).err, Not (HasSubstr ("double")));
+    expectSameFloats (loadWithPcl (path ("out.ply")).points, sample.points);
   }
   succeed ({"in.pcd", "wide.ply", "--precision", "double", "--strict"});
   EXPECT_TRUE (readMesh (path ("wide.ply")).is_double);
@@ -359,31 +362,77 @@ TEST_F (Formats, PrecisionIsThatNeededOrAskedFor)
   expectSameFloats (rounded.points, map.points);
 }
 
-// An OBJ file has no types: decimals that a float prints are floats.
-TEST_F (Formats, ShortDecimalsOfObjAreFloats)
+// A small part of a large cloud, of which floats would merge points.
+TEST_F (Formats, DoublesAreWrittenWhereFloatsMergePoints)
 {
-  const auto writeWith = [this] (double origin) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision (3);
-    for (int i = 0; i < 200; ++i)
-      text << "v " << origin + 0.1 * (i % 20) << ' ' << 0.1 * (i / 20) << ' ' << 0.007 * (i % 7)
-           << '\n';
-    writeFile ("in.obj", text.str ());
-  };
-  writeWith (0.0);
-  succeed ({"in.obj", "out.ply"});
-  EXPECT_EQ (loadWithPcl (path ("out.ply")).points[21].cast<float> (),
-             Eigen::Vector3f (0.1F, 0.1F, 0.0F));
-  writeWith (5'500'000.0); // of so many digits a float keeps the first ones only
+  Sample sample = makeSample (false);
+  sample.is_double = true;
+  Sample all = sample;
+  for (const double size : {1.0, 1e-9}) {
+    all.points.clear ();
+    for (const Eigen::Vector3d& p : sample.points)
+      all.points.emplace_back (100.0 * p);
+    for (const Eigen::Vector3d& p : sample.points)
+      all.points.emplace_back (Eigen::Vector3d (500, 400, 300) + size * p);
+    all.colors.resize (all.size ());
+    all.normals.resize (all.size ());
+    all.intensities.resize (all.size ());
+    writePcd (path ("in.pcd"), all, PcdKind::BINARY);
+    EXPECT_EQ (succeed ({"in.pcd", "out.ply"}).err.find ("written as doubles") == std::string::npos,
+               size == 1.0);
+    EXPECT_EQ (readMesh (path ("out.ply")).is_double, size != 1.0);
+  }
+  // Also of points that no triangle has.
+  writeFile ("in.obj", objText (makeSample (false)) + "v 1e300 0 0 0 0 0\n");
   succeed ({"in.obj", "out.ply"});
   EXPECT_TRUE (readMesh (path ("out.ply")).is_double);
-  Sample tenths = makeSample (false); // which are doubles where a file says so
-  tenths.is_double = true;
-  for (Eigen::Vector3d& p : tenths.points)
-    p = (10.0 * p).array ().round () / 10.0;
-  writePcd (path ("tenths.pcd"), tenths, PcdKind::BINARY);
-  succeed ({"tenths.pcd", "out.ply"});
-  EXPECT_TRUE (readMesh (path ("out.ply")).is_double);
+}
+
+// A room that two scanners see from inside: without them, a closed body would face outwards.
+TEST_F (Formats, ScansOfPtxAreFacedFromTheirSensors)
+{
+  const Eigen::Vector3d low (-3, -2, 0), high (3, 2, 2.6);
+  std::ostringstream text;
+  for (const Eigen::Vector3d& sensor :
+       {Eigen::Vector3d (-1, 0, 1.2), Eigen::Vector3d (1.5, -1, 1.5)}) {
+    constexpr int COLUMNS = 60, ROWS = 30;
+    text << COLUMNS << '\n'
+         << ROWS << "\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+         << sensor.transpose () << " 1\n";
+    for (int i = 0; i < COLUMNS * ROWS; ++i) {
+      const double turn = 0.01 + 6.2831853 * (i / ROWS) / COLUMNS,
+                   up = -1.19 + 2.4 * (i % ROWS) / ROWS;
+      const Eigen::Vector3d ray (std::cos (turn) * std::cos (up), std::sin (turn) * std::cos (up),
+                                 std::sin (up));
+      const Eigen::Vector3d ranges =
+          (ray.array () > 0.0).select ((high - sensor).array (), (low - sensor).array ()) /
+          ray.array ();
+      text << (i % 50 == 7 ? 0.0 : ranges.minCoeff ()) * ray.transpose () << " 1\n";
+    }
+  }
+  writeFile ("room.ptx", text.str ());
+  EXPECT_THAT (succeed ({"room.ptx", "out.ply"}).out,
+               HasSubstr ("72 points without a return were left out"));
+  const MeshContent mesh = readMesh (path ("out.ply"));
+  EXPECT_EQ (mesh.points.size (), 3600U - 72U);
+  double area = 0.0, inwards = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.points[t[0]];
+    const Eigen::Vector3d across = (mesh.points[t[1]] - a).cross (mesh.points[t[2]] - a);
+    area += across.norm ();
+    inwards += across.dot (0.5 * (low + high) - a) > 0.0 ? across.norm () : 0.0;
+  }
+  EXPECT_GT (inwards, 0.99 * area);
+}
+
+TEST_F (Formats, NormalsThatAreAllZeroAreTold)
+{
+  Sample sample = makeSample (false);
+  sample.normals.assign (sample.size (), Eigen::Vector3f (0.0F, 0.0F, 0.0F));
+  writePcd (path ("in.pcd"), sample, PcdKind::BINARY);
+  const std::string told = "all normals of the input file are zero";
+  EXPECT_THAT (succeed ({"in.pcd", "out.ply", "--use-input-normals", "on"}).err, HasSubstr (told));
+  EXPECT_THAT (succeed ({"in.pcd", "out.ply"}).err, Not (HasSubstr (told)));
 }
 
 TEST_F (Formats, OffNamesWhatItHolds)

@@ -6,6 +6,14 @@
 #include "cloud_reader.h"
 #include "tool_runner.h"
 
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -94,20 +102,28 @@ readablePcds ()
   const std::string rgb = pcd ("x y z rgb rgba", colors, "1 2 3 66051 16909060\n4 5 6 0 0\n");
   const std::string rgba = pcd ("x y z rgba rgb", colors, "1 2 3 16909060 66051\n4 5 6 0 0\n");
   const std::string capital = pcd ("X x y z", "SIZE 4 4 4 4\nTYPE F F F F\n", "9 1 2 3\n9 4 5 6\n");
-  return {{"a.pcd", pcd ("x y z", XYZ_FLOATS, rows), "", ""},
-          {"a.pcd", BYTE_ORDER_MARK + pcd ("x y z", XYZ_FLOATS, rows), "", ""},
-          {"a.pcd", pcd ("x y z", "", rows), "", missing},
-          {"a.pcd", pcd ("x y z", "COUNT 1 1 1\n", rows), "", missing},
-          {"a.pcd", pcd ("x y z", "SIZE 4 4 4\n", rows), "", missing},
-          {"a.pcd", pcd ("x y z", "TYPE F F F\n", rows), "", missing},
-          {"a.pcd", "FIELDS x y z\nWIDTH 2\nHEIGHT 1\nDATA binary\n" + binary, "", missing},
-          {"a.pcd", pcd ("X Y Z", XYZ_FLOATS, rows), "", ""},
-          {"a.pcd", capital, "X 9 9", ""},
-          {"a.pcd", repeated, "i 10 11, i_3 20 21, i_2 30 31, x_2 40 41",
-           "two fields 'i': the second was renamed 'i_3'\ntwo fields 'x': the second was renamed "
-           "'x_2'"},
-          {"a.pcd", rgb, "red 1 0, green 2 0, blue 3 0", "colour twice: the field 'rgba'"},
-          {"a.pcd", rgba, "red 2 0, green 3 0, blue 4 0, alpha 1 0", "the field 'rgb'"}};
+  const std::string typed = "FIELDS x y z\n" + XYZ_FLOATS;
+  return {
+      {"a.pcd", pcd ("x y z", XYZ_FLOATS, rows), "", ""},
+      {"a.pcd", typed + "WIDTH 1\nHEIGHT 2\nDATA ascii\n" + rows, "", ""}, // not organized
+      {"a.pcd", typed + "WIDTH 0\nHEIGHT 0\nPOINTS 2\nDATA ascii\n" + rows, "", "as a list"},
+      {"a.pcd", typed + "WIDTH 2\nHEIGHT 1\nDATA ascii 1 2 3\n4 5 6", "", ""},
+      {"a.pcd",
+       pcd ("x y z _ t", "SIZE 4 4 4 1 4\nTYPE F F F U U\nCOUNT 1 1 1 0 1\n", "1 2 3 7\n4 5 6 8\n"),
+       "t 7 8", "field '_' of the PCD header has COUNT 0"},
+      {"a.pcd", BYTE_ORDER_MARK + pcd ("x y z", XYZ_FLOATS, rows), "", ""},
+      {"a.pcd", pcd ("x y z", "", rows), "", missing},
+      {"a.pcd", pcd ("x y z", "COUNT 1 1 1\n", rows), "", missing},
+      {"a.pcd", pcd ("x y z", "SIZE 4 4 4\n", rows), "", missing},
+      {"a.pcd", pcd ("x y z", "TYPE F F F\n", rows), "", missing},
+      {"a.pcd", "FIELDS x y z\nWIDTH 2\nHEIGHT 1\nDATA binary\n" + binary, "", missing},
+      {"a.pcd", pcd ("X Y Z", XYZ_FLOATS, rows), "", ""},
+      {"a.pcd", capital, "X 9 9", ""},
+      {"a.pcd", repeated, "i 10 11, i_3 20 21, i_2 30 31, x_2 40 41",
+       "two fields 'i': the second was renamed 'i_3'\ntwo fields 'x': the second was renamed "
+       "'x_2'"},
+      {"a.pcd", rgb, "red 1 0, green 2 0, blue 3 0", "colour twice: the field 'rgba'"},
+      {"a.pcd", rgba, "red 2 0, green 3 0, blue 4 0, alpha 1 0", "the field 'rgb'"}};
 }
 
 std::string
@@ -125,7 +141,23 @@ readablePlys ()
   const std::string rows = "1 2 3\n4 5 6\n";
   const std::string repeated =
       ply ("property int a\nproperty int a\n", "0", "1 2 3 7 8\n4 5 6 9 10\n");
+  const std::string words = "property ushort r\nproperty ushort g\nproperty ushort b\n";
+  const std::string shares =
+      "property float Red\nproperty float Green\nproperty float Blue\nproperty float alpha\n";
+  const std::string diffuse = "property int diffuse_red\nproperty int diffuse_green\nproperty int "
+                              "diffuse_blue\n";
   return {{"a.ply", BYTE_ORDER_MARK + ply ("", "0", rows), "", ""},
+          // Colours of every name and scale are bytes.
+          {"a.ply", ply (words, "0", "1 2 3 65535 0 514\n4 5 6 255 256 0\n"),
+           "red 255 0, green 0 1, blue 2 0", ""},
+          {"a.ply", ply (words, "0", "1 2 3 255 0 7\n4 5 6 1 2 3\n"),
+           "red 255 1, green 0 2, blue 7 3", ""},
+          {"a.ply", ply (shares, "0", "1 2 3 1 0 .2 1\n4 5 6 0 nan 0 .4\n"),
+           "red 255 0, green 0 0, blue 51 0, alpha 255 102", ""},
+          {"a.ply", ply (diffuse, "0", "1 2 3 255 0 7\n4 5 6 1 2 3\n"),
+           "red 255 1, green 0 2, blue 7 3", ""},
+          {"a.ply", ply (diffuse, "0", "1 2 3 255 0 -7\n4 5 6 1 2 3\n"),
+           "red 255 1, green 0 2, blue -7 3", "kept as other fields"},
           {"a.ply", ply ("", "2", rows), "", "2 faces of the input file were left out"},
           {"a.ply", repeated, "a 7 9, a_2 8 10", "two fields 'a'"}};
 }
@@ -141,7 +173,7 @@ readableObjs ()
   const std::string as_given = "nx 0.1 0.2, ny 0 0, nz 1 1", swapped = "nx 0.2 0.1, ny 0 0, nz 1 1";
   return {{"a.obj", BYTE_ORDER_MARK + points, "", ""},
           {"a.obj", "v 1.5 2 -3\nv 4 5e-3 0.1\\\n", "", ""},
-          {"a.obj", bytes, "red 255 0, green 0 1, blue 7 128", "were taken for 0 to 255"},
+          {"a.obj", bytes, "red 255 0, green 0 1, blue 7 128", ""},
           {"a.obj", lines_that_go_on, "nx 0 0, ny 0 1, nz 1 0", face},
           {"a.obj", normals, as_given, ""},
           {"a.obj", normals + "f 1//2 2/7/1 1//2\n", swapped, face},
@@ -197,6 +229,14 @@ readableTables ()
        "4 for another field"},
       {"a.xyz", table ("256 0 7", "1 2 3"), "column_4 256 1, column_5 0 2, column_6 7 3",
        "6 for another field"},
+      // The better name is that of the coordinate.
+      {"a.csv", "lat,height,x_m,Y [m],z,lng\n5,6,1.5,2,-3,7\n8,9,4,5e-3,.1,3\n",
+       "lat 5 8, height 6 9, lng 7 3", ""},
+      {"a.csv", "LONGITUDE_M,LATITUDE_M,Z_M,alpha\n1.5,2,-3,.5\n4,5e-3,.1,.5\n", "alpha 0.5 0.5",
+       ""},
+      {"a.csv", "longitude,latitude,depth\n1.5,2,-3\n4,5e-3,.1\n", "", ""},
+      // All normals after all points.
+      {"a.pwn", "2\n1.5 2 -3\n4 5e-3 0.1\n0 0 1\n0 -1 0\n", "nx 0 0, ny 0 -1, nz 1 0", ""},
       // Colours of every scale.
       {"a.txt", rgb_header + table ("0 0.5 1", "0.2 0 0"), "red 0 51, green 128 0, blue 255 0", ""},
       {"a.txt", rgb_header + table ("0 65535 257", "0 0 0"), "red 0 0, green 255 0, blue 1 0",
@@ -221,6 +261,8 @@ readableTables ()
         std::string ("1.5, 2, -3,\n4, 5E-3, +0.1,\n"), std::string ("1.5;2;-3\n4;0.005;0.1\n"),
         BYTE_ORDER_MARK + points, std::string ("# text\n//\n% more\n1.5 2 -3\n#\n4 5e-3 0.1\n"),
         std::string ("\"1.5\",\"2\",\"-3\"\n\"4\",\"5e-3\",\"0.1\"\n"), "2\n" + points,
+        std::string ("1.5 2 -3\r\r4 5e-3 0.1\r"),
+        std::string ("BEGIN\n1.5 2 -3\nEnd\nBegin\n4 5e-3 0.1\nEND\n"),
         std::string ("1\n1.5 2 -3\n1\n4 5e-3 0.1\n"), // two scans in one file
         // Comments that are no header, and one that is.
         "# x y z are in metres\n" + points, "# the axes x , y , z\n" + points,
@@ -241,10 +283,23 @@ readableTables ()
   return all;
 }
 
+std::vector<Readable>
+readableOthers ()
+{
+  const std::string begin = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET ";
+  const std::string points = "POINTS 2 double\n1.5 2 -3 4 5e-3 0.1\n";
+  const std::string data = "POINT_DATA 2\nNORMALS n float\n0 0 1\n0 1 0\nSCALARS a float\n"
+                           "LOOKUP_TABLE default\n7 8\nCOLOR_SCALARS rgb 4\n1 0 .2 1\n0 0 0 1\n";
+  return {{"a.vtk", begin + "UNSTRUCTURED_GRID\n" + points, "", ""},
+          {"a.vtk", begin + "POLYDATA\n" + points + data,
+           "red 255 0, green 0 0, blue 51 0, nx 0 0, ny 0 1, nz 1 0", ""},
+          {"a.vtk", begin + "POLYDATA\n" + points + "POLYGONS 1 4\n3 0 1 0\n", "", "1 face of"}};
+}
+
 TEST_F (Readers, FilesOfTwoPoints)
 {
   std::vector<Readable> all = readablePcds ();
-  for (const auto& more : {readablePlys (), readableObjs (), readableTables ()})
+  for (const auto& more : {readablePlys (), readableObjs (), readableTables (), readableOthers ()})
     all.insert (all.end (), more.begin (), more.end ());
   for (const Readable& expected : all) {
     SCOPED_TRACE (expected.file + ": " + expected.bytes);
@@ -254,7 +309,6 @@ TEST_F (Readers, FilesOfTwoPoints)
                has_types ? (std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}})
                          : (std::vector<Eigen::Vector3d>{{1.5, 2.0, -3.0}, {4.0, 5.0e-3, 0.1}}));
     EXPECT_EQ (cloud.single_precision, has_types);
-    EXPECT_EQ (cloud.are_decimals, !has_types);
     EXPECT_EQ (fieldsOf (cloud), expected.fields);
     std::istringstream parts (expected.warnings);
     std::size_t count = 0;
@@ -264,12 +318,92 @@ TEST_F (Readers, FilesOfTwoPoints)
   }
 }
 
+TEST_F (Readers, ColumnsAreChosen)
+{
+  const std::vector<std::pair<std::string, std::string>> texts{
+      {"0 7 2 1.5 -3\n1 8 5e-3 4 0.1\n", "column_1 0 1, column_2 7 8"},
+      {"id;a;b;c;d\n0;7;2;1.5;-3\n1;8;5e-3;4;.1\n", "id 0 1, a 7 8"},
+      {"# x y z red n\n0 7 2 1.5 -3\n1 8 5e-3 4 0.1\n", "column_1 0 1, column_2 7 8"}};
+  for (const auto& [text, fields] : texts) {
+    writeFile ("a.xyz", text);
+    const Cloud cloud = readCloud (path ("a.xyz"), {false, {4, 3, 5}});
+    EXPECT_EQ (cloud.positions (), (std::vector<Eigen::Vector3d>{{1.5, 2, -3}, {4, 5e-3, 0.1}}));
+    EXPECT_EQ (fieldsOf (cloud), fields);
+    EXPECT_THAT (cloud.warnings, IsEmpty ());
+    EXPECT_THROW (readCloud (path ("a.xyz"), {false, {4, 3, 6}}), ReadError);
+  }
+  EXPECT_THAT (run ({"--columns", "1,2,2", "a.xyz", "o.ply"}).err, HasSubstr ("three different"));
+  writeFile ("a.ply", ply ("", "0", "1 2 3\n4 5 6\n"));
+  expectFailure ({"--columns", "1,2,3", "a.ply", "o.ply"}, INPUT_FAILED, "--columns is for text");
+}
+
 TEST_F (Readers, RowsOfAnOrganizedCloudAreTold)
 {
   const std::string text = "FIELDS x y z\n" + XYZ_FLOATS + "WIDTH 3\nHEIGHT 2\nDATA ascii\n" +
                            "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n2 1 0\n";
-  EXPECT_THAT (read ("a.pcd", text).warnings,
-               ElementsAre (HasSubstr ("organized in 2 rows of 3 points")));
+  EXPECT_THAT (read ("a.pcd", text).notes, ElementsAre (HasSubstr ("in 2 rows of 3 points")));
+}
+
+// As VTK writes them.
+TEST_F (Readers, EveryEncodingOfVtp)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkUnsignedCharArray> colors;
+  vtkNew<vtkDoubleArray> weights;
+  colors->SetName ("RGB");
+  colors->SetNumberOfComponents (3);
+  weights->SetName ("weight");
+  for (int i = 0; i < 50; ++i) {
+    points->InsertNextPoint (0.5 * i, 2.0, -i);
+    colors->InsertNextTuple3 (5 * i, 6, 7);
+    weights->InsertNextValue (0.1 * i);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints (points);
+  data->GetPointData ()->SetScalars (colors);
+  data->GetPointData ()->AddArray (weights);
+  for (int kind = 0; kind < 24; ++kind) {
+    SCOPED_TRACE (kind);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData (data);
+    writer->SetFileName (path ("a.vtp").c_str ());
+    writer->SetDataMode (kind % 3);
+    writer->SetEncodeAppendedData (kind / 3 % 2);
+    if (kind / 6 % 2 == 0)
+      writer->SetCompressorTypeToNone ();
+    else
+      writer->SetBlockSize (64);
+    if (kind >= 12) {
+      writer->SetHeaderTypeToUInt64 ();
+      writer->SetByteOrderToBigEndian ();
+    }
+    writer->Write ();
+    const Cloud cloud = readCloud (path ("a.vtp"));
+    ASSERT_EQ (cloud.size (), 50U);
+    EXPECT_EQ (cloud.position (49), Eigen::Vector3d (24.5, 2.0, -49.0));
+    EXPECT_EQ (colorFields (cloud)[0]->asDouble (49), 245.0);
+    EXPECT_EQ (cloud.find ("weight")->asDouble (30), 0.1 * 30);
+    const std::string bytes = readFile ("a.vtp");
+    for (std::size_t length = 0; length < bytes.find ("</DataArray"); length += 37)
+      EXPECT_NE (errorOf ("a.vtp", bytes.substr (0, length)), "none") << length;
+  }
+}
+
+// KITTI stores four floats of a point, nuScenes five.
+TEST_F (Readers, FloatsOfALidar)
+{
+  for (const std::size_t count : {4U, 5U}) {
+    std::string bytes (40 * count, '\0'); // of ten points
+    for (std::size_t i = 0; i < 10 * count; ++i)
+      putNumber (bytes, 4 * i, static_cast<float> (i % count == 4 ? i % 32 : 0.25 * i));
+    const Cloud cloud = read ("a.bin", bytes);
+    ASSERT_EQ (cloud.size (), 10U);
+    EXPECT_EQ (cloud.position (1), 0.25 * Eigen::Vector3d (count, count + 1, count + 2));
+    EXPECT_EQ (namesOf (cloud), count == 4 ? std::vector<std::string>{"intensity"}
+                                           : (std::vector<std::string>{"intensity", "ring"}));
+    putNumber (bytes, 8, 1e30F);
+    EXPECT_THAT (errorOf ("a.bin", bytes), HasSubstr ("does not hold four floats"));
+  }
 }
 
 TEST_F (Readers, PointsThatAreNotFiniteAreLeftOut)
@@ -306,13 +440,14 @@ const std::string SQUARE_TEXT =
 
 TEST_F (Readers, EqualCornersOfStlAreOnePoint)
 {
+  std::string upper = SQUARE_TEXT;
+  std::transform (upper.begin (), upper.end (), upper.begin (), ::toupper);
   for (const std::string& bytes :
-       {stlBytes (SQUARE), stlBytes (SQUARE, "solid, but binary"), SQUARE_TEXT}) {
+       {stlBytes (SQUARE), stlBytes (SQUARE, "solid, but binary"), SQUARE_TEXT, upper}) {
     const Cloud cloud = read ("a.stl", bytes);
     EXPECT_EQ (cloud.positions (),
                (std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}}));
-    EXPECT_EQ (cloud.are_decimals, bytes == SQUARE_TEXT);
-    EXPECT_EQ (cloud.single_precision, bytes != SQUARE_TEXT);
+    EXPECT_EQ (cloud.single_precision, bytes != SQUARE_TEXT && bytes != upper);
     EXPECT_THAT (cloud.warnings, ElementsAre (HasSubstr ("2 faces of the input file were left")));
   }
   EXPECT_THAT (read ("a.stl", stlBytes (SQUARE) + std::string (120, 'x')).warnings,
@@ -387,6 +522,73 @@ TEST_F (Readers, EveryVersionAndPointFormatOfLas)
     }
 }
 
+// Points of ground, of noise and withheld, and one that was made up.
+TEST_F (Readers, ClassesOfLas)
+{
+  for (const bool is_long : {false, true}) {
+    SCOPED_TRACE (is_long);
+    LasFile file = lasFile (4, is_long ? 6 : 1);
+    file.points.push_back ({1, 2, 3});
+    std::string bytes = lasBytes (file);
+    const std::size_t record = (bytes.size () - 375) / 4;
+    const std::array<int, 4> classes{2, 7, 6, 5};
+    for (std::size_t p = 0; p < 4; ++p) {
+      const std::size_t at = 375 + p * record + 14;
+      const int withheld = p == 2 ? 1 : 0, synthetic = p == 3 ? 1 : 0;
+      putNumber (bytes, at, static_cast<std::uint8_t> (is_long ? 0x52 : 0x2A)); // second of five
+      putNumber (bytes, at + 1,
+                 static_cast<std::uint8_t> (is_long
+                                                ? synthetic + 4 * withheld
+                                                : classes[p] + 32 * synthetic + 128 * withheld));
+      if (is_long)
+        putNumber (bytes, at + 2, static_cast<std::uint8_t> (classes[p]));
+      putNumber (bytes, at + (is_long ? 6 : 4), static_cast<std::uint16_t> (300 + p));
+      putNumber (bytes, at + (is_long ? 8 : 6), 0.25 * static_cast<double> (p));
+    }
+    const Cloud cloud = read ("a.las", bytes);
+    EXPECT_EQ (fieldsOf (cloud),
+               "intensity 0 7 14 21, return_number 2 2 2 2, number_of_returns 5 5 5 5, "
+               "classification 2 7 6 5, synthetic 0 0 0 1, withheld 0 0 1 0, "
+               "point_source_id 300 301 302 303, gps_time 0 0.25 0.5 0.75");
+    EXPECT_EQ (cloud.left_out, (std::vector<bool>{false, true, true, false}));
+    EXPECT_THAT (cloud.notes, ElementsAre ("1 point that the file marks as withheld was left out",
+                                           "1 point of class 7 (1) was left out"));
+    const auto leftOut = [this] (const std::vector<int>& chosen) {
+      return readCloud (path ("a.las"), {false, {}, chosen}).left_out;
+    };
+    EXPECT_EQ (leftOut ({7, 5}), (std::vector<bool>{true, false, true, false}));
+    EXPECT_THROW (leftOut ({6}), ReadError); // which is withheld
+    EXPECT_THAT (read ("a.las", lasBytes (lasFile ())).left_out, IsEmpty ());
+  }
+  writeFile ("a.xyz", "1 2 3\n4 5 6\n");
+  expectFailure ({"--classes", "2,6", "a.xyz", "o.ply"}, INPUT_FAILED, "no field 'classification'");
+  expectFailure ({"--classes", "2,six", "a.xyz", "o.ply"}, USAGE, "no numbers of classes");
+}
+
+// A quarter turn about z, and a move; the scans have 2 x 2 and 3 x 1 pixels.
+TEST_F (Readers, ScansOfPtx)
+{
+  const std::string head = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
+  const std::string first = "2\n2\n" + head + "1 2 3 .5\n0 0 0 .5\n4 5 6 .25\n7 8 9 1\n";
+  const Cloud one = read ("a.ptx", first);
+  EXPECT_EQ (one.lattice_width, 2U);
+  EXPECT_EQ (one.sensor_origin, (std::array<double, 3>{10, 20, 30}));
+  EXPECT_EQ (one.position (0), Eigen::Vector3d (8, 21, 33));
+  EXPECT_EQ (one.left_out, (std::vector<bool>{false, true, false, false}));
+  EXPECT_EQ (fieldsOf (one), "intensity 0.5 0.5 0.25 1");
+  EXPECT_THAT (one.notes, ElementsAre ("1 scan: 2 x 2 pixels from (10, 20, 30)",
+                                       "1 point without a return was left out"));
+  const Cloud two = read ("a.ptx", first + "3\n1\n" + head + "1 0 0 1\n1 0 1 1\n1 0 2 1\n\n");
+  EXPECT_EQ (two.size (), 7U);
+  EXPECT_EQ (two.lattice_width, 0U);
+  EXPECT_EQ (two.towards_sensors.size (), 7U);
+  EXPECT_EQ (two.find ("scan")->asDouble (4), 1.0);
+  EXPECT_EQ (fieldsOf (read ("a.ptx", "1\n1\n" + head + "1 2 3 .5 7 8 9\n")),
+             "intensity 0.5, red 7, green 8, blue 9");
+  EXPECT_THAT (errorOf ("a.ptx", first.substr (0, first.size () - 9)), HasSubstr ("truncated"));
+  EXPECT_THAT (errorOf ("a.ptx", "9\n999\n" + head), HasSubstr ("no number of the rows"));
+}
+
 TEST_F (Readers, OddLasFiles)
 {
   LasFile file = lasFile (2, 2); // colours that were written as 8 bits
@@ -444,6 +646,9 @@ badFiles ()
   putNumber (absurd_las, 247, std::numeric_limits<std::uint64_t>::max ());
   for (int i = 0; i < 1100; ++i)
     garbage += "no point\n";
+  std::string counting;
+  for (int i = 5; i < 15; ++i)
+    counting += std::to_string (i) + " 1 2 3\n";
   return {
       {"a.pcd", "", "empty"},
       {"a.pcd", "hello world\n", "line 1: this is not a line of a PCD header"},
@@ -532,6 +737,7 @@ badFiles ()
       lasWith (131, 0.0, "the scale or the offset"),
       lasWith (139, NOT_A_NUMBER, "the scale or the offset"),
       lasWith (171, -std::numeric_limits<double>::infinity (), "the scale or the offset"),
+      {"a.e57", las, "convert it: pdal translate a.e57 a.las, or CloudCompare"},
       {"a.laz", las, "it is compressed (LAZ), which cannot be read; decompress it: laszip -i"},
       {"a.xyz", "hello\n",
        "it has no points: no line has three numbers, x, y and z; it begins with 'hello'"},
@@ -544,6 +750,9 @@ badFiles ()
       {"a.xyz", "x y z\nx y z\n", "in the columns that its header names"},
       {"a.xyz", "x y z a\n1 2 3\n", "in the columns that its header names"},
       {"a.asc", "ncols 3\nnrows 2\nxllcorner 0\n1 2 3\n4 5 6\n", "a grid of heights (ESRI ASCII)"},
+      {"a.csv", "id,d 1,d2\n1,2,3\n", "its header 'id,d 1,d2' names no x, y and z: name them"},
+      {"a.xyz", "id d1 d2 d3\n1 2 3 4\n", "such as --columns 2,3,4"},
+      {"a.xyz", counting, "its first column counts the points"},
       {"a.xyz", "1 2 3\n4 5\n", "line 2: it does not have 3 columns"},
       {"a.xyz", "1 2 3\n4 5 6 7\n", "line 2: it does not have 3 columns"},
       {"a.csv", "1,2,3,4\n5,6\n", "line 2: it does not have 4 columns"},
@@ -607,6 +816,9 @@ TEST_F (Readers, EveryPrefixIsRefusedOrWhole)
       rows, [] (const FileBytes& file) { return parseTable (file); }, rows.size () - 1);
   check (stlBytes (SQUARE), parseStl, stlBytes (SQUARE).size ());
   check (SQUARE_TEXT, parseStl, SQUARE_TEXT.rfind ("endsolid") + 8);
+  const std::string scan =
+      "1\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 1\n4 5 6 1";
+  check (scan, parsePtx, scan.size () - 2);
   for (const int minor : {2, 4}) {
     const std::string las = lasBytes (lasFile (minor, 3));
     check (las, parseLas, las.size ());

@@ -34,7 +34,7 @@ constexpr const char* REPORT = "report.json";
 Cloud
 readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts = nullptr)
 {
-  Cloud cloud = readClouds (job.inputs, job.line.auto_shift || job.line.shift, firsts);
+  Cloud cloud = readClouds (job.inputs, readOptionsOf (job.line), firsts);
   cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   return cloud;
 }
@@ -51,12 +51,11 @@ describeCloud (const Cloud& cloud, const Input& input, Plan& plan)
   for (const Field& field : cloud.fields)
     plan.fields.push_back (field.name);
   plan.warnings = cloud.warnings;
+  plan.notes = cloud.notes;
   plan.finite_points = static_cast<std::size_t> (
       std::count_if (input.positions.begin (), input.positions.end (),
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
   plan.is_single = cloud.single_precision;
-  plan.fits_single =
-      cloud.single_precision || fitSinglePrecision (input.positions, cloud.are_decimals);
 }
 
 void
@@ -80,6 +79,10 @@ parametersText (const Job& job)
   json["shift"] = job.line.auto_shift ? nlohmann::ordered_json ("auto") : nlohmann::ordered_json ();
   if (job.line.shift)
     json["shift"] = {job.line.shift->x (), job.line.shift->y (), job.line.shift->z ()};
+  if (job.line.columns[0] > 0)
+    json["columns"] = job.line.columns;
+  if (!job.line.classes.empty ())
+    json["classes"] = job.line.classes;
   if (!job.line.changed_limits.empty ())
     json["limits"] = job.line.changed_limits;
   return json.dump ();
@@ -124,10 +127,11 @@ planStep (const Job& job, FolderStore& store)
   for (const std::filesystem::path& input : job.inputs)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
-  Cloud cloud = readClouds (job.inputs, line.auto_shift || line.shift);
+  Cloud cloud = readClouds (job.inputs, readOptionsOf (line));
   checkMemory (line, cloud.size (), KEPT_BY_STEP);
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
+  warnOfDegrees (input.positions, cloud);
   shiftOrigin (line, cloud, input);
   describeCloud (cloud, input, plan);
   const EffectiveOptions effective (line);
@@ -220,10 +224,9 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
   figures.input_points = plan.cloud_size;
   figures.single_precision = plan.is_single;
   figures.input_fields = plan.fields;
+  figures.notes = plan.notes;
   std::vector<std::string> warnings = plan.warnings;
-  const bool is_single = choosePrecision (
-      line.precision, *line.meshFormat (), [&plan] { return plan.fits_single; },
-      line.auto_shift || line.shift, warnings);
+  const bool is_single = line.precision != Precision::DOUBLE;
   figures.writes_single = is_single;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), warnings.begin (), warnings.end ());

@@ -63,9 +63,9 @@ forMembers (Of& plan, const Visit& visit)
   visit ("shift", plan.shift);
   visit ("fields", plan.fields);
   visit ("warnings", plan.warnings);
+  visit ("notes", plan.notes);
   visit ("finite_points", plan.finite_points);
   visit ("is_single", plan.is_single);
-  visit ("fits_single", plan.fits_single);
 }
 
 // All but the id and the checksum.
@@ -237,13 +237,13 @@ copyColumn (const Column& column, const std::vector<Cloud>& clouds, char* to)
 } // namespace
 
 Cloud
-readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
+readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& options,
             std::vector<std::size_t>* firsts)
 {
   if (firsts != nullptr)
     firsts->assign (1, 0);
   const auto read = [&] (const std::filesystem::path& file) {
-    return readNamed (file, [&] { return readCloud (file, all_digits); });
+    return readNamed (file, [&] { return readCloud (file, options); });
   };
   if (files.size () == 1) {
     Cloud cloud = read (files.front ());
@@ -253,13 +253,18 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
   }
   std::vector<Cloud> clouds;
   Cloud merged;
-  merged.are_decimals = true;
   for (const std::filesystem::path& file : files) {
     const Cloud& cloud = clouds.emplace_back (read (file));
     for (const std::string& warning : cloud.warnings)
       merged.warnings.push_back ("'" + file.string () + "': " + warning);
     merged.single_precision = merged.single_precision && cloud.single_precision;
-    merged.are_decimals = merged.are_decimals && cloud.are_decimals;
+    for (const std::string& note : cloud.notes)
+      merged.notes.push_back ("'" + file.string () + "': " + note);
+    if (!cloud.left_out.empty ()) {
+      merged.left_out.resize (merged.rows, false);
+      merged.left_out.insert (merged.left_out.end (), cloud.left_out.begin (),
+                              cloud.left_out.end ());
+    }
     merged.rows += cloud.rows;
     if (firsts != nullptr)
       firsts->push_back (merged.rows);
@@ -267,6 +272,8 @@ readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
   if (merged.rows > static_cast<std::size_t> (std::numeric_limits<std::int32_t>::max ()))
     throw ReadError ("the files have more points together than a mesh file can number "
                      "(2147483647); reconstruct fewer of them at a time");
+  if (!merged.left_out.empty ())
+    merged.left_out.resize (merged.rows, false);
   std::vector<Column> columns;
   for (std::size_t axis = 0; axis < 3; ++axis)
     columns.push_back (coordinateColumn (clouds, axis));

@@ -3,7 +3,7 @@
 // The manifest of a work folder: what is reconstructed, how, and in which blocks.
 #pragma once
 
-#include "cloud.h"
+#include "cloud_reader.h"
 
 #include <array>
 #include <cstddef>
@@ -36,10 +36,9 @@ struct Plan
   std::size_t lattice_width = 0;
   std::array<double, 3> centre{}, sensor_origin{}, shift{};
   double scale = 1.0;
-  std::vector<std::string> fields, warnings; ///< of the cloud, but for its coordinates
-  std::size_t finite_points = 0;             ///< of the cloud
-  bool is_single = true;                     ///< its coordinates are 32-bit floats, ...
-  bool fits_single = true;                   ///< ... or these hold them
+  std::vector<std::string> fields, warnings, notes; ///< of the cloud, but for its coordinates
+  std::size_t finite_points = 0;                    ///< of the cloud
+  bool is_single = true;                            ///< its coordinates are 32-bit floats
 };
 
 /// \throws ReadError if a file is missing
@@ -61,11 +60,10 @@ parseManifest (const std::string& text, const std::string& name);
 
 /// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
 /// are those that all files have with one type, and coordinates of different types become double.
-/// \param all_digits see readCloud
 /// \param[out] firsts if it is not nullptr, the first row of each file, and the number of all rows
 /// \throws ReadError, which names the file
 Cloud
-readClouds (const std::vector<std::filesystem::path>& files, bool all_digits,
+readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& options,
             std::vector<std::size_t>* firsts = nullptr);
 
 } // namespace pcl::floater

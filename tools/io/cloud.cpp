@@ -3,9 +3,11 @@
 #include "cloud.h"
 
 #include "format.h"
+#include "text_scanner.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -105,6 +107,84 @@ renameRepeated (Cloud& cloud)
 
 } // namespace
 
+namespace {
+/// The channels red, green and blue, and alpha if there is one, by the names that programs give
+/// them; empty if there is no colour.
+std::vector<Field*>
+findChannels (Cloud& cloud)
+{
+  constexpr std::array<std::array<const char*, 4>, 3> NAMES{
+      {{"red", "green", "blue", "alpha"},
+       {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"},
+       {"r", "g", "b", "a"}}};
+  for (const auto& names : NAMES) {
+    std::vector<Field*> channels;
+    for (std::size_t c = 0; c < names.size () && channels.size () == c; ++c)
+      for (Field& field : cloud.fields)
+        if (isWord (field.name, names[c]) && field.count == 1 &&
+            (c == 0 || field.type == channels[0]->type)) {
+          channels.push_back (&field);
+          break;
+        }
+    if (channels.size () < 3)
+      continue;
+    for (std::size_t c = 0; c < channels.size (); ++c)
+      channels[c]->name = NAMES[0][c];
+    return channels;
+  }
+  return {};
+}
+
+/// Makes a colour one of 8 bits: that is what viewers and the formats of meshes take. Its scale is
+/// that of its largest value: 1 for floats, 255, or 65535.
+void
+narrowColors (Cloud& cloud)
+{
+  constexpr double BYTE = 255.0, WORD = 65535.0;
+  const std::vector<Field*> channels = findChannels (cloud);
+  if (channels.empty () || channels[0]->type == ScalarType::UINT8)
+    return;
+  double least = 0.0, largest = 0.0;
+  for (const Field* channel : channels)
+    for (std::size_t row = 0; row < cloud.rows; ++row) {
+      const double value = channel->asDouble (row);
+      least = std::min (least, value);
+      largest = std::max (largest, value);
+    }
+  const bool are_floats = channels[0]->type >= ScalarType::FLOAT32;
+  if (least < 0.0 || largest > WORD) {
+    cloud.warnings.emplace_back ("the colours of the input file are neither from 0 to 255 nor from "
+                                 "0 to 1: they were kept as other fields are");
+    return;
+  }
+  if (channels[0]->type == ScalarType::UINT16) { // one of its two bytes
+    for (Field* channel : channels) {
+      const bool is_second = (channel->order == ByteOrder::LITTLE) == (largest > BYTE);
+      channel->first = {channel->first, channel->first.get () + (is_second ? 1 : 0)};
+      channel->type = ScalarType::UINT8;
+    }
+    return;
+  }
+  if (largest > BYTE)
+    cloud.warnings.emplace_back ("the colours of the input file are above 255: they were taken for "
+                                 "16 bits, and 8 of them kept");
+  const double white = are_floats && largest <= 1.0 ? 1.0 : largest <= BYTE ? BYTE : WORD;
+  std::vector<Field> given;
+  for (Field* channel : channels) {
+    given.push_back (*channel);
+    channel->type = ScalarType::UINT8;
+  }
+  char* to = allocateRows (channels, cloud.rows).get (); // which the fields keep
+  for (std::size_t row = 0; row < cloud.rows; ++row)
+    for (const Field& channel : given) {
+      const double value = channel.asDouble (row);
+      *to++ = static_cast<char> (
+          static_cast<std::uint8_t> (std::isnan (value) ? 0 : std::lround (BYTE / white * value)));
+    }
+}
+
+} // namespace
+
 FieldTriple
 colorFields (const Cloud& cloud)
 {
@@ -155,6 +235,7 @@ makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string>
     cloud.fields.back ().name = commonName (cloud.fields.back ().name);
   }
   renameRepeated (cloud);
+  narrowColors (cloud);
   return cloud;
 }
 
@@ -210,17 +291,44 @@ shiftText (const Cloud& cloud)
   return text;
 }
 
+void
+leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what)
+{
+  const auto count = static_cast<std::size_t> (std::count (rows.begin (), rows.end (), true));
+  if (count == 0)
+    return;
+  cloud.notes.push_back (counted (count, "point") + " " + what + (count == 1 ? " was" : " were") +
+                         " left out");
+  cloud.left_out.resize (cloud.rows, false);
+  for (std::size_t row = 0; row < cloud.rows; ++row)
+    cloud.left_out[row] = cloud.left_out[row] || rows[row];
+}
+
+void
+leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows)
+{
+  for (const std::uint32_t row : rows)
+    if (cloud.positionOfRow (row).allFinite ()) {
+      cloud.left_out.resize (cloud.rows, false);
+      cloud.left_out[row] = true;
+    }
+}
+
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 {
-  cloud.kept = KeptPoints (
-      cloud.rows, [&cloud] (std::size_t row) { return cloud.positionOfRow (row).allFinite (); });
+  std::size_t not_finite = 0;
+  cloud.kept = KeptPoints (cloud.rows, [&cloud, &not_finite] (std::size_t row) {
+    const bool is_finite = cloud.positionOfRow (row).allFinite ();
+    not_finite += is_finite || cloud.isLeftOut (row) ? 0 : 1;
+    return is_finite && !cloud.isLeftOut (row);
+  });
   if (cloud.kept.areAll ())
     return 0;
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
       corner = cloud.kept.number (corner);
-  return cloud.rows - cloud.kept.size ();
+  return not_finite;
 }
 
 namespace {

@@ -271,18 +271,21 @@ private:
 /// all rows of the file, also those of points that have been left out since.
 struct Cloud
 {
-  std::array<Field, 3> coordinates; ///< x, y, z; one value each
-  bool single_precision = true;     ///< the coordinates were given as 32-bit floats
-  bool are_decimals =
-      false; ///< the coordinates are decimals of a text that does not tell their type
+  std::array<Field, 3> coordinates;                 ///< x, y, z; one value each
+  bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
+  bool may_be_degrees = false;                      ///< names or scales say so of x and y
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates
   std::size_t rows = 0;                  ///< points of the file
   std::size_t lattice_width = 0;         ///< of an organized cloud: points of a row; else 0
-  KeptPoints kept;                       ///< points that are left
-  std::vector<std::string> warnings;     ///< oddities of the file, one sentence each
-  FileBytes file;                        ///< the file, if the fields refer to it
+  std::vector<bool> left_out;            ///< rows that are no points of the mesh; or empty
+  std::vector<Eigen::Vector3f>
+      towards_sensors;               ///< of several scans: normals to the seen side; or empty
+  KeptPoints kept;                   ///< points that are left in an output
+  std::vector<std::string> warnings; ///< oddities of the file, one sentence each
+  std::vector<std::string> notes;    ///< what it holds and what was left out of it
+  FileBytes file;                    ///< the file, if the fields refer to it
 
   /// Number of points that are left.
   std::size_t size () const { return kept.areAll () ? rows : kept.size (); }
@@ -299,6 +302,9 @@ struct Cloud
                             coordinates[2].scaled (row)) -
            shift;
   }
+
+  /// Whether a row was left out on purpose.
+  bool isLeftOut (std::size_t row) const { return !left_out.empty () && left_out[row]; }
 
   /// The positions of all points.
   std::vector<Eigen::Vector3d> positions () const;
@@ -349,9 +355,19 @@ facesLeftOut (std::size_t faces);
 std::string
 shiftText (const Cloud& cloud);
 
-/// Leaves out the points with a NaN or infinite coordinate, and renumbers the triangles, which must
-/// not use such points. No values are moved or copied.
-/// \return the number of points left out
+/// Leaves rows out of the mesh and of its file, with a note that counts them; the numbers of all
+/// points stay until that is written.
+void
+leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what);
+
+/// Leaves out the rows of the list that have finite coordinates.
+void
+leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows);
+
+/// Takes the rows that were left out, and points with a NaN or infinite coordinate, out of the
+/// cloud, and renumbers the triangles, which must not use such points. No values are moved or
+/// copied.
+/// \return the number of points that are not finite
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
 

@@ -3,21 +3,32 @@
 #include "cloud_reader.h"
 
 #include "format.h"
+#include "text_scanner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
 
 namespace pcl::floater {
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path)
 {
-  static constexpr std::array<std::pair<const char*, CloudFormat>, 10> KNOWN{
+  static constexpr std::array<std::pair<const char*, CloudFormat>, 15> KNOWN{
       {{".pcd", CloudFormat::PCD},
        {".ply", CloudFormat::PLY},
        {".obj", CloudFormat::OBJ},
        {".stl", CloudFormat::STL},
+       {".vtk", CloudFormat::VTK},
+       {".vtp", CloudFormat::VTP},
        {".las", CloudFormat::LAS},
+       {".bin", CloudFormat::BIN},
+       {".ptx", CloudFormat::PTX},
        {".xyz", CloudFormat::XYZ},
        {".txt", CloudFormat::XYZ},
        {".csv", CloudFormat::XYZ},
        {".asc", CloudFormat::XYZ},
+       {".pwn", CloudFormat::XYZ},
        {".pts", CloudFormat::PTS}}};
   const std::string extension = lowerExtension (path);
   for (const auto& [known, format] : KNOWN)
@@ -26,41 +37,150 @@ cloudFormatOf (const std::filesystem::path& path)
   return std::nullopt;
 }
 
-Cloud
-readCloud (const std::filesystem::path& path, bool all_digits)
+void
+requireReadable (const std::filesystem::path& path)
 {
-  const std::optional<CloudFormat> format = cloudFormatOf (path);
-  if (lowerExtension (path) == ".laz")
+  const std::string extension = lowerExtension (path);
+  if (extension == ".laz")
     throw ReadError (LAZ_ADVICE);
-  if (!format)
-    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
-                     CLOUD_EXTENSIONS);
-  return readCloud (path, *format, all_digits);
+  if (extension == ".e57")
+    throw ReadError ("it is an E57 file, which cannot be read; convert it: pdal translate a.e57 "
+                     "a.las, or CloudCompare -SILENT -O a.e57 -C_EXPORT_FMT PLY -SAVE_CLOUDS");
 }
 
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, bool all_digits)
+parseBin (const FileBytes& file)
+{
+  constexpr double FARTHEST = 1e6; // metres
+  constexpr double MOST_RINGS = 256.0;
+  const std::size_t bytes = file.view ().size ();
+  for (const std::size_t count : {std::size_t{5}, std::size_t{4}}) {
+    std::vector<Field> fields;
+    for (const char* name : {"x", "y", "z", "intensity", "ring"})
+      if (fields.size () < count)
+        fields.push_back ({name, ScalarType::FLOAT32});
+    const std::size_t points = bytes / (count * sizeof (float));
+    viewRows (pointersTo (fields), file.at (0), ByteOrder::LITTLE);
+    bool fits = points > 0 && bytes == points * count * sizeof (float);
+    for (std::size_t p = 0; p < points && fits; ++p) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        fits &= std::abs (fields[axis].asDouble (p)) < FARTHEST;
+      const double ring = fields.back ().asDouble (p);
+      fits &= count == 4 || (ring >= 0.0 && ring < MOST_RINGS && ring == std::floor (ring));
+    }
+    if (!fits)
+      continue;
+    Cloud cloud = makeCloud (std::move (fields), points);
+    cloud.file = file;
+    return cloud;
+  }
+  throw ReadError ("it does not hold four floats for each point, x, y, z and intensity, as KITTI's "
+                   "files do, nor five, with a ring");
+}
+
+Cloud
+readCloud (const std::filesystem::path& path, const ReadOptions& options)
+{
+  const std::optional<CloudFormat> format = cloudFormatOf (path);
+  requireReadable (path);
+  if (!format)
+    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
+                     CLOUD_EXTENSIONS);
+  return readCloud (path, *format, options);
+}
+
+void
+chooseClasses (Cloud& cloud, const std::vector<int>& classes)
+{
+  constexpr double LOW_NOISE = 7.0, HIGH_NOISE = 18.0;
+  const auto find = [&cloud] (const char* name) -> const Field* {
+    for (const Field& field : cloud.fields)
+      if (isWord (field.name, name) && field.count == 1)
+        return &field;
+    return nullptr;
+  };
+  const Field* const classification = find ("classification");
+  const Field* const withheld = find ("withheld");
+  if (classification == nullptr && !classes.empty ())
+    throw ReadError ("--classes: the points have no field 'classification'");
+  if (classes.empty () && withheld == nullptr)
+    return;
+  std::vector<bool> others (cloud.rows, false), are_withheld (cloud.rows, false);
+  std::map<double, std::size_t> counts; // of classes that are left out
+  for (std::size_t row = 0; row < cloud.rows; ++row) {
+    are_withheld[row] = withheld != nullptr && withheld->asDouble (row) != 0.0;
+    const double its = classification == nullptr ? 0.0 : classification->asDouble (row);
+    others[row] =
+        !are_withheld[row] &&
+        (classes.empty () ? (its == LOW_NOISE || its == HIGH_NOISE)
+                          : std::find (classes.begin (), classes.end (), its) == classes.end ());
+    if (others[row])
+      ++counts[its];
+  }
+  leaveOut (cloud, are_withheld, "that the file marks as withheld");
+  constexpr std::size_t MOST = 12; // classes in the note
+  std::ostringstream text;
+  text << "of class";
+  std::size_t told = 0;
+  for (const auto& [its, count] : counts)
+    if (told++ < MOST)
+      text << (told == 1 ? " " : ", ") << its << " (" << count << ")";
+  text << (counts.size () > MOST ? " and others" : "");
+  leaveOut (cloud, others, text.str ());
+  if (std::count (cloud.left_out.begin (), cloud.left_out.end (), true) ==
+      static_cast<std::ptrdiff_t> (cloud.rows))
+    throw ReadError ("none of its points is of the classes that are taken: --classes chooses them");
+}
+
+namespace {
+Cloud
+parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options)
+{
+  if (options.columns[0] > 0 && format != CloudFormat::XYZ && format != CloudFormat::PTS)
+    throw ReadError ("--columns is for text with a point in each line");
+  switch (format) {
+  case CloudFormat::PCD:
+    return parsePcd (file, options.all_digits);
+  case CloudFormat::PLY:
+    return parsePly (file, options.all_digits);
+  case CloudFormat::OBJ:
+    return parseObj (file);
+  case CloudFormat::STL:
+    return parseStl (file);
+  case CloudFormat::VTK: {
+    Triangles faces;
+    Cloud cloud = parseVtk (file, faces);
+    if (!faces.empty ())
+      cloud.warnings.push_back (facesLeftOut (faces.size ()));
+    return cloud;
+  }
+  case CloudFormat::VTP:
+    return parseVtp (file);
+  case CloudFormat::LAS:
+    return parseLas (file);
+  case CloudFormat::BIN:
+    return parseBin (file);
+  case CloudFormat::PTX:
+    return parsePtx (file);
+  case CloudFormat::XYZ:
+  case CloudFormat::PTS:
+    break;
+  }
+  return parseTable (file, format == CloudFormat::PTS, options.columns);
+}
+
+} // namespace
+
+Cloud
+readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
 {
   const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
                                              : "the file is empty");
-  switch (format) {
-  case CloudFormat::PCD:
-    return parsePcd (file, all_digits);
-  case CloudFormat::PLY:
-    return parsePly (file, all_digits);
-  case CloudFormat::OBJ:
-    return parseObj (file);
-  case CloudFormat::STL:
-    return parseStl (file);
-  case CloudFormat::LAS:
-    return parseLas (file);
-  case CloudFormat::XYZ:
-  case CloudFormat::PTS:
-    break;
-  }
-  return parseTable (file, format == CloudFormat::PTS);
+  Cloud cloud = parseCloud (file, format, options);
+  chooseClasses (cloud, options.classes);
+  return cloud;
 }
 
 } // namespace pcl::floater

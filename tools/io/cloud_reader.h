@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads point clouds: PCD, PLY, OBJ, STL, LAS, and text with a point in each line; and meshes: PLY and
-// VTK.
+// Reads point clouds: PCD, PLY, OBJ, STL, VTK, LAS, lidar's floats, and text with a point in each
+// line; and meshes: PLY and VTK.
 //
 // PCL's own readers would do for most PCD, PLY and OBJ files. But they read a word that is no
 // number as 0 without an error, round the coordinates of OBJ to single precision, and need 2 s for
@@ -56,36 +56,59 @@ enum class CloudFormat
   PLY,
   OBJ,
   STL,
+  VTK,
+  VTP, ///< VTK's format in XML
   LAS,
+  BIN, ///< floats of a spinning lidar
+  PTX,
   XYZ, ///< text with a point in each line
   PTS  ///< the same, as scanners write it: the intensity comes before the colour
 };
 
 /// The extensions of clouds, for messages.
 constexpr const char* CLOUD_EXTENSIONS =
-    ".pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts";
+    ".pcd, .ply, .obj, .stl, .vtk, .vtp, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
 
 /// What to do with a compressed LAS file.
 constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read; decompress it: "
                                    "laszip -i a.laz -o a.las, or pdal "
                                    "translate a.laz a.las";
 
+/// \throws ReadError if the extension is that of a known format that is not read, with the command
+/// that converts it
+void
+requireReadable (const std::filesystem::path& path);
+
 /// The format that the extension of a file tells, in upper or lower case.
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path);
 
+/// How to read a cloud.
+struct ReadOptions
+{
+  /// read the coordinates of text files as doubles, also where the file says float;
+  /// Cloud::single_precision is as the file says
+  bool all_digits = false;
+  std::array<std::size_t, 3> columns{}; ///< of x, y and z in text, from 1; zeros: found
+  std::vector<int> classes{};           ///< of airborne scans; empty: all but those of noise
+};
+
+/// Leaves out the points of other classes than those, by the field `classification`; by default,
+/// those of low and high noise (7 and 18) of LAS. Always those of the field `withheld`.
+/// \throws ReadError if there are no classes, or no such points
+void
+chooseClasses (Cloud& cloud, const std::vector<int>& classes);
+
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input
-/// \param all_digits read the coordinates of text files as doubles, also where the file says float;
-/// Cloud::single_precision is as the file says
 /// \throws ReadError if the file is not a complete and valid cloud
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, bool all_digits = false);
+readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options = {});
 
 /// The same, in the format that the extension tells.
 /// \throws ReadError if the extension is unknown
 Cloud
-readCloud (const std::filesystem::path& path, bool all_digits = false);
+readCloud (const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
 /// skipped. The origin of the viewpoint is read; coordinates are not transformed. A header without
@@ -99,10 +122,15 @@ parsePcd (const FileBytes& file, bool all_digits = false);
 Cloud
 parsePly (const FileBytes& file, bool all_digits = false, Triangles* triangles = nullptr);
 
-/// Polygons in VTK's legacy format (POLYDATA, both layouts), and their points, with texture
-/// coordinates as the fields s and t. All other data are left out.
+/// VTK's legacy format: points with colours, normals, and texture coordinates as the fields s and t;
+/// of POLYDATA, the polygons (both layouts). All other data are left out.
 Cloud
 parseVtk (const FileBytes& file, Triangles& triangles);
+
+/// VTK's format in XML, of one piece: points and their arrays, as text, in base64 or raw, also compressed
+/// by zlib.
+Cloud
+parseVtp (const FileBytes& file);
 
 /// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
 /// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other
@@ -114,8 +142,20 @@ parseObj (const FileBytes& file);
 Cloud
 parseStl (const FileBytes& file);
 
-/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity and colour. A colour
-/// is the higher 8 of its 16 bits, or the lower ones if none is above 255.
+/// Floats, as KITTI and nuScenes store what a spinning lidar has seen: x, y, z and intensity of each
+/// point, and the ring, a whole number, where there are five.
+Cloud
+parseBin (const FileBytes& file);
+
+/// PTX: all scans of the file, in their common frame, with intensity and colour. Pixels without a
+/// return are left out. A single scan is organized and has the place of its sensor; of several, each
+/// point has the number of its scan.
+Cloud
+parsePtx (const FileBytes& file);
+
+/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity, colour, returns, class,
+/// the flags synthetic and withheld, source and time. A colour is the higher 8 of its 16 bits, or
+/// the lower ones if none is above 255.
 Cloud
 parseLas (const FileBytes& file);
 
@@ -126,7 +166,10 @@ parseLas (const FileBytes& file);
 /// that begin with #, // or % are comments.
 /// \param is_intensity_first of columns without names, where a colour could begin in the fourth or
 /// the fifth
+/// \param columns of x, y and z, from 1, if not zero
+/// \throws ReadError also if the first column counts the points, or a header names no coordinates
 Cloud
-parseTable (const FileBytes& file, bool is_intensity_first = false);
+parseTable (const FileBytes& file, bool is_intensity_first = false,
+            const std::array<std::size_t, 3>& columns = {});
 
 } // namespace pcl::floater

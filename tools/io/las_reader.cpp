@@ -23,30 +23,32 @@ constexpr std::size_t HEADER_BYTES = 227;
 constexpr std::size_t COUNT_AT = 247; ///< in LAS 1.4
 constexpr std::size_t HEADER_BYTES_14 = 375;
 constexpr std::size_t INTENSITY_AT = 12; ///< in a point
+constexpr std::size_t BITS_AT = 14;      ///< two bytes; what they hold depends on the format
+constexpr std::size_t FIRST_LONG = 6;    ///< point format from which on the class has a byte
 
-/// A format of points: the size of one, and where it has its colour, if it has one.
+/// A format of points: the size of one, and where it has its time and its colour, if it has them.
 struct PointFormat
 {
-  std::size_t size;
-  std::size_t color_at;
+  std::size_t size, time_at, color_at;
 };
-constexpr std::array<PointFormat, 11> FORMATS{{{20, 0},
-                                               {28, 0},
-                                               {26, 20},
-                                               {34, 28},
-                                               {57, 0},
-                                               {63, 28},
-                                               {30, 0},
-                                               {36, 30},
-                                               {38, 30},
-                                               {59, 0},
-                                               {67, 30}}};
+constexpr std::array<PointFormat, 11> FORMATS{{{20, 0, 0},
+                                               {28, 20, 0},
+                                               {26, 0, 20},
+                                               {34, 20, 28},
+                                               {57, 20, 0},
+                                               {63, 20, 28},
+                                               {30, 22, 0},
+                                               {36, 22, 30},
+                                               {38, 22, 30},
+                                               {59, 22, 0},
+                                               {67, 22, 30}}};
 
 struct LasHeader
 {
   std::size_t points_at = 0;
   std::size_t record_size = 0;
   PointFormat format{};
+  bool is_long = false; ///< the format is one of LAS 1.4
   std::uint64_t count = 0;
   std::array<double, 3> scales{}, offsets{};
 };
@@ -91,6 +93,7 @@ readHeader (std::string_view bytes)
     throw ReadError ("its points are of format " + std::to_string (format) +
                      "; 0 to 10 can be read");
   header.format = FORMATS[format];
+  header.is_long = format >= FIRST_LONG;
   header.record_size = numberAt<std::uint16_t> (bytes, RECORD_SIZE_AT);
   if (header.record_size < header.format.size)
     throw ReadError ("its header gives each point " + counted (header.record_size, "byte") +
@@ -123,31 +126,51 @@ fieldAt (const FileBytes& file, const LasHeader& header, const std::string& name
   return field;
 }
 
-/// The three channels, of 16 bits by the specification. Many programs write 8 bits into them, so
-/// that no value is above 255.
-void
-addColors (const FileBytes& file, const LasHeader& header, std::vector<Field>& fields,
-           std::vector<std::string>& warnings)
+/// Whether any of the three channels of any point is not black.
+bool
+hasColors (std::string_view bytes, const LasHeader& header)
 {
-  constexpr unsigned LARGEST_BYTE = 255;
-  const auto count = static_cast<std::size_t> (header.count);
-  const char* const first = file.view ().data () + header.points_at + header.format.color_at;
-  unsigned largest = 0;
-  for (std::size_t p = 0; p < count && largest <= LARGEST_BYTE; ++p)
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      largest = std::max<unsigned> (largest,
-                                    readNumber<std::uint16_t> (first + p * header.record_size +
-                                                                   channel * sizeof (std::uint16_t),
-                                                               ByteOrder::LITTLE));
-  if (largest == 0) {
-    warnings.emplace_back ("all colours of the input file are black: they were left out");
-    return;
+  constexpr std::size_t CHANNELS = 3 * sizeof (std::uint16_t);
+  for (std::size_t p = 0; p < header.count; ++p) {
+    const std::string_view color =
+        bytes.substr (header.points_at + p * header.record_size + header.format.color_at, CHANNELS);
+    if (color.find_first_not_of ('\0') != std::string_view::npos)
+      return true;
   }
-  const std::size_t byte = largest > LARGEST_BYTE ? 1 : 0; // of the two of a channel
-  constexpr std::array<const char*, 3> NAMES{"red", "green", "blue"};
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    fields.push_back (fieldAt (file, header, NAMES[channel], ScalarType::UINT8,
-                               header.format.color_at + channel * sizeof (std::uint16_t) + byte));
+  return false;
+}
+
+/// Numbers that share bytes, unpacked: class, return, and what the scanner's software says of it.
+void
+addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fields)
+{
+  struct Bits
+  {
+    const char* name;
+    std::size_t byte, first, count;
+  };
+  constexpr std::array<Bits, 5> SHORT{{{"return_number", 0, 0, 3},
+                                       {"number_of_returns", 0, 3, 3},
+                                       {"classification", 1, 0, 5},
+                                       {"synthetic", 1, 5, 1},
+                                       {"withheld", 1, 7, 1}}};
+  constexpr std::array<Bits, 5> LONG{{{"return_number", 0, 0, 4},
+                                      {"number_of_returns", 0, 4, 4},
+                                      {"classification", 2, 0, 8},
+                                      {"synthetic", 1, 0, 1},
+                                      {"withheld", 1, 2, 1}}};
+  const auto& all = header.is_long ? LONG : SHORT;
+  std::vector<Field> unpacked;
+  for (const Bits& bits : all)
+    unpacked.push_back ({bits.name, ScalarType::UINT8});
+  const auto count = static_cast<std::size_t> (header.count);
+  char* to = allocateRows (pointersTo (unpacked), count).get (); // which the fields keep
+  const char* from = file.view ().data () + header.points_at + BITS_AT;
+  for (std::size_t p = 0; p < count; ++p, from += header.record_size)
+    for (const Bits& bits : all)
+      *to++ = static_cast<char> (static_cast<unsigned char> (from[bits.byte]) >> bits.first &
+                                 ((1U << bits.count) - 1U));
+  fields.insert (fields.end (), unpacked.begin (), unpacked.end ());
 }
 
 } // namespace
@@ -173,11 +196,24 @@ parseLas (const FileBytes& file)
     fields.push_back (std::move (field));
   }
   fields.push_back (fieldAt (file, header, "intensity", ScalarType::UINT16, INTENSITY_AT));
+  addBits (file, header, fields);
+  fields.push_back (
+      fieldAt (file, header, "point_source_id", ScalarType::UINT16, header.is_long ? 20 : 18));
+  if (header.format.time_at > 0)
+    fields.push_back (
+        fieldAt (file, header, "gps_time", ScalarType::FLOAT64, header.format.time_at));
   std::vector<std::string> warnings;
-  if (header.format.color_at > 0)
-    addColors (file, header, fields, warnings);
+  if (header.format.color_at > 0 && !hasColors (bytes, header))
+    warnings.emplace_back ("all colours of the input file are black: they were left out");
+  else if (header.format.color_at > 0) // of 16 bits by the specification, often 8 in fact
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      fields.push_back (fieldAt (file, header, std::string (1, "rgb"[channel]), ScalarType::UINT16,
+                                 header.format.color_at + channel * sizeof (std::uint16_t)));
   Cloud cloud =
       makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
+  // A centimetre of height is 1e-7 degrees.
+  constexpr double FINER = 1e3;
+  cloud.may_be_degrees = FINER * std::abs (header.scales[0]) <= std::abs (header.scales[2]);
   cloud.file = file;
   return cloud;
 }

@@ -47,27 +47,12 @@ writePosition (AtomicFile& file, const Cloud& cloud, std::size_t point)
   }
 }
 
-/// Readers of STL merge equal corners: triangles that have two of them vanish there.
-std::size_t
-trianglesLostInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
-{
-  const auto corner = [&cloud] (std::uint32_t point) -> Eigen::Vector3f {
-    return cloud.position (point).cast<float> ();
-  };
-  return static_cast<std::size_t> (
-      std::count_if (triangles.begin (), triangles.end (), [&] (const auto& triangle) {
-        const Eigen::Vector3f a = corner (triangle[0]), b = corner (triangle[1]),
-                              c = corner (triangle[2]);
-        return a == b || b == c || c == a;
-      }));
-}
-
 /// \throws WriteError if 32-bit floats make two corners of a triangle one
 void
 requireTrianglesInSinglePrecision (const std::filesystem::path& path, const char* format,
                                    const Cloud& cloud, const Triangles& triangles)
 {
-  if (const std::size_t lost = trianglesLostInSinglePrecision (cloud, triangles))
+  if (const std::size_t lost = countMergedInSinglePrecision (cloud, triangles))
     throw WriteError ("cannot write '" + path.string () + "': " + format +
                       " holds 32-bit floats, in which " + std::to_string (lost) + " of " +
                       std::to_string (triangles.size ()) +
@@ -427,6 +412,20 @@ meshFormatOf (const std::filesystem::path& path)
     if (extension == known)
       return format;
   return std::nullopt;
+}
+
+std::size_t
+countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
+{
+  const auto corner = [&cloud] (std::uint32_t point) -> Eigen::Vector3f {
+    return cloud.position (point).cast<float> ();
+  };
+  return static_cast<std::size_t> (
+      std::count_if (triangles.begin (), triangles.end (), [&] (const auto& triangle) {
+        const Eigen::Vector3f a = corner (triangle[0]), b = corner (triangle[1]),
+                              c = corner (triangle[2]);
+        return a == b || b == c || c == a;
+      }));
 }
 
 bool

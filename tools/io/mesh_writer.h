@@ -42,6 +42,10 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
            const Triangles& triangles, std::optional<MeshFormat> format = std::nullopt,
            const MeshTexture* texture = nullptr);
 
+/// Number of triangles of which 32-bit floats make two corners one: readers may merge those.
+std::size_t
+countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles);
+
 /// Whether meshes of this format can have texture coordinates: VTK, PLY, OBJ.
 bool
 canHaveTexture (MeshFormat format);

@@ -5,7 +5,6 @@
 #include "text_scanner.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -19,22 +18,6 @@ colorChannel (const TextScanner& scanner, double channel)
   if (!(channel >= 0.0 && channel <= OBJ_WHITE))
     scanner.fail ("a colour must be from 0 to 1, or to 255");
   return channel;
-}
-
-/// Colours as bytes. They are from 0 to 1, but some programs write them from 0 to 255.
-std::vector<std::uint8_t>
-colorBytes (const std::vector<float>& channels, std::vector<std::string>& warnings)
-{
-  const bool are_bytes = std::any_of (channels.begin (), channels.end (),
-                                      [] (float channel) { return channel > 1.0F; });
-  if (are_bytes)
-    warnings.emplace_back (
-        "the colours of the input file go beyond 1: they were taken for 0 to 255");
-  std::vector<std::uint8_t> bytes (channels.size ());
-  for (std::size_t i = 0; i < bytes.size (); ++i)
-    bytes[i] = static_cast<std::uint8_t> (
-        std::lround ((are_bytes ? 1.0 : OBJ_WHITE) * static_cast<double> (channels[i])));
-  return bytes;
 }
 
 /// The text with lines joined that go on in the next, as a backslash at their end tells. Empty
@@ -200,7 +183,7 @@ parseObj (const FileBytes& file)
   };
   add ({"x", "y", "z"}, std::move (coordinates));
   if (colors.size () == 3 * size)
-    add ({"red", "green", "blue"}, colorBytes (colors, warnings));
+    add ({"red", "green", "blue"}, std::move (colors));
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
   if (std::vector<double> matched = matchNormals (normals, faces, size, warnings);
@@ -209,7 +192,6 @@ parseObj (const FileBytes& file)
   if (faces.count > 0)
     warnings.push_back (facesLeftOut (faces.count));
   Cloud cloud = makeCloud (std::move (fields), size, std::move (warnings));
-  cloud.are_decimals = true;
   return cloud;
 }
 

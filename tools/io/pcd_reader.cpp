@@ -11,6 +11,7 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -40,7 +41,7 @@ struct PcdHeader
   std::string_view data;     ///< ascii, binary or binary_compressed
   std::vector<Field> fields; ///< without bytes
   std::size_t points = 0;
-  std::string missing; ///< lines that were made up: the fields are floats
+  std::vector<std::string> warnings;
 };
 
 template <typename Add>
@@ -56,9 +57,9 @@ readSizes (TextScanner& scanner, std::vector<std::size_t>& numbers, const char* 
 {
   eachWord (scanner, [&] (std::string_view word) {
     std::uint32_t number = 0;
-    if (!parseNumber (word, number) || number == 0)
-      scanner.fail (std::string (what) + " must be whole numbers, 1 or more, not '" +
-                    std::string (word) + "'");
+    if (!parseNumber (word, number))
+      scanner.fail (std::string (what) + " must be whole numbers, not '" + std::string (word) +
+                    "'");
     numbers.push_back (number);
   });
 }
@@ -70,23 +71,33 @@ makeFields (const TextScanner& scanner, PcdHeader& lines)
   const std::size_t n = lines.names.size ();
   if (n == 0)
     scanner.fail ("the header has no FIELDS");
+  std::string missing;
   if (lines.sizes.empty ()) {
     lines.sizes.assign (n, FLOAT_BYTES);
-    lines.missing = "SIZE";
+    missing = "SIZE";
   }
   if (lines.types.empty ()) {
     lines.types.assign (n, "F");
-    lines.missing += lines.missing.empty () ? "TYPE" : " and TYPE";
+    missing += missing.empty () ? "TYPE" : " and TYPE";
   }
+  if (!missing.empty ())
+    lines.warnings.push_back ("the PCD header has no " + missing +
+                              ": its fields were taken for floats of 4 bytes");
   if (lines.sizes.size () != n || lines.types.size () != n ||
       (!lines.counts.empty () && lines.counts.size () != n))
     scanner.fail ("FIELDS, SIZE, TYPE and COUNT of the header differ in length");
   for (std::size_t f = 0; f < n; ++f) {
+    const std::size_t count = lines.counts.empty () ? 1 : lines.counts[f];
+    if (count == 0) { // some programs write padding so
+      lines.warnings.push_back ("the field '" + lines.names[f] +
+                                "' of the PCD header has COUNT 0 and was left out");
+      continue;
+    }
     const std::optional<ScalarType> type = pcdType (lines.types[f], lines.sizes[f]);
     if (!type)
       scanner.fail ("field '" + lines.names[f] + "' has TYPE " + lines.types[f] + " and SIZE " +
                     std::to_string (lines.sizes[f]) + ", which is not a type of PCD");
-    lines.fields.push_back ({lines.names[f], *type, lines.counts.empty () ? 1 : lines.counts[f]});
+    lines.fields.push_back ({lines.names[f], *type, count});
   }
 }
 
@@ -95,6 +106,13 @@ countPoints (const TextScanner& scanner, PcdHeader& lines)
 {
   if (!lines.width && !lines.points_told)
     scanner.fail ("the header has neither POINTS nor WIDTH");
+  if (lines.points_told && lines.width.value_or (1) * lines.height.value_or (1) == 0 &&
+      *lines.points_told > 0) {
+    lines.warnings.emplace_back ("WIDTH or HEIGHT of the PCD header is 0: its POINTS were taken "
+                                 "as a list");
+    lines.width = lines.points_told;
+    lines.height = 1;
+  }
   const std::size_t height = lines.height.value_or (1);
   const std::size_t width = lines.width.value_or (height > 0 ? *lines.points_told / height : 0);
   if (height > 0 && width > std::numeric_limits<std::size_t>::max () / height)
@@ -178,11 +196,13 @@ readAscii (TextScanner& scanner, PcdHeader& header)
   std::size_t words = 0;
   for (const Field& field : header.fields)
     words += field.count;
-  requireSize (header.points, 2 * words, scanner.rest ().size () + 1);
+  // A first point may follow `DATA ascii` on its line, and the last end without a newline.
+  bool has_line = scanner.hasWord ();
+  requireSize (header.points, 2 * words, scanner.restWithLine ().size () + 1);
   const std::shared_ptr<char> rows = allocateRows (fieldsToKeep (header), header.points);
   char* to = rows.get ();
   for (std::size_t i = 0; i < header.points; ++i) {
-    if (!scanner.nextFilledLine ())
+    if (!std::exchange (has_line, false) && !scanner.nextFilledLine ())
       throw ReadError ("the header promises " + counted (header.points, "point") +
                        ", but the file has only " + std::to_string (i) +
                        "; it is truncated or its header is wrong");
@@ -283,19 +303,17 @@ parsePcd (const FileBytes& file, bool all_digits)
   header.fields.erase (std::remove_if (header.fields.begin (), header.fields.end (),
                                        [] (const Field& field) { return field.name == PADDING; }),
                        header.fields.end ());
-  Cloud cloud = makeCloud (std::move (header.fields), header.points);
+  Cloud cloud = makeCloud (std::move (header.fields), header.points, std::move (header.warnings));
   cloud.sensor_origin = header.viewpoint;
   cloud.single_precision |= is_widened;
   if (header.data == "binary")
     cloud.file = file;
-  if (!header.missing.empty ())
-    cloud.warnings.push_back ("the PCD header has no " + header.missing +
-                              ": its fields were taken for floats of 4 bytes");
-  if (const std::size_t height = header.height.value_or (1); height > 1) {
+  const std::size_t height = header.height.value_or (1);
+  if (height > 1 && header.points > height) { // one row, or rows of one point, are a list
     cloud.lattice_width = header.points / height;
-    cloud.warnings.push_back ("the input cloud is organized in " + counted (height, "row") +
-                              " of " + counted (cloud.lattice_width, "point") +
-                              ": the mesh has them as one list");
+    cloud.notes.push_back ("organized in " + counted (height, "row") + " of " +
+                           counted (cloud.lattice_width, "point") +
+                           ": the mesh has them as one list");
   }
   if (has_more)
     cloud.warnings.push_back ("the input file has more data than the " +

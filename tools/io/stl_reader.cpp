@@ -63,7 +63,6 @@ cloudOf (DistinctPoints<Number>& distinct, std::size_t facets)
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, points, points->front ().data (), fields);
   Cloud cloud = makeCloud (std::move (fields), points->size ());
-  cloud.are_decimals = sizeof (Number) == sizeof (double);
   cloud.warnings.push_back (facesLeftOut (facets));
   return cloud;
 }
@@ -104,8 +103,9 @@ parseText (std::string_view text)
   TextScanner scanner (text);
   while (scanner.nextFilledLine ()) {
     const std::string_view key = scanner.word ();
-    has_ended = key == "endsolid" || (key == "end" && scanner.word () == "solid");
-    if (key != "vertex")
+    has_ended =
+        isWord (key, "endsolid") || (isWord (key, "end") && isWord (scanner.word (), "solid"));
+    if (!isWord (key, "vertex"))
       continue;
     std::array<double, 3> point{};
     for (double& coordinate : point)
@@ -131,7 +131,7 @@ parseStl (const FileBytes& file)
       (bytes.size () - STL_HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
           readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
   TextScanner scanner (bytes);
-  const bool is_solid = scanner.nextFilledLine () && scanner.word () == "solid";
+  const bool is_solid = scanner.nextFilledLine () && isWord (scanner.word (), "solid");
   if (is_solid && !fits_binary)
     return parseText (bytes);
   if (!is_long)

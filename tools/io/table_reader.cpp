@@ -33,11 +33,11 @@ enum ColumnKind : std::size_t
   OTHER = 11
 };
 
-/// What columns are called; the first name of each is that of the field.
-constexpr std::array<std::array<std::string_view, 4>, OTHER> KNOWN{
-    {{"x", "easting", "coord_x"},
-     {"y", "northing", "coord_y"},
-     {"z", "elevation", "height", "coord_z"},
+/// What columns are called; the first name of each is that of the field, and earlier ones go first.
+constexpr std::array<std::array<std::string_view, 8>, OTHER> KNOWN{
+    {{"x", "easting", "east", "coord_x", "longitude", "lon", "long", "lng"},
+     {"y", "northing", "north", "coord_y", "latitude", "lat"},
+     {"z", "elevation", "height", "coord_z", "altitude", "alt", "depth", "up"},
      {"red", "r"},
      {"green", "g"},
      {"blue", "b"},
@@ -50,11 +50,10 @@ constexpr std::array<std::array<std::string_view, 4>, OTHER> KNOWN{
 struct Column
 {
   std::size_t kind = OTHER;
+  std::size_t rank = 0;   ///< of its name among those of its kind
   std::string name;       ///< of an OTHER
   bool is_number = true;  ///< else it is text, and is skipped
   bool are_bytes = true;  ///< all values are whole numbers from 0 to 255
-  bool are_shares = true; ///< all values are from 0 to 1
-  bool are_words = true;  ///< all values are whole numbers from 0 to 65535
   bool fits_float = true; ///< a 32-bit float tells each value from its neighbours in the text
 
   bool isColor () const { return kind >= RED && kind <= ALPHA; }
@@ -70,17 +69,17 @@ struct TableHead
   std::optional<std::uint64_t> count; ///< points that the file promises
   std::size_t skipped = 0;            ///< lines that are neither names, a count nor comments
   std::string first_skipped;
+  std::string_view last_line; ///< the last of them, which may have been names
 };
 
 /// The beginning of a line in a message, without what is not printable.
 std::string
-quoted (std::string_view line)
+quoted (std::string_view line, std::size_t characters = 40)
 {
-  constexpr std::size_t QUOTED = 40; // characters
   std::string text;
-  for (const char c : line.substr (0, QUOTED))
+  for (const char c : line.substr (0, characters))
     text += c >= ' ' && c <= '~' ? c : '?';
-  return "'" + text + (line.size () > QUOTED ? "..." : "") + "'";
+  return "'" + text + (line.size () > characters ? "..." : "") + "'";
 }
 
 std::string_view
@@ -136,6 +135,27 @@ parseColumn (std::string_view column, bool has_decimal_comma, double& number)
   return parseNumber (std::string_view (with_point), number);
 }
 
+/// The word without a unit behind an underscore: "z" of "z_m".
+std::string_view
+withoutUnit (std::string_view name)
+{
+  const std::size_t at = std::min (name.rfind ('_'), name.size ());
+  for (const std::string_view unit :
+       {"_m", "_mm", "_cm", "_km", "_ft", "_deg", "_meters", "_metres"})
+    if (name.substr (at) == unit)
+      return name.substr (0, at);
+  return name;
+}
+
+/// Whether a column is called by a known name: with a unit, and, if it is long, with anything behind.
+bool
+isCalled (std::string_view name, std::string_view known)
+{
+  constexpr std::size_t LONG = 7; // letters: easting, latitude
+  return !known.empty () && (withoutUnit (name) == known || name == known ||
+                             (known.size () >= LONG && name.substr (0, known.size ()) == known));
+}
+
 /// A column of this name, which is compared in lower case and without a unit: "X [m]" is "x".
 Column
 columnOf (std::string_view text)
@@ -149,44 +169,57 @@ columnOf (std::string_view text)
   constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
   if (column.name.rfind (SCALAR, 0) == 0)
     column.name.erase (0, SCALAR.size ());
-  const auto known = std::find_if (KNOWN.begin (), KNOWN.end (), [&column] (const auto& names) {
-    return !column.name.empty () &&
-           std::find (names.begin (), names.end (), column.name) != names.end ();
-  });
-  column.kind = static_cast<std::size_t> (known - KNOWN.begin ());
+  for (std::size_t kind = 0; kind < OTHER; ++kind)
+    for (std::size_t rank = 0; rank < KNOWN[kind].size (); ++rank)
+      if (column.kind == OTHER && isCalled (column.name, KNOWN[kind][rank])) {
+        column.kind = kind;
+        column.rank = rank;
+      }
   return column;
 }
 
 /// Columns that a header names: "x,y,z,red,green,blue", "//X Y Z R G B".
-/// \return nothing unless x, y and z are among them
+std::vector<Column>
+columnsOfHeader (std::string_view line, char separator)
+{
+  Words words;
+  std::vector<Column> columns;
+  splitColumns (line, separator, words);
+  for (const std::string_view text : words)
+    if (text.empty () || text.back () != ':') // "columns: x y z"
+      columns.push_back (columnOf (text));
+  // One of each kind, the first of those with the best name; others are fields like any other.
+  std::array<Column*, OTHER> best{};
+  for (Column& column : columns)
+    if (column.kind != OTHER && (!best[column.kind] || column.rank < best[column.kind]->rank))
+      best[column.kind] = &column;
+  const auto has = [&best] (std::size_t first) { // all three
+    return best[first] && best[first + 1] && best[first + 2];
+  };
+  for (Column& column : columns)
+    if (column.kind != OTHER &&
+        (&column != best[column.kind] || (column.isColor () && !has (RED)) ||
+         (column.kind > ALPHA && column.kind < INTENSITY && !has (NORMAL_X))))
+      column.kind = OTHER;
+  return columns;
+}
+
+bool
+haveCoordinates (const std::vector<Column>& columns)
+{
+  return std::count_if (columns.begin (), columns.end (),
+                        [] (const Column& column) { return column.kind <= Z; }) == 3;
+}
+
+/// The first separator that makes it a header with x, y and z; else any.
 std::vector<Column>
 namedColumns (std::string_view line)
 {
-  Words words;
-  for (const char separator : {';', ',', ' '}) {
-    std::vector<Column> columns;
-    std::array<int, OTHER + 1> counts{};
-    splitColumns (line, separator, words);
-    for (const std::string_view text : words) {
-      if (!text.empty () && text.back () == ':') // "columns: x y z"
-        continue;
-      Column column = columnOf (text);
-      if (counts[column.kind]++ > 0) // a second one of a kind is a field like any other
-        column.kind = OTHER;
-      columns.push_back (std::move (column));
-    }
-    const auto has = [&counts] (std::size_t first) { // all three
-      return counts[first] > 0 && counts[first + 1] > 0 && counts[first + 2] > 0;
-    };
-    if (!has (X))
-      continue;
-    for (Column& column : columns)
-      if ((column.isColor () && !has (RED)) ||
-          (column.kind > ALPHA && column.kind < INTENSITY && !has (NORMAL_X)))
-        column.kind = OTHER;
-    return columns;
-  }
-  return {};
+  std::vector<Column> columns;
+  for (const char separator : {';', ',', ' '})
+    if (haveCoordinates (columns = columnsOfHeader (line, separator)))
+      break;
+  return columns;
 }
 
 /// The line without what makes it a comment: #, //, %; nothing if it is none.
@@ -202,6 +235,13 @@ commentText (std::string_view line)
       return line;
     }
   return std::nullopt;
+}
+
+/// Whether the line begins or ends a scan, as in some .pts files.
+bool
+isBlockMark (std::string_view line)
+{
+  return isWord (trim (line), "begin") || isWord (trim (line), "end");
 }
 
 /// The only word of a line, if it is a whole number.
@@ -230,28 +270,71 @@ isPoint (const Words& words, const ColumnSeparator& separator, std::vector<Colum
   return is_point;
 }
 
+/// The columns of x, y and z are those that the user has chosen.
+void
+chooseColumns (const std::array<std::size_t, 3>& chosen, std::vector<Column>& columns)
+{
+  for (Column& column : columns)
+    if (column.kind <= Z) {
+      column.kind = OTHER;
+      column.name.clear (); // which is taken
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    columns[chosen[axis] - 1].kind = axis;
+}
+
+/// \throws ReadError if the line before the first point has names for all columns, which are not
+/// those of coordinates. Blanks separate words of a sentence as well.
+void
+refuseHeader (std::string_view line, const ColumnSeparator& separator)
+{
+  constexpr std::size_t LONGEST = 300; // characters of it in the message
+  Words words;
+  splitColumns (line, separator.separator, words);
+  double number = 0.0;
+  for (const std::string_view word : words)
+    if (word.empty () || parseColumn (word, separator.has_decimal_comma, number))
+      return;
+  if (separator.separator != ' ' || words.size () > 3)
+    throw ReadError ("its header " + quoted (line, LONGEST) +
+                     " names no x, y and z: name them there, or "
+                     "choose their columns by number, such as --columns 2,3,4");
+}
+
 /// Takes the line for that of the first point: finds how its columns are separated, and which of
 /// them are numbers.
+/// \param chosen columns of x, y and z, from 1; zeros: what the header says, or the first three
 /// \return false if it is none
 bool
-isFirstPoint (std::string_view line, TableHead& head)
+isFirstPoint (std::string_view line, const std::array<std::size_t, 3>& chosen, TableHead& head)
 {
   constexpr std::size_t MOST_COLUMNS = 256;
+  const bool is_chosen = chosen[0] > 0;
+  const std::size_t fewest = std::max ({std::size_t{3}, chosen[0], chosen[1], chosen[2]});
   Words words;
   for (const ColumnSeparator separator :
        {ColumnSeparator{';', false}, ColumnSeparator{';', true}, ColumnSeparator{',', false},
         ColumnSeparator{' ', false}, ColumnSeparator{' ', true}}) {
     splitColumns (line, separator.separator, words);
-    if (words.size () < 3 || words.size () > MOST_COLUMNS)
+    if (words.size () < fewest || words.size () > MOST_COLUMNS)
       continue;
+    const std::vector<Column> header = columnsOfHeader (head.last_line, separator.separator);
+    const bool is_header = header.size () == words.size ();
+    if (is_chosen && !head.has_names)
+      head.columns = is_header ? header : std::vector<Column> (words.size ());
+    if (is_chosen)
+      chooseColumns (chosen, head.columns);
     std::vector<Column> plain (words.size ());
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      plain[axis].kind = axis;
-    const bool is_named = head.has_names && isPoint (words, separator, head.columns);
+    chooseColumns ({1, 2, 3}, plain);
+    const bool is_named = (head.has_names || is_chosen) && isPoint (words, separator, head.columns);
     // A comment may have been one about x, y and z only.
-    const bool may_be_plain = !head.has_names || head.are_names_comment;
+    const bool may_be_plain = !is_chosen && (!head.has_names || head.are_names_comment);
     if (!is_named && !(may_be_plain && isPoint (words, separator, plain)))
       continue;
+    if (is_chosen && !head.has_names && is_header)
+      --head.skipped; // they are names
+    if (!is_named && !head.has_names && is_header)
+      refuseHeader (head.last_line, separator);
     if (!is_named)
       head.columns = std::move (plain);
     head.has_names = is_named;
@@ -262,17 +345,19 @@ isFirstPoint (std::string_view line, TableHead& head)
 }
 
 [[noreturn]] void
-failWithoutPoints (const TableHead& head, const std::string& where)
+failWithoutPoints (const TableHead& head, const std::string& where, bool is_chosen)
 {
   throw ReadError ("it has no points: no line" + where + " has three numbers, x, y and z" +
-                   (head.has_names ? ", in the columns that its header names" : "") +
+                   (is_chosen        ? ", in the columns of --columns"
+                    : head.has_names ? ", in the columns that its header names"
+                                     : "") +
                    (head.skipped > 0 ? "; it begins with " + head.first_skipped : ""));
 }
 
 /// Reads up to the first point, and that line.
 /// \return its text
 std::string_view
-readHead (TextScanner& scanner, TableHead& head)
+readHead (TextScanner& scanner, const std::array<std::size_t, 3>& chosen, TableHead& head)
 {
   constexpr std::size_t LONGEST = 1U << 16U; // characters; a line that is longer is no text
   constexpr std::size_t MOST_SKIPPED = 1000; // lines; a file with more before its points has none
@@ -281,26 +366,29 @@ readHead (TextScanner& scanner, TableHead& head)
     const std::optional<std::string_view> comment = commentText (line);
     const bool is_text = line.size () <= LONGEST;
     if (std::vector<Column> named;
-        is_text && !(named = namedColumns (comment.value_or (line))).empty ()) {
+        is_text && haveCoordinates (named = namedColumns (comment.value_or (line)))) {
       head.columns = std::move (named);
       head.has_names = true;
       head.are_names_comment = comment.has_value ();
     }
-    else if (comment)
+    else if (comment || isBlockMark (line))
       continue;
     else if (const auto count = countOf (line); count && !head.count)
       head.count = count;
     else if (line.substr (0, 5) == "ncols" || line.substr (0, 5) == "NCOLS")
       throw ReadError ("it is a grid of heights (ESRI ASCII), not a list of points; convert it: "
                        "gdal_translate -of XYZ a.asc a.xyz");
-    else if (is_text && isFirstPoint (line, head))
+    else if (is_text && isFirstPoint (line, chosen, head))
       return line;
-    else if (head.skipped++ == 0)
-      head.first_skipped = quoted (line);
+    else {
+      head.last_line = line.substr (0, LONGEST);
+      if (head.skipped++ == 0)
+        head.first_skipped = quoted (line);
+    }
     if (head.skipped > MOST_SKIPPED)
-      failWithoutPoints (head, " of the first " + std::to_string (MOST_SKIPPED));
+      failWithoutPoints (head, " of the first " + std::to_string (MOST_SKIPPED), chosen[0] > 0);
   }
-  failWithoutPoints (head, "");
+  failWithoutPoints (head, "", chosen[0] > 0);
 }
 
 /// Digits of a number without the zeros before the first other one.
@@ -321,10 +409,8 @@ note (Column& column, std::string_view word, double value)
   constexpr double SMALLEST_FLOAT = std::numeric_limits<float>::min ();
   if (column.kind <= Z)
     return;
-  column.are_shares &= value >= 0.0 && value <= 1.0;
-  column.are_words = column.are_words && value >= 0.0 && value <= 65535.0 &&
-                     value == static_cast<double> (static_cast<std::int32_t> (value));
-  column.are_bytes &= column.are_words && value <= 255.0;
+  column.are_bytes = column.are_bytes && value >= 0.0 && value <= 255.0 &&
+                     value == static_cast<double> (static_cast<std::uint8_t> (value));
   // Infinities and a zero are what they are in either type.
   const double size = std::abs (value);
   if (column.fits_float && std::isfinite (value) &&
@@ -339,10 +425,11 @@ class Table
 public:
   /// \param text after the first point. There are not more rows than its lines: each ends with a
   /// newline, and a value takes a character
-  Table (const TableHead& head, std::string_view text)
+  Table (const TableHead& head, std::string_view text, char newline)
       : columns_ (head.columns), separator_ (head.separator), width_ (columns_.size ())
   {
-    const auto lines = static_cast<std::size_t> (std::count (text.begin (), text.end (), '\n')) + 1;
+    const auto lines =
+        static_cast<std::size_t> (std::count (text.begin (), text.end (), newline)) + 1;
     most_rows_ = std::min (lines, text.size () / width_ + 1) + 1;
     values_.reset (new double[most_rows_ * width_], std::default_delete<double[]> ());
   }
@@ -417,7 +504,10 @@ public:
   /// Narrows the columns to their types, in place, and makes fields of them.
   std::vector<Field> fields (std::vector<std::string>& warnings)
   {
-    const double white = whiteOfColors (warnings);
+    const bool are_bytes =
+        std::all_of (columns_.begin (), columns_.end (), [] (const Column& column) {
+          return !column.isColor () || (column.is_number && column.are_bytes);
+        });
     std::vector<Field> fields;
     std::vector<std::size_t> sources; // columns
     for (std::size_t c = 0; c < width_; ++c) {
@@ -431,7 +521,7 @@ public:
       }
       const std::string other = column.name.empty () ? "column_" + number : column.name;
       fields.push_back ({column.kind < OTHER ? std::string (KNOWN[column.kind][0]) : other,
-                         column.isColor () && white > 0.0       ? ScalarType::UINT8
+                         column.isColor () && are_bytes         ? ScalarType::UINT8
                          : column.kind > Z && column.fits_float ? ScalarType::FLOAT32
                                                                 : ScalarType::FLOAT64});
       sources.push_back (c);
@@ -445,10 +535,7 @@ public:
           using T = decltype (narrow);
           const auto number = readNumber<double> (
               bytes + (row * width_ + sources[f]) * sizeof (double), HOST_BYTE_ORDER);
-          if constexpr (std::is_floating_point_v<T>)
-            narrow = static_cast<T> (number);
-          else
-            narrow = static_cast<T> (std::lround (255.0 / white * number));
+          narrow = static_cast<T> (number);
           std::memcpy (to, &narrow, sizeof narrow);
           to += sizeof narrow;
         });
@@ -456,13 +543,22 @@ public:
     return fields;
   }
 
-private:
+  /// Whether the first of four columns or more counts the rows, one by one.
+  bool countsRows () const
+  {
+    constexpr std::size_t FEWEST = 10; // rows
+    bool counts = rows_ >= FEWEST && width_ > 3;
+    for (std::size_t row = 1; row < rows_ && counts; ++row)
+      counts = values_.get ()[row * width_] == values_.get ()[(row - 1) * width_] + 1.0;
+    return counts;
+  }
+
   /// Whether three columns hold vectors of length 1, with the rounding of few digits, or 0.
-  bool areUnitVectors (std::size_t column) const
+  bool areUnitVectors (std::size_t column, std::size_t first_row = 0) const
   {
     constexpr double ROUNDING = 0.02; // of two decimals each
     bool has_any = false;
-    for (std::size_t row = 0; row < rows_ && column + 3 <= width_; ++row) {
+    for (std::size_t row = first_row; row < rows_ && column + 3 <= width_; ++row) {
       const double* const v = values_.get () + row * width_ + column;
       const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
       if (std::isnan (square) || square == 0.0)
@@ -474,28 +570,7 @@ private:
     return has_any;
   }
 
-  /// The value of the colours that becomes 255; 0 if they become other fields.
-  double whiteOfColors (std::vector<std::string>& warnings) const
-  {
-    const auto areAll = [this] (bool Column::*are) {
-      return std::all_of (columns_.begin (), columns_.end (), [are] (const Column& column) {
-        return !column.isColor () || (column.is_number && column.*are);
-      });
-    };
-    if (areAll (&Column::are_bytes))
-      return 255.0;
-    if (areAll (&Column::are_shares))
-      return 1.0;
-    if (areAll (&Column::are_words)) {
-      warnings.emplace_back ("the colours of the input file are above 255: they were taken for 16 "
-                             "bits, and 8 of them kept");
-      return 65535.0;
-    }
-    warnings.emplace_back ("the colours of the input file are neither from 0 to 255 nor from 0 to "
-                           "1: they were kept as other fields are");
-    return 0.0;
-  }
-
+private:
   std::vector<Column> columns_;
   ColumnSeparator separator_;
   std::size_t width_;
@@ -521,7 +596,8 @@ checkCount (const TableHead& head, std::size_t rows, std::vector<std::string>& w
 } // namespace
 
 Cloud
-parseTable (const FileBytes& file, bool is_intensity_first)
+parseTable (const FileBytes& file, bool is_intensity_first,
+            const std::array<std::size_t, 3>& columns)
 {
   const std::string_view text = file.view ();
   for (const std::string_view mark : {"\xff\xfe", "\xfe\xff"})
@@ -529,13 +605,15 @@ parseTable (const FileBytes& file, bool is_intensity_first)
       throw ReadError ("it is text in UTF-16; save it as UTF-8");
   TextScanner scanner (text);
   TableHead head;
-  std::string_view line = readHead (scanner, head);
-  Table table (head, scanner.rest ());
+  std::string_view line = readHead (scanner, columns, head);
+  Table table (head, scanner.rest (), scanner.newline ());
   table.readRow (scanner, line);
   while (scanner.nextFilledLine ()) {
     line = scanner.restOfLine ();
     const char first = line.front ();
     if ((first == '#' || first == '/' || first == '%') && commentText (line))
+      continue;
+    if ((first == 'E' || first == 'B' || first == 'e' || first == 'b') && isBlockMark (line))
       continue;
     // Scans one after the other, each with its count.
     if (head.count && line.size () <= 20)
@@ -552,12 +630,33 @@ parseTable (const FileBytes& file, bool is_intensity_first)
                         " left out: " + head.first_skipped);
   if (head.separator.has_decimal_comma)
     warnings.emplace_back ("commas in the numbers of the input file were read as decimal points");
-  checkCount (head, table.rows (), warnings);
+  // As .pwn files have it: all points, then all normals.
+  const bool are_normals_behind = head.count && table.rows () == 2 * *head.count &&
+                                  head.columns.size () == 3 &&
+                                  table.areUnitVectors (0, table.rows () / 2);
+  const std::size_t points = table.rows () / (are_normals_behind ? 2 : 1);
+  checkCount (head, points, warnings);
+  if (!head.has_names && table.countsRows ())
+    throw ReadError (
+        "its first column counts the points and can hardly be x: name the columns in a "
+        "first line, or choose those of x, y and z by number, such as --columns "
+        "2,3,4 (or 1,2,3)");
   if (!head.has_names)
     table.guess (is_intensity_first, warnings);
   std::vector<Field> fields = table.fields (warnings);
-  Cloud cloud = makeCloud (std::move (fields), table.rows (), std::move (warnings));
-  cloud.are_decimals = true;
+  for (std::size_t axis = 0; axis < 3 && are_normals_behind; ++axis) {
+    fields.push_back (fields[axis]);
+    fields.back ().name = KNOWN[NORMAL_X + axis][0];
+    const char* const first = fields[axis].first.get () + points * fields[axis].stride;
+    fields.back ().first = {fields[axis].first, first};
+  }
+  const bool may_be_degrees =
+      std::any_of (head.columns.begin (), head.columns.end (), [] (const Column& column) {
+        return column.kind == X && column.name.rfind ("lon", 0) == 0 &&
+               (withoutUnit (column.name) == column.name || column.name.back () == 'g');
+      });
+  Cloud cloud = makeCloud (std::move (fields), points, std::move (warnings));
+  cloud.may_be_degrees = may_be_degrees;
   return cloud;
 }
 

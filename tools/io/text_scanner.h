@@ -5,6 +5,7 @@
 
 #include "cloud.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <string>
@@ -39,8 +40,19 @@ parseNumber (std::string_view word, T& number)
   return false;
 }
 
-/// Scans a text. Lines end with \n or \r\n; words are separated by blanks and tabs. The mark that
-/// some programs put before UTF-8 is skipped.
+/// Whether two words are equal in upper or lower case.
+inline bool
+isWord (std::string_view a, std::string_view b)
+{
+  const auto lower = [] (char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
+  };
+  return std::equal (a.begin (), a.end (), b.begin (), b.end (),
+                     [&] (char x, char y) { return lower (x) == lower (y); });
+}
+
+/// Scans a text. Lines end with \n or \r\n, or with \r in a text without \n; words are separated by
+/// blanks and tabs. The mark that some programs put before UTF-8 is skipped.
 class TextScanner
 {
 public:
@@ -50,7 +62,8 @@ public:
   }
 
   /// \param text must outlive the scanner
-  explicit TextScanner (std::string_view text) : text_ (text)
+  explicit TextScanner (std::string_view text)
+      : text_ (text), newline_ (text.find ('\n') == std::string_view::npos ? '\r' : '\n')
   {
     constexpr std::string_view MARK = "\xef\xbb\xbf";
     if (text.substr (0, MARK.size ()) == MARK)
@@ -63,7 +76,7 @@ public:
   {
     if (next_ >= text_.size ())
       return false;
-    const std::size_t newline = text_.find ('\n', next_);
+    const std::size_t newline = text_.find (newline_, next_);
     end_ = newline == std::string_view::npos ? text_.size () : newline;
     at_ = next_;
     next_ = newline == std::string_view::npos ? text_.size () : newline + 1;
@@ -75,12 +88,17 @@ public:
   /// \return false at the end of the text
   bool nextFilledLine ()
   {
-    while (nextLine ()) {
-      skipBlanks ();
-      if (at_ < end_)
+    while (nextLine ())
+      if (hasWord ())
         return true;
-    }
     return false;
+  }
+
+  /// Whether the rest of the line has a word.
+  bool hasWord ()
+  {
+    skipBlanks ();
+    return at_ < end_;
   }
 
   /// Reads the next word of the line; empty at its end.
@@ -100,6 +118,18 @@ public:
     at_ = end_;
     return text_.substr (first, end_ - first);
   }
+
+  /// Whether nothing is left but blanks and ends of lines.
+  bool restIsBlank () const
+  {
+    return rest ().find_first_not_of (" \t\r\n\v\f") == std::string_view::npos;
+  }
+
+  /// What ends a line.
+  char newline () const { return newline_; }
+
+  /// The rest of the line and the text after it.
+  std::string_view restWithLine () const { return text_.substr (at_); }
 
   /// The text after the line.
   std::string_view rest () const { return text_.substr (next_); }
@@ -138,6 +168,7 @@ private:
   }
 
   std::string_view text_;
+  char newline_;
   std::size_t at_ = 0;   // next character
   std::size_t end_ = 0;  // end of the line
   std::size_t next_ = 0; // start of the next line

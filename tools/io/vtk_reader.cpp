@@ -39,23 +39,45 @@ public:
     skipLine ();
     skipLine (); // the title
     is_binary_ = word () == "BINARY";
-    if (!find ("DATASET") || word () != "POLYDATA" || !find ("POINTS"))
-      throw ReadError ("it has no POLYDATA with POINTS");
+    const bool has_polygons = find ("DATASET") && word () == "POLYDATA";
+    if (!find ("POINTS"))
+      throw ReadError ("it has no POINTS");
     const std::size_t points = count ();
     const ScalarType type = vtkType (word ());
     std::vector<Field> fields{{"x", type}, {"y", type}, {"z", type}};
     readArray ({&fields[0], &fields[1], &fields[2]}, points);
-    if (find ("POLYGONS"))
+    if (has_polygons && find ("POLYGONS"))
       readPolygons (PolygonFans (points, triangles));
-    if (find ("POINT_DATA") && count () == points && find ("TEXTURE_COORDINATES")) {
-      word (); // their name
+    const bool has_data = find ("POINT_DATA") && count () == points;
+    const std::size_t data = at_;
+    // Their order is that of who wrote them.
+    const auto findData = [&] (const std::string& section) {
+      at_ = data;
+      const bool is_found = has_data && find (section);
+      if (is_found)
+        word (); // its name
+      return is_found;
+    };
+    const auto addColumns = [&] (const std::vector<std::string>& names, std::size_t each,
+                                 ScalarType column_type) {
+      if (each < names.size ())
+        throw ReadError ("its " + section_ + " have fewer than " + std::to_string (names.size ()) +
+                         " values for each point");
+      std::vector<Field> columns;
+      for (const std::string& name : names)
+        columns.push_back ({name, column_type});
+      columns.push_back ({"", column_type, each - names.size ()});
+      readArray (pointersTo (columns), points);
+      fields.insert (fields.end (), columns.begin (), columns.end () - 1);
+    };
+    if (findData ("COLOR_SCALARS"))
+      addColumns ({"red", "green", "blue"}, count (),
+                  is_binary_ ? ScalarType::UINT8 : ScalarType::FLOAT32);
+    if (findData ("NORMALS"))
+      addColumns ({"nx", "ny", "nz"}, 3, vtkType (word ()));
+    if (findData ("TEXTURE_COORDINATES")) {
       const std::size_t each = count ();
-      const ScalarType texture_type = vtkType (word ());
-      if (each < 2)
-        throw ReadError ("its texture coordinates are not two of each point");
-      Field s{"s", texture_type}, t{"t", texture_type}, others{"", texture_type, each - 2};
-      readArray ({&s, &t, &others}, points);
-      fields.insert (fields.end (), {s, t});
+      addColumns ({"s", "t"}, each, vtkType (word ()));
     }
     Cloud cloud = makeCloud (std::move (fields), points);
     cloud.file = file_;

@@ -215,8 +215,7 @@ checkPaths (const CommandLine& line)
     if (isStandardStream (line.input))
       throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
                         "--input-format pcd");
-    if (lowerExtension (line.input) == ".laz")
-      throw ReadError (LAZ_ADVICE);
+    requireReadable (line.input);
     throw ReadError (unknownExtension (line.input) + "; use " + CLOUD_EXTENSIONS +
                      ", or give its format by --input-format");
   }

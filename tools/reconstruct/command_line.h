@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <pcl/surface/floater/options.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -59,7 +60,7 @@ readLoop (const std::filesystem::path& path);
 /// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
 enum class Precision
 {
-  AUTO,   ///< SINGLE if the input is, or if that holds every coordinate exactly; else DOUBLE
+  AUTO,   ///< SINGLE, after a shift where floats are too coarse
   SINGLE, ///< 32-bit floats; other coordinates are rounded
   DOUBLE  ///< 64-bit floats
 };
@@ -79,10 +80,12 @@ struct CommandLine
   bool texture_coordinates = false;        ///< --uv; also if a texture is asked for
   std::optional<CloudFormat> input_format; ///< nothing: that of its extension
   std::optional<MeshFormat> output_format; ///< nothing: that of its extension
+  std::array<std::size_t, 3> columns{};    ///< of x, y and z in text, from 1; zeros: found
+  std::vector<int> classes;                ///< of airborne scans; empty: all but noise
   std::filesystem::path scratch;           ///< folder; used with a limit only
   std::size_t max_memory = 0;              ///< bytes; 0: no limit
   std::optional<Eigen::Vector3d> shift;    ///< --shift x,y,z
-  bool auto_shift = false;                 ///< --shift auto
+  bool auto_shift = false;                 ///< --shift auto, or needed for floats
   Precision precision = Precision::AUTO;   ///< of coordinates in outputs
   bool use_input_normals = false;          ///< for tangent planes, and so for the facing
   bool compute_normals = false;            ///< of the vertices of the mesh
@@ -123,14 +126,18 @@ setLimit (const std::string& setting, CommandLine& line);
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
 
-constexpr Choices<std::optional<CloudFormat>, 8> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
-                                                                       {"pcd", CloudFormat::PCD},
-                                                                       {"ply", CloudFormat::PLY},
-                                                                       {"obj", CloudFormat::OBJ},
-                                                                       {"stl", CloudFormat::STL},
-                                                                       {"las", CloudFormat::LAS},
-                                                                       {"xyz", CloudFormat::XYZ},
-                                                                       {"pts", CloudFormat::PTS}}};
+constexpr Choices<std::optional<CloudFormat>, 12> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
+                                                                        {"pcd", CloudFormat::PCD},
+                                                                        {"ply", CloudFormat::PLY},
+                                                                        {"obj", CloudFormat::OBJ},
+                                                                        {"stl", CloudFormat::STL},
+                                                                        {"vtk", CloudFormat::VTK},
+                                                                        {"vtp", CloudFormat::VTP},
+                                                                        {"las", CloudFormat::LAS},
+                                                                        {"bin", CloudFormat::BIN},
+                                                                        {"ptx", CloudFormat::PTX},
+                                                                        {"xyz", CloudFormat::XYZ},
+                                                                        {"pts", CloudFormat::PTS}}};
 
 constexpr Choices<std::optional<MeshFormat>, 7> MESH_FORMAT_CHOICES{{{"auto", std::nullopt},
                                                                      {"vtk", MeshFormat::VTK},

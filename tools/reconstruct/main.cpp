@@ -78,7 +78,7 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   static const double zero = 0.0;
   const std::vector<Eigen::Vector2d>& parameters = result.report.parameters;
   Cloud flat;
-  flat.single_precision = precision == Precision::SINGLE;
+  flat.single_precision = precision != Precision::DOUBLE;
   flat.rows = parameters.size ();
   const auto view = [&flat] (std::size_t axis, const double* first, std::size_t stride) {
     Field& field = flat.coordinates[axis];
@@ -133,6 +133,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
+  leaveOut (cloud, result.report.non_finite);
   if (line.compute_normals)
     replaceNormals (cloud, result.triangles, line.options.threads);
   if (!line.parameterization.empty ()) {
@@ -200,30 +201,31 @@ run (CommandLine line)
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
-  const bool is_shift_asked = line.auto_shift || line.shift; // all digits of a text count then
-  Cloud cloud = readNamed (
-      line.input, [&] { return readCloud (line.input, *line.cloudFormat (), is_shift_asked); });
+  Cloud cloud = readNamed (line.input, [&] {
+    return readCloud (line.input, *line.cloudFormat (), readOptionsOf (line));
+  });
   checkMemory (line, cloud.size ());
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   checkTextureColours (line, cloud);
+  warnOfDegrees (input.positions, cloud);
   shiftOrigin (line, cloud, input);
   RunFigures figures;
   figures.shift = cloud.shift;
+  figures.notes = cloud.notes;
   figures.read_seconds = secondsSince (start);
   figures.input_points = cloud.size ();
   figures.single_precision = cloud.single_precision;
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
-  cloud.single_precision =
-      choosePrecision (line.precision, *line.meshFormat (), input.positions, is_shift_asked, cloud);
-  figures.writes_single = cloud.single_precision;
 
   start = std::chrono::steady_clock::now ();
   if (memory_limit)
     line.options.task_callback = [&memory_limit] { memory_limit->makeRoom (); };
   Result result = reconstructInput (std::move (input), line.options, line.limits, progress);
   figures.reconstruct_seconds = secondsSince (start);
+  cloud.single_precision = writesSingle (line, result.triangles, cloud);
+  figures.writes_single = cloud.single_precision;
   Report& report = result.report;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());

@@ -94,7 +94,8 @@ Notes:
   files are then read with all their digits, also where the file says float.
   Of a mesh, only the points are read. pcl_viewer opens .vtk. With - for OUTPUT, the summary goes to
   the standard error stream, and the mesh comes when it is complete.
-  Points with a NaN or infinite coordinate are left out of the output, so that the vertices after
+  Points with a NaN or infinite coordinate, pixels without a return, cells without data, and what an
+  airborne scan marks as withheld or noise are left out of the output, so that the vertices after
   them move up. All other points are vertices of the output, also those that are in no triangle:
   outliers, repeated points, and points that could not be connected. The report lists them all.
   With --uv, points on seams are several vertices in .ply and .vtk: the others follow after all
@@ -231,8 +232,7 @@ addFiles (CLI::App& app, CommandLine& line)
         ->required ();
   };
   positional ("INPUT", line.input,
-              "point cloud: .pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts; - is the "
-              "standard input");
+              std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input");
   positional ("OUTPUT", line.output,
               "mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; - is the standard output");
   const std::string files = "Files";
@@ -309,10 +309,37 @@ void
 addCoordinates (CLI::App& app, CommandLine& line)
 {
   addShift (app, line);
+  addParsed (
+      app, "--columns",
+      [&line] (const std::string& word) {
+        const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
+        for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
+          line.columns[static_cast<std::size_t> (axis)] =
+              static_cast<std::size_t> (std::max (0.0, (*numbers)[axis]));
+        const auto& [x, y, z] = line.columns;
+        if (!numbers || x == 0 || y == 0 || z == 0 || x == y || y == z || z == x)
+          throw CLI::ValidationError ("--columns", "'" + word +
+                                                       "' is no three different numbers of "
+                                                       "columns, such as 2,3,4");
+      },
+      "columns of x, y and z in text with a point in each line, from 1; by default those that the "
+      "first line names, or the first three",
+      "X,Y,Z", GENERAL);
+  const auto parse = [&line] (const std::string& word) {
+    std::stringstream words (word);
+    for (std::string one; std::getline (words, one, ',');)
+      if (!parseNumber (std::string_view (one), line.classes.emplace_back ()))
+        throw CLI::ValidationError ("--classes",
+                                    "'" + word + "' are no numbers of classes, such as 2,6");
+  };
+  addParsed (app, "--classes", parse,
+             "classes of an airborne scan that are taken, such as 2,6 for ground and buildings; by "
+             "default all but those of noise, 7 and 18. Withheld points are never taken",
+             "N,N,...", GENERAL);
   addChoice (
       app, "--precision", line.precision, PRECISION_CHOICES,
-      "precision of coordinates in outputs; auto: single if that of the input is, or if that "
-      "is exact. PCL reads doubles of a .ply as 0",
+      "precision of coordinates in outputs; auto: single, with --shift auto for doubles. PCL reads "
+      "doubles of a .ply as 0",
       GENERAL);
 }
 

@@ -105,7 +105,7 @@ addMemoryLimit (CLI::App& app, CommandLine& line);
 void
 addLimit (CLI::App& app, CommandLine& line);
 
-/// --shift and --precision.
+/// --shift, --columns, --classes and --precision.
 void
 addCoordinates (CLI::App& app, CommandLine& line);
 

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prepared_input.h"
 
+#include "mesh_writer.h"
 #include "points/outliers.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace pcl::floater {
 int
@@ -47,19 +46,24 @@ makeInput (const Cloud& cloud)
   Input input;
   input.positions = cloud.positions ();
   input.cloud_size = cloud.size ();
-  if (cloud.size () == cloud.rows)
-    input.lattice_width = cloud.lattice_width;
+  input.lattice_width = cloud.lattice_width;
   input.sensor_origin = cloud.sensor_origin;
-  input.cloud_index.resize (cloud.size ());
-  std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
+  for (std::size_t row = 0; row < cloud.size (); ++row)
+    if (!cloud.isLeftOut (row)) {
+      input.positions[input.cloud_index.size ()] = input.positions[row];
+      input.cloud_index.push_back (static_cast<std::uint32_t> (row));
+    }
+  input.positions.resize (input.cloud_index.size ());
   cloud.file.giveBack ();
   return input;
 }
 
 void
-takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
+takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
 {
   const bool for_facing = line.usesNormalsForFacing ();
+  if (line.options.facing == Facing::AUTO && !for_facing)
+    input.facing_normals = std::move (cloud.towards_sensors);
   if (!line.use_input_normals && !for_facing)
     return;
   const FieldTriple fields = normalFields (cloud);
@@ -75,10 +79,48 @@ takeNormals (const CommandLine& line, const Cloud& cloud, Input& input)
       normals[p][axis] =
           static_cast<float> (fields[static_cast<std::size_t> (axis)]->asDouble (cloud.row (p)));
   cloud.file.giveBack ();
+  if (std::none_of (normals.begin (), normals.end (), [] (const Eigen::Vector3f& normal) {
+        return normal.allFinite () && !normal.isZero (0.0F);
+      }))
+    cloud.warnings.emplace_back (
+        "all normals of the input file are zero or not finite: none is used");
   if (line.use_input_normals)
     input.normals = normals;
   if (for_facing)
     input.facing_normals = std::move (normals);
+}
+
+void
+warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud)
+{
+  constexpr double LONGITUDES = 180.0, LATITUDES = 90.0, ZONE = 6.0; // degrees
+  constexpr double SMALL = 5.0;   // degrees; larger areas are not reconstructed as they are
+  constexpr double STEEP = 200.0; // metres for each degree: hardly a hill, but a high wall
+  constexpr double OFF = 10.0;    // extents from (0, 0), which is in the sea
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : positions)
+    if (position.allFinite ())
+      box.extend (position);
+  if (box.isEmpty ())
+    return;
+  const Eigen::Vector3d size = box.sizes (), centre = box.center ();
+  const double extent = std::max (size.x (), size.y ());
+  const bool are_in_range = std::max (-box.min ().x (), box.max ().x ()) <= LONGITUDES &&
+                            std::max (-box.min ().y (), box.max ().y ()) <= LATITUDES;
+  const bool seem = extent > 0.0 && extent < SMALL && size.z () > STEEP * extent &&
+                    centre.head<2> ().norm () > OFF * extent;
+  if (!are_in_range || !(seem || (cloud.may_be_degrees && size.z () > extent)))
+    return;
+  const int zone = static_cast<int> (std::floor ((centre.x () + LONGITUDES) / ZONE)) % 60 + 1;
+  const bool is_south = centre.y () < 0.0;
+  const std::string number = (zone < 10 ? "0" : "") + std::to_string (zone);
+  cloud.warnings.push_back (
+      "x and y seem to be degrees of longitude and latitude, and z metres: distances make no sense "
+      "so. Project them first, such as by cs2cs -f %.3f +proj=longlat +to +proj=utm +zone=" +
+      std::to_string (zone) + (is_south ? " +south" : "") +
+      " (of lines x y z), or pdal translate a.las b.las reprojection "
+      "--filters.reprojection.in_srs=EPSG:4326 --filters.reprojection.out_srs=EPSG:32" +
+      (is_south ? "7" : "6") + number);
 }
 
 Eigen::Vector3d
@@ -106,78 +148,42 @@ chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
   if (float_step < FINE * diagonal / std::sqrt (static_cast<double> (count)))
     return Eigen::Vector3d::Zero ();
   const double unit = std::pow (10.0, std::floor (std::log10 (diagonal)));
-  return unit * (box.center () / unit).array ().round ().matrix ();
+  return (unit * (box.center () / unit).array ().round () + 0.0).matrix (); // no -0
 }
-
-namespace {
-/// The number that the shortest decimal of a float is.
-double
-shortestDecimal (float value)
-{
-  constexpr std::size_t LONGEST = 32; // characters; a float takes at most 15
-  std::array<char, LONGEST> text{};
-  const auto end = std::to_chars (text.data (), text.data () + text.size (), value).ptr;
-  double decimal = 0.0;
-  std::from_chars (text.data (), end, decimal);
-  return decimal;
-}
-
-} // namespace
 
 bool
-fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals)
+writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
 {
+  if (line.precision != Precision::AUTO || cloud.single_precision)
+    return line.precision != Precision::DOUBLE;
   constexpr double LARGEST = std::numeric_limits<float>::max ();
-  const auto fits = [are_decimals] (double value) {
-    if (!std::isfinite (value))
-      return true;
-    if (std::abs (value) > LARGEST) // must not be converted
-      return false;
-    const auto single = static_cast<float> (value);
-    return static_cast<double> (single) == value ||
-           (are_decimals && shortestDecimal (single) == value);
-  };
-  return std::all_of (positions.begin (), positions.end (), [&] (const Eigen::Vector3d& position) {
-    return fits (position.x ()) && fits (position.y ()) && fits (position.z ());
-  });
-}
-
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
-                 bool is_shift_asked, std::vector<std::string>& warnings)
-{
-  if (wanted != Precision::AUTO)
-    return wanted == Precision::SINGLE;
-  if (fits_single ())
+  bool are_floats = true; // others must not be converted
+  for (std::size_t p = 0; p < cloud.size () && are_floats; ++p) {
+    const Eigen::Vector3d position = cloud.position (p);
+    are_floats = !position.allFinite () || position.lpNorm<Eigen::Infinity> () <= LARGEST;
+  }
+  if (are_floats && countMergedInSinglePrecision (cloud, triangles) == 0)
     return true;
-  if (output == MeshFormat::PLY)
-    warnings.emplace_back (
-        "the coordinates are written as doubles, which PCL reads from a .ply file into its points "
-        "as 0: use --precision single or another format for PCL, " +
-        std::string (is_shift_asked ? "" : "--shift if they are far from zero, ") +
-        "or --precision double if doubles are wanted");
+  cloud.warnings.emplace_back ("the coordinates are written as doubles, since 32-bit numbers do "
+                               "not reach so far, or would put "
+                               "corners of a triangle together; PCL reads doubles of a .ply file "
+                               "into its points as 0: use --precision single or "
+                               "another format for PCL");
   return false;
-}
-
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
-                 bool is_shift_asked, Cloud& cloud)
-{
-  const auto fits = [&] {
-    return cloud.single_precision || fitSinglePrecision (positions, cloud.are_decimals);
-  };
-  return choosePrecision (wanted, output, fits, is_shift_asked, cloud.warnings);
 }
 
 void
 shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
 {
+  // Unless doubles are asked for, floats are written: near zero they are fine enough.
+  line.auto_shift |= !line.shift && line.precision == Precision::AUTO && !cloud.single_precision;
   if (line.auto_shift)
     cloud.shift = chooseShift (input.positions, line.options.threads);
   else if (line.shift)
     cloud.shift = *line.shift;
   if (cloud.shift.isZero (0.0))
     return;
+  Eigen::Map<Eigen::Vector3d> (input.shift.data ()) = cloud.shift;
   for (Eigen::Vector3d& position : input.positions)
     position -= cloud.shift;
   Eigen::Map<Eigen::Vector3d> (line.options.view.viewpoint.data ()) -= cloud.shift;

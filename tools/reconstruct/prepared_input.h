@@ -11,8 +11,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <functional>
-
 namespace pcl::floater {
 /// Calls read (), and adds the name of the file to a ReadError.
 template <typename Read>
@@ -32,14 +30,29 @@ readNamed (const std::filesystem::path& path, Read&& read)
 void
 checkMemory (const CommandLine& line, std::size_t points, double kept_per_point = KEPT_PER_POINT);
 
-/// Copies the positions. The other fields of the cloud stay in its file until they are written.
+/// How the command line wants the input read: all digits of a text count if it is shifted.
+inline ReadOptions
+readOptionsOf (const CommandLine& line)
+{
+  return {line.auto_shift || line.shift, line.columns, line.classes};
+}
+
+/// Copies the positions of the points that are not left out. The other fields of the cloud stay in its file until they are written.
 Input
 makeInput (const Cloud& cloud);
 
-/// The normals of all points, for what the command line uses them.
+/// The normals of all points, for what the command line uses them; of several scans,
+/// those towards the sensors, for the facing.
 /// \throws UsageError if the cloud has none
 void
-takeNormals (const CommandLine& line, const Cloud& cloud, Input& input);
+takeNormals (const CommandLine& line, Cloud& cloud, Input& input);
+
+/// Warns if x and y seem to be degrees of longitude and latitude beside heights in metres, with the
+/// command that projects them. They are in their range, and names or scales say so; or they are a
+/// small area away from the origin, and their extents far below that of z. O(n).
+/// \param positions of the cloud, before any shift
+void
+warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud);
 
 /// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
 /// bounding box of all finite points that are no gross outliers, rounded to the power of ten below
@@ -49,28 +62,15 @@ takeNormals (const CommandLine& line, const Cloud& cloud, Input& input);
 Eigen::Vector3d
 chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads);
 
-/// Subtracts the origin that was asked for, from the viewpoints as well.
+/// Subtracts the origin that was asked for, from the viewpoints as well; without one, that of
+/// chooseShift, unless the file has 32-bit numbers or a precision is asked for.
 void
 shiftOrigin (CommandLine& line, Cloud& cloud, Input& input);
 
-/// Whether 32-bit floats hold all finite coordinates. O(n).
-/// \param are_decimals the coordinates come from a text without types: a float holds one if its
-/// shortest decimal is that number; otherwise, if it is equal
+/// Whether to write 32-bit floats: unless doubles are asked for, or floats would put corners of a
+/// triangle together, of which a warning tells.
 bool
-fitSinglePrecision (const std::vector<Eigen::Vector3d>& positions, bool are_decimals);
-
-/// Whether to write 32-bit floats, and a warning if readers may not expect what is written.
-/// \param fits_single whether they hold all coordinates; asked only if that decides
-/// \param is_shift_asked so that the warning does not advise it
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::function<bool ()>& fits_single,
-                 bool is_shift_asked, std::vector<std::string>& warnings);
-
-/// The same for a cloud.
-/// \param positions of the cloud, after the shift
-bool
-choosePrecision (Precision wanted, MeshFormat output, const std::vector<Eigen::Vector3d>& positions,
-                 bool is_shift_asked, Cloud& cloud);
+writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud);
 
 /// The exit code of a run.
 int

@@ -97,7 +97,8 @@ reportJson (const CommandLine& line, const Report& report, const RunFigures& run
                {{"file", fileName (line.input)},
                 {"points", run.input_points},
                 {"coordinates", run.single_precision ? "float" : "double"},
-                {"fields", run.input_fields}}},
+                {"fields", run.input_fields},
+                {"notes", run.notes}}},
               {"shift", {run.shift.x (), run.shift.y (), run.shift.z ()}},
               {"output", is_ok ? Json{{"file", fileName (line.output)},
                                       {"coordinates", run.writes_single ? "float" : "double"},
@@ -278,9 +279,10 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
   const Statistics& statistics = report.statistics;
   constexpr double MEGABYTE = 1e6;
   printVerdict (to, report.verdict);
+  for (const std::string& note : run.notes)
+    std::fprintf (to, "input      %s\n", note.c_str ());
   std::fprintf (
-      to,
-      "points     %zu, %zu of them in the mesh (%zu repeated, %zu not finite, %s, %zu unused)\n",
+      to, "points     %zu, %zu of them in the mesh (%zu repeated, %zu invalid, %s, %zu unused)\n",
       run.input_points, statistics.used_points, statistics.duplicate_points,
       statistics.non_finite_points, counted (report.outliers.size (), "outlier").c_str (),
       report.unused.size ());
@@ -302,8 +304,11 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                   counted (statistics.trimmed_components, "component").c_str (),
                   counted (statistics.trimmed_points, "point").c_str ());
   if (!run.shift.isZero (0.0))
-    std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates\n",
-                  run.shift.x (), run.shift.y (), run.shift.z ());
+    std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates%s\n",
+                  run.shift.x (), run.shift.y (), run.shift.z (),
+                  line.auto_shift ? ": 32-bit numbers are too coarse for them; --precision double "
+                                    "keeps them"
+                                  : "");
   if (report.is_view)
     std::fprintf (to,
                   "viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
@@ -354,7 +359,7 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
     std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct %s: %s (%s)\n",
                   inputName (line.input).c_str (), report.message.c_str (),
                   outcomeName (report, figures).c_str ());
-  if (figures.is_refused || (is_ok && !line.quiet))
+  if (figures.is_refused || !line.quiet)
     printWarnings (report, line.verbose || figures.is_refused);
   if (is_ok && !line.quiet)
     printSummary (to, line, report, figures);

@@ -19,6 +19,7 @@ namespace pcl::floater {
 struct RunFigures
 {
   std::size_t input_points = 0;
+  std::vector<std::string> notes;                   ///< on the input, as Cloud has them
   std::vector<std::string> input_fields;            ///< fields of the points but the coordinates
   bool writes_single = true;                        ///< whether those of the mesh are
   bool single_precision = true;                     ///< whether the coordinates are 32-bit floats

@@ -102,6 +102,8 @@ struct FacingDecision
 enum class FindingId
 {
   COINCIDENT_POINTS,    ///< many points coincide
+  INVALID_PIXELS,       ///< points left out: many at one place, such as (0, 0, 0), as no return
+  INVALID_CELLS,        ///< points left out: heights that stand for no data, such as -9999
   GROSS_OUTLIERS,       ///< points left out: over a thousand times as far away as all others
   OUTLIERS,             ///< points left out: off any surface
   STACKED_POINTS,       ///< points lie on one another, and came into the mesh after the others
@@ -217,7 +219,7 @@ struct Statistics
 
   std::size_t cloud_points = 0;      ///< points of the input cloud
   std::size_t selected_points = 0;   ///< points that the indices select; by default, all
-  std::size_t non_finite_points = 0; ///< selected, but with a NaN or infinite coordinate
+  std::size_t non_finite_points = 0; ///< selected, but as Report::non_finite
   std::size_t duplicate_points = 0;  ///< selected, but equal to an earlier point
   std::size_t working_points = 0;    ///< distinct finite points without outliers
   std::size_t outlier_points = 0;    ///< points left out because they lie off any surface
@@ -307,7 +309,8 @@ struct Report
   std::vector<std::uint32_t> scatter;    ///< points on no surface (see Statistics::scatter_points);
                                          ///< left out unless it is to be kept; ascending
   std::vector<std::uint32_t> outliers;   ///< outliers, left out of the mesh; ascending
-  std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate; ascending
+  std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate, and those
+                                         ///< that stand for no measurement; ascending
   std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),
                                                         ///< ascending
   Statistics statistics;                                ///< counts, times and figures

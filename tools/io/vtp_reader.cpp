@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points of VTK's files in XML (VTK User's Guide, "XML file formats"), without VTK, which takes longer
+// to load than most clouds to reconstruct. Of the XML, only the tags and attributes of arrays matter.
+#include "cloud_reader.h"
+#include "format.h"
+#include "text_scanner.h"
+
+#include <lodepng.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace pcl::floater {
+namespace {
+/// The value of an attribute of a tag; empty if it has none.
+std::string_view
+attributeOf (std::string_view tag, std::string_view name)
+{
+  const std::string start = " " + std::string (name) + "=\"";
+  const std::size_t found = tag.find (start);
+  if (found == std::string_view::npos)
+    return {};
+  tag.remove_prefix (found + start.size ());
+  return tag.substr (0, tag.find ('"'));
+}
+
+std::size_t
+countIn (std::string_view tag, std::string_view name, std::size_t if_none)
+{
+  std::size_t count = 0;
+  return parseNumber (attributeOf (tag, name), count) ? count : if_none;
+}
+
+/// Bytes as they are, or in groups of base64, each of which may end with padding.
+class EncodedBytes
+{
+public:
+  EncodedBytes (std::string_view text, bool is_raw) : text_ (text), is_raw_ (is_raw) {}
+
+  std::string read (std::size_t bytes)
+  {
+    std::string result (std::min (bytes, text_.size () + group_.size ()), '\0');
+    for (char& c : result) {
+      if (is_raw_ ? text_.empty () : group_.empty () && !decodeGroup ())
+        break;
+      std::string_view& from = is_raw_ ? text_ : group_;
+      c = from.front ();
+      from.remove_prefix (1);
+      --bytes;
+    }
+    if (bytes > 0)
+      throw ReadError ("an array ends before its values do; it is truncated");
+    return result;
+  }
+
+private:
+  bool decodeGroup ()
+  {
+    static constexpr std::string_view DIGITS =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::uint32_t bits = 0;
+    std::size_t digits = 0, padding = 0;
+    while (digits + padding < 4 && !text_.empty ()) {
+      const std::size_t digit = DIGITS.find (text_.front ());
+      padding += text_.front () == '=' ? 1 : 0;
+      text_.remove_prefix (1);
+      if (digit == std::string_view::npos)
+        continue;
+      bits = bits << 6U | static_cast<std::uint32_t> (digit);
+      ++digits;
+    }
+    if (digits + padding < 4 || digits < 2)
+      return false;
+    bits <<= 6U * padding;
+    for (std::size_t i = 0; i < 3; ++i)
+      bytes_[i] = static_cast<char> (bits >> (16U - 8U * i) & 255U);
+    group_ = {bytes_.data (), digits - 1};
+    return true;
+  }
+
+  std::string_view text_, group_;
+  std::array<char, 3> bytes_{};
+  bool is_raw_;
+};
+
+class VtpParser
+{
+public:
+  explicit VtpParser (std::string_view text) : text_ (text)
+  {
+    std::size_t at = 0;
+    root_ = findTag ("<VTKFile", at);
+    if (root_.empty ())
+      throw ReadError ("it has no <VTKFile>, so it is not a VTK file in XML");
+    order_ = attributeOf (root_, "byte_order") == "BigEndian" ? ByteOrder::BIG : ByteOrder::LITTLE;
+    has_long_headers_ = attributeOf (root_, "header_type") == "UInt64";
+    const std::string_view compressor = attributeOf (root_, "compressor");
+    is_compressed_ = !compressor.empty ();
+    if (is_compressed_ && compressor != "vtkZLibDataCompressor")
+      throw ReadError ("it is compressed by " + std::string (compressor.substr (0, 40)) +
+                       ", which cannot be read; save it without, or with zlib");
+  }
+
+  Cloud parse ()
+  {
+    std::size_t at = 0;
+    const std::string_view piece = findTag ("<Piece", at);
+    points_ = countIn (piece, "NumberOfPoints", 0);
+    if (std::size_t next = at; !findTag ("<Piece", next).empty ())
+      throw ReadError ("it has several pieces; save it as one");
+    const std::size_t end = std::min (text_.find ("</Piece", at), text_.size ());
+    std::vector<Field> fields;
+    for (const char* section : {"<Points", "<PointData"}) {
+      std::size_t begin = at;
+      if (findTag (section, begin).empty () || begin > end || text_[begin - 2] == '/')
+        continue;
+      const std::size_t last =
+          std::min (text_.find ("</" + std::string (section + 1), begin), text_.size ());
+      for (std::string_view tag = findTag ("<DataArray", begin); !tag.empty () && begin < last;
+           tag = findTag ("<DataArray", begin))
+        addArray (tag, begin, std::string_view (section) == "<Points", fields);
+    }
+    std::vector<std::string> warnings;
+    if (const std::size_t faces = countIn (piece, "NumberOfPolys", 0))
+      warnings.push_back (facesLeftOut (faces));
+    return makeCloud (std::move (fields), points_, std::move (warnings));
+  }
+
+private:
+  /// The next tag of this name, with its attributes; empty if there is none.
+  std::string_view findTag (const std::string& name, std::size_t& at) const
+  {
+    const std::size_t begin = text_.find (name, at);
+    const std::size_t end = begin == std::string_view::npos ? begin : text_.find ('>', begin);
+    if (end == std::string_view::npos)
+      return {};
+    at = end + 1;
+    return text_.substr (begin, end - begin);
+  }
+
+  static std::optional<ScalarType> typeOf (std::string_view name)
+  {
+    constexpr std::array<std::string_view, 10> NAMES{"Int8",    "UInt8",  "Int16", "UInt16",
+                                                     "Int32",   "UInt32", "Int64", "UInt64",
+                                                     "Float32", "Float64"};
+    const auto found = std::find (NAMES.begin (), NAMES.end (), name);
+    if (found == NAMES.end ())
+      return std::nullopt;
+    return static_cast<ScalarType> (found - NAMES.begin ());
+  }
+
+  std::uint64_t header (EncodedBytes& bytes) const
+  {
+    return has_long_headers_ ? readNumber<std::uint64_t> (bytes.read (8).data (), order_)
+                             : readNumber<std::uint32_t> (bytes.read (4).data (), order_);
+  }
+
+  std::string decode (EncodedBytes bytes, std::size_t expected) const
+  {
+    const std::uint64_t first = header (bytes);
+    if (!is_compressed_)
+      return bytes.read (first == expected ? expected : text_.size () + 1);
+    header (bytes); // of a whole block, and of the last one
+    header (bytes);
+    std::vector<std::uint64_t> sizes;
+    for (std::uint64_t block = 0; block < first; ++block)
+      sizes.push_back (header (bytes));
+    std::string values;
+    for (const std::uint64_t size : sizes) {
+      const std::string packed = bytes.read (size);
+      std::vector<unsigned char> block;
+      if (lodepng::decompress (block, reinterpret_cast<const unsigned char*> (packed.data ()),
+                               packed.size ()) != 0)
+        throw ReadError ("the compressed data are damaged");
+      values.append (block.begin (), block.end ());
+    }
+    return values;
+  }
+
+  void addArray (std::string_view tag, std::size_t at, bool is_place, std::vector<Field>& fields)
+  {
+    const std::optional<ScalarType> type = typeOf (attributeOf (tag, "type"));
+    const std::size_t each = countIn (tag, "NumberOfComponents", 1);
+    if (!type || each == 0 || each > 256 || points_ > text_.size () * 1100) // what zlib can do
+      return;
+    const std::size_t bytes = points_ * each * sizeOf (*type);
+    const std::string_view format = attributeOf (tag, "format");
+    const auto values = std::make_shared<std::string> ();
+    ByteOrder order = order_;
+    if (format == "ascii") {
+      TextScanner scanner (text_.substr (at, text_.find ('<', at) - at));
+      for (std::size_t i = 0; i < points_ * each; ++i) {
+        if (!scanner.hasWord () && !scanner.nextFilledLine ())
+          throw ReadError ("an array ends before its values do; it is truncated");
+        visitType (*type, [&] (auto number) {
+          number = scanner.number<decltype (number)> ();
+          values->append (reinterpret_cast<const char*> (&number), sizeof number);
+        });
+      }
+      order = HOST_BYTE_ORDER;
+    }
+    else if (format == "appended") {
+      std::size_t begin = 0;
+      const bool is_raw = attributeOf (findTag ("<AppendedData", begin), "encoding") == "raw";
+      begin = std::min (text_.find ('_', begin), text_.size ());
+      const std::size_t offset = countIn (tag, "offset", 0);
+      const std::size_t left = text_.size () - begin;
+      *values = decode ({text_.substr (begin + std::min (left, offset + 1)), is_raw}, bytes);
+    }
+    else
+      *values = decode ({text_.substr (at, text_.find ('<', at) - at), false}, bytes);
+    if (values->size () != bytes)
+      throw ReadError ("an array has not as many values as there are points");
+    std::vector<std::string> names;
+    const std::string name (attributeOf (tag, "Name"));
+    const auto isCalled = [&name] (const char* word) { return isWord (name, word); };
+    if (is_place)
+      names = {"x", "y", "z"};
+    else if (each == 3 && isCalled ("Normals"))
+      names = {"nx", "ny", "nz"};
+    else if (each >= 3 && each <= 4 && *type == ScalarType::UINT8)
+      names = {"red", "green", "blue", "alpha"};
+    for (std::size_t c = 0;
+         c < (names.empty () ? 1 : each) && c < std::max<std::size_t> (names.size (), 1); ++c) {
+      Field field{names.empty () ? name : names[c], *type, names.empty () ? each : 1};
+      field.first = {values, values->data () + c * sizeOf (*type)};
+      field.stride = each * sizeOf (*type);
+      field.order = order;
+      fields.push_back (std::move (field));
+    }
+  }
+
+  std::string_view text_, root_;
+  ByteOrder order_ = ByteOrder::LITTLE;
+  bool has_long_headers_ = false, is_compressed_ = false;
+  std::size_t points_ = 0;
+};
+
+} // namespace
+
+Cloud
+parseVtp (const FileBytes& file)
+{
+  return VtpParser (file.view ()).parse ();
+}
+
+} // namespace pcl::floater
