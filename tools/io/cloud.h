@@ -275,6 +275,7 @@ struct Cloud
   bool single_precision = true;                     ///< the coordinates were given as 32-bit floats
   Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< is subtracted from the coordinates
   bool may_be_degrees = false;                      ///< names or scales say so of x and y
+  std::string projection; ///< if x and y seem to be degrees beside metres: what to do about it
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates
   std::size_t rows = 0;                  ///< points of the file

@@ -229,6 +229,8 @@ run (CommandLine line)
   Report& report = result.report;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+  if (report.status == RunStatus::SUCCESS && !cloud.projection.empty ())
+    report.verdict = {Quality::POOR, DEGREES, cloud.projection};
   reportMemory (line, report);
 
   if (line.texture_coordinates) {

@@ -114,13 +114,13 @@ warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud)
   const int zone = static_cast<int> (std::floor ((centre.x () + LONGITUDES) / ZONE)) % 60 + 1;
   const bool is_south = centre.y () < 0.0;
   const std::string number = (zone < 10 ? "0" : "") + std::to_string (zone);
-  cloud.warnings.push_back (
-      "x and y seem to be degrees of longitude and latitude, and z metres: distances make no sense "
-      "so. Project them first, such as by cs2cs -f %.3f +proj=longlat +to +proj=utm +zone=" +
+  cloud.projection =
+      "project them first, such as by cs2cs -f %.3f +proj=longlat +to +proj=utm +zone=" +
       std::to_string (zone) + (is_south ? " +south" : "") +
       " (of lines x y z), or pdal translate a.las b.las reprojection "
       "--filters.reprojection.in_srs=EPSG:4326 --filters.reprojection.out_srs=EPSG:32" +
-      (is_south ? "7" : "6") + number);
+      (is_south ? "7" : "6") + number;
+  cloud.warnings.push_back (std::string (DEGREES) + "; " + cloud.projection);
 }
 
 Eigen::Vector3d

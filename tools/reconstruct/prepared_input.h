@@ -12,6 +12,11 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
+/// What is wrong with degrees beside metres.
+constexpr const char* DEGREES =
+    "x and y seem to be degrees of longitude and latitude, and z metres: "
+    "distances make no sense so";
+
 /// Calls read (), and adds the name of the file to a ReadError.
 template <typename Read>
 auto
