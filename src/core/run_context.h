@@ -33,7 +33,7 @@ struct Callbacks
 
 /// Clock and callbacks of one run. Measures wall time by stage, reports progress and polls for
 /// cancellation: at the begin of each stage and, from its loops (ProgressLoop), up to 20 times a
-/// second.
+/// second; less often if the callbacks are slow, so that they take a tenth of the run.
 ///
 /// Progress is estimated from the shares of the stages in typical runs. Steps within a stage may be
 /// announced. The loop after a step moves evenly through it; any other loop takes half of the rest
@@ -99,7 +99,7 @@ private:
   bool is_watched_;
   std::atomic<bool> is_cancelled_{false};
   Stage stage_ = Stage::COUNT; // running stage; COUNT: none
-  Clock::time_point stage_start_, last_poll_;
+  Clock::time_point stage_start_, last_poll_, next_poll_;
   bool is_disc_ = false;
   std::size_t next_stage_ = 0; // after the running one
   bool is_in_loop_ = false;

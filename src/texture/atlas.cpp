@@ -319,15 +319,26 @@ longSideOfBox (const ChartLayout& chart)
 
 // Rotates and scales the chart, with the lower left corner of its box at the origin, in cells.
 void
-turnAndScale (ChartLayout& chart, double area)
+turnAndScale (ChartLayout& chart, double area, double longest)
 {
+  constexpr double SHORTEST = 1.0 / 16.0; // rounding leaves triangles of that size as they are
+  constexpr double LEAST_AREA = 1e-30;    // above zero, so that it can be scaled
   const Eigen::Vector2d up = longSideOfBox (chart), right (up.y (), -up.x ());
-  const double scale = std::sqrt (area / planeArea (chart));
-  Eigen::AlignedBox2d box;
-  for (Eigen::Vector2d& p : chart.uv) {
-    p = scale * Eigen::Vector2d (right.dot (p), up.dot (p));
-    box.extend (p);
-  }
+  const auto scaleAll = [&chart] (double scale, const Eigen::Vector2d& x,
+                                  const Eigen::Vector2d& y) {
+    Eigen::AlignedBox2d box;
+    for (Eigen::Vector2d& p : chart.uv) {
+      p = scale * Eigen::Vector2d (x.dot (p), y.dot (p));
+      box.extend (p);
+    }
+    return box;
+  };
+  Eigen::AlignedBox2d box =
+      scaleAll (std::sqrt (std::max (area, LEAST_AREA) / planeArea (chart)), right, up);
+  const double length = box.sizes ().maxCoeff ();
+  if (length < SHORTEST || length > longest)
+    box = scaleAll ((length < SHORTEST ? SHORTEST : longest) / length, Eigen::Vector2d::UnitX (),
+                    Eigen::Vector2d::UnitY ());
   for (Eigen::Vector2d& p : chart.uv)
     p -= box.min ();
 }
@@ -368,13 +379,18 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   const double cells = std::max (
       static_cast<double> (limits.cells),
       std::ceil (limits.cells_per_chart * std::sqrt (static_cast<double> (charts.size ()))));
-  double total = 0.0;
+  const auto weightOf = [] (const ChartLayout& chart) {
+    constexpr double MOST_STRETCH = 1000.0;
+    return chart.area * std::min (chart.stretch, MOST_STRETCH);
+  };
+  constexpr double LONGEST = 32.0;
+  double total = std::numeric_limits<double>::min ();
   for (const ChartLayout& chart : charts)
-    total += chart.area * chart.stretch;
+    total += weightOf (chart);
   const double cells_per_area = limits.first_fill * cells * cells / total;
   std::vector<std::array<CellMask, 4>> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
-    turnAndScale (charts[c], cells_per_area * charts[c].area * charts[c].stretch);
+    turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
     std::vector<Eigen::Vector2d> uv = charts[c].uv;
     for (CellMask& mask : masks[c]) {
       mask = makeCellMask (charts[c].corners, uv);
