@@ -9,6 +9,7 @@
 #include <pcl/surface/floater/report.h>
 
 #include <atomic>
+#include <cfenv>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -29,6 +30,20 @@ struct Callbacks
   std::function<bool ()> cancelled;      ///< whether the run is to be cancelled
   std::function<void ()> task{};         ///< a thread is about to begin a task, or a piece of one;
                                          ///< must not throw
+};
+
+/// Floating-point numbers as the library needs them, whatever the caller has set: divisions by zero and
+/// invalid operations do not end the program. Threads that are started meanwhile have them so as well.
+class QuietNumbers
+{
+public:
+  QuietNumbers () { std::feholdexcept (&before_); }
+  ~QuietNumbers () { std::fesetenv (&before_); }
+  QuietNumbers (const QuietNumbers&) = delete;
+  QuietNumbers& operator= (const QuietNumbers&) = delete;
+
+private:
+  std::fenv_t before_{};
 };
 
 /// Clock and callbacks of one run. Measures wall time by stage, reports progress and polls for
@@ -93,6 +108,7 @@ private:
   void poll ();
   void tell ();
 
+  QuietNumbers quiet_; // of the run
   Callbacks callbacks_;
   Statistics& statistics_;
   std::thread::id owner_ = std::this_thread::get_id ();

@@ -16,6 +16,8 @@
 #include <random>
 #include <sstream>
 
+#include <unistd.h>
+
 namespace pcl::floater {
 namespace {
 const std::string BYTE_ORDER_MARK = "\xef\xbb\xbf";
@@ -343,6 +345,33 @@ TEST_F (Readers, ManyPointsOfStlStayInTheirOrder)
     }
   }
   EXPECT_EQ (read ("a.stl", stlBytes (facets)).positions (), points);
+}
+
+TEST_F (Readers, TemporaryFilesArePrivateAndTheirLeftoversAreTold)
+{
+  ::setenv ("TMPDIR", path ("").c_str (), 1);
+  {
+    const AtomicFile file ("-");
+    std::size_t found = 0;
+    for (const auto& entry : std::filesystem::directory_iterator (path (""))) {
+      ++found;
+      EXPECT_EQ (entry.status ().permissions () & std::filesystem::perms::all,
+                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    }
+    EXPECT_EQ (found, 1U);
+  }
+  ::unsetenv ("TMPDIR");
+  // As runs that were killed leave them, where each process has the same number.
+  for (int i = 0; i < 100; ++i)
+    writeFile (".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp",
+               "");
+  try {
+    const AtomicFile file (path ("mesh.ply"));
+    ADD_FAILURE () << "there is a name left";
+  }
+  catch (const WriteError& error) {
+    EXPECT_THAT (error.what (), HasSubstr ("remove the files '.pcl_floater.*.tmp'"));
+  }
 }
 
 double

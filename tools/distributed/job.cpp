@@ -92,9 +92,12 @@ void
 prepareFolders (const Job& job)
 {
   std::error_code error;
-  std::filesystem::create_directories (job.work.parent_path (), error);
+  const std::filesystem::path work =
+      job.work.has_filename () ? job.work : job.work.parent_path (); // "town/"
+  if (work.has_parent_path ())
+    std::filesystem::create_directories (work.parent_path (), error);
   constexpr mode_t OWN = 0700;
-  if (::mkdir (job.work.c_str (), OWN) != 0 && errno != EEXIST)
+  if (!error && ::mkdir (work.c_str (), OWN) != 0 && errno != EEXIST)
     error = std::make_error_code (static_cast<std::errc> (errno));
   if (error || !std::filesystem::is_directory (job.work))
     throw WriteError ("cannot make the work folder '" + job.work.string () +
