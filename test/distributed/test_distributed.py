@@ -199,7 +199,7 @@ def forge(file, array, value):
     hashed.restype, hashed.argtypes = ctypes.c_uint64, (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint64)
     sums, table = bytearray(), slice(48, 48 + 48 * struct.unpack_from("<I", data, 12)[0])
     for name, element, count, offset in struct.iter_unpack("<24sQQQ", bytes(data[table])):
-        if name.rstrip(b"\0").decode() == array:
+        if name.rstrip(b"\0").decode() == array and count > 0:
             struct.pack_into("<I", data, offset, value)
         for at in range(offset, offset + element * count, 16384):
             piece = bytes(data[at:min(at + 16384, offset + element * count)])
@@ -569,7 +569,7 @@ class Parts(Case):
             forge(file, array, 0xFFFFFFFE)
             if step == "join":
                 (work / "mesh.bin").unlink(missing_ok=True)
-            block = ["--block", 1] if step == "finish" else []
+            block = ["--block", 0 if name == "changes.bin" else 1] if step == "finish" else []
             with self.subTest(name=name, array=array):
                 if step != "finish" or (work / "changes.bin").exists():
                     self.assertIn(self.step(step, *block).returncode, (0, WORK) if file.read_bytes() == good else (WORK,))
@@ -847,7 +847,8 @@ class Errors(Case):
         self.plan(self.cloud)
         self.steps_of_blocks()
         file = self.path("work") / "triangles.1.bin"
-        file.write_bytes(file.read_bytes()[:-3] + b"abc")
+        saved = file.read_bytes()
+        file.write_bytes(saved[:len(saved) // 2] + b"damage" + saved[len(saved) // 2 + 6:])
         outcome = self.step("join")
         self.expect_failure(outcome, WORK, str(file), "damaged", "pcl_floater_distributed: ")
         self.assertNotIn("pcl_floater_reconstruct", outcome.stderr)

@@ -169,6 +169,7 @@ public:
   void append (const std::string& array, std::size_t first, std::size_t last,
                std::vector<T>& values)
   {
+    require (first <= last && last <= count<T> (array));
     const std::size_t before = values.size ();
     values.resize (before + last - first);
     read (array, first, last, values.data () + before);

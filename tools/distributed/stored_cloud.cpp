@@ -37,8 +37,8 @@ readLists (ArrayFile& file, const std::string& array, std::size_t first, std::si
   lists.offsets.resize (last - first + 1);
   lists.offsets[0] = begin;
   file.read (array + ".ends", first, last, lists.offsets.data () + 1);
-  lists.ids = file.read<Index> (array, begin, lists.offsets.back ());
   file.require (std::is_sorted (lists.offsets.begin (), lists.offsets.end ()));
+  lists.ids = file.read<Index> (array, begin, lists.offsets.back ());
   file.requireBelow (lists.ids, limit);
   for (Index& offset : lists.offsets)
     offset -= begin;

@@ -122,7 +122,7 @@ struct Spheres
 
   Remaking remake (int threads = 1)
   {
-    std::vector<CrossingPair> crossing = findSelfIntersections (mesh.triangles, positions, 1);
+    CrossingPairs crossing = findSelfIntersections (mesh.triangles, positions, 1);
     const Remaking done = remakeZones (mesh, positions, neighbors, spacing, crossing, {}, threads);
     EXPECT_EQ (crossing, findSelfIntersections (mesh.triangles, positions, 1));
     return done;
@@ -179,7 +179,7 @@ TEST (Remaking, KeepsOpenings)
   const auto remake = [] (Index around) {
     const samples::Mesh ring = samples::annulus (around);
     TriangleMesh mesh = samples::connected (ring);
-    std::vector<CrossingPair> crossing;
+    CrossingPairs crossing;
     return remakeZones (mesh, ring.positions, neighborsOf (ring.positions),
                         std::vector<float> (ring.positions.size (), 1.0F), crossing, {}, 1);
   };

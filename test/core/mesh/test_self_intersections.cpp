@@ -97,7 +97,7 @@ TEST (SelfIntersections, AllPairsAreFoundWholeAndInParts)
     std::vector<Triangle> sorted;
     for (const Index t : order)
       sorted.push_back (mesh.triangles[t]);
-    std::vector<CrossingPair> found;
+    CrossingPairs found;
     for (std::size_t first = 0; first < sorted.size (); first += 37)
       for (const CrossingPair& pair : findSelfIntersectionsOf (
                sorted, first, std::min (first + 37, sorted.size ()), mesh.positions, 2))
