@@ -569,6 +569,8 @@ class Parts(Case):
             forge(file, array, 0xFFFFFFFE)
             if step == "join":
                 (work / "mesh.bin").unlink(missing_ok=True)
+            if name == "changes.bin":
+                (work / "finish.0.bin").unlink(missing_ok=True)
             block = ["--block", 0 if name == "changes.bin" else 1] if step == "finish" else []
             with self.subTest(name=name, array=array):
                 if step != "finish" or (work / "changes.bin").exists():

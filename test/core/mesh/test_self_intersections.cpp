@@ -208,12 +208,10 @@ TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
   std::vector<Triangle> triangles;
   for (Index i = 0; i < NEEDLES; ++i) {
     const double at = (i + 0.25) / NEEDLES, width = 0.5 / NEEDLES;
-    const auto add = [&, is_across = i % 2 == 0] (double x, double y, double z) {
-      positions.emplace_back (is_across ? x : y, is_across ? y : x, z);
-    };
-    add (at, 0, 0);
-    add (at, 1, i % 2);
-    add (at + width, 1, i % 2);
+    if (i % 2 == 0) // lying, along y
+      positions.insert (positions.end (), {{at, 0, 0}, {at, 1, 0}, {at + width, 1, 0}});
+    else // standing, along x
+      positions.insert (positions.end (), {{0, at, -1}, {1, at, -1}, {0.5, at, 1}});
     triangles.push_back ({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const CrossingPairs pairs = findSelfIntersections (triangles, positions, 1);
