@@ -14,8 +14,8 @@ out on clouds of 5000 points, then runs of the tool that are killed, and others 
 at 200 moments each, a cancellation at 200 moments, and for the rest fuzz targets, each from its
 corpus and what earlier runs have found. From 60 minutes on, 30 million points with a limit on the
 memory come first, which take about 10 GB on the disk, and 54 kinds of hard clouds of 2, 8 and 20
-thousand points, of which none may take more than 300 microseconds a point or 200 MB. One process at a
-time, at the lowest priority.
+thousand points; of the latter none may take more than 300 microseconds a point or 200 MB. One process
+at a time, at the lowest priority.
 Needs clang for the fuzz targets.
 What is found is left in build/attack. The exit code is 1 if there is anything.
 END
