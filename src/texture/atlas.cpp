@@ -19,6 +19,9 @@ namespace {
 // where the last one of its size was placed.
 constexpr std::size_t SMALL = 8;
 
+// Rows of shapes that the search for places may look at, at some 5 nanoseconds.
+constexpr std::size_t MOST_WORK = 100'000'000, MOST_WORK_OF_SHAPE = 10'000;
+
 // Sorts runs, and joins adjacent ones.
 void
 joinRuns (std::vector<CellRun>& runs)
@@ -68,7 +71,7 @@ public:
   CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end) const
   {
     CellPlace place = from;
-    for (; place.y < end; ++place.y, place.x = 0)
+    for (; place.y < end; ++place.y, place.x = 0, work_ += shape.rows.size ())
       if (isWideEnough (shape, place.y) && moveToFree (shape, place))
         break;
     return place;
@@ -93,6 +96,8 @@ public:
   }
 
   std::size_t height () const { return rows_.size (); }
+
+  std::size_t work () const { return work_; } // rows of shapes that were looked at
 
 private:
   // Whether every row of the shape is at most as wide as the widest free run in its row.
@@ -141,6 +146,7 @@ private:
   Index width_;
   std::vector<std::vector<CellRun>> rows_; // occupied cells
   std::vector<Index> widest_;              // of each row: length of the longest free run
+  mutable std::size_t work_ = 0;
 };
 
 bool
@@ -167,13 +173,16 @@ packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vect
   packing.places.resize (shapes.size ());
   Strip strip (width);
   std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of boxes of a size
+  // Where there are thousands of long shapes, such as needles, the rest is packed as boxes upwards.
+  const std::size_t most_work = MOST_WORK + MOST_WORK_OF_SHAPE * shapes.size ();
+  CellPlace last_of_rest;
   ProgressLoop progress (run, shapes.size ());
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
     CellPlace best;
-    if (isSmall (shapes[s][0])) {
+    if (const bool is_small = isSmall (shapes[s][0]); is_small || strip.work () > most_work) {
       const CellMask box = boxOf (shapes[s][0]);
-      CellPlace& last = last_places[{box.width, box.rows.size ()}];
+      CellPlace& last = is_small ? last_places[{box.width, box.rows.size ()}] : last_of_rest;
       last = best = strip.findPlace (box, last, NONE);
       strip.occupy (box, best);
     }
@@ -383,7 +392,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
     constexpr double MOST_STRETCH = 1000.0;
     return chart.area * std::min (chart.stretch, MOST_STRETCH);
   };
-  constexpr double LONGEST = 32.0;
+  constexpr double LONGEST = 4.0; // squares; longer ones would leave most of the atlas empty
   double total = std::numeric_limits<double>::min ();
   for (const ChartLayout& chart : charts)
     total += weightOf (chart);
