@@ -75,12 +75,13 @@ removesCrossings (const Points& points, const Options& options)
 
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics,
-         std::optional<std::vector<CrossingPair>> known, const std::function<void ()>& complete)
+         const Request& request, Statistics& statistics, std::optional<CrossingPairs> known,
+         const std::function<void ()>& complete)
 {
   checkCrossing (mesh.triangles, points, request.run, found, std::move (known));
   statistics.self_intersections_found = found.crossing.size ();
-  if (found.crossing.empty () || !removesCrossings (points, request.options))
+  if (found.crossing.empty () || !found.crossing.untested.empty () ||
+      !removesCrossings (points, request.options))
     return;
   if (complete)
     complete ();

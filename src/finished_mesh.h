@@ -39,7 +39,7 @@ removesCrossings (const Points& points, const Options& options);
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
          const Request& request, Statistics& statistics,
-         std::optional<std::vector<CrossingPair>> known = std::nullopt,
+         std::optional<CrossingPairs> known = std::nullopt,
          const std::function<void ()>& complete = {});
 
 /// Makes the result of a mesh.

@@ -335,6 +335,8 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
   }
   catch (...) {
     problem = problemOfException ();
+    if (known != nullptr && problem.status == RunStatus::INTERNAL_ERROR)
+      throw; // of the stages that are known elsewhere: their owner knows its kind
   }
   if (problem.status == RunStatus::CANCELLED) {
     Report cancelled;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The long versions of the attacks: random clouds, memory that runs out, runs that are killed or whose
-# input shrinks, cancellation, and all fuzz targets.
+# The long versions of the attacks: hard and random clouds, memory that runs out, runs that are killed
+# or whose input shrinks, cancellation, and all fuzz targets.
 set -euo pipefail
 
 usage () {
@@ -13,7 +13,9 @@ a third of the time random clouds from SEED on (default: the date), up to a sixt
 out on clouds of 5000 points, then runs of the tool that are killed, and others whose input shrinks,
 at 200 moments each, a cancellation at 200 moments, and for the rest fuzz targets, each from its
 corpus and what earlier runs have found. From 60 minutes on, 30 million points with a limit on the
-memory come first; they take about 10 GB on the disk. One process at a time, at the lowest priority.
+memory come first, which take about 10 GB on the disk, and 54 kinds of hard clouds of 2, 8 and 20
+thousand points; of the latter none may take more than 300 microseconds a point or 200 MB. One process
+at a time, at the lowest priority.
 Needs clang for the fuzz targets.
 What is found is left in build/attack. The exit code is 1 if there is anything.
 END
@@ -97,6 +99,9 @@ if ((minutes >= 60)); then
     result=1
   grep -E "^(points|triangles|topology|seconds|warning|pcl_floater)" "$work/large.txt" || true
   rm -f "$work/large.ply" "$work/large_mesh.ply"
+fi
+if ((minutes >= 60)); then
+  nice -n 19 /usr/bin/python3 test/benchmark/worst_cases.py --build build/dev --strict | tee "$work/worst.txt" || result=1
 fi
 clouds=$((seconds / 9))
 for points in 30 400 3000; do

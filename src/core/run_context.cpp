@@ -9,6 +9,8 @@
 namespace pcl::floater {
 namespace {
 constexpr std::chrono::milliseconds BETWEEN_POLLS{50};
+constexpr int REST = 9; // times as long as the last callbacks took, before the next ones ...
+constexpr std::chrono::milliseconds QUICK{1}; // ... unless they took less than this
 constexpr auto STAGES = static_cast<std::size_t> (Stage::COUNT);
 using Shares = std::array<double, STAGES>; // in percent, in the order of the stages
 
@@ -78,12 +80,17 @@ RunMonitor::poll ()
     throw Cancelled ();
   if (!isOwnThread ())
     return;
-  last_poll_ = Clock::now ();
+  const Clock::time_point start = Clock::now ();
+  if (start < next_poll_)
+    return;
   if (callbacks_.cancelled && callbacks_.cancelled ()) {
     is_cancelled_ = true;
     throw Cancelled ();
   }
   tell ();
+  last_poll_ = Clock::now ();
+  if (last_poll_ - start > QUICK)
+    next_poll_ = last_poll_ + REST * (last_poll_ - start);
 }
 
 void

@@ -9,6 +9,7 @@
 #include <pcl/surface/floater/report.h>
 
 #include <atomic>
+#include <cfenv>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -31,9 +32,23 @@ struct Callbacks
                                          ///< must not throw
 };
 
+/// Floating-point numbers as the library needs them, whatever the caller has set: divisions by zero and
+/// invalid operations do not end the program. Threads that are started meanwhile have them so as well.
+class QuietNumbers
+{
+public:
+  QuietNumbers () { std::feholdexcept (&before_); }
+  ~QuietNumbers () { std::fesetenv (&before_); }
+  QuietNumbers (const QuietNumbers&) = delete;
+  QuietNumbers& operator= (const QuietNumbers&) = delete;
+
+private:
+  std::fenv_t before_{};
+};
+
 /// Clock and callbacks of one run. Measures wall time by stage, reports progress and polls for
 /// cancellation: at the begin of each stage and, from its loops (ProgressLoop), up to 20 times a
-/// second.
+/// second; less often if the callbacks are slow, so that they take a tenth of the run.
 ///
 /// Progress is estimated from the shares of the stages in typical runs. Steps within a stage may be
 /// announced. The loop after a step moves evenly through it; any other loop takes half of the rest
@@ -93,13 +108,14 @@ private:
   void poll ();
   void tell ();
 
+  QuietNumbers quiet_; // of the run
   Callbacks callbacks_;
   Statistics& statistics_;
   std::thread::id owner_ = std::this_thread::get_id ();
   bool is_watched_;
   std::atomic<bool> is_cancelled_{false};
   Stage stage_ = Stage::COUNT; // running stage; COUNT: none
-  Clock::time_point stage_start_, last_poll_;
+  Clock::time_point stage_start_, last_poll_, next_poll_;
   bool is_disc_ = false;
   std::size_t next_stage_ = 0; // after the running one
   bool is_in_loop_ = false;

@@ -7,8 +7,9 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/spatial_sort.h>
 
-#include <utility>
+#include <numeric>
 
 namespace pcl::floater {
 namespace {
@@ -24,13 +25,26 @@ using SpaceDelaunay =
 Tetrahedra
 delaunayInSpace (const std::vector<Eigen::Vector3d>& points)
 {
-  std::vector<std::pair<SpaceKernel::Point_3, Index>> numbered;
-  numbered.reserve (points.size ());
+  using Point = SpaceKernel::Point_3;
+  std::vector<Point> places;
+  places.reserve (points.size ());
   for (const Eigen::Vector3d& p : points)
-    numbered.emplace_back (SpaceKernel::Point_3 (p.x (), p.y (), p.z ()),
-                           static_cast<Index> (numbered.size ()));
-  SpaceDelaunay delaunay (numbered.begin (), numbered.end ());
+    places.emplace_back (p.x (), p.y (), p.z ());
+  std::vector<std::size_t> order (points.size ());
+  std::iota (order.begin (), order.end (), std::size_t{0});
+  using PlaceOf = CGAL::Pointer_property_map<Point>::type;
+  CGAL::spatial_sort<CGAL::Sequential_tag> (
+      order.begin (), order.end (),
+      CGAL::Spatial_sort_traits_adapter_3<SpaceKernel, PlaceOf> (CGAL::make_property_map (places)));
+  SpaceDelaunay delaunay;
   Tetrahedra made;
+  SpaceDelaunay::Vertex_handle last;
+  for (const std::size_t p : order) {
+    last = delaunay.insert (places[p], last);
+    last->info () = static_cast<Index> (p);
+    if (delaunay.tds ().number_of_cells () > FEW_TETRAHEDRA + MOST_TETRAHEDRA * points.size ())
+      return made;
+  }
   if (delaunay.dimension () < 3)
     return made;
   delaunay.infinite_vertex ()->info () = NONE;

@@ -36,9 +36,13 @@ struct Tetrahedra
   }
 };
 
+/// Random points have 7 for each point, those of surfaces up to about 12.
+constexpr std::size_t MOST_TETRAHEDRA = 32, FEW_TETRAHEDRA = 10'000;
+
 /// The Delaunay triangulation of distinct points, exact. Where more than four points lie on an
-/// empty sphere, one of the possible triangulations. O(n log n) in practice, O(n^2) at worst.
-/// \return without tetrahedra if all points are in one plane
+/// empty sphere, one of the possible triangulations. O(n log n) in practice.
+/// \return without tetrahedra if all points are in one plane, or if there would be more than
+///     MOST_TETRAHEDRA for each point: on a few lines or curves, there are n^2 in all
 Tetrahedra
 delaunayInSpace (const std::vector<Eigen::Vector3d>& points);
 

@@ -18,11 +18,12 @@ constexpr double COLLINEAR = 1e-9;
 // Number of neighbours up to which counting sort is used.
 constexpr std::size_t MOST_COUNTED = 32;
 
-// Increases with the angle of v, from 0 to 4.
+// Increases with the angle of v, from 0 to 4; 0 without a direction.
 double
 pseudoAngle (const Eigen::Vector2d& v)
 {
-  const double t = v.y () / (std::abs (v.x ()) + std::abs (v.y ()));
+  const double sum = std::abs (v.x ()) + std::abs (v.y ());
+  const double t = sum > 0.0 ? v.y () / sum : 0.0;
   if (v.x () < 0.0)
     return 2.0 - t;
   return v.y () < 0.0 ? 4.0 + t : t;

@@ -126,7 +126,7 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
 
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-               MeshExamination& found, std::optional<std::vector<CrossingPair>> known)
+               MeshExamination& found, std::optional<CrossingPairs> known)
 {
   constexpr std::size_t PLACES = 10; // as in MeshCheck
   if (!found.isManifold ())
@@ -134,6 +134,9 @@ checkCrossing (const std::vector<Triangle>& triangles, const Points& points, con
   found.crossing =
       known ? std::move (*known) : findSelfIntersections (triangles, points.positions, run);
   found.check.self_intersections = found.crossing.size ();
+  found.check.has_more_self_intersections = !found.crossing.untested.empty ();
+  if (!found.crossing.untested.empty ())
+    found.crossing_at = triangles[found.crossing.untested.front ()][0];
   for (const CrossingPair& pair : found.crossing) {
     const Index at = triangles[pair.first][0], other_at = triangles[pair.second][0];
     if (found.check.self_intersections_at.size () < PLACES)

@@ -39,13 +39,13 @@ struct MeshExamination
   std::vector<BoundaryLoop> loops; ///< parallel to check.loops: longest first
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
-  Index broken_at = NONE;             ///< non-manifold, or two triangles with opposite orientations
-  Index fold_at = NONE;               ///< start of a folded edge
-  Index degenerate_at = NONE;         ///< corner of a degenerate triangle
-  std::vector<CrossingPair> crossing; ///< triangles that cross; see checkCrossing
-  Index crossing_at = NONE;           ///< corner of such a triangle
-  std::size_t long_edges = 0;         ///< longer than CheckLimits::long_edge, not on a boundary
-  double longest_inside = 0.0;        ///< longest edge inside, in local spacings
+  Index broken_at = NONE;      ///< non-manifold, or two triangles with opposite orientations
+  Index fold_at = NONE;        ///< start of a folded edge
+  Index degenerate_at = NONE;  ///< corner of a degenerate triangle
+  CrossingPairs crossing;      ///< triangles that cross; see checkCrossing
+  Index crossing_at = NONE;    ///< corner of such a triangle
+  std::size_t long_edges = 0;  ///< longer than CheckLimits::long_edge, not on a boundary
+  double longest_inside = 0.0; ///< longest edge inside, in local spacings
   std::pair<Index, Index> longest_inside_at{}; ///< its two ends
   std::size_t smallest_component = 0;          ///< number of vertices
   std::size_t largest_component = 0;           ///< number of vertices
@@ -86,10 +86,9 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
 /// Adds the self-intersections and their positions to the result of checkMesh (); nothing if the
 /// mesh is no manifold. See findSelfIntersections. Exact for the scaled positions, which equal
 /// those of the cloud up to rounding in double precision.
-/// \param known all crossing pairs of these triangles, if they were found before
+/// \param known the crossing pairs of these triangles, if they were found before
 void
 checkCrossing (const std::vector<Triangle>& triangles, const Points& points, const RunContext& run,
-               MeshExamination& found,
-               std::optional<std::vector<CrossingPair>> known = std::nullopt);
+               MeshExamination& found, std::optional<CrossingPairs> known = std::nullopt);
 
 } // namespace pcl::floater

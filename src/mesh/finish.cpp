@@ -64,7 +64,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   settings.limits.notches, run, finish);
   if (settings.find_crossing) {
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
-    if (settings.remake_sheets)
+    if (settings.remake_sheets && finish.crossing->untested.empty ())
       finish.remade_points =
           remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
                        *finish.crossing, settings.limits.remaking, run)

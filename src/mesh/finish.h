@@ -49,8 +49,8 @@ struct MeshFinish
   std::size_t folds = 0;             ///< remaining folded edges
   bool is_repairable = true;         ///< false: more folds than FinishSettings::largest_fold_share
   std::size_t remade_points = 0;     ///< whose triangles were made anew in space
-  std::optional<std::vector<CrossingPair>> crossing; ///< all crossing pairs, if asked for
-  MeshFacing facing;                                 ///< which components were flipped, and why
+  std::optional<CrossingPairs> crossing; ///< if asked for
+  MeshFacing facing;                     ///< which components were flipped, and why
 };
 
 /// Data on the points of a mesh or submesh.

@@ -355,9 +355,8 @@ struct Pass
 
 Remaking
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const CsrLists& neighbors, const std::vector<float>& spacing,
-             std::vector<CrossingPair>& crossing, const RemakingLimits& limits,
-             const RunContext& run)
+             const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
+             const RemakingLimits& limits, const RunContext& run)
 {
   Remaking done;
   for (const Pass& pass : {Pass{1, true}, Pass{3, false}, Pass{2, false}}) {

@@ -33,8 +33,7 @@ struct Remaking
 /// \param spacing   of each point (see localSpacing)
 Remaking
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const CsrLists& neighbors, const std::vector<float>& spacing,
-             std::vector<CrossingPair>& crossing, const RemakingLimits& limits,
-             const RunContext& run);
+             const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
+             const RemakingLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -279,7 +279,7 @@ public:
     });
   }
 
-  std::vector<CrossingPair> find () const
+  CrossingPairs find () const
   {
     const BoxTree tree (
         triangles_.size (), [this] (std::size_t i) { return boxOf (triangles_[i], positions_); },
@@ -287,30 +287,51 @@ public:
     const std::size_t first_leaf = own_first_ / BoxTree::LEAF_SIZE;
     const std::size_t leaves =
         (own_last_ + BoxTree::LEAF_SIZE - 1) / BoxTree::LEAF_SIZE - first_leaf;
-    std::vector<std::vector<CrossingPair>> found ((leaves + RANGE_LENGTH - 1) / RANGE_LENGTH);
+    std::vector<CrossingPairs> found ((leaves + RANGE_LENGTH - 1) / RANGE_LENGTH);
     parallelRanges (run_, leaves, [&] (std::size_t first, std::size_t last) {
-      std::vector<CrossingPair>& pairs = found[first / RANGE_LENGTH];
-      tree.forOverlaps (first_leaf + first, first_leaf + last, [&] (std::size_t i, std::size_t j) {
-        if (i >= own_first_ && i < own_last_ && isCrossing (triangles_[i], triangles_[j]))
-          pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
-      });
+      CrossingPairs& pairs = found[first / RANGE_LENGTH];
+      const std::size_t most = limits_.work * (last - first) * BoxTree::LEAF_SIZE;
+      std::size_t work = 0;
+      for (std::size_t begin = first_leaf + first; begin < first_leaf + last;
+           begin += LEAVES_AT_ONCE) {
+        const std::size_t end = std::min (begin + LEAVES_AT_ONCE, first_leaf + last);
+        if (work < most)
+          tree.forOverlaps (begin, end, [&] (std::size_t i, std::size_t j) {
+            if (i >= own_first_ && i < own_last_ && work++ < most &&
+                isCrossing (triangles_[i], triangles_[j], work))
+              pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
+          });
+        if (work >= most)
+          for (std::size_t i = std::max (own_first_, begin * BoxTree::LEAF_SIZE);
+               i < std::min (own_last_, end * BoxTree::LEAF_SIZE); ++i)
+            pairs.untested.push_back (static_cast<Index> (i));
+      }
     });
-    std::vector<CrossingPair> all;
-    for (const std::vector<CrossingPair>& pairs : found)
+    CrossingPairs all;
+    for (const CrossingPairs& pairs : found) {
       all.insert (all.end (), pairs.begin (), pairs.end ());
+      all.untested.insert (all.untested.end (), pairs.untested.begin (), pairs.untested.end ());
+    }
     std::sort (all.begin (), all.end ());
     return all;
   }
 
 private:
-  bool isCrossing (const Triangle& one, const Triangle& other) const
+  static constexpr std::size_t LEAVES_AT_ONCE = 8;
+
+  // \param[in,out] work see PairSearchLimits
+  bool isCrossing (const Triangle& one, const Triangle& other, std::size_t& work) const
   {
     for (const Index p : one)
       if (is_plain_[p] != 0 && (p == other[0] || p == other[1] || p == other[2]))
         return false;
-    return doCross (one, other, positions_);
+    std::size_t exact_tests = 0;
+    const bool is_crossing = doCross (one, other, positions_, &exact_tests);
+    work += limits_.test + exact_tests * limits_.exact_test;
+    return is_crossing;
   }
 
+  const PairSearchLimits limits_;
   const std::vector<Triangle>& triangles_;
   const std::size_t own_first_, own_last_;
   const Positions& positions_;
@@ -349,7 +370,7 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
   return doMeet (a, b[1], b[2]) || doMeet (b, a[1], a[2]);
 }
 
-std::vector<CrossingPair>
+CrossingPairs
 findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
                          std::size_t last, const Positions& positions, const RunContext& run)
 {
@@ -358,20 +379,23 @@ findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t fir
   return PairFinder (triangles, first, last, positions, run).find ();
 }
 
-std::vector<CrossingPair>
-pairsInOrder (const std::vector<CrossingPair>& places, const std::vector<Index>& order)
+CrossingPairs
+pairsInOrder (const CrossingPairs& places, const std::vector<Index>& order)
 {
-  std::vector<CrossingPair> pairs;
+  CrossingPairs pairs;
   pairs.reserve (places.size ());
   for (const CrossingPair& place : places) {
     const auto [t, u] = std::minmax (order[place.first], order[place.second]);
     pairs.push_back ({t, u});
   }
   std::sort (pairs.begin (), pairs.end ());
+  for (const Index place : places.untested)
+    pairs.untested.push_back (order[place]);
+  std::sort (pairs.untested.begin (), pairs.untested.end ());
   return pairs;
 }
 
-std::vector<CrossingPair>
+CrossingPairs
 findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& positions,
                        const RunContext& run)
 {

@@ -27,6 +27,25 @@ struct CrossingPair
   }
 };
 
+/// Pairs of crossing triangles, sorted; see SearchLimits.
+struct CrossingPairs : std::vector<CrossingPair>
+{
+  std::vector<Index> untested; ///< triangles that may cross others as well, ascending: the search
+                               ///< ended at its limit
+
+  bool areNone () const { return empty () && untested.empty (); }
+};
+
+/// Limit of a search for pairs, against quadratic work. Where points lie along lines, each triangle
+/// may overlap a large share of all others.
+struct PairSearchLimits
+{
+  /// Work on consecutive triangles, for each of them. One unit is a pair of overlapping boxes that
+  /// is settled by its corner: some 5 nanoseconds, so that a triangle may take 40 microseconds.
+  std::size_t work = 8000;
+  std::size_t test = 30, exact_test = 500; ///< work of the tests of a pair. Measured
+};
+
 /// All pairs of triangles whose intersection is more than their common corners or edge. Exact for
 /// the given positions. Degenerate triangles are ignored.
 ///
@@ -36,10 +55,9 @@ struct CrossingPair
 /// precision finds no separating plane.
 ///
 /// O(n log n) for a mesh with few self-intersections: about a microsecond per point by one thread.
-/// In the worst case all pairs of triangles.
+/// At most 40 microseconds per triangle, see PairSearchLimits; then there are more pairs.
 /// \param triangles an oriented manifold, corners below the number of positions
-/// \return sorted
-std::vector<CrossingPair>
+CrossingPairs
 findSelfIntersections (const std::vector<Triangle>& triangles,
                        const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
 
@@ -48,8 +66,8 @@ findSelfIntersections (const std::vector<Triangle>& triangles,
 /// \param triangles  in the order of their smallest points (see orderByPoints): the range, and at
 ///     least all others whose boxes overlap or touch one of it
 /// \param first,last the range, without `last`
-/// \return indices into `triangles`, the smaller one first; sorted
-std::vector<CrossingPair>
+/// \return indices into `triangles`, the smaller one first
+CrossingPairs
 findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
                          std::size_t last, const std::vector<Eigen::Vector3d>& positions,
                          const RunContext& run);
@@ -57,9 +75,8 @@ findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t fir
 /// Converts indices in an order to triangles.
 /// \param places pairs of such indices
 /// \param order triangle of each index
-/// \return sorted
-std::vector<CrossingPair>
-pairsInOrder (const std::vector<CrossingPair>& places, const std::vector<Index>& order);
+CrossingPairs
+pairsInOrder (const CrossingPairs& places, const std::vector<Index>& order);
 
 /// The box around a triangle.
 inline Eigen::AlignedBox3d

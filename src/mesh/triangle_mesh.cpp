@@ -80,7 +80,7 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 }
 
 // Walks both fans in step, so the smaller one decides: the other may be a hub with a fan as large
-// as the mesh. A fan with missing triangles cannot decide.
+// as the mesh. A fan with missing triangles cannot decide; of two hubs, the edge may be anywhere.
 bool
 TriangleMesh::hasEdge (Index p, Index q) const
 {
@@ -89,8 +89,9 @@ TriangleMesh::hasEdge (Index p, Index q) const
     return true;
   FanWalk around_p (*this, is_p_partial ? q : p), around_q (*this, is_q_partial ? p : q);
   const Index other_of_p = is_p_partial ? p : q, other_of_q = is_q_partial ? q : p;
-  while (around_p.triangle () != NONE && around_q.triangle () != NONE) {
-    if (isCorner (triangles[around_p.triangle ()], other_of_p) ||
+  constexpr int HUB = 500; // triangles
+  for (int steps = 0; around_p.triangle () != NONE && around_q.triangle () != NONE; ++steps) {
+    if (steps == HUB || isCorner (triangles[around_p.triangle ()], other_of_p) ||
         isCorner (triangles[around_q.triangle ()], other_of_q))
       return true;
     around_p.advance ();

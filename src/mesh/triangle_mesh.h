@@ -93,7 +93,7 @@ struct TriangleMesh
   void fan (Index p, std::vector<Index>& fan_triangles) const;
 
   /// True if p (a vertex) and q share an edge. Also true if both are partial: the edge may be
-  /// outside this submesh. O(triangles around p).
+  /// outside this submesh; or if both have more than 500 triangles. O(triangles around p).
   bool hasEdge (Index p, Index q) const;
 
   /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,

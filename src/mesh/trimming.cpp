@@ -199,9 +199,11 @@ std::size_t
 cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
 {
   const std::size_t before = mesh.triangles.size ();
-  const std::vector<CrossingPair> pairs =
-      findSelfIntersections (mesh.triangles, points.positions, run);
-  removeTriangles (mesh, coverPairs (before, pairs, run), run);
+  const CrossingPairs pairs = findSelfIntersections (mesh.triangles, points.positions, run);
+  std::vector<std::uint8_t> is_cut = coverPairs (before, pairs, run);
+  for (const Index t : pairs.untested)
+    is_cut[t] = 1;
+  removeTriangles (mesh, is_cut, run);
   return before - mesh.triangles.size ();
 }
 

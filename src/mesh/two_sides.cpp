@@ -17,6 +17,9 @@
 namespace pcl::floater {
 namespace {
 constexpr int MENDING_ROUNDS = 50; // ends it where each change causes another one
+// Tetrahedra around points that mending looks at, for each point: at some 20 nanoseconds. A point on
+// many tetrahedra would take the cube of their number.
+constexpr std::size_t MENDING_WORK = 2000, LEAST_MENDING_WORK = 2'000'000;
 
 // One flawed point in so many is noise. Generated bodies with thin walls and sharp edges had at most
 // one in 25, noisy scans one in 8 to 14.
@@ -248,6 +251,7 @@ private:
   {
     constexpr std::size_t ENCLOSED = 100;
     const Row around = all_.around.row (p);
+    work_ += around.size ();
     piece_of_.assign (around.size (), NONE);
     std::array<std::size_t, 2> count{}, most{};
     std::vector<std::vector<Index>> found;
@@ -306,10 +310,11 @@ private:
   // overlap.
   void mend ()
   {
+    most_work_ = work_ + std::max (LEAST_MENDING_WORK, MENDING_WORK * place_.positions.size ());
     bool has_changed = true;
     for (int round = 0; round < MENDING_ROUNDS && has_changed; ++round) {
       has_changed = false;
-      for (Index p = 0; p < place_.positions.size (); ++p)
+      for (Index p = 0; p < place_.positions.size () && work_ < most_work_; ++p)
         if (place_.is_free[p] != 0 && flawsAt (p) > 0)
           has_changed = mendAt (p) || has_changed;
     }
@@ -325,6 +330,8 @@ private:
     long best_gain = 0;
     double best_cost = 0.0;
     for (const std::vector<Index>& move : moves) {
+      if (work_ >= most_work_)
+        return false;
       std::vector<Index> points;
       bool is_allowed = true;
       double cost = 0.0;
@@ -400,7 +407,8 @@ private:
   std::vector<Index> front_of_patch_;                 // a tetrahedron, NONE if there is none
   std::vector<std::uint8_t> is_behind_;               // of each tetrahedron
   std::vector<std::uint8_t> is_turned_;
-  std::vector<Index> piece_of_; // scratch
+  std::vector<Index> piece_of_;          // scratch
+  std::size_t work_ = 0, most_work_ = 0; // tetrahedra that flawsAt () has looked at, and may
 };
 
 } // namespace

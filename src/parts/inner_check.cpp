@@ -54,6 +54,7 @@ CrossingSum::add (const CrossingSum& next)
 {
   found += next.found;
   left += next.left;
+  untested += next.untested;
   done.flips += next.done.flips;
   done.moves += next.done.moves;
   done.rebuilds += next.done.rebuilds;
@@ -134,7 +135,7 @@ turnInner (std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is
   if (!std::all_of (is_turned.begin (), is_turned.end (), isOne))
     components = innerComponents (triangles, first, points, run);
   for (std::size_t t = 0; t < triangles.size (); ++t)
-    if (components.empty () || is_turned[components[t]] != 0)
+    if (components.empty () || is_turned.at (components[t]) != 0)
       std::swap (triangles[t][1], triangles[t][2]);
 }
 

@@ -21,6 +21,7 @@ struct CrossingSum
 
   std::size_t found = 0; ///< before any were removed
   std::size_t left = 0;
+  std::size_t untested = 0; ///< triangles that may cross others as well, see CrossingPairs
   Uncrossing done;
   std::vector<std::pair<Index, Index>> places; ///< of the first PLACES remaining pairs: the first
                                                ///< corners of both triangles
@@ -31,10 +32,12 @@ struct CrossingSum
   /// Sets the remaining pairs.
   /// \param point_of converts a corner
   template <typename PointOf>
-  void take (const std::vector<CrossingPair>& pairs, const std::vector<Triangle>& triangles,
-             PointOf&& point_of)
+  void take (const CrossingPairs& pairs, const std::vector<Triangle>& triangles, PointOf&& point_of)
   {
     left = pairs.size ();
+    untested = pairs.untested.size ();
+    if (untested > 0)
+      first_at = point_of (triangles[pairs.untested.front ()][0]);
     for (const CrossingPair& pair : pairs) {
       const Index at = point_of (triangles[pair.first][0]);
       const Index other_at = point_of (triangles[pair.second][0]);

@@ -40,13 +40,13 @@ apply (const PartChange& change, Index first, std::size_t points, const RunConte
     triangles = std::move (mesh.triangles);
     std::vector<std::uint8_t> is_turned (components.count, 0);
     for (const Index c : change.turned)
-      is_turned[c] = 1;
+      is_turned.at (c) = 1;
     for (std::size_t t = 0; t < triangles.size (); ++t)
       if (is_turned[components.of_triangle[t]] != 0)
         std::swap (triangles[t][1], triangles[t][2]);
   }
   for (const Index t : change.dropped)
-    triangles[t][0] = NONE;
+    triangles.at (t)[0] = NONE;
   triangles.erase (std::remove_if (triangles.begin (), triangles.end (),
                                    [] (const Triangle& corners) { return corners[0] == NONE; }),
                    triangles.end ());
@@ -234,8 +234,8 @@ struct InnerTriangles
       }
   }
 
-  std::vector<CrossingPair> findCrossing (const std::vector<Eigen::Vector3d>& positions,
-                                          const RunContext& run) const
+  CrossingPairs findCrossing (const std::vector<Eigen::Vector3d>& positions,
+                              const RunContext& run) const
   {
     return findSelfIntersectionsOf (triangles, 0, triangles.size (), positions, run);
   }
@@ -254,9 +254,9 @@ uncrossInner (TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in_zone, P
   std::vector<std::array<Index, 3>> ().swap (mesh.neighbors);
   InnerTriangles inner (mesh, is_in_zone);
   const auto point_of = [&points] (Index p) { return points.first + p; };
-  std::vector<CrossingPair> pairs = inner.findCrossing (points.positions, run);
+  CrossingPairs pairs = inner.findCrossing (points.positions, run);
   sum.found = pairs.size ();
-  if (!pairs.empty () && settings.remove_self_intersections) {
+  if (!pairs.empty () && pairs.untested.empty () && settings.remove_self_intersections) {
     const std::vector<Index> triangle_of = mesh.triangle_of;
     if (!mesh.connect (points.size (), run))
       throw std::logic_error ("the finished mesh of a part is no manifold");

@@ -65,9 +65,9 @@ public:
   // Removes self-intersections.
   void uncross ()
   {
-    std::vector<CrossingPair> pairs = findCrossing ();
+    CrossingPairs pairs = findCrossing ();
     crossing_.found = pairs.size ();
-    if (!pairs.empty () && settings_.remove_self_intersections) {
+    if (!pairs.empty () && pairs.untested.empty () && settings_.remove_self_intersections) {
       remove (pairs);
       if (crossing_.done.hasChanged ())
         pairs = findCrossing ();
@@ -120,14 +120,14 @@ private:
 
   // All crossing pairs except those of two inner triangles of one part, which the part has
   // reported.
-  std::vector<CrossingPair> findCrossing () const
+  CrossingPairs findCrossing () const
   {
     const std::vector<Index> order = orderByPoints (mesh_.triangles, points_.size ());
     std::vector<Triangle> sorted;
     sorted.reserve (order.size ());
     for (const Index t : order)
       sorted.push_back (mesh_.triangles[t]);
-    std::vector<CrossingPair> pairs =
+    CrossingPairs pairs =
         pairsInOrder (findSelfIntersectionsOf (sorted, 0, sorted.size (), positions_, run_), order);
     const auto isKnown = [this] (const CrossingPair& pair) {
       return pair.first >= seam_count_ &&
@@ -196,6 +196,7 @@ private:
     if (!found.isManifold ())
       return;
     found.check.self_intersections = checked.crossing.left;
+    found.check.has_more_self_intersections = checked.crossing.untested > 0;
     found.crossing_at = checked.crossing.first_at;
     for (const auto& [at, other_at] : checked.crossing.places)
       found.check.self_intersections_at.push_back (

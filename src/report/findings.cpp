@@ -100,7 +100,7 @@ constexpr Sentence SENTENCES[] = {
      "of "
      "the surface come close there, or a feature is thinly sampled"},
     {FindingId::CROSSING_TRIANGLES, "crossing_triangles", Severity::FLAW,
-     "{0:pair of triangles crosses|pairs of triangles cross} each other{at}: "
+     "{2+more than }{0:pair of triangles crosses|pairs of triangles cross} each other{at}: "
      "{1+the points are noisy, }sheets of the surface come closer there than their points are, or "
      "a feature is thinly sampled"},
     {FindingId::LONG_EDGES, "long_edges", Severity::DOUBT,

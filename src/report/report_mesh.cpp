@@ -31,9 +31,10 @@ findShape (const Points& points, const MeshExamination& found, Report& report)
   if (check.folds > 0)
     addFinding (report, FindingId::FOLDS, points, {found.fold_at}, check.folds,
                 report.denoised ? 1 : 0);
-  if (check.self_intersections > 0)
+  if (check.self_intersections > 0 || check.has_more_self_intersections)
     addFinding (report, FindingId::CROSSING_TRIANGLES, points, {found.crossing_at},
-                check.self_intersections, report.denoised ? 1 : 0);
+                check.self_intersections, report.denoised ? 1 : 0,
+                check.has_more_self_intersections ? 1 : 0);
   if (found.long_edges > 0)
     addFinding (report, FindingId::LONG_EDGES, points,
                 {found.longest_inside_at.first, found.longest_inside_at.second}, found.long_edges,

@@ -96,7 +96,10 @@ measure (const Report& report, const VerdictLimits& limits)
   const auto triangles = static_cast<double> (std::max<std::size_t> (1, statistics.triangles));
   const auto points = static_cast<double> (std::max<std::size_t> (1, statistics.working_points));
   const auto share = [] (std::size_t count, double of) { return static_cast<double> (count) / of; };
-  const double crossing = share (report.check.self_intersections, triangles);
+  const std::size_t pairs = report.check.self_intersections;
+  const bool has_more = report.check.has_more_self_intersections;
+  const double crossing =
+      std::max (share (pairs, triangles), has_more ? limits.crossing.poor : 0.0);
   const double area = report.is_view ? 0.0 : report.check.largest_area_share;
   const double unused = share (report.unused.size (), points);
   const double scatter =
@@ -106,14 +109,14 @@ measure (const Report& report, const VerdictLimits& limits)
       has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
   return {
       {crossing, limits.crossing,
-       [&report, triangles, points, limits] {
-         const std::size_t pairs = report.check.self_intersections;
+       [&report, crossing, pairs, has_more, points, limits] {
          const Reason why = whyCrossing (report, points, limits);
-         return Reason{counted (pairs, "pair of triangles crosses", "pairs of triangles cross") +
-                           ", one for each " +
-                           rounded (std::ceil (triangles / static_cast<double> (pairs))) +
-                           " triangles, since " + why.cause,
-                       why.remedy};
+         return Reason{
+             (has_more ? "more than " : "") +
+                 counted (pairs, "pair of triangles crosses", "pairs of triangles cross") +
+                 ", one for each " + rounded (std::ceil (1.0 / crossing)) + " triangles, since " +
+                 why.cause,
+             why.remedy};
        }},
       {area, limits.area,
        [area] {

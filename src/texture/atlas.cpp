@@ -19,6 +19,9 @@ namespace {
 // where the last one of its size was placed.
 constexpr std::size_t SMALL = 8;
 
+// Rows of shapes that the search for places may look at, at some 5 nanoseconds.
+constexpr std::size_t MOST_WORK = 100'000'000, MOST_WORK_OF_SHAPE = 10'000;
+
 // Sorts runs, and joins adjacent ones.
 void
 joinRuns (std::vector<CellRun>& runs)
@@ -68,7 +71,7 @@ public:
   CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end) const
   {
     CellPlace place = from;
-    for (; place.y < end; ++place.y, place.x = 0)
+    for (; place.y < end; ++place.y, place.x = 0, work_ += shape.rows.size ())
       if (isWideEnough (shape, place.y) && moveToFree (shape, place))
         break;
     return place;
@@ -93,6 +96,8 @@ public:
   }
 
   std::size_t height () const { return rows_.size (); }
+
+  std::size_t work () const { return work_; } // rows of shapes that were looked at
 
 private:
   // Whether every row of the shape is at most as wide as the widest free run in its row.
@@ -141,6 +146,7 @@ private:
   Index width_;
   std::vector<std::vector<CellRun>> rows_; // occupied cells
   std::vector<Index> widest_;              // of each row: length of the longest free run
+  mutable std::size_t work_ = 0;
 };
 
 bool
@@ -167,13 +173,16 @@ packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vect
   packing.places.resize (shapes.size ());
   Strip strip (width);
   std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of boxes of a size
+  // Where there are thousands of long shapes, such as needles, the rest is packed as boxes upwards.
+  const std::size_t most_work = MOST_WORK + MOST_WORK_OF_SHAPE * shapes.size ();
+  CellPlace last_of_rest;
   ProgressLoop progress (run, shapes.size ());
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
     CellPlace best;
-    if (isSmall (shapes[s][0])) {
+    if (const bool is_small = isSmall (shapes[s][0]); is_small || strip.work () > most_work) {
       const CellMask box = boxOf (shapes[s][0]);
-      CellPlace& last = last_places[{box.width, box.rows.size ()}];
+      CellPlace& last = is_small ? last_places[{box.width, box.rows.size ()}] : last_of_rest;
       last = best = strip.findPlace (box, last, NONE);
       strip.occupy (box, best);
     }
@@ -319,15 +328,26 @@ longSideOfBox (const ChartLayout& chart)
 
 // Rotates and scales the chart, with the lower left corner of its box at the origin, in cells.
 void
-turnAndScale (ChartLayout& chart, double area)
+turnAndScale (ChartLayout& chart, double area, double longest)
 {
+  constexpr double SHORTEST = 1.0 / 16.0; // rounding leaves triangles of that size as they are
+  constexpr double LEAST_AREA = 1e-30;    // above zero, so that it can be scaled
   const Eigen::Vector2d up = longSideOfBox (chart), right (up.y (), -up.x ());
-  const double scale = std::sqrt (area / planeArea (chart));
-  Eigen::AlignedBox2d box;
-  for (Eigen::Vector2d& p : chart.uv) {
-    p = scale * Eigen::Vector2d (right.dot (p), up.dot (p));
-    box.extend (p);
-  }
+  const auto scaleAll = [&chart] (double scale, const Eigen::Vector2d& x,
+                                  const Eigen::Vector2d& y) {
+    Eigen::AlignedBox2d box;
+    for (Eigen::Vector2d& p : chart.uv) {
+      p = scale * Eigen::Vector2d (x.dot (p), y.dot (p));
+      box.extend (p);
+    }
+    return box;
+  };
+  Eigen::AlignedBox2d box =
+      scaleAll (std::sqrt (std::max (area, LEAST_AREA) / planeArea (chart)), right, up);
+  const double length = box.sizes ().maxCoeff ();
+  if (length < SHORTEST || length > longest)
+    box = scaleAll ((length < SHORTEST ? SHORTEST : longest) / length, Eigen::Vector2d::UnitX (),
+                    Eigen::Vector2d::UnitY ());
   for (Eigen::Vector2d& p : chart.uv)
     p -= box.min ();
 }
@@ -368,13 +388,18 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   const double cells = std::max (
       static_cast<double> (limits.cells),
       std::ceil (limits.cells_per_chart * std::sqrt (static_cast<double> (charts.size ()))));
-  double total = 0.0;
+  const auto weightOf = [] (const ChartLayout& chart) {
+    constexpr double MOST_STRETCH = 1000.0;
+    return chart.area * std::min (chart.stretch, MOST_STRETCH);
+  };
+  constexpr double LONGEST = 4.0; // squares; longer ones would leave most of the atlas empty
+  double total = std::numeric_limits<double>::min ();
   for (const ChartLayout& chart : charts)
-    total += chart.area * chart.stretch;
+    total += weightOf (chart);
   const double cells_per_area = limits.first_fill * cells * cells / total;
   std::vector<std::array<CellMask, 4>> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
-    turnAndScale (charts[c], cells_per_area * charts[c].area * charts[c].stretch);
+    turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
     std::vector<Eigen::Vector2d> uv = charts[c].uv;
     for (CellMask& mask : masks[c]) {
       mask = makeCellMask (charts[c].corners, uv);

@@ -72,8 +72,9 @@ struct Atlas
                        ///< border. Charts of about one cell may be nearer by rounding
 };
 
-/// Scales every chart to an area proportional to its area in space times its stretch, which
-/// minimizes the total stretch; rotates it to the smallest box; and packs all into the unit square,
+/// Scales every chart to an area proportional to its area in space times its stretch (if that is at
+/// most 1000), which minimizes the total stretch, and to a length of a sixteenth of a cell to 4
+/// squares; rotates it to the smallest box; and packs all into the unit square,
 /// largest first, each in one of four directions, at the lowest free position. Free are cells that
 /// no triangle touches. The coordinates are then in the square. O(triangles + charts cells^2).
 /// \param[in,out] charts laid out, none empty

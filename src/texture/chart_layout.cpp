@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pcl::floater {
@@ -111,6 +112,41 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
   layout.points = std::move (chart.points);
   layout.corners = std::move (chart.mesh.triangles);
   layout.loop = std::move (chart.loop);
+  return layout;
+}
+
+ChartLayout
+layOutTriangle (const std::vector<Triangle>& triangles, Index triangle,
+                const std::vector<Eigen::Vector3d>& positions)
+{
+  constexpr double LEAST = 1.0 / 16.0; // height over length
+  const Triangle& corners = triangles[triangle];
+  ChartLayout layout;
+  layout.triangles = {triangle};
+  layout.points.assign (corners.begin (), corners.end ());
+  std::sort (layout.points.begin (), layout.points.end ());
+  layout.uv.resize (3);
+  std::array<Index, 3> place{};
+  for (std::size_t i = 0; i < 3; ++i)
+    place[i] =
+        static_cast<Index> (std::find (layout.points.begin (), layout.points.end (), corners[i]) -
+                            layout.points.begin ());
+  layout.corners = {place};
+  layout.loop.assign (place.begin (), place.end ());
+  std::size_t from = 0;
+  const auto edge = [&] (std::size_t i) -> Eigen::Vector3d {
+    return positions[corners[(i + 1) % 3]] - positions[corners[i % 3]];
+  };
+  for (const std::size_t i : {1, 2})
+    if (edge (i).norm () > edge (from).norm ())
+      from = i;
+  const double base = std::max (edge (from).norm (), std::numeric_limits<double>::min ());
+  const Eigen::Vector3d along = edge (from) / base, up = -edge (from + 2);
+  const double height = std::max (along.cross (up).norm (), LEAST * base);
+  layout.uv[place[from]] = {0.0, 0.0};
+  layout.uv[place[(from + 1) % 3]] = {1.0, 0.0};
+  layout.uv[place[(from + 2) % 3]] = {along.dot (up) / base, height / base};
+  layout.area = 0.5 * base * height;
   return layout;
 }
 

@@ -38,6 +38,12 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart,
              const std::vector<Eigen::Vector3d>& positions, const DescentLimits& limits,
              const RunContext& run);
 
+/// Lays one triangle out by the lengths of its edges, and at least a sixteenth as high as long: where
+/// rounding leaves nothing else.
+ChartLayout
+layOutTriangle (const std::vector<Triangle>& triangles, Index triangle,
+                const std::vector<Eigen::Vector3d>& positions);
+
 /// Lowers the distortion of a layout for other positions than its own: for the surface with its
 /// noise. Unchanged if that does not lower its stretch.
 /// \param[in,out] layout with coordinates

@@ -39,12 +39,15 @@ public:
     return layOutChart (mesh_.triangles, std::move (disc), positions_, descent, run_);
   }
 
-  // Cuts a chart with too much stretch, or without layout, if that helps.
+  // Cuts a chart with too much stretch, or without layout, if that helps. Each piece has fewer
+  // triangles, and one has a layout.
   // \param deviation limit for its pieces
   void layOutParts (ChartLayout chart, double deviation, Layouts& result) const
   {
     const bool has_layout = !chart.uv.empty ();
-    if (has_layout && (chart.stretch <= largest_stretch_ || chart.triangles.size () == 1)) {
+    if (!has_layout && chart.triangles.size () == 1)
+      chart = layOutTriangle (mesh_.triangles, chart.triangles.front (), positions_);
+    if (!chart.uv.empty () && (chart.stretch <= largest_stretch_ || chart.triangles.size () == 1)) {
       result.push_back (std::move (chart));
       return;
     }
@@ -54,6 +57,12 @@ public:
     if (has_layout && (parts.size () == 1 || (isEven (chart) && !isWorthwhile (chart, parts)))) {
       result.push_back (std::move (chart));
       return;
+    }
+    if (parts.size () == 1) { // as nothing may be joined: by the order of the triangles
+      const auto middle =
+          chart.triangles.begin () + static_cast<std::ptrdiff_t> (chart.triangles.size () / 2);
+      parts = {layOut ({chart.triangles.begin (), middle}),
+               layOut ({middle, chart.triangles.end ()})};
     }
     chart = {};
     for (ChartLayout& part : parts)

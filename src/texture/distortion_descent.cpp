@@ -5,9 +5,9 @@
 #include "core/exact.h"
 #include "core/geometry.h"
 
-#include <Eigen/CholmodSupport>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +16,9 @@
 
 namespace pcl::floater {
 namespace {
-// CHOLMOD without printing. info () reports a matrix that is indefinite by rounding.
-class Cholesky : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>
-{
-public:
-  Cholesky () { cholmod ().print = 0; }
-};
+// Not CHOLMOD's, which starts threads of OpenMP by itself. info () reports a matrix that is indefinite
+// by rounding.
+using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
 using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2>; // one row for each vertex
 

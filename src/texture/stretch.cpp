@@ -101,7 +101,7 @@ tryMoves (const std::vector<Triangle>& triangles, const Row& around, Index corne
 
 } // namespace
 
-std::size_t
+std::vector<Index>
 repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vector2f>& uv)
 {
   std::vector<Index> flipped;
@@ -109,7 +109,7 @@ repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vecto
     if (isFlipped (triangles[t], uv))
       flipped.push_back (t);
   if (flipped.empty ())
-    return 0;
+    return {};
   const CsrLists around = makeCsrLists (uv.size (), [&triangles] (const auto& emit) {
     for (Index t = 0; t < triangles.size (); ++t)
       for (const Index corner : triangles[t])
@@ -127,7 +127,7 @@ repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vecto
     if (!has_moved)
       break;
   }
-  return flipped.size ();
+  return flipped;
 }
 
 } // namespace pcl::floater

@@ -45,8 +45,8 @@ private:
 /// deterministic.
 /// \param         triangles corners as indices of uv
 /// \param[in,out] uv        in the unit square, and afterwards
-/// \return number of triangles that are still flipped
-std::size_t
+/// \return triangles that are still flipped, ascending
+std::vector<Index>
 repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vector2f>& uv);
 
 } // namespace pcl::floater

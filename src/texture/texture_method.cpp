@@ -9,6 +9,7 @@
 #include "texture/stretch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
 
@@ -39,6 +40,23 @@ checkTextureOptions (const TextureOptions& options)
   if (options.threads < 0)
     return {RunStatus::INVALID_OPTION, "the number of threads must be 0 or more"};
   return {};
+}
+
+// Scaled by a power of two to about 1, if there are triangles: squares and cubes of lengths are finite
+// then. Points without a triangle stay as they are.
+std::vector<Eigen::Vector3d>
+scaled (const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles,
+        double& unit)
+{
+  double largest = 0.0;
+  for (const Triangle& t : triangles)
+    for (const Index p : t)
+      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
+  unit = largest > 0.0 ? std::ldexp (1.0, std::ilogb (largest)) : 1.0;
+  std::vector<Eigen::Vector3d> result = positions;
+  for (Eigen::Vector3d& position : result)
+    position /= unit;
+  return result;
 }
 
 // Coordinates by point, then by chart, so that the coordinates of a point are adjacent.
@@ -127,17 +145,37 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
             "opposite orientation, or a point has several fans; repair the mesh first"};
 
   // Charts (discs) and their layouts, on the surface without its noise.
+  double unit = 1.0;
+  const std::vector<Eigen::Vector3d> places = scaled (positions, triangles, unit);
   std::vector<ChartLayout> charts =
-      layOutCharts (mesh, positions, smoothNoise (mesh, positions, limits.smoothing, run),
+      layOutCharts (mesh, places, smoothNoise (mesh, places, limits.smoothing, run),
                     options.whole_discs, options.largest_stretch, limits, run);
 
-  // All charts in one square, in single precision.
-  result.gutter = packCharts (charts, limits.atlas, run).gutter;
-  takeCoordinates (charts, positions.size (), triangles.size (), result);
+  // All charts in one square, in single precision. Charts of which that flips triangles, such as of
+  // sizes that differ by more than its digits, are taken apart.
+  constexpr int ROUNDS = 4;
+  std::vector<Index> flipped;
+  for (int round = 0; round == 0 || (round < ROUNDS && !flipped.empty ()); ++round) {
+    std::vector<ChartLayout> kept;
+    for (ChartLayout& chart : charts)
+      if (chart.triangles.size () == 1 ||
+          std::none_of (flipped.begin (), flipped.end (), [&] (Index t) {
+            return std::binary_search (chart.triangles.begin (), chart.triangles.end (), t);
+          }))
+        kept.push_back (std::move (chart));
+      else
+        for (const Index t : chart.triangles)
+          kept.push_back (layOutTriangle (triangles, t, places));
+    charts = std::move (kept);
+    result.gutter = packCharts (charts, limits.atlas, run).gutter;
+    takeCoordinates (charts, positions.size (), triangles.size (), result);
+    flipped = repairRounding (result.corners, result.coordinates);
+  }
   result.chart_count = charts.size ();
-  result.flipped = repairRounding (result.corners, result.coordinates);
-  findSeams (mesh, positions, result);
-  measure (triangles, positions, result);
+  result.flipped = flipped.size ();
+  findSeams (mesh, places, result);
+  result.seam_length *= unit;
+  measure (triangles, places, result);
   return {};
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The method for discs: on known surfaces, as published, and with all choices that it has.
 #include <pcl/surface/floater/reconstruct.h>
+#include <pcl/surface/floater/texture_coordinates.h>
 
 #include "options/choices.h"
 #include "points/point_samples.h"
 
 #include <gtest/gtest.h>
+
+#include <cfenv>
 
 namespace pcl::floater {
 namespace {
@@ -364,6 +367,36 @@ TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
   EXPECT_TRUE (result.report.outliers.empty ());
   EXPECT_EQ (result.report.loop.size (), options.disc.boundary.loop.size ());
 }
+
+#ifdef __GLIBC__
+// The caller may have invalid operations end the program: those of the library do not, and the caller
+// still has it so afterwards.
+TEST (Reconstruct, NumbersOfTheLibraryDoNotTrap)
+{
+  Positions lattice; // on the faces of a cube
+  for (int i = 0; i < 9 * 9 * 9; ++i)
+    if (const Eigen::Vector3d p (i % 9, i / 9 % 9, i / 81);
+        (p.array () == 0 || p.array () == 8).any ())
+      lattice.push_back (p);
+  const auto run = [] (const Positions& positions) {
+    constexpr int TRAPS = FE_INVALID | FE_DIVBYZERO;
+    Options options;
+    options.threads = 2;
+    feenableexcept (TRAPS);
+    const Result result = reconstruct (positions, options);
+    computeTextureCoordinates (positions, result.triangles, {});
+    EXPECT_EQ (fegetexcept (), TRAPS);
+    fedisableexcept (FE_ALL_EXCEPT);
+    EXPECT_NE (result.report.status, RunStatus::INTERNAL_ERROR);
+  };
+  run (lattice);
+  Positions pencil; // segments from one point, which stars see end on
+  for (int i = 0; i < 200; ++i)
+    for (int k = 1; k < 6; ++k)
+      pencil.push_back (k * samples::randomPoints (200, 3)[static_cast<std::size_t> (i)]);
+  run (pencil);
+}
+#endif
 
 } // namespace
 } // namespace pcl::floater

@@ -11,7 +11,7 @@ steps=(neighbors outliers planes stars triangles)
 (($(count parts) == 0)) || steps+=(mesh stitch finish)
 after=()
 for step in "${steps[@]}" join write; do
-  command="pcl_floater_distributed --work '$work' --step $step"
+  command="pcl_floater_distributed --work $(printf %q "$work") --step $step"
   options=(--parsable "${after[@]}")
   case "$step" in
     neighbors | planes | stars | triangles) tasks=$(count blocks) ;;

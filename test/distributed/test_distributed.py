@@ -7,12 +7,14 @@ blocks, and the moments at which it is ended; and tells what is wrong with its f
 --long: all pairs of processes and blocks, all clouds of PCL_FLOATER_DATA, 20 moments."""
 import argparse
 import contextlib
+import ctypes
 import json
 import math
 import os
 import pathlib
 import random
 import re
+import shlex
 import shutil
 import signal
 import struct
@@ -188,6 +190,25 @@ echo "$RANDOM" | tee last
                 env=dict(os.environ, PATH=f"{sbatch.parent}:{tools}:{os.environ['PATH']}"))
         steps = self.path("tasks").read_text().split()
         return {step: steps.count(step) for step in steps}
+
+
+def forge(file, array, value):
+    """Sets the first number of 32 bits of an array, and makes all checksums right."""
+    data = bytearray(file.read_bytes())
+    hashed = ctypes.CDLL("libxxhash.so.0").XXH3_64bits_withSeed
+    hashed.restype, hashed.argtypes = ctypes.c_uint64, (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint64)
+    sums, table = bytearray(), slice(48, 48 + 48 * struct.unpack_from("<I", data, 12)[0])
+    for name, element, count, offset in struct.iter_unpack("<24sQQQ", bytes(data[table])):
+        if name.rstrip(b"\0").decode() == array and count > 0:
+            struct.pack_into("<I", data, offset, value)
+        for at in range(offset, offset + element * count, 16384):
+            piece = bytes(data[at:min(at + 16384, offset + element * count)])
+            sums += struct.pack("<Q", hashed(piece, len(piece), 0))
+    data[table.stop:table.stop + len(sums)] = sums
+    of_table = hashed(bytes(data[table]), table.stop - 48, 0)
+    struct.pack_into("<Q", data, 32, hashed(bytes(sums), len(sums), of_table))
+    struct.pack_into("<Q", data, 40, hashed(bytes(data[:40]), 40, 0))
+    file.write_bytes(data)
 
 
 class Surfaces(Case):
@@ -526,6 +547,36 @@ class Parts(Case):
         self.assertTrue(part.read_bytes() == saved)
         self.assertTrue(mesh.read_bytes() == self.mesh)
 
+    def test_forged_indices_of_parts(self):
+        work = self.path("work")
+        command = self.command("--blocks", 2, *self.limit, self.cloud, self.path("mesh.ply"))
+        self.ok(self.command("--step", "plan", "--blocks", 2, *self.limit, self.cloud, self.path("mesh.ply")))
+        for group in self.printed_steps()[:7]:
+            for step in group:
+                self.ok(step)
+        for name, array, step in [("mesh.1.bin", "rim", "join"), ("mesh.1.bin", "points", "join"),
+                                  ("mesh.1.bin", "numbers", "join"), ("mesh.1.bin", "others", "join"),
+                                  ("mesh.1.bin", "component", "join"), ("mesh.1.bin", "components", "join"),
+                                  ("mesh.1.bin", "neighbors", "join"), ("mesh.1.bin", "neighbors.ends", "join"),
+                                  ("mesh.1.bin", "triangles", "finish"), ("changes.bin", "added", "finish"),
+                                  ("changes.bin", "seam", "finish"), ("finish.1.bin", "zone", "join"),
+                                  ("finish.1.bin", "rim", "join"), ("finish.1.bin", "rim.component", "join"),
+                                  ("finish.1.bin", "triangles", "write"), ("mesh.bin", "triangles", "write")]:
+            file = work / name
+            if not file.exists():
+                self.ok(command)
+            good = file.read_bytes()
+            forge(file, array, 0xFFFFFFFE)
+            if step == "join":
+                (work / "mesh.bin").unlink(missing_ok=True)
+            if name == "changes.bin":
+                (work / "finish.0.bin").unlink(missing_ok=True)
+            block = ["--block", 0 if name == "changes.bin" else 1] if step == "finish" else []
+            with self.subTest(name=name, array=array):
+                if step != "finish" or (work / "changes.bin").exists():
+                    self.assertIn(self.step(step, *block).returncode, (0, WORK) if file.read_bytes() == good else (WORK,))
+            file.write_bytes(good)
+
     def test_two_sheets(self):
         """So that each part has several components, which face different ways, or cross."""
         numbers = random.Random(3)
@@ -721,6 +772,103 @@ class Errors(Case):
                     self.expect_no_mesh()
             file.write_bytes(good)
         self.assertEqual(self.again().returncode, 0)
+
+    def test_forged_indices(self):
+        self.finish()
+        work = self.path("work")
+        for name, arrays in [("points.bin", ["cloud_index"]), ("neighbors.1.bin", ["ids"]),
+                             ("planes.1.bin", ["beside", "beside.ends"]), ("triangles.1.bin", [
+                                 "sure.corners", "doubtful.corners", "far", "far.ends", "stars", "stars.ends"]),
+                             ("mesh.bin", ["triangles"])]:
+            file = work / name
+            good, mesh = file.read_bytes(), (work / "mesh.bin").read_bytes()
+            for array in arrays:
+                forge(file, array, 0xFFFFFFFE)
+                if file.read_bytes() == good:
+                    continue  # it has no values
+                if name != "mesh.bin":
+                    (work / "mesh.bin").unlink()
+                with self.subTest(name=name, array=array):
+                    outcome = self.again()
+                    # Stars and planes are read only where they are needed.
+                    self.assertIn(outcome.returncode, (0, WORK) if array in ("stars", "stars.ends") else (WORK,),
+                                  outcome.stderr)
+                file.write_bytes(good)
+                (work / "mesh.bin").write_bytes(mesh)
+        self.assertEqual(self.again().returncode, 0)
+
+    def test_files_that_others_can_write(self):
+        self.finish()
+        self.assertEqual(self.path("work").stat().st_mode & 0o777, 0o700)
+        file = self.path("work") / "planes.1.bin"
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        file.chmod(0o620)
+        self.expect_failure(self.again(), WORK, str(file), "only this user can write")
+        file.chmod(0o600)
+        elsewhere = file.rename(self.path("elsewhere.bin"))
+        saved = elsewhere.read_bytes()
+        file.symlink_to(elsewhere)
+        self.expect_failure(self.again(), WORK, str(file), "symbolic link")
+        # A link in the place of a file that is written is replaced.
+        shutil.rmtree(self.path("work"))
+        self.plan(self.cloud)
+        (self.path("work") / "neighbors.0.bin").symlink_to(self.path("nothing"))
+        self.ok(self.command("--step", "neighbors", "--block", 0))
+        self.assertFalse(self.path("nothing").exists())
+        self.assertEqual(elsewhere.read_bytes(), saved)
+
+    def test_edited_manifest(self):
+        self.finish()
+        manifest = self.path("work") / "manifest.json"
+        plan = json.loads(manifest.read_text())
+
+        def checksum():
+            value = 0xcbf29ce484222325
+            contents = {key: part for key, part in plan.items() if key not in ("checksum", "id")}
+            for byte in json.dumps(contents, separators=(",", ":"), ensure_ascii=False).encode():
+                value = (value ^ byte) * 0x100000001b3 % 2**64
+            return f"{value:016x}"
+        self.assertEqual(plan["checksum"], checksum())
+        plan["arguments"][-1] = str(self.path("victim.ply"))
+        plan["checksum"] = checksum()
+        manifest.write_text(json.dumps(plan))
+        self.expect_failure(self.step("write"), WORK, "manifest.json")
+        self.assertFalse(self.path("victim.ply").exists())
+
+    def test_tile_that_changes_in_its_middle(self):
+        self.cloud = self.generate("torus", "--points", 20000)
+        self.finish()
+        with open(self.cloud, "r+b") as file:
+            file.seek(self.cloud.stat().st_size // 2)
+            file.write(b"\x42\x42\x42\x42")
+        self.expect_failure(self.again(), WORK, "input files")
+        self.expect_failure(self.step("write"), WORK, "input files")
+        self.expect_no_mesh()
+
+    def test_damaged_file_of_a_step(self):
+        self.plan(self.cloud)
+        self.steps_of_blocks()
+        file = self.path("work") / "triangles.1.bin"
+        saved = file.read_bytes()
+        file.write_bytes(saved[:len(saved) // 2] + b"damage" + saved[len(saved) // 2 + 6:])
+        outcome = self.step("join")
+        self.expect_failure(outcome, WORK, str(file), "damaged", "pcl_floater_distributed: ")
+        self.assertNotIn("pcl_floater_reconstruct", outcome.stderr)
+
+    def test_names(self):
+        name = "a'; touch PWNED; echo 'b $(c)"
+        self.ok(self.command("--step", "plan", "--blocks", 2, self.cloud, self.path("mesh.ply"), work=name))
+        lines = self.ok(self.command("--print-steps", work=name)).stdout.split("\n")
+        for line in filter(None, lines):
+            self.assertEqual(shlex.split(line)[2], str(self.path(name)))
+        self.expect_failure(run(self.command("--step", "plan", self.cloud, self.path("m.ply"), work="a\nb")), USAGE,
+                            "line break")
+        odd = os.fsencode(self.path("odd")) + b"\xff.ply"
+        shutil.copy(self.cloud, odd)
+        outcome = subprocess.run([os.fsencode(str(word)) for word in self.command("--step", "plan", work="odd")] +
+                                 [odd, os.fsencode(self.path("m.ply"))], capture_output=True, check=False)
+        self.assertEqual(outcome.returncode, USAGE)
+        self.assertIn(b"UTF-8", outcome.stderr)
 
     def test_file_that_does_not_get_to_the_disk(self):
         """An error of fsync. The file is not there then, and is made again."""

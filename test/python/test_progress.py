@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Progress, and what ends a run early. The runs are long enough that all happens within them."""
+import multiprocessing
 import signal
 import sys
 import threading
@@ -9,7 +10,7 @@ import numpy as np
 import pcl_floater
 import pytest
 
-from conftest import torus
+from conftest import terrain, torus
 
 
 def test_progress_is_told(torus_points):
@@ -111,3 +112,23 @@ def test_lock_of_the_interpreter_is_free_within_the_run():
         turns += 1
     thread.join()
     assert turns > 2  # with the lock held, this thread would not wake before the end
+
+
+def use_every_entry():
+    for threads in (1, 2):
+        points = torus(120, 50)
+        mesh = pcl_floater.reconstruct(points, threads=threads)
+        pcl_floater.vertex_normals(points, mesh.triangles, threads=threads)
+        pcl_floater.texture_coordinates(points, mesh.triangles, threads=threads)
+        pcl_floater.reconstruct(terrain(60), topology="disc", threads=threads)
+
+
+def test_processes_that_are_forked_later():
+    """As multiprocessing does: threads of the parent, also those of libraries, are not in the child."""
+    use_every_entry()
+    child = multiprocessing.get_context("fork").Process(target=use_every_entry)
+    child.start()
+    child.join(100)
+    is_over = not child.is_alive()
+    child.kill()
+    assert is_over and child.exitcode == 0

@@ -362,5 +362,20 @@ TEST (RemainingTime, IsSmooth)
   EXPECT_LT (before, 2.0);
 }
 
+// Names from files do not control the terminal.
+TEST_F (CommandLineTest, EscapeSequencesAreShownAsText)
+{
+  std::string rows;
+  for (int i = 0; i < 100; ++i)
+    rows += std::to_string (i % 10) + "," + std::to_string (i / 10) + "," + std::to_string (i % 3) +
+            ",abc\n";
+  writeFile ("escape.csv", "x,y,z,\x1b[31mred\xc2\x9b\n" + rows);
+  const Outcome outcome = succeed ({"escape.csv", "out.ply"});
+  EXPECT_EQ ((outcome.err + outcome.out).find_first_of ("\x1b\x9b"), std::string::npos)
+      << outcome.err;
+  EXPECT_THAT (outcome.err, HasSubstr ("'\\x1b'"));
+  expectFailure ({"no\x1b[31m.xyz", "out.ply"}, INPUT_FAILED, "no\\x1b[31m.xyz");
+}
+
 } // namespace
 } // namespace pcl::floater

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <iomanip>
+#include <random>
 #include <sstream>
 
 namespace pcl::floater {
@@ -645,6 +646,31 @@ TEST_F (TextureFiles, WhatIsToldAndRefused)
   EXPECT_THAT (succeed ({"--texture", "my colours.png", "in.ply", "out.obj"}).err,
                HasSubstr ("has a space in it"));
   expectFailure ({"--uv", "in.ply", "out.stl"}, USAGE, "without texture coordinates");
+  expectFailure ({"--texture", "a\nmap_Kd b.png", "in.ply", "out.obj"}, USAGE, "line break");
+}
+
+// Sizes whose squares are no numbers, and that no texture can hold together: no triangle is upside
+// down, and the stretch is a number.
+TEST_F (CommandLineTest, TextureOfAnySize)
+{
+  writeFile ("large.xyz", "0 0 0\n1e154 0 0\n0 1e154 0\n1e154 1e154 1e153\n");
+  std::mt19937 random (21);
+  std::uniform_real_distribution<double> exponent (-16, 21);
+  std::ostringstream text;
+  text << std::setprecision (9);
+  for (int i = 0; i < 300; ++i) {
+    const double z = 1.0 - 1.5 * i / 300.0, r = std::sqrt (1.0 - z * z), angle = 2.399963 * i;
+    const double size = std::pow (10.0, exponent (random));
+    text << size * r * std::cos (angle) << ' ' << size * r * std::sin (angle) << ' ' << size * z
+         << '\n';
+  }
+  writeFile ("mixed.xyz", text.str ());
+  for (const std::string name : {"large", "mixed"}) {
+    succeed ({"--uv", "--report", name + ".json", name + ".xyz", name + ".obj"});
+    const Json texture = Json::parse (readFile (name + ".json")).at ("texture");
+    EXPECT_EQ (texture.at ("flipped"), 0) << name;
+    EXPECT_TRUE (texture.at ("stretch").is_number ()) << name; // infinite: null
+  }
 }
 
 } // namespace

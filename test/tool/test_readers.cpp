@@ -14,12 +14,17 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <limits>
 #include <random>
 #include <sstream>
+
+#include <unistd.h>
 
 namespace pcl::floater {
 namespace {
@@ -475,6 +480,96 @@ TEST_F (Readers, ManyPointsOfStlStayInTheirOrder)
     }
   }
   EXPECT_EQ (read ("a.stl", stlBytes (facets)).positions (), points);
+}
+
+TEST_F (Readers, TemporaryFilesArePrivateAndTheirLeftoversAreTold)
+{
+  ::setenv ("TMPDIR", path ("").c_str (), 1);
+  {
+    const AtomicFile file ("-");
+    std::size_t found = 0;
+    for (const auto& entry : std::filesystem::directory_iterator (path (""))) {
+      ++found;
+      EXPECT_EQ (entry.status ().permissions () & std::filesystem::perms::all,
+                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    }
+    EXPECT_EQ (found, 1U);
+  }
+  ::unsetenv ("TMPDIR");
+  // As runs that were killed leave them, where each process has the same number.
+  for (int i = 0; i < 100; ++i)
+    writeFile (".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp",
+               "");
+  try {
+    const AtomicFile file (path ("mesh.ply"));
+    ADD_FAILURE () << "there is a name left";
+  }
+  catch (const WriteError& error) {
+    EXPECT_THAT (error.what (), HasSubstr ("remove the files '.pcl_floater.*.tmp'"));
+  }
+}
+
+double
+secondsToRead (const std::function<void ()>& read)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  read ();
+  return std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+}
+
+// Corners whose hashes without a seed share a 4096th of all places.
+TEST_F (Readers, CornersOfStlThatShareTheirHashesTakeNoLonger)
+{
+  constexpr std::uint32_t ONE = 0x3F800000, CORNERS = 60000;
+  constexpr std::uint64_t GOLD = 0x9E3779B97F4A7C15U, PLACES = 0xFFFU << 6U;
+  const auto mix = [] (std::uint64_t hash, std::uint64_t bits) {
+    hash = (hash ^ bits) * GOLD;
+    return hash ^ hash >> 32U;
+  };
+  const auto number = [] (std::uint32_t bits) {
+    float value = 0.0F;
+    std::memcpy (&value, &bits, sizeof value);
+    return value;
+  };
+  std::vector<std::array<float, 3>> alike, others;
+  for (std::uint32_t i = 0; alike.size () < CORNERS; ++i) {
+    const std::uint32_t x = ONE + 977 * i, y = ONE + 7919 * i;
+    const std::uint64_t hash = mix (mix (0, x), y);
+    for (std::uint32_t z = ONE; z < ONE + (1U << 23U) && alike.size () < CORNERS; ++z)
+      if ((mix (hash, z) & PLACES) == 0) {
+        alike.push_back ({number (x), number (y), number (z)});
+        others.push_back (
+            {number (x), number (y), number (ONE + static_cast<std::uint32_t> (alike.size ()))});
+      }
+  }
+  const auto bytesOf = [] (const std::vector<std::array<float, 3>>& corners) {
+    Facets facets (corners.size () / 3);
+    for (std::size_t i = 0; i < corners.size (); ++i)
+      facets[i / 3][i % 3] = corners[i];
+    return stlBytes (facets);
+  };
+  const std::string bad = bytesOf (alike), plain = bytesOf (others);
+  const double usual = secondsToRead ([&] { read ("a.stl", plain); });
+  EXPECT_LT (secondsToRead ([&] { read ("b.stl", bad); }), 10.0 * usual + 0.3);
+}
+
+TEST_F (Readers, ManyFieldsOfOneName)
+{
+  constexpr std::size_t FIELDS = 20000;
+  std::string names, sizes, types;
+  for (std::size_t i = 0; i < FIELDS; ++i) {
+    names += " a";
+    sizes += " 1";
+    types += " U";
+  }
+  const std::string bytes = "FIELDS x y z" + names + "\nSIZE 4 4 4" + sizes + "\nTYPE F F F" +
+                            types + "\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA binary\n" +
+                            std::string (12 + FIELDS, '\0');
+  Cloud cloud;
+  EXPECT_LT (secondsToRead ([&] { cloud = read ("a.pcd", bytes); }), 5.0);
+  EXPECT_EQ (cloud.fields.back ().name, "a_20000");
+  EXPECT_THAT (cloud.warnings, testing::Contains (HasSubstr ("and 19998 other fields alike")));
+  EXPECT_LT (cloud.warnings.size (), 4U);
 }
 
 LasFile

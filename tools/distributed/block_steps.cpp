@@ -119,7 +119,7 @@ chooseOutliersStep (const StepContext& context)
   Slices found (context.store, context.plan, ranges, "neighbors");
   std::uint64_t apart_count = 0;
   for (std::size_t block = 0; block < ranges.blocks (); ++block)
-    apart_count += found.file (block).read<std::uint64_t> ("apart_count").front ();
+    apart_count += found.file (block).read<std::uint64_t> ("apart_count", 0, 1).front ();
   std::vector<Index> outliers;
   if (apart_count > 0) {
     const std::size_t k =
@@ -134,11 +134,14 @@ chooseOutliersStep (const StepContext& context)
     neighbors.findWraps ();
     neighbors.ids.reserve (n * own);
     for (std::size_t block = 0; block < ranges.blocks (); ++block) {
-      const std::vector<Index> ids = found.file (block).read<Index> ("ids");
+      const std::size_t points = ranges.last (block) - ranges.first (block);
+      const auto ids = found.file (block).read<Index> ("ids", 0, points * k);
+      found.file (block).requireBelow (ids, n);
       for (std::size_t i = 0; i < ids.size (); i += k)
         neighbors.ids.insert (neighbors.ids.end (), ids.begin () + static_cast<std::ptrdiff_t> (i),
                               ids.begin () + static_cast<std::ptrdiff_t> (i + own));
-      const std::vector<std::uint8_t> flags = found.file (block).read<std::uint8_t> ("apart");
+      const std::vector<std::uint8_t> flags =
+          found.file (block).read<std::uint8_t> ("apart", 0, points);
       apart.insert (apart.end (), flags.begin (), flags.end ());
     }
     outliers = chooseOutliers (neighbors, std::move (apart), context.limits.outliers);

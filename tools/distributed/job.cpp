@@ -21,7 +21,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 
@@ -92,7 +95,13 @@ void
 prepareFolders (const Job& job)
 {
   std::error_code error;
-  std::filesystem::create_directories (job.work, error);
+  const std::filesystem::path work =
+      job.work.has_filename () ? job.work : job.work.parent_path (); // "town/"
+  if (work.has_parent_path ())
+    std::filesystem::create_directories (work.parent_path (), error);
+  constexpr mode_t OWN = 0700;
+  if (!error && ::mkdir (work.c_str (), OWN) != 0 && errno != EEXIST)
+    error = std::make_error_code (static_cast<std::errc> (errno));
   if (error || !std::filesystem::is_directory (job.work))
     throw WriteError ("cannot make the work folder '" + job.work.string () +
                       "': " + (error ? error.message () : "there is a file of that name"));
@@ -124,6 +133,11 @@ int
 planStep (const Job& job, FolderStore& store)
 {
   Plan plan;
+  for (const std::string& argument : job.arguments)
+    if (!isUtf8 (argument))
+      throw UsageError ("'" + argument +
+                        "' is no UTF-8, which the manifest of the work folder is; "
+                        "use other names of files and folders");
   for (const std::filesystem::path& input : job.inputs)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
@@ -164,7 +178,7 @@ planStep (const Job& job, FolderStore& store)
   plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   Eigen::Map<Eigen::Vector3d> (plan.shift.data ()) = cloud.shift;
-  plan.id = planId (plan.inputs, plan.parameters, job.blocks);
+  plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
   store.finish ();
   store.putText (MANIFEST, manifestText (plan)); // last: with it, the step is finished
@@ -175,18 +189,23 @@ Plan
 readPlan (const Job& job, const FolderStore& store)
 {
   Plan plan = parseManifest (store.readText (MANIFEST), store.describe (MANIFEST));
-  if (job.is_from_manifest && job.step != "join" && job.step != "write")
-    return plan;
+  if (!job.is_from_manifest || job.step == "join")
+    requirePlan (job, store, plan);
+  return plan;
+}
+
+void
+requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
+{
   std::vector<InputFile> inputs;
   for (const std::filesystem::path& input : job.inputs)
     inputs.push_back (describeInput (input));
   if (plan.parameters != parametersText (job))
     throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
                      "'; give the same, or name another work folder");
-  if (planId (inputs, plan.parameters, job.blocks) != plan.id)
+  if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
     throw WorkError ("the input files or the number of blocks are not those of '" +
                      store.describe (MANIFEST) + "'; give the same, or name another work folder");
-  return plan;
 }
 
 int
@@ -270,6 +289,7 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   Triangles triangles = std::move (mesh.triangles);
   std::vector<std::size_t> firsts;
   Cloud cloud = readShifted (job, plan, &firsts);
+  requirePlan (job, store, plan); // the bytes of now
   cloud.single_precision = mesh.is_single;
   if (line.compute_normals)
     replaceNormals (cloud, triangles, job.join_threads);
@@ -292,7 +312,7 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
     file.publish ();
   }
   for (const std::string& loss : losses)
-    std::fprintf (stderr, "warning: %s\n", loss.c_str ());
+    std::fprintf (stderr, "warning: %s\n", printable (loss).c_str ());
   if (report)
     report->publish ();
   return EXIT_OK;
@@ -469,6 +489,7 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
   CLI::App app (DESCRIPTION, "pcl_floater_distributed");
   std::vector<std::string> files;
   job.line.options.threads = 1;
+  job.line.program = "pcl_floater_distributed";
   app.get_formatter ()->column_width (NAME_COLUMN);
   app.get_formatter ()->label ("Positionals", "Arguments");
   app.footer (FOOTER);
@@ -495,6 +516,8 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
     throw UsageError (usageMessage (app, error, arguments));
   }
   job.arguments = arguments;
+  if (job.work.string ().find_first_of ("\n\r") != std::string::npos)
+    throw UsageError ("--work: the name has a line break in it; choose another one");
   if (job.work.empty ())
     throw UsageError ("--work is missing: name a folder for what is known between the steps");
   if (const Problem problem = checkOptions (job.line.options))

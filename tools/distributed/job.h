@@ -86,10 +86,14 @@ stitchStep (const Job& job, FolderStore& store, const Plan& plan, JoinHelp help)
 int
 writeStep (const Job& job, FolderStore& store, const Plan& plan);
 
-/// Reads the manifest and compares it with the parameters of the job and with its files. Steps of
-/// blocks that have both from the manifest do not read the files.
-/// \throws WorkError if they are others
+/// Reads the manifest, and calls requirePlan, but for a step other than `join` that has all from the
+/// manifest.
 Plan
 readPlan (const Job& job, const FolderStore& store);
+
+/// Compares a plan with the parameters of the job and with all bytes of its files.
+/// \throws WorkError if they are others
+void
+requirePlan (const Job& job, const FolderStore& store, const Plan& plan);
 
 } // namespace pcl::floater

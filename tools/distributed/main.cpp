@@ -335,7 +335,10 @@ void
 printSteps (const Job& job, FolderStore& folder)
 {
   const Plan plan = readPlan (job, folder);
-  const std::string command = "pcl_floater_distributed --work '" + job.work.string () + "' --step ";
+  std::string work; // quoted for a shell
+  for (const char c : job.work.string ())
+    work += c == '\'' ? "'\\''" : std::string (1, c);
+  const std::string command = "pcl_floater_distributed --work '" + work + "' --step ";
   const auto print = [&command] (const char* step) {
     std::printf ("%s%s\n\n", command.c_str (), step);
   };

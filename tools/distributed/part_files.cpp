@@ -5,6 +5,7 @@
 #include "stored_cloud.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace pcl::floater {
 namespace {
@@ -22,14 +23,29 @@ writingTo (ArrayWriter& writer)
 
 // Reads it from there.
 auto
-readingFrom (ArrayFile& file)
+readingFrom (ArrayFile& file, std::size_t all_points)
 {
-  return [&file] (const char* name, auto& values) {
+  return [&file, all_points] (const char* name, auto& values) {
     if constexpr (std::is_same_v<std::decay_t<decltype (values)>, CsrLists>)
-      values = readLists (file, name, 0, file.count<Index> (std::string (name) + ".ends"));
+      values =
+          readLists (file, name, 0, file.count<Index> (std::string (name) + ".ends"), all_points);
     else
       file.append (name, values);
   };
+}
+
+// Checks what a rim and a zone have of their points, which are in a part.
+template <typename Of>
+void
+requirePoints (const ArrayFile& file, const Of& of, const PartOfPoints& part)
+{
+  const std::size_t size = of.points.size ();
+  file.require (std::is_sorted (of.points.begin (), of.points.end (), std::less_equal<> ()) &&
+                (size == 0 || (of.points.front () >= part.first && of.points.back () < part.last)));
+  file.require (of.positions.size () == size && of.normals.size () == size &&
+                of.spacing.size () == size && of.is_partial.size () == size &&
+                of.neighbors.rows () == size);
+  file.requireBelow (of.triangles, size);
 }
 
 // Calls visit (name, array) for all arrays of a rim, in the order of the file, and visitOpen () in
@@ -120,8 +136,8 @@ void
 forCrossingCounts (Of& crossing, Visit&& visit)
 {
   for (auto* const count :
-       {&crossing.found, &crossing.left, &crossing.done.flips, &crossing.done.moves,
-        &crossing.done.rebuilds, &crossing.done.pairs_left})
+       {&crossing.found, &crossing.left, &crossing.untested, &crossing.done.flips,
+        &crossing.done.moves, &crossing.done.rebuilds, &crossing.done.pairs_left})
     visit (*count);
   visit (crossing.first_at);
 }
@@ -131,12 +147,14 @@ forCrossingCounts (Of& crossing, Visit&& visit)
 template <typename T>
 struct Taken
 {
+  const ArrayFile& file;
   std::vector<T> values;
   std::size_t next = 0;
 
   template <typename Value>
   void operator() (Value& value)
   {
+    file.require (next < values.size ());
     value = static_cast<Value> (values[next++]);
   }
 };
@@ -175,28 +193,37 @@ addCheck (const InnerCheck& check, ArrayWriter& writer)
 }
 
 InnerCheck
-readCheck (ArrayFile& file)
+readCheck (ArrayFile& file, std::size_t all_points)
 {
+  const auto requirePoint = [&] (Index p) { file.require (p == NONE || p < all_points); };
   InnerCheck check;
   check.triangles = file.count<Triangle> ("triangles");
-  forCounts (check.around, Taken<std::uint64_t>{file.read<std::uint64_t> ("around.counts")});
-  forPlaces (check.around, Taken<Index>{file.read<Index> ("around.places")});
-  const std::vector<double> longest = file.read<double> ("around.longest");
+  forCounts (check.around, Taken<std::uint64_t>{file, file.read<std::uint64_t> ("around.counts")});
+  forPlaces (check.around, Taken<Index>{file, file.read<Index> ("around.places")});
+  forPlaces (check.around, requirePoint);
+  const std::vector<double> longest = file.read<double> ("around.longest", 0, 2);
   check.around.sqr_longest = longest[0];
   check.around.sqr_longest_inside = longest[1];
   check.rim = file.read<Index> ("rim");
   check.rim_component = file.read<Index> ("rim.component");
   file.read ("box", 0, 1, &check.box);
-  Taken<double> numbers{file.read<double> ("components.numbers")};
-  Taken<std::uint64_t> counts{file.read<std::uint64_t> ("components.counts")};
+  Taken<double> numbers{file, file.read<double> ("components.numbers")};
+  Taken<std::uint64_t> counts{file, file.read<std::uint64_t> ("components.counts")};
   while (counts.next < counts.values.size ()) {
     InnerComponent& component = check.components.emplace_back ();
     forNumbers (component, numbers);
     forComponentCounts (component, counts);
+    requirePoint (component.sum.sum.at);
   }
+  file.require (std::is_sorted (check.rim.begin (), check.rim.end ()) &&
+                check.rim_component.size () == check.rim.size ());
+  file.requireBelow (check.rim, check.triangles);
+  file.requireBelow (check.rim_component, check.components.size ());
   forCrossingCounts (check.crossing,
-                     Taken<std::uint64_t>{file.read<std::uint64_t> ("crossing.counts")});
+                     Taken<std::uint64_t>{file, file.read<std::uint64_t> ("crossing.counts")});
+  requirePoint (check.crossing.first_at);
   file.append ("crossing.places", check.crossing.places);
+  file.requireBelow (check.crossing.places, all_points);
   return check;
 }
 
@@ -222,17 +249,29 @@ addRim (const PartRim& rim, ArrayWriter& writer)
 }
 
 PartRim
-readRim (ArrayFile& file)
+readRim (ArrayFile& file, const PartOfPoints& part)
 {
   PartRim rim;
-  forRim (rim, readingFrom (file), [&] {
+  forRim (rim, readingFrom (file, part.all), [&] {
     file.read ("components", 0, 1, &rim.components);
     const std::vector<Triangle> corners = file.read<Triangle> ("open.corners");
-    const std::vector<std::uint8_t> votes = file.read<std::uint8_t> ("open.votes");
-    const std::vector<float> ratios = file.read<float> ("open.ratios");
+    file.requireBelow (corners, part.all);
+    const std::vector<std::uint8_t> votes =
+        file.read<std::uint8_t> ("open.votes", 0, corners.size ());
+    const std::vector<float> ratios = file.read<float> ("open.ratios", 0, corners.size ());
     for (std::size_t i = 0; i < corners.size (); ++i)
       rim.open.push_back ({corners[i], votes[i], 0, ratios[i], 0.0F});
   });
+  requirePoints (file, rim, part);
+  file.require (
+      rim.smoothed.size () == rim.points.size () && rim.has_room.size () == rim.points.size () &&
+      rim.numbers.size () == rim.triangles.size () &&
+      rim.component.size () == rim.triangles.size () && rim.components <= part.last - part.first &&
+      rim.other_positions.size () == rim.others.size () &&
+      rim.other_normals.size () == rim.others.size ());
+  file.requireBelow (rim.numbers, file.count<Triangle> ("triangles"));
+  file.requireBelow (rim.component, rim.components);
+  file.requireBelow (rim.others, part.all);
   return rim;
 }
 
@@ -250,16 +289,17 @@ addFinished (const FinishedPart& part, ArrayWriter& writer)
 }
 
 FinishedPart
-readFinished (ArrayFile& file)
+readFinished (ArrayFile& file, const PartOfPoints& of)
 {
   FinishedPart part;
-  forZone (part.zone, readingFrom (file));
-  const std::vector<Index> counts = file.read<Index> ("counts");
+  forZone (part.zone, readingFrom (file, of.all));
+  requirePoints (file, part.zone, of);
+  const std::vector<Index> counts = file.read<Index> ("counts", 0, 3);
   part.flips = counts[0];
   part.folds_after_flips = counts[1];
   part.folds = counts[2];
   part.corners = file.read<double> ("corners");
-  part.check = readCheck (file);
+  part.check = readCheck (file, of.all);
   return part;
 }
 
@@ -311,7 +351,7 @@ addChanges (const std::vector<PartChange>& changes, ArrayWriter& writer)
 }
 
 PartChange
-readChange (ArrayFile& file, std::size_t part)
+readChange (ArrayFile& file, std::size_t part, const PartOfPoints& of)
 {
   PartChange change;
   // Its range in an array of all parts, one behind the other.
@@ -325,6 +365,11 @@ readChange (ArrayFile& file, std::size_t part)
   read ("added", change.added);
   read ("seam", change.seam);
   read ("beside", change.beside);
+  for (const Triangle& added : change.added)
+    file.require (*std::min_element (added.begin (), added.end ()) >= of.first);
+  file.requireBelow (change.added, of.last);
+  file.requireBelow (change.seam, of.all);
+  file.requireBelow (change.beside, of.all);
   return change;
 }
 
@@ -352,7 +397,7 @@ addCandidates (const CandidateLists& candidates, ArrayWriter& writer)
 }
 
 void
-appendCandidates (ArrayFile& file, Index first, Index last, CandidateLists& all)
+appendCandidates (ArrayFile& file, Index first, Index last, std::size_t limit, CandidateLists& all)
 {
   std::vector<Triangle> corners;
   const auto placeOf = [&corners] (Index p) {
@@ -362,12 +407,14 @@ appendCandidates (ArrayFile& file, Index first, Index last, CandidateLists& all)
         corners.begin ());
   };
   corners = file.read<Triangle> ("sure.corners");
-  std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks");
+  std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("sure.marks", 0, 2 * corners.size ());
+  file.requireBelow (corners, limit);
   for (std::size_t t = placeOf (first), end = placeOf (last); t < end; ++t)
     all.sure.push_back ({corners[t], marks[2 * t], marks[2 * t + 1], false});
   corners = file.read<Triangle> ("doubtful.corners");
-  marks = file.read<std::uint8_t> ("doubtful.marks");
-  const std::vector<float> values = file.read<float> ("doubtful.values");
+  marks = file.read<std::uint8_t> ("doubtful.marks", 0, 2 * corners.size ());
+  const std::vector<float> values = file.read<float> ("doubtful.values", 0, 2 * corners.size ());
+  file.requireBelow (corners, limit);
   for (std::size_t t = placeOf (first), end = placeOf (last); t < end; ++t)
     all.doubtful.push_back (
         {corners[t], marks[2 * t], marks[2 * t + 1], values[2 * t], values[2 * t + 1]});

@@ -11,26 +11,34 @@
 #include <vector>
 
 namespace pcl::floater {
-// All that is added must outlive the writer.
+/// The points of a part, and of how many all parts are: limits of the indices in its files.
+struct PartOfPoints
+{
+  Index first, last; ///< one past the last
+  std::size_t all;
+};
+
+// All that is added must outlive the writer. What is read is refused if indices are beyond their
+// limits, or arrays do not fit each other.
 
 void
 addRim (const PartRim& rim, ArrayWriter& writer);
 
 PartRim
-readRim (ArrayFile& file);
+readRim (ArrayFile& file, const PartOfPoints& part);
 
 void
 addFinished (const FinishedPart& part, ArrayWriter& writer);
 
 /// Without the inner triangles and their buckets.
 FinishedPart
-readFinished (ArrayFile& file);
+readFinished (ArrayFile& file, const PartOfPoints& of);
 
 void
 addChanges (const std::vector<PartChange>& changes, ArrayWriter& writer);
 
 PartChange
-readChange (ArrayFile& file, std::size_t part);
+readChange (ArrayFile& file, std::size_t part, const PartOfPoints& of);
 
 /// Lists of marks, one behind the other.
 void
@@ -43,8 +51,8 @@ readMarks (ArrayFile& file, const std::string& name);
 void
 addCandidates (const CandidateLists& candidates, ArrayWriter& writer);
 
-/// Appends those whose first corner is from `first` to before `last`.
+/// Appends those whose first corner is from `first` to before `last`; all corners are below a limit.
 void
-appendCandidates (ArrayFile& file, Index first, Index last, CandidateLists& all);
+appendCandidates (ArrayFile& file, Index first, Index last, std::size_t limit, CandidateLists& all);
 
 } // namespace pcl::floater

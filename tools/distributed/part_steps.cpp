@@ -61,7 +61,7 @@ public:
     all.sure_ranks = context_.limits.surface.consensus.candidates.sure_ranks;
     const BlockRanges& ranges = cloud_.ranges ();
     for (std::size_t block = ranges.blockOf (first_); block <= ranges.blockOf (last_ - 1); ++block)
-      appendCandidates (triangles_.file (block), first_, last_, all);
+      appendCandidates (triangles_.file (block), first_, last_, cloud_.points (), all);
     return divideCandidates (
         std::move (all), first_, last_,
         triangles_.gather<std::uint8_t> ("reaches_out", pointsFrom (first_, last_)));
@@ -88,6 +88,7 @@ public:
 
   Index first () const { return first_; }
   Index last () const { return last_; }
+  PartOfPoints place () const { return {first_, last_, cloud_.points ()}; }
 
 private:
   const StepContext& context_;
@@ -128,6 +129,7 @@ PartsSettings
 readWhole (ArrayFile& file, const StepContext& context, bool& has_facing_normals)
 {
   const std::vector<double> numbers = file.read<double> ("whole");
+  file.require (numbers.size () == 3 || numbers.size () == 6);
   PartsSettings settings;
   settings.surface.flip_edges = context.options.flip_edges;
   settings.surface.limits = context.limits.surface;
@@ -198,6 +200,7 @@ finishStep (const StepContext& context, std::size_t part)
   {
     ArrayFile mesh = openArrays (context.store, blockFile (MESH, part), context.plan);
     triangles = mesh.read<Triangle> ("triangles");
+    mesh.requireBelow (triangles, stored.last () - stored.first ());
   }
   if (stored.isEmpty ()) // it is one part less than was planned
     return;
@@ -206,9 +209,9 @@ finishStep (const StepContext& context, std::size_t part)
   PartPoints points = stored.points ();
   if (has_facing_normals)
     points.facing_normals = stored.facingNormals ();
-  const FinishedPart finished =
-      finishPart (std::move (points), std::move (triangles), readChange (changes, part),
-                  stored.neighbors (), settings.ofPart (partsOf (context)), context.run);
+  const FinishedPart finished = finishPart (
+      std::move (points), std::move (triangles), readChange (changes, part, stored.place ()),
+      stored.neighbors (), settings.ofPart (partsOf (context)), context.run);
   ArrayWriter writer;
   writer.add ("id", id);
   addFinished (finished, writer);
@@ -220,7 +223,7 @@ StoredParts::rim (std::size_t part, std::size_t rings)
 {
   if (rings == context_.limits.parts.rings) {
     ArrayFile file = openArrays (context_.store, blockFile (MESH, part), context_.plan);
-    return readRim (file);
+    return readRim (file, pointsOf (part));
   }
   StoredPart stored (context_, part); // more of it than is in the file
   const PartPoints points = stored.points ();
@@ -268,7 +271,7 @@ FinishedPart
 StoredParts::finished (std::size_t part)
 {
   ArrayFile file = openArrays (context_.store, blockFile (FINISH, part), context_.plan);
-  return readFinished (file);
+  return readFinished (file, pointsOf (part));
 }
 
 std::vector<Eigen::AlignedBox3d>
@@ -285,6 +288,7 @@ StoredParts::triangles (std::size_t part, const Ranges& ranges)
   std::vector<Triangle> some;
   for (const auto& [first, last] : ranges)
     file.append ("triangles", first, last, some);
+  file.requireBelow (some, parts_.last (part));
   return some;
 }
 

@@ -6,6 +6,7 @@
 
 #include "block_steps.h"
 #include "heap_reuse.h"
+#include "part_files.h"
 #include "parts/parts_method.h"
 
 #include <deque>
@@ -67,6 +68,11 @@ public:
   PointValues valuesOf (const std::vector<Index>& points) override;
 
 private:
+  PartOfPoints pointsOf (std::size_t part) const
+  {
+    return {parts_.first (part), parts_.last (part), parts_.last (parts_.count () - 1)};
+  }
+
   const StepContext& context_;
   FolderStore& folder_;
   PartsSettings settings_;

@@ -9,7 +9,7 @@
 #include "store.h"
 
 #include <nlohmann/json.hpp>
-#include <zlib.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -88,32 +88,32 @@ describeInput (const std::filesystem::path& path)
 {
   InputFile input;
   input.path = path;
-  constexpr std::streamoff MOST = 65536;
-  std::ifstream file (path, std::ios::binary | std::ios::ate);
+  constexpr std::size_t AT_ONCE = std::size_t{1} << 20U;
+  std::ifstream file (path, std::ios::binary);
   if (!file || std::filesystem::is_directory (path))
     throw ReadError ("cannot read " + inputName (path) + ": " +
                      (file ? "it is a folder" : std::strerror (errno)));
-  const std::streamoff size = file.tellg ();
-  input.size = static_cast<std::uint64_t> (size);
-  std::vector<char> bytes (static_cast<std::size_t> (std::min (size, MOST)));
-  for (const std::streamoff at : {std::streamoff{0}, std::max<std::streamoff> (0, size - MOST)}) {
-    file.seekg (at);
+  std::vector<char> bytes (AT_ONCE);
+  while (file) {
     file.read (bytes.data (), static_cast<std::streamsize> (bytes.size ()));
-    if (!file)
-      throw ReadError ("cannot read " + inputName (path) + ": it ends too early");
-    input.checksum = static_cast<std::uint32_t> (
-        ::crc32 (input.checksum, reinterpret_cast<const Bytef*> (bytes.data ()),
-                 static_cast<uInt> (bytes.size ())));
+    const auto count = static_cast<std::size_t> (file.gcount ());
+    input.size += count;
+    input.checksum = XXH3_64bits_withSeed (bytes.data (), count, input.checksum);
   }
+  if (!file.eof ())
+    throw ReadError ("cannot read " + inputName (path) + ": " + std::strerror (errno));
   return input;
 }
 
 std::uint64_t
-planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks)
+planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
+        const std::vector<std::string>& arguments)
 {
   std::string text = std::to_string (WORK_FORMAT) + "\n" + parameters + "\n";
   for (const InputFile& input : inputs)
     text += std::to_string (input.size) + " " + std::to_string (input.checksum) + "\n";
+  for (const std::string& argument : arguments)
+    text += std::to_string (argument.size ()) + " " + argument + "\n";
   return hash (text + std::to_string (blocks));
 }
 
@@ -147,7 +147,7 @@ parseManifest (const std::string& text, const std::string& name)
     for (const Json& input : json.at ("inputs"))
       plan.inputs.push_back ({input.at ("file").get<std::string> (),
                               input.at ("bytes").get<std::uint64_t> (),
-                              input.at ("checksum").get<std::uint32_t> ()});
+                              input.at ("checksum").get<std::uint64_t> ()});
     forMembers (plan, [&json] (const char* key, auto& value) { json.at (key).get_to (value); });
     if (checksum !=
         hexadecimal (hash (contents (plan).dump (-1, ' ', false, Json::error_handler_t::replace))))

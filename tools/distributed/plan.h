@@ -18,7 +18,7 @@ struct InputFile
 {
   std::filesystem::path path;
   std::uint64_t size = 0;
-  std::uint32_t checksum = 0; ///< of its first and last bytes
+  std::uint64_t checksum = 0; ///< of all bytes
 };
 
 /// All that the steps after the first need to know, but the points.
@@ -45,9 +45,10 @@ struct Plan
 InputFile
 describeInput (const std::filesystem::path& path);
 
-/// Identifies a plan: the same for the same files and parameters.
+/// Identifies a plan: the same for the same files, parameters and arguments of the one that made it.
 std::uint64_t
-planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks);
+planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
+        const std::vector<std::string>& arguments);
 
 /// The text of the manifest.
 std::string

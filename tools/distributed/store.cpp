@@ -63,12 +63,19 @@ aligned (std::uint64_t offset)
 class OpenFile : public ByteSource
 {
 public:
-  explicit OpenFile (const std::filesystem::path& path)
-      : path_ (path), descriptor_ (::open (path.c_str (), O_RDONLY | O_CLOEXEC))
+  OpenFile (const std::filesystem::path& path, bool is_work)
+      : path_ (path), descriptor_ (::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NONBLOCK |
+                                                              (is_work ? O_NOFOLLOW : 0)))
   {
     struct stat status = {};
     if (descriptor_ < 0 || ::fstat (descriptor_, &status) != 0)
       fail (errno);
+    if (is_work && !isOwn (status)) {
+      ::close (descriptor_);
+      throw WorkError ("'" + path_.string () +
+                       "' is not a file that only this user can write: it may be somebody else's; "
+                       "name a work folder of your own");
+    }
     size_ = static_cast<std::uint64_t> (status.st_size);
   }
   ~OpenFile () override
@@ -101,8 +108,21 @@ public:
   }
 
 private:
+  // Some file systems have files of root as those of nobody.
+  static bool isOwn (const struct stat& status)
+  {
+    constexpr uid_t NOBODY = 65534;
+    const uid_t user = ::geteuid ();
+    return S_ISREG (status.st_mode) && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0 &&
+           (status.st_uid == user || (user == 0 && status.st_uid == NOBODY));
+  }
+
   [[noreturn]] void fail (int error) const
   {
+    if (descriptor_ >= 0)
+      ::close (descriptor_);
+    if (error == ELOOP)
+      throw WorkError ("'" + path_.string () + "' is a symbolic link, which no work folder has");
     throw WorkError ("cannot read '" + path_.string () + "': " + std::strerror (error) +
                      (error == ENOENT ? "; run the step that makes it (see --print-steps)" : ""));
   }
@@ -115,9 +135,9 @@ private:
 } // namespace
 
 std::unique_ptr<ByteSource>
-openFile (const std::filesystem::path& path)
+openFile (const std::filesystem::path& path, bool is_work)
 {
-  return std::make_unique<OpenFile> (path);
+  return std::make_unique<OpenFile> (path, is_work);
 }
 
 void
@@ -172,7 +192,7 @@ ArrayWriter::emit (std::uint64_t plan,
 void
 ArrayWriter::write (const std::filesystem::path& path, std::uint64_t plan) const
 {
-  AtomicFile file (path);
+  AtomicFile file (path, true);
   emit (plan, [&file] (const char* bytes, std::size_t count) { file.write (bytes, count); });
   file.close (false);
   file.publish ();
@@ -253,8 +273,7 @@ void
 ArrayFile::readBytes (const Array& array, std::size_t element, std::size_t first, std::size_t last,
                       char* bytes)
 {
-  if (element != array.element || first > last || last > array.count)
-    refuse ("has other arrays than this program makes; use an empty work folder");
+  require (element == array.element && first <= last && last <= array.count);
   const std::uint64_t size = array.element * array.count;
   std::uint64_t at = first * element;
   const std::uint64_t end = last * element;
@@ -317,7 +336,7 @@ ArrayFile::verify ()
 std::string
 FolderStore::readText (const std::string& name) const
 {
-  const std::unique_ptr<ByteSource> source = openFile (path (name));
+  const std::unique_ptr<ByteSource> source = openFile (path (name), true);
   std::string text (source->size (), '\0');
   source->read (0, text.size (), text.data ());
   return text;
@@ -326,7 +345,7 @@ FolderStore::readText (const std::string& name) const
 void
 FolderStore::putText (const std::string& name, const std::string& text) const
 {
-  AtomicFile file (path (name));
+  AtomicFile file (path (name), true);
   file.write (text);
   file.close ();
   file.publish ();
@@ -342,7 +361,7 @@ FolderStore::put (const std::string& name, const ArrayWriter& arrays, std::uint6
 void
 FolderStore::putBytes (const std::string& name, const char* bytes, std::size_t count)
 {
-  AtomicFile file (path (name));
+  AtomicFile file (path (name), true);
   file.write (bytes, count);
   file.close (false);
   file.publish ();

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@
 
 namespace pcl::floater {
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 6;
+constexpr std::uint32_t WORK_FORMAT = 7;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
 class WorkError : public std::runtime_error
@@ -46,9 +47,11 @@ public:
   virtual void read (std::uint64_t offset, std::size_t count, char* bytes) = 0;
 };
 
+/// \param is_work a file of a work folder: others must not be able to write it. It is a file of this
+///     user, writable by nobody else, and no symbolic link
 /// \throws WorkError if the file does not exist or cannot be read
 std::unique_ptr<ByteSource>
-openFile (const std::filesystem::path& path);
+openFile (const std::filesystem::path& path, bool is_work);
 
 // What a file has for a value: of a vector, box, triangle, sample or pair, its plain numbers. Only the
 // types of these functions are used.
@@ -166,6 +169,7 @@ public:
   void append (const std::string& array, std::size_t first, std::size_t last,
                std::vector<T>& values)
   {
+    require (first <= last && last <= count<T> (array));
     const std::size_t before = values.size ();
     values.resize (before + last - first);
     read (array, first, last, values.data () + before);
@@ -194,6 +198,23 @@ public:
   /// Reads all of the file.
   /// \throws WorkError if anything is damaged
   void verify ();
+
+  /// \throws WorkError if the arrays of the file do not fit each other, though its checksums are
+  ///   right
+  void require (bool fits) const
+  {
+    if (!fits)
+      refuse ("has other arrays than this program makes; use an empty work folder");
+  }
+
+  /// Whether all indices are below a limit.
+  template <typename T>
+  void requireBelow (const std::vector<T>& values, std::size_t limit) const
+  {
+    const auto* const first = reinterpret_cast<const Index*> (values.data ());
+    require (std::all_of (first, first + values.size () * (sizeof (T) / sizeof (Index)),
+                          [limit] (Index index) { return index < limit; }));
+  }
 
 private:
   struct Array
@@ -246,7 +267,7 @@ public:
   std::string describe (const std::string& name) const override { return path (name).string (); }
   std::unique_ptr<ByteSource> open (const std::string& name) override
   {
-    return openFile (path (name));
+    return openFile (path (name), true);
   }
   void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) override;
 

@@ -3,6 +3,7 @@
 #include "stored_cloud.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace pcl::floater {
 ArrayFile&
@@ -24,7 +25,8 @@ writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer
 }
 
 CsrLists
-readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last)
+readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last,
+           std::size_t limit)
 {
   CsrLists lists;
   if (first == last)
@@ -35,7 +37,9 @@ readLists (ArrayFile& file, const std::string& array, std::size_t first, std::si
   lists.offsets.resize (last - first + 1);
   lists.offsets[0] = begin;
   file.read (array + ".ends", first, last, lists.offsets.data () + 1);
+  file.require (std::is_sorted (lists.offsets.begin (), lists.offsets.end ()));
   lists.ids = file.read<Index> (array, begin, lists.offsets.back ());
+  file.requireBelow (lists.ids, limit);
   for (Index& offset : lists.offsets)
     offset -= begin;
   return lists;
@@ -48,7 +52,7 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
   all.offsets.reserve (points.size () + 1);
   all.offsets.push_back (0);
   forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
-    const CsrLists lists = readLists (file (block), array, first, last);
+    const CsrLists lists = readLists (file (block), array, first, last, ranges_.points ());
     const Index before = all.offsets.back ();
     all.ids.insert (all.ids.end (), lists.ids.begin (), lists.ids.end ());
     for (std::size_t r = 1; r < lists.offsets.size (); ++r)
@@ -183,6 +187,13 @@ readPoints (Store& store, const std::string& name, const Plan& plan,
   points.non_finite = file.read<Index> ("non_finite");
   points.duplicates = file.read<std::array<Index, 2>> ("duplicates");
   gross_outliers = file.read<Index> ("gross_outliers");
+  for (const std::vector<Index>* list : {&points.cloud_index, &points.non_finite, &gross_outliers})
+    file.requireBelow (*list, plan.cloud_size);
+  file.requireBelow (points.duplicates, plan.cloud_size);
+  const std::size_t count = points.positions.size ();
+  file.require (count > 0 && count <= plan.points && points.cloud_index.size () == count);
+  for (const std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
+    file.require (normals->empty () || normals->size () == count);
   points.centre = Eigen::Map<const Eigen::Vector3d> (plan.centre.data ());
   points.scale = plan.scale;
   points.lattice_width = plan.lattice_width;
@@ -192,7 +203,12 @@ readPoints (Store& store, const std::string& name, const Plan& plan,
 std::vector<Index>
 readOutliers (const StepContext& context)
 {
-  return openArrays (context.store, OUTLIERS, context.plan).read<Index> ("outliers");
+  ArrayFile file = openArrays (context.store, OUTLIERS, context.plan);
+  std::vector<Index> outliers = file.read<Index> ("outliers");
+  file.requireBelow (outliers, context.plan.points);
+  file.require (outliers.size () < context.plan.points &&
+                std::is_sorted (outliers.begin (), outliers.end (), std::less_equal<> ()));
+  return outliers;
 }
 
 } // namespace pcl::floater

@@ -81,8 +81,10 @@ void
 writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer);
 
 /// Reads lists that writeLists has written, `first` to before `last`.
+/// \param limit all indices are below
 CsrLists
-readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last);
+readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last,
+           std::size_t limit);
 
 /// Appends a list to others.
 void

@@ -29,6 +29,10 @@ readPart (const StepContext& context, const Parts& parts, std::size_t part,
   ArrayFile file = openArrays (context.store, blockFile (FINISH, part), context.plan);
   std::vector<Triangle> triangles = file.read<Triangle> ("triangles");
   const Index first = parts.first (part), last = parts.last (part);
+  for (const Triangle& corners : triangles)
+    file.require (std::all_of (corners.begin (), corners.end (), [&] (Index p) {
+      return p >= parts.first (part) && p < parts.last (part);
+    }));
   turnInner (triangles, is_turned, first, last - first, context.run.withThreads (1));
   const std::vector<Index> cloud_index =
       openArrays (context.store, pointsLeft (readOutliers (context)), context.plan)
@@ -74,19 +78,20 @@ bool
 areBlocksFreed (FolderStore& folder, const Plan& plan)
 {
   return folder.has (TRIANGLES) &&
-         openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("marks")[1] != 0;
+         openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("marks", 1, 2).front () != 0;
 }
 
 FinishedMesh
 readMesh (const StepContext& context)
 {
   ArrayFile file = openArrays (context.store, TRIANGLES, context.plan);
-  const std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("marks");
+  const std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("marks", 0, 3);
   FinishedMesh mesh;
   mesh.is_single = marks[0] != 0;
   mesh.are_blocks_freed = marks[1] != 0;
   if (marks[2] == 0) {
     mesh.triangles = file.read<Triangle> ("triangles");
+    file.requireBelow (mesh.triangles, context.plan.cloud_size);
     return mesh;
   }
   const Parts parts = partsOf (context);
@@ -97,6 +102,8 @@ readMesh (const StepContext& context)
                           .count<Triangle> ("triangles"));
   const std::vector<Triangle> seam = file.read<Triangle> ("triangles");
   const std::vector<std::vector<std::uint8_t>> is_turned = readMarks (file, "turned");
+  file.requireBelow (seam, context.plan.cloud_size);
+  file.require (is_turned.size () == parts.count ());
   mesh.triangles.resize (begins.back () + seam.size ());
   parallelTasks (context.run, parts.count (), [&] (std::size_t part) {
     const std::vector<Triangle> triangles = readPart (context, parts, part, is_turned[part]);
@@ -143,7 +150,7 @@ std::pair<std::uint64_t, std::string>
 sumOf (const std::filesystem::path& path)
 {
   constexpr std::size_t AT_ONCE = std::size_t{1} << 20U;
-  const std::unique_ptr<ByteSource> file = openFile (path);
+  const std::unique_ptr<ByteSource> file = openFile (path, false);
   std::vector<char> bytes (AT_ONCE);
   uLong sum = 0;
   for (std::uint64_t at = 0; at < file->size (); at += AT_ONCE) {

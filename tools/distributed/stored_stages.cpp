@@ -11,16 +11,23 @@
 namespace pcl::floater {
 namespace {
 // Appends all lists of a block to those of the blocks before it.
+// \param rows so many lists, of indices below `limit`
 void
-appendLists (ArrayFile& file, const std::string& name, CsrLists& all)
+appendLists (ArrayFile& file, const std::string& name, std::size_t rows, std::size_t limit,
+             CsrLists& all)
 {
   if (all.offsets.empty ())
     all.offsets.push_back (0);
   const Index before = all.offsets.back (); // modulo 2^32, as all offsets
-  file.append (name, all.ids);
-  const std::size_t rows = all.offsets.size ();
-  file.append (name + ".ends", all.offsets);
-  for (std::size_t r = rows; r < all.offsets.size (); ++r)
+  const auto ids = file.read<Index> (name);
+  file.requireBelow (ids, limit);
+  all.ids.insert (all.ids.end (), ids.begin (), ids.end ());
+  const std::size_t first = all.offsets.size ();
+  file.append (name + ".ends", 0, rows, all.offsets);
+  file.require (std::is_sorted (all.offsets.begin () + static_cast<std::ptrdiff_t> (first),
+                                all.offsets.end ()) &&
+                (rows == 0 ? 0 : all.offsets.back ()) == ids.size ());
+  for (std::size_t r = first; r < all.offsets.size (); ++r)
     all.offsets[r] += before;
 }
 
@@ -43,6 +50,7 @@ StoredStages::forEachBlock (const char* step, Visit&& visit)
     if (context_.options.task_callback) // makes room where memory is limited
       context_.options.task_callback ();
     ArrayFile file = openArrays (context_.store, blockFile (step, block), context_.plan);
+    own_ = ranges_.last (block) - ranges_.first (block);
     visit (file, block);
   }
 }
@@ -87,15 +95,18 @@ StoredStages::planes ()
     for (std::size_t p = 0; p <= n; ++p)
       neighbors.offsets.push_back (static_cast<Index> (p * k));
     forEachBlock ("neighbors", [&] (ArrayFile& file, std::size_t /*block*/) {
-      file.append ("ids", neighbors.ids);
+      const auto ids = file.read<Index> ("ids");
+      file.require (ids.size () == own_ * k);
+      file.requireBelow (ids, n);
+      neighbors.ids.insert (neighbors.ids.end (), ids.begin (), ids.end ());
     });
   }
   CsrLists beside;
   beside.offsets.reserve (n + 1);
   forEachBlock ("planes", [&] (ArrayFile& file, std::size_t /*block*/) {
     if (!outliers_.empty ())
-      appendLists (file, "renewed", neighbors);
-    appendLists (file, "beside", beside);
+      appendLists (file, "renewed", own_, n, neighbors);
+    appendLists (file, "beside", own_, n, beside);
   });
   neighbors.findWraps (); // others have fewer entries
   appendRows (beside, neighbors);
@@ -133,17 +144,17 @@ StoredStages::geometry (LocalPlanes planes, bool with_stars)
   CsrLists far;
   far.offsets.reserve (n + 1);
   forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
-    file.append ("normals", stars.normals);
+    file.append ("normals", 0, own_, stars.normals);
   });
   for (const char* step : {"neighbors", "planes", "stars"})
     remove (step); // the neighbours of the planes are in memory by now
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    file.append ("spacing", geometry.spacing);
-    appendLists (file, "far", far);
+    file.append ("spacing", 0, own_, geometry.spacing);
+    appendLists (file, "far", own_, n, far);
     if (!with_stars)
       return;
-    appendLists (file, "stars", stars.neighbors);
-    file.append ("open", stars.open);
+    appendLists (file, "stars", own_, n, stars.neighbors);
+    file.append ("open", 0, own_, stars.open);
   });
   geometry.neighbors = std::move (planes.neighbors);
   appendRows (far, geometry.neighbors);
@@ -155,8 +166,9 @@ StoredStages::spacing ()
 {
   std::vector<float> spacing;
   spacing.reserve (ranges_.points ());
-  forEachBlock ("triangles",
-                [&] (ArrayFile& file, std::size_t /*block*/) { file.append ("spacing", spacing); });
+  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
+    file.append ("spacing", 0, own_, spacing);
+  });
   return spacing;
 }
 
@@ -181,8 +193,8 @@ StoredStages::triangles ()
   candidates.doubtful.reserve (doubtful);
   proposed.smoothed_normals.reserve (ranges_.points ());
   forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t block) {
-    file.append ("smoothed_normals", proposed.smoothed_normals);
-    appendCandidates (file, 0, NONE, candidates);
+    file.append ("smoothed_normals", 0, own_, proposed.smoothed_normals);
+    appendCandidates (file, 0, NONE, ranges_.points (), candidates);
     if (freed_ != nullptr)
       freed_->remove (blockFile ("triangles", block));
   });

@@ -53,7 +53,8 @@ private:
   JoinHelp help_;
   std::optional<MeshOfParts> mesh_;
   std::vector<Index> outliers_;
-  BlockRanges ranges_; // without outliers
+  BlockRanges ranges_;  // without outliers
+  std::size_t own_ = 0; // points of the block that is visited
 };
 
 } // namespace pcl::floater

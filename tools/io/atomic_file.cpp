@@ -123,7 +123,7 @@ folderOf (const std::filesystem::path& path)
 void
 syncFile (const std::filesystem::path& path)
 {
-  const int descriptor = ::open (path.c_str (), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   int error = descriptor < 0 ? errno : sync (descriptor);
   if (descriptor >= 0 && ::close (descriptor) != 0 && error == 0)
     error = errno;
@@ -176,18 +176,20 @@ handleSignals (int input_failed)
   ::sigaction (SIGBUS, &action, nullptr);
 }
 
-AtomicFile::AtomicFile (const std::filesystem::path& path)
-    : path_ (path), target_ (resolve (path)), slot_ (MOST_FILES), buffer_ (BUFFER_BYTES)
+AtomicFile::AtomicFile (const std::filesystem::path& path, bool is_private)
+    : path_ (path), target_ (is_private ? path : resolve (path)), slot_ (MOST_FILES),
+      buffer_ (BUFFER_BYTES)
 {
   requireWritable (path);
   constexpr int MOST_TRIES = 100;
-  constexpr mode_t FOR_ALL = 0666; // less the umask
+  // Less the umask. What goes to the standard output is nobody else's.
+  const mode_t mode = is_private || isStandardStream (path) ? 0600 : 0666;
   for (int i = 0; i < MOST_TRIES && descriptor_ < 0; ++i) {
     const std::string name =
         ".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp";
     temporary_ = (folderOf (target_) / name).string ();
     slot_ = remember (temporary_); // before it exists, because a signal may come right after
-    descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, FOR_ALL);
+    descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     const int error = errno;
     if (descriptor_ < 0)
       forget (slot_);
@@ -201,7 +203,7 @@ AtomicFile::AtomicFile (const std::filesystem::path& path)
   }
   struct stat status = {};
   constexpr mode_t PERMISSIONS = 07777;
-  if (!isStandardStream (path_) && ::stat (target_.c_str (), &status) == 0)
+  if (!is_private && !isStandardStream (path_) && ::stat (target_.c_str (), &status) == 0)
     ::fchmod (descriptor_, status.st_mode & PERMISSIONS);
 }
 
@@ -334,6 +336,9 @@ AtomicFile::fail (int error) const
   std::string advice;
   if (error == ENOSPC || error == EDQUOT)
     advice = "; free some space or write elsewhere";
+  else if (error == EEXIST)
+    advice = "; remove the files '.pcl_floater.*.tmp' that runs which were killed have left in '" +
+             folderOf (target_).string () + "'";
   else if (error == EFBIG)
     advice = "; raise the limit on file sizes (ulimit -f) or write a smaller format";
   failOn (path_, std::strerror (error) + advice);

@@ -45,7 +45,8 @@ class AtomicFile
 {
 public:
   /// \throws WriteError, as do all other members
-  explicit AtomicFile (const std::filesystem::path& path);
+  /// \param is_private for this user only, and in the place of a symbolic link, not behind it
+  explicit AtomicFile (const std::filesystem::path& path, bool is_private = false);
   ~AtomicFile ();
   AtomicFile (const AtomicFile&) = delete;
   AtomicFile& operator= (const AtomicFile&) = delete;

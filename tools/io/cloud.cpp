@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace pcl::floater {
@@ -91,18 +92,26 @@ renameRepeated (Cloud& cloud)
   for (const Field& field : cloud.fields)
     names.insert (field.name);
   std::set<std::string> taken{"x", "y", "z"};
+  std::map<std::string, std::size_t> numbers; // the last one of each name
+  std::vector<std::string> warnings;
   for (Field& field : cloud.fields) {
     if (taken.insert (field.name).second)
       continue;
+    std::size_t& number = numbers.emplace (field.name, 1).first->second;
     std::string name;
-    for (std::size_t number = 2; name.empty () || names.count (name) > 0; ++number)
-      name = field.name + "_" + std::to_string (number);
-    cloud.warnings.push_back ("there are two fields '" + field.name +
-                              "': the second was renamed '" + name + "'");
+    do
+      name = field.name + "_" + std::to_string (++number);
+    while (!names.insert (name).second);
+    warnings.push_back ("there are two fields '" + field.name + "': the second was renamed '" +
+                        name + "'");
     field.name = name;
-    names.insert (name);
     taken.insert (name);
   }
+  constexpr std::size_t FEW = 3;
+  if (warnings.size () > FEW)
+    warnings = {warnings.front () + ", and " + counted (warnings.size () - 1, "other field") +
+                " alike"};
+  cloud.warnings.insert (cloud.warnings.end (), warnings.begin (), warnings.end ());
 }
 
 } // namespace

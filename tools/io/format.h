@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace pcl::floater {
 /// Extension of a file in lower case, with its dot.
@@ -31,6 +32,61 @@ inline std::string
 inputName (const std::filesystem::path& path)
 {
   return isStandardStream (path) ? "the standard input" : "'" + path.string () + "'";
+}
+
+/// Bytes of the UTF-8 character that a text begins with; 0: of none.
+inline std::size_t
+characterBytes (std::string_view text)
+{
+  const auto byte = [text] (std::size_t i) -> unsigned {
+    return i < text.size () ? static_cast<unsigned char> (text[i]) : 0U;
+  };
+  const unsigned first = byte (0);
+  const std::size_t count = first < 0x80   ? 1
+                            : first < 0xC2 ? 0
+                            : first < 0xE0 ? 2
+                            : first < 0xF0 ? 3
+                            : first < 0xF5 ? 4
+                                           : 0;
+  for (std::size_t i = 1; i < count; ++i)
+    if ((byte (i) & 0xC0U) != 0x80)
+      return 0;
+  return count;
+}
+
+inline bool
+isUtf8 (std::string_view text)
+{
+  while (!text.empty ()) {
+    const std::size_t bytes = characterBytes (text);
+    if (bytes == 0)
+      return false;
+    text.remove_prefix (bytes);
+  }
+  return true;
+}
+
+/// A text for a terminal: what would control it, and what is no UTF-8, as \x1b.
+inline std::string
+printable (std::string_view text)
+{
+  std::string shown;
+  while (!text.empty ()) {
+    const std::size_t bytes = characterBytes (text);
+    const auto first = static_cast<unsigned char> (text[0]);
+    const bool is_control = bytes == 1
+                                ? (first < ' ' && first != '\n' && first != '\t') || first == 0x7F
+                                : first == 0xC2 && static_cast<unsigned char> (text[1]) < 0xA0;
+    for (std::size_t i = 0; i < std::max<std::size_t> (bytes, 1); ++i)
+      if (bytes == 0 || is_control) {
+        const auto value = static_cast<unsigned char> (text[i]);
+        shown += {'\\', 'x', "0123456789abcdef"[value >> 4U], "0123456789abcdef"[value & 15U]};
+      }
+      else
+        shown += text[i];
+    text.remove_prefix (std::max<std::size_t> (bytes, 1));
+  }
+  return shown;
 }
 
 /// "1 point", "2 points".

@@ -5,6 +5,7 @@
 #include "format.h"
 #include "text_scanner.h"
 
+#include <random>
 #include <unordered_set>
 
 namespace pcl::floater {
@@ -36,17 +37,20 @@ public:
 private:
   using Bits = std::array<std::uint64_t, 3>;
 
+  // Of a number that is another one in each run: no file can have corners that share their hashes.
   struct Hash
   {
     std::size_t operator() (const Bits& bits) const
     {
-      std::uint64_t hash = 0;
+      std::uint64_t hash = seed;
       for (const std::uint64_t coordinate : bits) {
         hash = (hash ^ coordinate) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
         hash ^= hash >> 32U;
       }
       return static_cast<std::size_t> (hash);
     }
+
+    std::uint64_t seed = std::uint64_t{std::random_device () ()} << 32U | std::random_device () ();
   };
 
   std::unordered_set<Bits, Hash> known_;

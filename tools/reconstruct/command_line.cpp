@@ -27,7 +27,7 @@ namespace pcl::floater {
 int
 fail (const char* program, int code, const std::string& message)
 {
-  std::fprintf (stderr, "%s: %s\n", program, message.c_str ());
+  std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
   return code;
 }
 
@@ -231,6 +231,11 @@ checkPaths (const CommandLine& line)
     bool is_output;
   };
   const std::filesystem::path materials = materialsOf (line);
+  for (const std::filesystem::path* path : {&materials, &line.texture})
+    if (path->filename ().string ().find_first_of ("\n\r") != std::string::npos)
+      throw UsageError (
+          "the name of the file of materials or of the texture has a line break in it, "
+          "which files in OBJ cannot hold; choose another one");
   const std::array<Named, 8> all{{{"INPUT", &line.input, false},
                                   {"--loop", &line.loop, false},
                                   {"OUTPUT", &line.output, true},

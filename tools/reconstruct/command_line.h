@@ -68,6 +68,7 @@ enum class Precision
 /// What the user asked for. Paths that were not given are empty.
 struct CommandLine
 {
+  const char* program = "pcl_floater_reconstruct"; ///< that tells of a failure
   std::filesystem::path input;
   std::filesystem::path output;
   std::filesystem::path report;

@@ -71,7 +71,8 @@ to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
   NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
       NLOHMANN_JSON_TO, nonmanifold_edges, nonmanifold_vertices, orientation_conflicts, components,
       euler_characteristic, genus, folds, degenerate_triangles, self_intersections,
-      self_intersections_at, largest_area_share, longest_edge, longest_edge_at, loops))
+      has_more_self_intersections, self_intersections_at, largest_area_share, longest_edge,
+      longest_edge_at, loops))
 }
 
 namespace {

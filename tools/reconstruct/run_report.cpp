@@ -193,7 +193,7 @@ printWarnings (const Report& report, bool is_verbose)
   const std::size_t count = report.warnings.size ();
   const std::size_t shown = is_verbose ? count : std::min (count, MOST);
   for (std::size_t i = 0; i < shown; ++i)
-    std::fprintf (stderr, "warning: %s\n", report.warnings[i].c_str ());
+    std::fprintf (stderr, "warning: %s\n", printable (report.warnings[i]).c_str ());
   if (shown < count)
     std::fprintf (stderr, "%s more: --verbose prints them\n",
                   counted (count - shown, "warning").c_str ());
@@ -333,18 +333,19 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                 static_cast<double> (peakMemory ()) / MEGABYTE);
   std::fprintf (to, "warnings   %zu\n", report.warnings.size ());
   std::fprintf (to, "mesh       %s\n",
-                isStandardStream (line.output) ? "to the standard output" : line.output.c_str ());
+                isStandardStream (line.output) ? "to the standard output"
+                                               : printable (line.output.string ()).c_str ());
   if (run.texture.status == RunStatus::SUCCESS)
     std::fprintf (to, "texture    %s, stretch %.3f, %.0f %% of the square used, %.3f s%s%s\n",
                   counted (run.texture.chart_count, "chart").c_str (), run.texture.stretch,
                   100.0 * run.texture.area_used, run.texture_seconds,
-                  line.texture.empty () ? "" : ": ", line.texture.c_str ());
+                  line.texture.empty () ? "" : ": ", printable (line.texture.string ()).c_str ());
   if (!line.parameterization.empty ())
-    std::fprintf (to, "flat mesh  %s\n", line.parameterization.c_str ());
+    std::fprintf (to, "flat mesh  %s\n", printable (line.parameterization.string ()).c_str ());
   if (!line.report.empty ())
-    std::fprintf (to, "report     %s\n", line.report.c_str ());
+    std::fprintf (to, "report     %s\n", printable (line.report.string ()).c_str ());
   if (!line.html.empty ())
-    std::fprintf (to, "page       %s\n", line.html.c_str ());
+    std::fprintf (to, "page       %s\n", printable (line.html.string ()).c_str ());
 }
 
 } // namespace
@@ -356,8 +357,8 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
   const bool has_mesh = isStandardStream (line.output); // the standard output takes nothing else
   std::FILE* const to = has_mesh ? stderr : stdout;
   if (!is_ok)
-    std::fprintf (stderr, "pcl_floater_reconstruct: cannot reconstruct %s: %s (%s)\n",
-                  inputName (line.input).c_str (), report.message.c_str (),
+    std::fprintf (stderr, "%s: cannot reconstruct %s: %s (%s)\n", line.program,
+                  printable (inputName (line.input)).c_str (), printable (report.message).c_str (),
                   outcomeName (report, figures).c_str ());
   if (figures.is_refused || !line.quiet)
     printWarnings (report, line.verbose || figures.is_refused);

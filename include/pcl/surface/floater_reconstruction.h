@@ -11,6 +11,12 @@
 #include <string>
 #include <vector>
 
+static_assert (
+    EIGEN_DEFAULT_ALIGN_BYTES == PCL_FLOATER_EIGEN_ALIGNMENT,
+    "this program is compiled for another instruction set than pcl_floater, such as with "
+    "-mavx or -march=native: arrays of points that one of them makes and the other frees "
+    "would end the program; compile both with the same flags");
+
 namespace pcl {
 /** \brief Reconstructs a surface from an unorganized point cloud. The vertices of the mesh are the
  * points of the cloud.

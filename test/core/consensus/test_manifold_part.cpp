@@ -8,8 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cstdlib>
 #include <random>
 #include <set>
+#include <string>
 
 namespace pcl::floater {
 namespace {
@@ -75,28 +80,78 @@ TEST (ManifoldPart, LeavesTheDecisionAtAPartialPointOpen)
   EXPECT_EQ (manifoldPart (consensus, 5, none, 1, {}, 1)->triangles.size (), 1);
 }
 
-// Crumbs of a lattice of 3 x 3 x 3 points around its middle, which may have several closed fans.
-// Each ends as a manifold, or is refused for a reason of its own.
+// The places of a crumb of the lattice of 3 x 3 x 3 points, as bits.
+using Crumb = std::uint32_t;
+
+// The least of a crumb's 48 images by turns and mirrors.
+Crumb
+leastImage (Crumb crumb)
+{
+  static const std::vector<std::array<Index, 27>> symmetries = [] {
+    std::vector<std::array<Index, 27>> all;
+    std::array<Index, 3> axes{0, 1, 2};
+    do
+      for (Index mirrors = 0; mirrors < 8; ++mirrors) {
+        std::array<Index, 27> to{};
+        for (Index i = 0; i < 27; ++i) {
+          const std::array<Index, 3> at{i % 3, i / 3 % 3, i / 9};
+          for (Index axis = 0, step = 1; axis < 3; ++axis, step *= 3)
+            to[i] += step * ((mirrors >> axis & 1U) != 0 ? 2 - at[axes[axis]] : at[axes[axis]]);
+        }
+        all.push_back (to);
+      }
+    while (std::next_permutation (axes.begin (), axes.end ()));
+    return all;
+  }();
+  Crumb least = crumb;
+  for (const std::array<Index, 27>& to : symmetries) {
+    Crumb image = 0;
+    for (Index i = 0; i < 27; ++i)
+      image |= (crumb >> i & 1U) << to[i];
+    least = std::min (least, image);
+  }
+  return least;
+}
+
+// Crumbs may have several closed fans. Each ends as a manifold, or is refused for a reason of its
+// own: all of up to 5 points that are distinct, and samples of 6 to 10 around the middle.
+// PCL_FLOATER_CRUMBS: all of up to so many points.
 TEST (ManifoldPart, CrumbsOfALatticeAreManifold)
 {
-  constexpr Index MIDDLE = 13;
+  constexpr Crumb MIDDLE = 1U << 13U, END = 1U << 27U;
+  const char* const more = std::getenv ("PCL_FLOATER_CRUMBS");
+  const std::size_t most = more != nullptr ? std::stoul (more) : 5;
+  std::set<Crumb> crumbs;
+  for (std::size_t size = 3; size <= most; ++size)
+    for (Crumb crumb = (1U << size) - 1; crumb < END;) {
+      crumbs.insert (leastImage (crumb));
+      const Crumb lowest = crumb & (~crumb + 1U),
+                  next = crumb + lowest; // as many bits, the next larger
+      crumb = next | ((crumb ^ next) / lowest >> 2U);
+    }
+  EXPECT_GE (crumbs.size (), 2540U); // by Burnside's lemma, of up to 5
   std::mt19937 random (1);
+  for (std::size_t i = 0; i < 2000; ++i) {
+    Crumb crumb = MIDDLE;
+    while (std::bitset<27> (crumb).count () < 6 + i % 5)
+      crumb |= 1U << random () % 27;
+    crumbs.insert (leastImage (crumb));
+  }
   Options options;
   options.threads = 1;
   std::size_t meshes = 0;
-  for (int crumb = 0; crumb < 2000; ++crumb) {
-    std::set<Index> places{MIDDLE};
-    while (places.size () < 6 + static_cast<std::size_t> (crumb) % 5)
-      places.insert (static_cast<Index> (random () % 27));
+  for (const Crumb crumb : crumbs) {
     samples::Positions positions;
-    for (const Index i : places)
-      positions.emplace_back (i % 3, i / 3 % 3, i / 9);
+    for (Index i = 0; i < 27; ++i)
+      if ((crumb >> i & 1U) != 0)
+        positions.emplace_back (i % 3, i / 3 % 3, i / 9);
     const Result result = reconstruct (positions, options);
-    ASSERT_NE (result.report.status, RunStatus::INTERNAL_ERROR) << result.report.message;
-    ASSERT_TRUE (samples::topologyOf (result.triangles).manifold);
+    ASSERT_NE (result.report.status, RunStatus::INTERNAL_ERROR)
+        << result.report.message << ": crumb " << crumb;
+    ASSERT_TRUE (samples::topologyOf (result.triangles).manifold) << crumb;
     meshes += result.report.status == RunStatus::SUCCESS ? 1 : 0;
   }
-  EXPECT_GT (meshes, 1500);
+  EXPECT_GT (meshes, crumbs.size () / 2);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -37,6 +38,28 @@ TEST (RunMonitor, CancellationReachesTasksThatAreUnderWay)
     EXPECT_THROW (parallelTasks (run, 100, endless), Cancelled);
     EXPECT_LE (begun, threads + 1);
   }
+}
+
+// A callback slower than the time between two polls takes a tenth of the run, not all of it.
+TEST (RunMonitor, SlowCallbacksAreCalledSeldom)
+{
+  constexpr std::chrono::milliseconds SLOW{60}, WORK{300};
+  int calls = 0;
+  Callbacks callbacks;
+  callbacks.progress = [&] (double) {
+    ++calls;
+    std::this_thread::sleep_for (SLOW);
+  };
+  Statistics statistics;
+  RunMonitor monitor (callbacks, statistics);
+  const RunContext run (1, &monitor);
+  run.beginStage (Stage::NEIGHBORS);
+  run.beginStep (0.5);
+  const auto end = std::chrono::steady_clock::now () + WORK;
+  ProgressLoop progress (run, 1000);
+  while (std::chrono::steady_clock::now () < end)
+    progress.reach (1);
+  EXPECT_EQ (calls, 1);
 }
 
 // A monitor that records its callbacks.

@@ -54,6 +54,11 @@ TEST (Tetrahedra, HaveNoPointInTheirBallsAndKnowEachOther)
   EXPECT_GT (finite, 100U);
   EXPECT_EQ (delaunayInSpace ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}).size (), 0U);
   EXPECT_EQ (delaunayInSpace ({}).size (), 0U);
+  // Each point of a line and each of another one would share tetrahedra.
+  Positions lines;
+  for (int i = 0; i < 1000; ++i)
+    lines.push_back (i % 2 == 0 ? Eigen::Vector3d (i, 0, 0) : Eigen::Vector3d (0, i, 1000));
+  EXPECT_EQ (delaunayInSpace (lines).size (), 0U);
 }
 
 // Without a frame, the outside is the front.
@@ -117,7 +122,7 @@ struct Spheres
 
   Remaking remake (int threads = 1)
   {
-    std::vector<CrossingPair> crossing = findSelfIntersections (mesh.triangles, positions, 1);
+    CrossingPairs crossing = findSelfIntersections (mesh.triangles, positions, 1);
     const Remaking done = remakeZones (mesh, positions, neighbors, spacing, crossing, {}, threads);
     EXPECT_EQ (crossing, findSelfIntersections (mesh.triangles, positions, 1));
     return done;
@@ -174,7 +179,7 @@ TEST (Remaking, KeepsOpenings)
   const auto remake = [] (Index around) {
     const samples::Mesh ring = samples::annulus (around);
     TriangleMesh mesh = samples::connected (ring);
-    std::vector<CrossingPair> crossing;
+    CrossingPairs crossing;
     return remakeZones (mesh, ring.positions, neighborsOf (ring.positions),
                         std::vector<float> (ring.positions.size (), 1.0F), crossing, {}, 1);
   };

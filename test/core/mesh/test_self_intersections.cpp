@@ -5,6 +5,7 @@
 
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersection_removal.h"
+#include "mesh/trimming.h"
 #include "mesh/vertex_stars.h"
 #include "report/findings.h"
 #include "report/report_mesh.h"
@@ -96,7 +97,7 @@ TEST (SelfIntersections, AllPairsAreFoundWholeAndInParts)
     std::vector<Triangle> sorted;
     for (const Index t : order)
       sorted.push_back (mesh.triangles[t]);
-    std::vector<CrossingPair> found;
+    CrossingPairs found;
     for (std::size_t first = 0; first < sorted.size (); first += 37)
       for (const CrossingPair& pair : findSelfIntersectionsOf (
                sorted, first, std::min (first + 37, sorted.size ()), mesh.positions, 2))
@@ -197,6 +198,42 @@ TEST (SelfIntersections, FewTestsEndTheRemovalEarly)
     left_before = done.pairs_left;
   }
   EXPECT_EQ (left_before, 0U);
+}
+
+// Needles across each other like the threads of a cloth: each overlaps half of all others.
+TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
+{
+  constexpr Index NEEDLES = 6000;
+  Positions positions;
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < NEEDLES; ++i) {
+    const double at = (i + 0.25) / NEEDLES, width = 0.5 / NEEDLES;
+    if (i % 2 == 0) // lying, along y
+      positions.insert (positions.end (), {{at, 0, 0}, {at, 1, 0}, {at + width, 1, 0}});
+    else // standing, along x
+      positions.insert (positions.end (), {{0, at, -1}, {1, at, -1}, {0.5, at, 1}});
+    triangles.push_back ({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const CrossingPairs pairs = findSelfIntersections (triangles, positions, 1);
+  EXPECT_EQ (pairs, findSelfIntersections (triangles, positions, 2));
+  EXPECT_GT (pairs.size (), 0U);
+  EXPECT_GT (pairs.untested.size (), NEEDLES / 2);
+  const Points points = samples::pointsAt (positions);
+  MeshExamination found;
+  checkCrossing (triangles, points, 1, found);
+  EXPECT_TRUE (found.check.has_more_self_intersections);
+  Report report;
+  ASSERT_FALSE (reportCheck (points, found, {}, report));
+  describeFindings (report);
+  EXPECT_NE (testing::PrintToString (report.warnings).find ("more than"), std::string::npos);
+  // What was not tested is cut off, too: no two triangles of the rest cross.
+  TriangleMesh mesh;
+  mesh.triangles = triangles;
+  ASSERT_TRUE (mesh.connect (positions.size (), 1));
+  TrimmingOptions open;
+  open.open_self_intersections = true;
+  trimMesh (mesh, points, std::vector<float> (positions.size (), 1.0F), open, 1);
+  EXPECT_TRUE (findSelfIntersections (mesh.triangles, positions, 1).areNone ());
 }
 
 TEST (SelfIntersections, AreInTheReportWithPlaces)

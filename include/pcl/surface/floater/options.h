@@ -287,7 +287,8 @@ struct Options
   std::function<void (Stage)> stage_callback;
 
   /// Called with the fraction of the run that is done, from 0 to 1 and never decreasing: when a
-  /// stage begins, up to 20 times a second within it, and with 1 at the end. The fraction is
+  /// stage begins, up to 20 times a second within it, and with 1 at the end; more seldom if it and
+  /// cancelled_callback are slow, so that they take about a tenth of the run. The fraction is
   /// estimated from the times of typical runs; it does not move while a linear system is solved.
   /// Called by the same thread as stage_callback.
   std::function<void (double)> progress_callback;

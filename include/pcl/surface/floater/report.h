@@ -201,6 +201,7 @@ struct MeshCheck
   std::size_t self_intersections = 0;    ///< pairs of triangles that share more than their common
       ///< corners: they cross, touch or overlap. 0 without a search
       ///< if Report::is_view
+  bool has_more_self_intersections = false; ///< the search ended at its limit: there may be more
   std::vector<std::array<std::uint32_t, 2>>
       self_intersections_at;       ///< the first ten of them, each by a point of
                                    ///< either triangle
