@@ -274,7 +274,8 @@ describeFindings (Report& report)
   for (Finding& finding : report.findings)
     finding.severity = rowOf (finding).severity;
   const auto cost = [&rowOf] (const Finding& finding) { // of what there are most
-    const bool has_count = std::string_view (rowOf (finding).text).substr (0, 3) == "{0:";
+    const bool has_count =
+        std::string_view (rowOf (finding).text).find ("{0:") != std::string_view::npos;
     return std::make_pair (finding.severity, has_count ? finding.numbers.at (0) : 0.0);
   };
   std::stable_sort (report.findings.begin (), report.findings.end (),
