@@ -99,7 +99,7 @@ countPixels (const NearPoints& nearby, std::size_t fewest, double spacing, std::
     const double range = points[count - 1].first;
     const double next = count < points.size () ? points[count].first : nearby.next;
     // A small object among far ones is larger than their spacing, or most of the cloud.
-    if (range <= limits.near * next && next > limits.apart * spacing &&
+    if (std::isfinite (next) && range <= limits.near * next && next > limits.apart * spacing &&
         (range == 0.0 || (range <= spacing && 2 * count < size)))
       return count;
   }

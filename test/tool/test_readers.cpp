@@ -240,6 +240,8 @@ readableTables ()
       {"a.csv", "LONGITUDE_M,LATITUDE_M,Z_M,alpha\n1.5,2,-3,.5\n4,5e-3,.1,.5\n", "alpha 0.5 0.5",
        ""},
       {"a.csv", "longitude,latitude,depth\n1.5,2,-3\n4,5e-3,.1\n", "", ""},
+      {"a.csv", "\"a\",\"Points:0\",\"Points:1\",\"Points:2\"\n7,1.5,2,-3\n8,4,5e-3,.1\n", "a 7 8",
+       ""},
       // All normals after all points.
       {"a.pwn", "2\n1.5 2 -3\n4 5e-3 0.1\n0 0 1\n0 -1 0\n", "nx 0 0, ny 0 -1, nz 1 0", ""},
       // Colours of every scale.

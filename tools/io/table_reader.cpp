@@ -34,10 +34,11 @@ enum ColumnKind : std::size_t
 };
 
 /// What columns are called; the first name of each is that of the field, and earlier ones go first.
-constexpr std::array<std::array<std::string_view, 8>, OTHER> KNOWN{
-    {{"x", "easting", "east", "coord_x", "longitude", "lon", "long", "lng"},
-     {"y", "northing", "north", "coord_y", "latitude", "lat"},
-     {"z", "elevation", "height", "coord_z", "altitude", "alt", "depth", "up"},
+constexpr std::array<std::array<std::string_view, 10>, OTHER> KNOWN{
+    {{"x", "easting", "east", "coord_x", "longitude", "lon", "long", "lng", "points:0", "points_0"},
+     {"y", "northing", "north", "coord_y", "latitude", "lat", "points:1", "points_1"},
+     {"z", "elevation", "height", "coord_z", "altitude", "alt", "depth", "up", "points:2",
+      "points_2"},
      {"red", "r"},
      {"green", "g"},
      {"blue", "b"},
@@ -351,7 +352,8 @@ failWithoutPoints (const TableHead& head, const std::string& where, bool is_chos
                    (is_chosen        ? ", in the columns of --columns"
                     : head.has_names ? ", in the columns that its header names"
                                      : "") +
-                   (head.skipped > 0 ? "; it begins with " + head.first_skipped : ""));
+                   (head.skipped > 0 ? "; it begins with " + head.first_skipped : "") +
+                   (is_chosen ? "" : "; --columns chooses other columns than the first three"));
 }
 
 /// Reads up to the first point, and that line.
