@@ -57,8 +57,10 @@ struct ViewSurface
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
-  std::size_t steps = 0;     ///< triangles left out at depth steps
-  std::size_t gaps = 0;      ///< triangles left out in gaps
+  std::size_t steps = 0;                ///< triangles left out at depth steps
+  std::size_t gaps = 0;                 ///< triangles left out in gaps
+  std::vector<std::uint8_t> is_at_step; ///< of each point: 1 if a triangle around it was left out
+                                        ///< at a depth step
   bool is_by_pixels = false; ///< triangulated by the rows and columns of an organized cloud
 };
 

@@ -76,6 +76,30 @@ TEST (ViewMethod, DepthStepsAreLeftOut)
   }
 }
 
+// Where curves of a rosette cross, rays nearly coincide, and some points are alone in gaps between
+// them; they do not contradict the view.
+TEST (ViewMethod, ARosetteIsRecognised)
+{
+  RandomStream random (1);
+  Scan scan;
+  scan.viewpoint = Eigen::Vector3d::Zero ();
+  castRays (samples::courtyard (), samples::raysInRosette (14000), {0.002, 0.0}, random, scan);
+  const Result result = viewOf (scan, {});
+  EXPECT_GT (result.report.statistics.used_points, 0.9 * scan.points.size ());
+}
+
+// A star of points that are even as seen from its middle, but at changing distances: the view would
+// be closed, and is no scan.
+TEST (ViewMethod, ABodyAroundTheOriginIsNoScan)
+{
+  Positions star = samples::evenSphere (5000);
+  for (Eigen::Vector3d& point : star)
+    point *= 1.0 + 0.4 * std::sin (5.0 * point.x ()) * std::cos (4.0 * point.y ());
+  const Result result = reconstruct (star, {});
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
+  EXPECT_FALSE (result.report.is_view);
+}
+
 // Along lines, points tell that they were scanned even if there is hardly any noise. Of the seeds 1
 // to 40, the direction that is found for the 10th is 1.8 degrees off, those of all others are
 // right.
