@@ -331,6 +331,16 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
 }
 
 bool
+hidesLittle (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+             const EvidenceLimits& limits, const RunContext& run)
+{
+  double unused = 0.0;
+  return findDensityEvidence (positions, findRayPatches (positions, viewpoint, limits, run),
+                              viewpoint, limits, run, unused)
+             .hidden_share <= limits.hidden_if_told;
+}
+
+bool
 looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits)
 {

@@ -72,11 +72,14 @@ struct EvidenceLimits
                                 ///< more if they are more alike, in proportion. A clean depth frame
   ///< seen from 60 % of its depth beside the camera has 0.009 at 0.34; a
   ///< scan from a moving car 0.018 at 0.06; from a standing one, 0.003
-  double hidden_slope = 4.0; ///< difference of their depths over the distance to the second ray;
-                             ///< as StepLimits::slope
+  double hidden_if_told = 0.03; ///< `hidden_share` if the file tells the place, such as that of a
+                                ///< scan with much noise after a voxel filter, 0.018. Bodies seen
+                                ///< from outside have 0.1 and more
+  double hidden_slope = 4.0;    ///< difference of their depths over the distance to the second ray;
+                                ///< as StepLimits::slope
   double beside = 0.25; ///< of the median depth: distance of six places around the viewpoint from
                         ///< which the densities must not be more alike ...
-  double less_beside = 0.8; ///< ... than this factor, ...
+  double less_beside = 0.7; ///< ... than this factor, ...
   double even_density =
       0.2; ///< ... unless their spread is below this at the viewpoint. A quarter of
            ///< the depth nearer to the right place, generated scans have a factor
@@ -125,6 +128,11 @@ bool
 explainsDensity (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits, const RunContext& run);
+
+/// Whether hardly any point hides others; weaker than explainsDensity. Same cost.
+bool
+hidesLittle (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+             const EvidenceLimits& limits, const RunContext& run);
 
 /// Whether there are rays in all directions.
 bool
