@@ -297,7 +297,18 @@ private:
   std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
     const std::optional<Viewpoint> found = refineBy (start, step, true);
-    return found ? found : refineBy (start, step, false);
+    if (found && isSeenFromThere (evidenceAt (*found), evidence_))
+      return found;
+    const std::optional<Viewpoint> other = refineBy (start, step, false);
+    if (!found || !other)
+      return found ? found : other;
+    return evidenceAt (*found).ray_spread <= evidenceAt (*other).ray_spread ? found : other;
+  }
+
+  RayEvidence evidenceAt (const Viewpoint& viewpoint) const
+  {
+    return findRayEvidence (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
+                            viewpoint, evidence_, run_);
   }
 
   std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
@@ -317,10 +328,6 @@ private:
                       viewpoint.is_far ? limits_.after_round_from_far : limits_.after_round))
         return {};
     }
-    const auto evidenceAt = [&] (const Viewpoint& v) {
-      return findRayEvidence (positions_, findRayPatches (positions_, v, evidence_, run_), v,
-                              evidence_, run_);
-    };
     // Patches from a better viewpoint give a still better one.
     const Viewpoint unfitted = viewpoint;
     RayEvidence evidence;
@@ -354,9 +361,11 @@ private:
       }
       evidence = evidenceAt (viewpoint);
     }
+    // Along a far direction, nothing is beside.
     if (isSeenFromThere (evidence, evidence_) ||
-        explainsDensity (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
-                         viewpoint, evidence_, run_))
+        (!viewpoint.is_far &&
+         explainsDensity (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
+                          viewpoint, evidence_, run_)))
       return viewpoint;
     return {};
   }
