@@ -3,6 +3,7 @@
 #include "reconstruct_view.h"
 
 #include "cloud_geometry.h"
+#include "core/order_statistics.h"
 #include "finished_mesh.h"
 #include "input/input.h"
 #include "mesh/check.h"
@@ -11,6 +12,8 @@
 #include "view/view_method.h"
 #include "view/viewpoint_search.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace pcl::floater {
@@ -48,10 +51,33 @@ knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin
   const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
   const Viewpoint viewpoint{
       (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
-  if (is_given || isSeenFrom (points, viewpoint, request.limits.view.evidence, request.run))
+  const EvidenceLimits& evidence = request.limits.view.evidence;
+  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
     return viewpoint;
+  if (isSensorKnown (sensor_origin) && !looksToAllSides (points.positions, viewpoint, evidence) &&
+      hidesLittle (points.positions, viewpoint, evidence, request.run))
+    return Viewpoint{viewpoint.place, false, true};
   return {};
 }
+
+namespace {
+// Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on
+// what bears the sensor, which are no part of the scene.
+std::size_t
+countContradictions (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
+                     const std::vector<Index>& unused, const EvidenceLimits& limits)
+{
+  std::vector<double> depths;
+  for (const Eigen::Vector3d& position : points.positions)
+    depths.push_back (rayTo (position, viewpoint).depth);
+  const double least = viewpoint.is_far ? -std::numeric_limits<double>::infinity ()
+                                        : limits.at_sensor * median (depths);
+  return static_cast<std::size_t> (std::count_if (unused.begin (), unused.end (), [&] (Index p) {
+    return surface.is_at_step[p] != 0 && rayTo (points.positions[p], viewpoint).depth >= least;
+  }));
+}
+
+} // namespace
 
 std::optional<Problem>
 reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
@@ -67,9 +93,13 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   LocalGeometry geometry;
   geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
-  const bool is_doubtful = static_cast<double> (found.unused.size ()) >
-                           limits.view.largest_unused_share * static_cast<double> (points.size ());
-  if (is_doubtful && options.view.use != ViewUse::GIVEN)
+  const double most_unused = (viewpoint.is_only_told ? limits.view.largest_unused_if_told
+                                                     : limits.view.largest_unused_share) *
+                             static_cast<double> (points.size ());
+  const bool is_doubtful = static_cast<double> (found.unused.size ()) > most_unused;
+  if (options.view.use != ViewUse::GIVEN && is_doubtful &&
+      static_cast<double> (countContradictions (points, viewpoint, surface, found.unused,
+                                                limits.view.evidence)) > most_unused)
     return {};
   if (surface.mesh.triangles.empty ())
     return Problem{RunStatus::INVALID_OPTION,
@@ -86,7 +116,7 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
     found = examine (surface.mesh, *all, geometry, request);
   }
   const Points& vertices = all ? *all : points;
-  if (is_doubtful)
+  if (is_doubtful && options.view.use == ViewUse::GIVEN)
     reportDoubtfulView (vertices, found.unused.size (), report);
   if (options.remove_outliers)
     reportOutliersOfView (vertices, found.unused, report);

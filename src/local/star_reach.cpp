@@ -107,6 +107,26 @@ liesBeside (const Line& line, const Eigen::Vector3d& offset, const ReachLimits& 
          sqr_lateral >= limits.line_sine * limits.line_sine * offset.squaredNorm ();
 }
 
+namespace {
+// The line through a point and its neighbours, or through the nearer half of them if these lie on one
+// much more closely. Where the farther half has a few points of one line beside, but none of the
+// other, these neither surround the point nor fix its plane.
+std::optional<Line>
+lineAround (const std::vector<Eigen::Vector3d>& positions, Index p, const CsrLists& neighbors,
+            double least_aspect)
+{
+  constexpr std::size_t FEWEST = 10;
+  constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
+  const Row row = neighbors.row (p);
+  std::optional<Line> line = lineThrough (positions, p, row, least_aspect);
+  if (!line && row.size () > FEWEST)
+    line = lineThrough (positions, p, neighbors.first (p, std::max (FEWEST, row.size () / 2)),
+                        CLOSELY * least_aspect);
+  return line;
+}
+
+} // namespace
+
 bool
 isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
              const Rows& rows, double least_aspect, const RunContext& run)
@@ -114,7 +134,7 @@ isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neig
   std::atomic<bool> is_any{false};
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && !is_any; ++i)
-      if (lineThrough (positions, rows[i], neighbors.row (rows[i]), least_aspect))
+      if (lineAround (positions, rows[i], neighbors, least_aspect))
         is_any = true;
   });
   return is_any;
@@ -137,7 +157,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
       const Index p = rows[i];
       const Eigen::Vector3d& here = positions[p];
       const Row row = neighbors.row (p);
-      const std::optional<Line> found_line = lineThrough (positions, p, row, least_aspect);
+      const std::optional<Line> found_line = lineAround (positions, p, neighbors, least_aspect);
       if (!found_line)
         continue;
       const Line& line = *found_line;

@@ -50,6 +50,10 @@ struct FacingLimits
   /// objects have no bulge.
   double flatness = 1e-6;
 
+  /// Bulge (see bulgesOf) above which a sheet that stands faces the side to which it bulges. Theory:
+  /// a wave has about 0, a dome 1; midway between a wave and an even mixture of both.
+  double bulge = 0.25;
+
   /// Ratio above which the lengths of the mean normal along two axes count as equal. Chosen by
   /// hand.
   double equal_axes = 0.9;
@@ -125,7 +129,8 @@ struct MeshFacing
 ///   FacingLimits::body_ratio). Within another body, that one hides it too: the inner wall of a
 ///   hollow with windows faces into the hollow.
 /// - Terrain or a flat sheet, with equally visible sides, faces up along the axis of its longest
-///   mean normal; for equal axes, z comes before y before x.
+///   mean normal; for equal axes, z comes before y before x. One that stands and bulges faces the
+///   side to which it bulges.
 ///
 /// This is Facing::AUTO, and the fallback of the other choices. With OUTWARDS, a sheet faces its
 /// more visible side, however small the difference; if it is within chance, the side to which it

@@ -23,6 +23,13 @@ facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
   return normal.x () < 0.0;
 }
 
+// No terrain: it stands.
+bool
+isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
+{
+  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
+}
+
 // Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of
 // two gives 0.9.
 double
@@ -81,7 +88,7 @@ public:
       // The back side is visible from at least |mean normal| of all directions: all light through
       // the openings reaches it.
       else if (!is_outwards && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
-        decide (o, FacingRule::SHEET, facesDown (sums.area_vector, limits_), 1.0);
+        decideSheet (o, 1.0);
       else
         open.push_back (o);
     }
@@ -133,13 +140,29 @@ private:
       decide (o, FacingRule::BODY, body < 0.0, certaintyOf ((std::abs (body) + chance) / chance));
       return;
     }
-    if (bulges_.empty ())
-      bulges_ = bulgesOf (mesh_.triangles (), mesh_.components (), mesh_.positions (),
-                          mesh_.boundary (), objects_, limits_.flatness);
-    const double bulge = bulges_[o];
+    const double bulge = bulgeOf (o);
     decide (o, FacingRule::BULGE,
             bulge == 0.0 ? facesDown (objects_.sums[o].area_vector, limits_) : bulge < 0.0,
             0.5 + 0.5 * std::abs (bulge));
+  }
+
+  double bulgeOf (Index o)
+  {
+    if (bulges_.empty ())
+      bulges_ = bulgesOf (mesh_.triangles (), mesh_.components (), mesh_.positions (),
+                          mesh_.boundary (), objects_, limits_.flatness);
+    return bulges_[o];
+  }
+
+  // Terrain faces up. What stands was scanned from the side to which it bulges, if it does.
+  void decideSheet (Index o, double certainty)
+  {
+    const Eigen::Vector3d& normal = objects_.sums[o].area_vector;
+    const double bulge = isUpright (normal, limits_) ? bulgeOf (o) : 0.0;
+    if (std::abs (bulge) >= limits_.bulge)
+      decide (o, FacingRule::BULGE, bulge < 0.0, 0.5 + 0.5 * std::abs (bulge));
+    else
+      decide (o, FacingRule::SHEET, facesDown (normal, limits_), certainty);
   }
 
   void decide (Index o, FacingRule rule, bool is_turned, double certainty)
@@ -267,8 +290,10 @@ private:
                                    ? certaintyOf ((std::abs (body) + sheet + chance) / chance)
                                    : certaintyOf ((std::max (std::abs (body), sheet) + chance) /
                                                   (std::min (std::abs (body), sheet) + chance));
-      decide (o, is_body ? FacingRule::BODY : FacingRule::SHEET, is_body ? is_inwards : is_down,
-              certainty);
+      if (is_body)
+        decide (o, FacingRule::BODY, is_inwards, certainty);
+      else
+        decideSheet (o, certainty);
     }
   }
 

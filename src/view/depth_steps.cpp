@@ -57,9 +57,23 @@ public:
     parallelTasks (run_, bins, [&] (std::size_t b) {
       noises[b] = measureNoise ({binBegin (b), binBegin (b + 1)}, is_rounded[b]);
     });
+    std::vector<double> usual_noises (bins);
+    double farther = std::numeric_limits<double>::infinity (); // least noise, in units of depth
+    // Nor do bins between two steps of quantized depths show the size of a step.
+    const bool is_smooth = !rays_.are_parallel && std::find (is_rounded.begin (), is_rounded.end (),
+                                                             1) == is_rounded.end ();
+    for (std::size_t b = bins; b-- > 0;) {
+      usual_noises[b] = medianAround (noises, b);
+      if (!is_smooth || order.empty ())
+        continue;
+      // Before a background, most edges of near things may be steps.
+      const double depth = static_cast<double> (edges_[*binBegin (b)].depth);
+      usual_noises[b] = std::min (usual_noises[b], limits_.nearer_noise * farther / depth);
+      farther = std::min (farther, usual_noises[b] * depth);
+    }
     std::vector<std::uint8_t> is_step_edge (edges_.size (), 0);
     parallelTasks (run_, bins, [&] (std::size_t b) {
-      const double noise = medianAround (noises, b);
+      const double noise = usual_noises[b];
       // A bin between two steps of quantized depths does not show the size of a step.
       const double sharp_noise = std::max (limits_.sharp_noise * noise,
                                            is_rounded[b] != 0 ? limits_.largest_quantum : 0.0);
@@ -148,6 +162,8 @@ private:
         const auto level = [&] (std::size_t i) {
           return rays_.levels[around[i]] - rays_.levels[p];
         };
+        if (1.0 + a + b > limits_.most_weight)
+          break;
         const std::uint8_t side = TriangleMesh::previous (view_.sideOf (fan[e], p));
         continuations_[numberOf ({fan[e], side})] = {
             static_cast<float> (-(a * level (t) + b * level (next))),
@@ -278,7 +294,10 @@ private:
     const std::array<Extension, 2> both = continuationsOf (e);
     const double width = rays_.distance (p, q) *
                          (rays_.are_parallel ? 1.0 : std::min (rays_.depths[p], rays_.depths[q]));
-    const bool is_steep = std::abs (rays_.depths[p] - rays_.depths[q]) > limits_.slope * width;
+    const double rise = std::abs (rays_.depths[p] - rays_.depths[q]);
+    const bool is_steep = rise > limits_.slope * width;
+    const double continued =
+        rise > limits_.grazing * width ? limits_.continued_grazing : limits_.continued;
     const double least = is_steep ? steep_noise : sharp_noise;
     const auto isNoise = [&] (const Extension& c) {
       return c.weight > 0.0F && std::abs (change - static_cast<double> (c.change)) <=
@@ -289,7 +308,7 @@ private:
     const auto told = [&] (std::size_t end) { return static_cast<double> (both[end].change); };
     const auto goesOn = [&] (std::size_t end) {
       return both[end].weight > 0.0F && told (end) * change >= 0.0 &&
-             std::abs (change) <= limits_.continued * std::abs (told (end));
+             std::abs (change) <= continued * std::abs (told (end));
     };
     if (is_steep && !goesOn (0) && !goesOn (1))
       return true;

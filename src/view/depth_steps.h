@@ -25,14 +25,26 @@ struct StepLimits
                           ///< as steep, up to this factor. At a crease the edge is shorter than the
                           ///< extrapolation from the steeper side: factor 1, and as much for
                           ///< curvature
-  double joint = 10.0;    ///< where two surfaces meet: length of an edge over the length to which
-                          ///< either is extrapolated; above, it is a step. A surface seen at less
-                          ///< than 6 degrees returns hardly any light, and is sampled ten times
-                          ///< more coarsely than one seen face on
+  double grazing =
+      10.0; ///< depth over width of an edge, above which a surface is seen at less than 6
+            ///< degrees, and returns hardly any light ...
+  double continued_grazing = 1.25; ///< ... `continued` for these: only a plane may be seen so flat.
+                                   ///< Rings on three things at three distances look like a slope
+  double most_weight =
+      20.0;            ///< largest sum of the weights of an extrapolation. It is 3 on a raster,
+                       ///< and up to 7 where rays are lost; from three points of one ring to
+                       ///< the next ring it is thousands, and tells nothing
+  double joint = 10.0; ///< where two surfaces meet: length of an edge over the length to which
+                       ///< either is extrapolated; above, it is a step. A surface seen at less
+                       ///< than 6 degrees returns hardly any light, and is sampled ten times
+                       ///< more coarsely than one seen face on
 
   std::size_t edges_per_bin = 2000; ///< edges of about the same depth, among which the noise is
                                     ///< measured; their 80 % quantile has an error of 3 %
   std::size_t bins_beside = 4;      ///< on either side; the noise is the median over all
+  double nearer_noise = 3.0; ///< largest ratio of the noise to that of edges farther away, in units
+      ///< of depth: it does not fall with depth in any sensor. 1, and as much
+      ///< as the curvature of near things and the error of each may add
   double noise_quantile = 0.8; ///< of a Gaussian, at 1.3 standard deviations. More than 80 % of the
                                ///< edges of a scene are on surfaces
   double rounding = 2e-5;     ///< of the depth, or of the span of depths for parallel rays; smaller

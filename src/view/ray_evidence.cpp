@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/ray_evidence.h"
 
+#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
@@ -209,8 +210,155 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
 bool
 isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
 {
-  return evidence.near_share <= limits.near_share &&
+  return evidence.near_share <= limits.near_share && evidence.point_spread >= limits.least_spread &&
          evidence.ray_spread <= limits.regularity * evidence.point_spread;
+}
+
+namespace {
+// Of a ray: distances to its nearest ones, and to the one of limits.density_rank; in space, that of
+// the point of this rank.
+struct RayDensity
+{
+  double depth, to_ray, to_point;
+  bool is_near, is_hidden;
+};
+
+std::vector<RayDensity>
+densitiesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
+             const Viewpoint& viewpoint, const EvidenceLimits& limits)
+{
+  std::vector<Ray> rays;
+  for (const Index p : patch)
+    rays.push_back (rayTo (positions[p], viewpoint));
+  std::vector<RayDensity> found;
+  std::vector<std::pair<double, std::size_t>> near;
+  std::vector<double> squares;
+  for (std::size_t i = 0; i < patch.size () / 2 && limits.density_rank + 1 < patch.size (); ++i) {
+    near.clear ();
+    squares.clear ();
+    for (std::size_t k = 0; k < patch.size (); ++k)
+      if (k != i) {
+        near.emplace_back ((rays[k].direction - rays[i].direction).squaredNorm (), k);
+        squares.push_back ((positions[patch[k]] - positions[patch[i]]).squaredNorm ());
+      }
+    const auto rank = static_cast<std::ptrdiff_t> (limits.density_rank);
+    std::partial_sort (near.begin (), near.begin () + rank, near.end ());
+    std::nth_element (squares.begin (), squares.begin () + rank - 1, squares.end ());
+    const Ray &ray = rays[i], &nearest = rays[near.front ().second];
+    const double second = std::sqrt (near[1].first);
+    const double width = second * (viewpoint.is_far ? 1.0 : ray.depth);
+    const bool is_near = std::sqrt (near.front ().first) < limits.near_ratio * second;
+    found.push_back (
+        {ray.depth, std::sqrt (near[limits.density_rank - 1].first),
+         std::sqrt (squares[limits.density_rank - 1]), is_near,
+         is_near && std::abs (nearest.depth - ray.depth) > limits.hidden_slope * width});
+  }
+  return found;
+}
+
+struct DensityEvidence
+{
+  double near_share = 1.0, hidden_share = 1.0;
+  double ray_spread = 0.0, point_spread = 0.0;
+};
+
+DensityEvidence
+findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
+                     const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                     const EvidenceLimits& limits, const RunContext& run, double& median_depth)
+{
+  std::vector<std::vector<RayDensity>> of_patch (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    of_patch[k] = densitiesOf (positions, patches[k], viewpoint, limits);
+  });
+  std::vector<double> depths;
+  for (const std::vector<RayDensity>& rays : of_patch)
+    for (const RayDensity& ray : rays)
+      depths.push_back (ray.depth);
+  DensityEvidence evidence;
+  if (depths.empty ())
+    return evidence;
+  median_depth = median (depths);
+  const double least = viewpoint.is_far ? -std::numeric_limits<double>::infinity ()
+                                        : limits.at_sensor * median_depth;
+  std::size_t near = 0, hidden = 0;
+  std::vector<double> of_rays, of_points;
+  for (const std::vector<RayDensity>& rays : of_patch)
+    for (const RayDensity& ray : rays) {
+      if (ray.depth < least)
+        continue;
+      near += ray.is_near ? 1 : 0;
+      hidden += ray.is_hidden ? 1 : 0;
+      of_rays.push_back (ray.to_ray);
+      of_points.push_back (ray.to_point);
+    }
+  const auto count = static_cast<double> (of_rays.size ());
+  return {static_cast<double> (near) / count, static_cast<double> (hidden) / count,
+          spreadOf (of_rays), spreadOf (of_points)};
+}
+
+} // namespace
+
+bool
+explainsDensity (const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                 const EvidenceLimits& limits, const RunContext& run)
+{
+  double depth = 0.0;
+  const DensityEvidence found =
+      findDensityEvidence (positions, patches, viewpoint, limits, run, depth);
+  const double left = found.ray_spread / std::max (found.point_spread, limits.least_density_spread);
+  if (!(found.point_spread >= limits.least_density_spread && left <= limits.density_regularity &&
+        found.near_share <= limits.crossing_share &&
+        found.hidden_share * left <= limits.hidden_share * limits.density_regularity))
+    return false;
+  if (viewpoint.is_far || found.ray_spread <= limits.even_density)
+    return true;
+  EvidenceLimits few = limits;
+  few.patches = std::min (limits.patches_beside, limits.patches);
+  const auto spreadAt = [&] (const Viewpoint& v) {
+    double unused = 0.0;
+    return findDensityEvidence (positions, findRayPatches (positions, v, few, run), v, few, run,
+                                unused)
+        .ray_spread;
+  };
+  const double least = limits.less_beside * spreadAt (viewpoint);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double aside : {-limits.beside * depth, limits.beside * depth})
+      if (spreadAt ({viewpoint.place + aside * Eigen::Vector3d::Unit (axis), false}) < least)
+        return false;
+  return true;
+}
+
+bool
+hidesLittle (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+             const EvidenceLimits& limits, const RunContext& run)
+{
+  double unused = 0.0;
+  return findDensityEvidence (positions, findRayPatches (positions, viewpoint, limits, run),
+                              viewpoint, limits, run, unused)
+             .hidden_share <= limits.hidden_if_told;
+}
+
+bool
+looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+                 const EvidenceLimits& limits)
+{
+  constexpr std::size_t DIRECTIONS = 200, COMPARED = 2000;
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
+  const double least = std::cos (limits.all_sides * DEGREE);
+  const double golden_angle = PI * (3.0 - std::sqrt (5.0));
+  for (std::size_t k = 0; k < DIRECTIONS; ++k) {
+    const double z = 1.0 - static_cast<double> (2 * k + 1) / DIRECTIONS;
+    const double radius = std::sqrt (1.0 - z * z), angle = static_cast<double> (k) * golden_angle;
+    const Eigen::Vector3d side (radius * std::cos (angle), radius * std::sin (angle), z);
+    bool has_ray = false;
+    for (std::size_t p = 0; p < positions.size () && !has_ray; p += step)
+      has_ray = side.dot (rayTo (positions[p], viewpoint).direction) > least;
+    if (!has_ray)
+      return false;
+  }
+  return true;
 }
 
 std::vector<Index>

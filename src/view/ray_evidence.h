@@ -51,6 +51,44 @@ struct EvidenceLimits
   double regularity = 0.25; ///< largest ratio of the spread of the ray distances to the spread of
                             ///< the point distances. On an evenly sampled sphere seen from its
                             ///< centre, both are the same
+  double least_spread = 0.02; ///< of the point distances; less is no evidence: the points of a ball
+                              ///< are as even as their rays from its middle
+  std::size_t fewest_patches = 4; ///< that a cloud must fill to be recognised
+
+  std::size_t density_rank = 8; ///< density is measured by the distance to the neighbour of this
+      ///< rank: lost rays, rings that are uneven, and rows of two distances
+      ///< hardly change it
+  double density_regularity =
+      0.5; ///< `regularity` for these, over the whole cloud. In 80 generated
+           ///< clouds, scans have up to 0.47; others that hide as little from
+           ///< the origin have 0.59 and more
+  double least_density_spread =
+      0.2;                      ///< `least_spread` for these. Points on a hexagonal raster have
+                                ///< 0.15
+  double crossing_share = 0.05; ///< largest share of near rays for this evidence. Several scans of
+                                ///< one place have 0.07 and more; a scan from a moving car, 0.03
+  double hidden_share = 0.004;  ///< largest share of rays beside which one goes far beyond or ends
+                                ///< far before, where the densities just meet density_regularity;
+                                ///< more if they are more alike, in proportion. A clean depth frame
+  ///< seen from 60 % of its depth beside the camera has 0.009 at 0.34; a
+  ///< scan from a moving car 0.018 at 0.06; from a standing one, 0.003
+  double hidden_if_told = 0.03; ///< `hidden_share` if the file tells the place, such as that of a
+                                ///< scan with much noise after a voxel filter, 0.018. Bodies seen
+                                ///< from outside have 0.1 and more
+  double hidden_slope = 4.0;    ///< difference of their depths over the distance to the second ray;
+                                ///< as StepLimits::slope
+  double beside = 0.25; ///< of the median depth: distance of six places around the viewpoint from
+                        ///< which the densities must not be more alike ...
+  double less_beside = 0.7; ///< ... than this factor, ...
+  double even_density =
+      0.2; ///< ... unless their spread is below this at the viewpoint. A quarter of
+           ///< the depth nearer to the right place, generated scans have a factor
+           ///< of 0.4 to 0.77; around the right place, 0.89 and more
+  std::size_t patches_beside = 32; ///< for this comparison
+  double all_sides =
+      20.0; ///< degrees; if there is a ray in each direction to this angle, the points
+            ///< lie on a body around the viewpoint, as no sensor looks to all sides
+  double at_sensor = 0.1; ///< of the median depth; nearer points lie on what bears the sensor
 };
 
 /// Evenness of the rays to a cloud.
@@ -80,6 +118,26 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
 /// Whether the evidence shows that the cloud was seen from the viewpoint.
 bool
 isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits);
+
+/// Whether the viewpoint explains the density of the points: that of their rays is the same
+/// everywhere, unlike that of the points, also unlike that seen from places beside, and no point
+/// hides others. Also for rays that are locally
+/// uneven, such as rings with lost points. O(patches * (n + points of a patch squared)).
+/// \param patches found at the viewpoint
+bool
+explainsDensity (const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                 const EvidenceLimits& limits, const RunContext& run);
+
+/// Whether hardly any point hides others; weaker than explainsDensity. Same cost.
+bool
+hidesLittle (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+             const EvidenceLimits& limits, const RunContext& run);
+
+/// Whether there are rays in all directions.
+bool
+looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+                 const EvidenceLimits& limits);
 
 /// A point and the area around it.
 struct AreaSample

@@ -174,20 +174,27 @@ bool
 isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
             const RunContext& run)
 {
-  // A few patches suffice to reject most wrong viewpoints, with looser thresholds.
+  if (points.size () < limits.fewest_patches * limits.patch_points ||
+      looksToAllSides (points.positions, viewpoint, limits))
+    return false;
+  // A few patches suffice to reject most wrong viewpoints, with a looser threshold.
   constexpr std::size_t FEW = 8;
-  constexpr double LENIENT_SHARE = 5.0, LENIENT_REGULARITY = 2.0;
-  EvidenceLimits first = limits;
-  first.patches = std::min (limits.patches, FEW);
-  first.near_share *= LENIENT_SHARE;
-  first.regularity *= LENIENT_REGULARITY;
-  for (const EvidenceLimits& round : {first, limits}) {
-    const std::vector<RayPatch> patches = findRayPatches (points.positions, viewpoint, round, run);
-    if (!isSeenFromThere (findRayEvidence (points.positions, patches, viewpoint, round, run),
-                          round))
-      return false;
-  }
-  return true;
+  constexpr double LENIENT = 2.0;
+  EvidenceLimits round = limits;
+  round.patches = std::min (limits.patches, FEW);
+  RayEvidence evidence;
+  std::vector<RayPatch> patches;
+  const auto look = [&] {
+    patches = findRayPatches (points.positions, viewpoint, round, run);
+    evidence = findRayEvidence (points.positions, patches, viewpoint, round, run);
+  };
+  look ();
+  if (evidence.near_share > LENIENT * limits.crossing_share)
+    return false;
+  round = limits;
+  look ();
+  return isSeenFromThere (evidence, limits) ||
+         explainsDensity (points.positions, patches, viewpoint, limits, run);
 }
 
 ViewSurface
@@ -204,10 +211,15 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);
   std::vector<std::uint8_t> is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
   dropShortSteps (mesh, is_left_out, settings.limits.shortest_step, is_step);
+  surface.is_at_step.assign (points.size (), 0);
   for (std::size_t t = 0; t < is_step.size (); ++t) {
     surface.gaps += is_left_out[t];
-    surface.steps += is_left_out[t] == 0 ? is_step[t] : 0;
-    is_left_out[t] |= is_step[t];
+    if (is_left_out[t] != 0 || is_step[t] == 0)
+      continue;
+    is_left_out[t] = 1;
+    ++surface.steps;
+    for (const Index p : mesh.triangles[t])
+      surface.is_at_step[p] = 1;
   }
   removeTriangles (mesh, std::move (is_left_out), run);
   if (settings.remove_outliers)

@@ -29,8 +29,13 @@ struct ViewLimits
                                   ///< or 8
   std::size_t smallest_part = 12; ///< points; smaller components are left out with the
                                   ///< outliers. A point and the rays around it are 7 or 9
-  double largest_unused_share = 0.05; ///< of the points; if more are in no triangle, the cloud is
-                                      ///< not a scan of surfaces from there
+  double largest_unused_share =
+      0.1; ///< of the points; if more are in no triangle, at depth steps, the
+           ///< cloud is not a scan of surfaces from there. Of a scan by 16
+           ///< rings, 0.06 are: things as high as one ring are no surface
+  double largest_unused_if_told =
+      0.01; ///< the same if only the file tells the viewpoint. Scans from
+            ///< several places, of which it tells one, have 0.013 to 0.035
 };
 
 struct ViewSettings
@@ -57,8 +62,10 @@ struct ViewSurface
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
-  std::size_t steps = 0;     ///< triangles left out at depth steps
-  std::size_t gaps = 0;      ///< triangles left out in gaps
+  std::size_t steps = 0;                ///< triangles left out at depth steps
+  std::size_t gaps = 0;                 ///< triangles left out in gaps
+  std::vector<std::uint8_t> is_at_step; ///< of each point: 1 if a triangle around it was left out
+                                        ///< at a depth step
   bool is_by_pixels = false; ///< triangulated by the rows and columns of an organized cloud
 };
 

@@ -124,6 +124,8 @@ public:
 private:
   static constexpr double APART = 0.1;       // of two directions whose descents may differ
   static constexpr double EVEN = 0.02;       // spread of rays that ends the search
+  static constexpr double PLAIN = 0.1;       // ratio of the spreads that leaves no doubt
+  static constexpr double SIDESTEP = 0.03;   // from a fit that outlines do not agree with, as above
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
   inline static const RatedViewpoint NOT_FOUND{std::numeric_limits<double>::infinity (), {}};
@@ -295,7 +297,18 @@ private:
   std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
     const std::optional<Viewpoint> found = refineBy (start, step, true);
-    return found ? found : refineBy (start, step, false);
+    if (found && isSeenFromThere (evidenceAt (*found), evidence_))
+      return found;
+    const std::optional<Viewpoint> other = refineBy (start, step, false);
+    if (!found || !other)
+      return found ? found : other;
+    return evidenceAt (*found).ray_spread <= evidenceAt (*other).ray_spread ? found : other;
+  }
+
+  RayEvidence evidenceAt (const Viewpoint& viewpoint) const
+  {
+    return findRayEvidence (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
+                            viewpoint, evidence_, run_);
   }
 
   std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
@@ -316,6 +329,7 @@ private:
         return {};
     }
     // Patches from a better viewpoint give a still better one.
+    const Viewpoint unfitted = viewpoint;
     RayEvidence evidence;
     for (std::size_t round = 0; round < limits_.fits; ++round) {
       const EvidenceLimits& limits = round == 0 ? coarse_ : evidence_;
@@ -323,14 +337,37 @@ private:
       const Eigen::Vector3d before = viewpoint.place;
       viewpoint = fitViewpoint (positions_, patches, viewpoint, round == 0, run_);
       evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
-      if (isHopeless (evidence, round == 0 ? limits_.after_first_fit : limits_.after_fit))
+      if (round == 0 && isHopeless (evidence, limits_.after_first_fit))
         return {};
-      if (round > 0 && (viewpoint.place - before).norm () < PRECISION)
+      if (round > 0 && ((viewpoint.place - before).norm () < PRECISION ||
+                        isHopeless (evidence, limits_.after_fit)))
         break;
     }
-    if (!isSeenFromThere (evidence, evidence_))
-      return {};
-    return viewpoint;
+    // A fit takes outlines for outliers, and on smooth surfaces nothing else tells where the sensor
+    // was.
+    if (evidence.ray_spread > std::max (EVEN, PLAIN * evidence.point_spread) && !viewpoint.is_far &&
+        !isHopeless (evidence, limits_.after_first_fit)) {
+      if (evidenceAt (unfitted).ray_spread < evidence.ray_spread)
+        viewpoint = unfitted;
+      for (step = SIDESTEP; step > SIDESTEP / 100.0; step *= 0.1) {
+        const std::vector<RayPatch> patches =
+            findRayPatches (positions_, viewpoint, evidence_, run_);
+        const auto cost = [&] (const Viewpoint& v) {
+          return costByRays (v, patches, with_rows, run_.threads ());
+        };
+        viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
+                        .run (viewpoint, step, 0.05 * step)
+                        .viewpoint;
+      }
+      evidence = evidenceAt (viewpoint);
+    }
+    // Along a far direction, nothing is beside.
+    if (isSeenFromThere (evidence, evidence_) ||
+        (!viewpoint.is_far &&
+         explainsDensity (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
+                          viewpoint, evidence_, run_)))
+      return viewpoint;
+    return {};
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
@@ -370,7 +407,7 @@ findViewpoint (const Points& points, const NeighborTable& neighbors,
   if (rows.share > limits.rows && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;
-  if (filled->patches < evidence.patches || !search.hasSamples () ||
+  if (4 * filled->patches < evidence.patches || !search.hasSamples () ||
       search.spreadOfAreas () <= limits.even)
     return {};
   return search.find ();

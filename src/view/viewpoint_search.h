@@ -62,8 +62,9 @@ struct SearchLimits
 /// grid, also far away, and refined.
 ///
 /// Rays: near the best of these, pattern search finds the viewpoints from which the rays are most
-/// evenly spaced and no point hides another (see RayEvidence). Clouds that fill fewer patches
-/// (EvidenceLimits) have no evidence.
+/// evenly spaced and no point hides another (see RayEvidence), or the viewpoint explains the density
+/// of the points (see explainsDensity). Clouds that fill few patches (EvidenceLimits) have no
+/// evidence.
 /// \param neighbors nearest first
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.

@@ -172,6 +172,34 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
   return scan;
 }
 
+/// Rays of two turning prisms about +x, from the origin: a rosette of 140 leaves, whose curves cross.
+inline std::vector<Ray>
+raysInRosette (int count)
+{
+  std::vector<Ray> rays;
+  for (int i = 0; i < count; ++i) {
+    const double turn = 2.0 * PI * 20.0 * i / count;
+    const double y = 0.166 * (std::cos (7.0 * turn) + std::cos (-4.577 * turn));
+    const double z = 0.166 * (std::sin (7.0 * turn) + std::sin (-4.577 * turn));
+    const Eigen::Vector3d along (1.0, std::tan (y), std::tan (z));
+    rays.push_back ({Eigen::Vector3d::Zero (), along.normalized ()});
+  }
+  return rays;
+}
+
+/// Ground, walls and things around a sensor 1.6 above the ground, at the origin.
+inline Scene
+courtyard ()
+{
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX (), y = Eigen::Vector3d::UnitY ();
+  return {{{Eigen::Vector3d::UnitZ (), -1.6}, {x, 14.0}, {-x, 9.0}, {y, 8.0}, {-y, 6.0}},
+          {{{6.0, 2.0, 0.2}, 1.1, false},
+           {{4.0, -3.0, -1.6}, 0.2, true},
+           {{-4.0, 3.0, -1.6}, 0.4, true},
+           {{-5.0, -3.0, -0.6}, 1.0, false}},
+          {Eigen::Vector3d (-9.1, -6.1, -2.0), Eigen::Vector3d (14.1, 8.1, 4.0)}};
+}
+
 /// A scan by 32 rings of a yard of 80 by 80: sloping ground, posts, and balls that rest on it. The
 /// sensor stands 1.2 to 2.6 above the ground, near the middle. About 40,000 points, not turned.
 inline Scan

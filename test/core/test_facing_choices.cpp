@@ -253,5 +253,18 @@ TEST (FacingChoices, OfASingleScan)
   EXPECT_EQ (partsBy (up, FacingRule::SENSOR), 0U);
 }
 
+// A dome that stands is no terrain: it faces the side to which it bulges, and a wave any side.
+TEST (FacingChoices, WhatStandsFacesTheSideToWhichItBulges)
+{
+  for (const double side : {-1.0, 1.0}) {
+    Positions points = sheet ([side] (double r) { return -0.4 * side * r * r; });
+    for (Vector3d& p : points)
+      p = {p.x (), -p.z (), p.y ()};
+    expectFacing (
+        points, {}, [side] (const Vector3d&) { return Vector3d (0.0, -side, 0.0); },
+        FacingRule::BULGE);
+  }
+}
+
 } // namespace
 } // namespace pcl::floater

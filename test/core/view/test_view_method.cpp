@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 namespace pcl::floater {
 namespace {
 using samples::DepthNoise;
@@ -74,6 +77,96 @@ TEST (ViewMethod, DepthStepsAreLeftOut)
     const Scan scan = samples::scanScene (raster, {0.005, 0.0}, 3);
     viewOf (scan, seenFrom (scan.viewpoint));
   }
+}
+
+// Where curves of a rosette cross, rays nearly coincide, and some points are alone in gaps between
+// them; they do not contradict the view.
+TEST (ViewMethod, ARosetteIsRecognised)
+{
+  RandomStream random (1);
+  Scan scan;
+  scan.viewpoint = Eigen::Vector3d::Zero ();
+  castRays (samples::courtyard (), samples::raysInRosette (14000), {0.002, 0.0}, random, scan);
+  const Result result = viewOf (scan, {});
+  EXPECT_GT (result.report.statistics.used_points, 0.9 * scan.points.size ());
+}
+
+// Sixteen rings two degrees apart, and things that hang free before the walls and are as high as one
+// or two of them: most edges near the sensor lead to what is behind.
+TEST (ViewMethod, FewRingsMakeNoCurtains)
+{
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random (seed);
+    samples::Scene hall = samples::courtyard ();
+    hall.things.clear ();
+    for (int i = 0; i < 30; ++i) {
+      const double angle = 12.0 * i * DEGREE, distance = 1.3 + 0.3 * (i % 3);
+      hall.things.push_back ({{distance * std::cos (angle), distance * std::sin (angle),
+                               distance * (random.uniform () - 0.5) * 0.4},
+                              0.1,
+                              false});
+    }
+    Scan scan;
+    scan.viewpoint = Eigen::Vector3d::Zero ();
+    castRays (hall, samples::raysInRings (scan.viewpoint, 16, 1800, -15.0, 2.0), {0.002, 0.0},
+              random, scan);
+    const Result result = viewOf (scan, seenFrom (scan.viewpoint));
+    const int first_thing = static_cast<int> (hall.planes.size ());
+    double joined = 0.0, all = 0.0;
+    for (const auto& [a, b, c] : result.triangles) {
+      const double area = areaVector (scan.points[a], scan.points[b], scan.points[c]).norm ();
+      const std::array<bool, 3> on_thing{scan.object[a] >= first_thing,
+                                         scan.object[b] >= first_thing,
+                                         scan.object[c] >= first_thing};
+      all += area;
+      joined += on_thing[0] == on_thing[1] && on_thing[1] == on_thing[2] ? 0.0 : area;
+    }
+    EXPECT_LT (joined, 0.03 * all) << seed;
+    EXPECT_GT (result.report.statistics.used_points, 0.9 * scan.points.size ());
+  }
+}
+
+// The mean of the noisy points in each cell of a grid: no rays are left that tell of the sensor, but
+// the file does.
+TEST (ViewMethod, ASensorInTheFileDecidesWhereThePointsDoNotTell)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Scan scan = samples::scanScene (Raster::CAMERA, {0.01, 0.0}, seed);
+    std::map<std::array<long, 3>, std::pair<Eigen::Vector3d, double>> cells;
+    for (const Eigen::Vector3d& point : scan.points) {
+      const auto cell = [&point] (int axis) { return std::lround (point[axis] / 0.12); };
+      auto& [sum, count] =
+          cells.try_emplace ({cell (0), cell (1), cell (2)}, Eigen::Vector3d::Zero (), 0.0)
+              .first->second;
+      sum += point;
+      count += 1.0;
+    }
+    Positions positions;
+    for (const auto& entry : cells)
+      positions.emplace_back (entry.second.first / entry.second.second);
+    Input input = samples::asInput (positions);
+    Eigen::Map<Eigen::Vector3d> (input.sensor_origin.data ()) = scan.viewpoint;
+    const Result result = reconstruct (std::move (input), {});
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
+    Eigen::Vector2d area = Eigen::Vector2d::Zero (); // away from the sensor, towards it
+    for (const auto& [a, b, c] : result.triangles) {
+      const Eigen::Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
+      area[normal.dot (scan.viewpoint - positions[a]) > 0.0 ? 1 : 0] += normal.norm ();
+    }
+    EXPECT_GT (area[1], 0.95 * area.sum ()) << seed;
+  }
+}
+
+// A star of points that are even as seen from its middle, but at changing distances: the view would
+// be closed, and is no scan.
+TEST (ViewMethod, ABodyAroundTheOriginIsNoScan)
+{
+  Positions star = samples::evenSphere (5000);
+  for (Eigen::Vector3d& point : star)
+    point *= 1.0 + 0.4 * std::sin (5.0 * point.x ()) * std::cos (4.0 * point.y ());
+  const Result result = reconstruct (star, {});
+  ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
+  EXPECT_FALSE (result.report.is_view);
 }
 
 // Along lines, points tell that they were scanned even if there is hardly any noise. Of the seeds 1

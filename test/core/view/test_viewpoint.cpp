@@ -114,6 +114,49 @@ TEST (RayEvidence, AnEvenBallIsNotSeenFromItsCentre)
   EXPECT_FALSE (isSeen (samples::evenSphere (20000), Eigen::Vector3d::Zero ()));
 }
 
+TEST (RayEvidence, TwelvePointsAroundTheViewpointAreNoEvidence)
+{
+  Positions icosahedron;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-1.618034, 1.618034})
+      for (int axis = 0; axis < 3; ++axis) {
+        Eigen::Vector3d point = Eigen::Vector3d::Zero ();
+        point[axis] = a;
+        point[(axis + 1) % 3] = b;
+        icosahedron.push_back (point);
+      }
+  EXPECT_FALSE (isSeen (icosahedron, Eigen::Vector3d::Zero ()));
+}
+
+// Rings of a car's lidar: each begins anywhere, they are unevenly far apart, and rays are lost.
+Scan
+scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed)
+{
+  RandomStream random (seed);
+  std::vector<samples::Ray> rays;
+  for (const Eigen::Vector3d& place : places)
+    for (int ring = 0; ring < 40; ++ring) {
+      const double elevation = -24.0 + (ring < 20 ? 0.8 * ring : 16.0 + 0.35 * (ring - 20));
+      const Eigen::AngleAxisd turn (random.uniform (), Eigen::Vector3d::UnitZ ());
+      for (samples::Ray& ray : samples::raysInRings (place, 1, 900, elevation, 0.0))
+        if (random.uniform () > 0.1)
+          rays.push_back ({place, turn * ray.along});
+    }
+  Scan scan;
+  castRays (samples::courtyard (), rays, {0.002, 0.0}, random, scan);
+  return scan;
+}
+
+TEST (RayEvidence, UnevenRingsWithLostRaysAreSeenFromOnePlaceNotFromTwo)
+{
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Eigen::Vector3d first = Eigen::Vector3d::Zero (), second (0.3, 1.0, -0.2);
+    EXPECT_TRUE (isSeen (scanOfCar ({first}, seed).points, first)) << seed;
+    EXPECT_FALSE (isSeen (scanOfCar ({first}, seed).points, second)) << seed;
+    EXPECT_FALSE (isSeen (scanOfCar ({first, second}, seed).points, first)) << seed;
+  }
+}
+
 TEST (RayEvidence, APointAtTheViewpointDoesNotDisturb)
 {
   Scan scan = samples::scanScene (Raster::CAMERA, {0.003, 0.0}, 1);
