@@ -118,29 +118,29 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
     judgements.push_back (judgeLoop (loops[i], evidence[i], open_loops));
     is_looked.push_back (staysOpen (judgements.back ()) ? 0 : 1);
   }
+  const auto widen = [&] (std::vector<std::pair<Index, Index>> over) {
+    TriangleMesh widened = mesh;
+    removeTriangles (widened, flagsOf (over, mesh), run);
+    std::vector<BoundaryLoop> wide = widenedLoops (widened, loops, over, positions, spacing, run);
+    const std::vector<LoopJudgement> found =
+        judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
+    over.erase (std::remove_if (
+                    over.begin (), over.end (),
+                    [&] (const auto& one) { return found[one.second].log_odds < limits.log_odds; }),
+                over.end ());
+    removeTriangles (mesh, flagsOf (over, mesh), run);
+    for (const auto& [triangle, loop] : over) {
+      judgements[loop] = found[loop];
+      if (is_looked[loop] != 0)
+        loops[loop] = std::move (wide[loop]);
+      is_looked[loop] = 0;
+    }
+  };
   std::vector<std::pair<Index, Index>> over =
       trianglesOverHoles (mesh, loops, evidence, is_looked, positions, limits, run);
-  if (over.empty ())
-    return judgements;
-  TriangleMesh widened = mesh;
-  removeTriangles (widened, flagsOf (over, mesh), run);
-  std::vector<BoundaryLoop> wide = widenedLoops (widened, loops, over, positions, spacing, run);
-  const std::vector<LoopJudgement> wide_judgements =
-      judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
-  over.erase (std::remove_if (over.begin (), over.end (),
-                              [&] (const auto& one) {
-                                return wide_judgements[one.second].log_odds < limits.log_odds;
-                              }),
-              over.end ());
-  if (over.empty ())
-    return judgements;
-  removeTriangles (mesh, flagsOf (over, mesh), run);
-  for (const auto& [triangle, loop] : over) {
-    judgements[loop] = wide_judgements[loop];
-    if (is_looked[loop] != 0)
-      loops[loop] = std::move (wide[loop]);
-    is_looked[loop] = 0;
-  }
+  if (!over.empty ())
+    widen (std::move (over));
+  judgeAlike (loops, judgements, open_loops);
   return judgements;
 }
 

@@ -374,9 +374,6 @@ isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits)
          (judgement.is_too_deep && probability <= 0.5);
 }
 
-namespace {
-// Loops of about the same width that could be either are one kind: each gets the mean of their
-// judgements.
 void
 judgeAlike (const std::vector<BoundaryLoop>& loops, std::vector<LoopJudgement>& judgements,
             const OpenLoopLimits& limits)
@@ -403,8 +400,6 @@ judgeAlike (const std::vector<BoundaryLoop>& loops, std::vector<LoopJudgement>& 
     }
   }
 }
-
-} // namespace
 
 std::vector<LoopJudgement>
 judgeLoops (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,

@@ -135,6 +135,12 @@ judgeLoop (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoo
 bool
 isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
 
+/// Loops of about the same width that could be either are one kind: each gets the mean of their
+/// judgements. O(m log m) for m loops.
+void
+judgeAlike (const std::vector<BoundaryLoop>& loops, std::vector<LoopJudgement>& judgements,
+            const OpenLoopLimits& limits);
+
 /// Judges all loops by the evidence of each (see findEvidence). Loops of one kind, such as the gaps
 /// between crossing profiles, are judged alike.
 std::vector<LoopJudgement>
