@@ -154,15 +154,34 @@ private:
     return bulges_[o];
   }
 
+  // How far all that stands bulges to the side that facesDown () makes the front. Parts of a scan
+  // bulge to either side, but face the same one.
+  double commonBulge ()
+  {
+    if (common_bulge_)
+      return *common_bulge_;
+    double sum = 0.0, area = 0.0;
+    for (Index o = 0; o < judged_.size (); ++o) {
+      const FacingSums& sums = objects_.sums[o];
+      if (sums.is_closed || !isUpright (sums.area_vector, limits_))
+        continue;
+      sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector, limits_) ? -1.0 : 1.0);
+      area += sums.area;
+    }
+    common_bulge_ = area > 0.0 ? sum / area : 0.0;
+    return *common_bulge_;
+  }
+
   // Terrain faces up. What stands was scanned from the side to which it bulges, if it does.
   void decideSheet (Index o, double certainty)
   {
     const Eigen::Vector3d& normal = objects_.sums[o].area_vector;
-    const double bulge = isUpright (normal, limits_) ? bulgeOf (o) : 0.0;
+    const bool is_down = facesDown (normal, limits_);
+    const double bulge = isUpright (normal, limits_) ? commonBulge () : 0.0;
     if (std::abs (bulge) >= limits_.bulge)
-      decide (o, FacingRule::BULGE, bulge < 0.0, 0.5 + 0.5 * std::abs (bulge));
+      decide (o, FacingRule::BULGE, is_down != (bulge < 0.0), 0.5 + 0.5 * std::abs (bulge));
     else
-      decide (o, FacingRule::SHEET, facesDown (normal, limits_), certainty);
+      decide (o, FacingRule::SHEET, is_down, certainty);
   }
 
   void decide (Index o, FacingRule rule, bool is_turned, double certainty)
@@ -383,6 +402,7 @@ private:
   std::vector<std::uint8_t> is_turned_; // of each object
   std::vector<std::uint8_t> is_body_;   // of each object: may contain others
   std::vector<double> bulges_;          // of each object, made on demand
+  std::optional<double> common_bulge_;  // made on demand
 };
 
 } // namespace

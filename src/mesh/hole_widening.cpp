@@ -140,7 +140,6 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
       trianglesOverHoles (mesh, loops, evidence, is_looked, positions, limits, run);
   if (!over.empty ())
     widen (std::move (over));
-  judgeAlike (loops, judgements, open_loops);
   return judgements;
 }
 

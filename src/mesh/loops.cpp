@@ -374,33 +374,6 @@ isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits)
          (judgement.is_too_deep && probability <= 0.5);
 }
 
-void
-judgeAlike (const std::vector<BoundaryLoop>& loops, std::vector<LoopJudgement>& judgements,
-            const OpenLoopLimits& limits)
-{
-  const auto width = [&] (std::size_t i) { return loops[i].width / loops[i].spacing; };
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < loops.size (); ++i)
-    if (std::abs (judgements[i].log_odds) < limits.open_to_doubt)
-      order.push_back (i);
-  std::stable_sort (order.begin (), order.end (),
-                    [&] (std::size_t a, std::size_t b) { return width (a) < width (b); });
-  for (std::size_t first = 0, last = 0; first < order.size (); first = last) {
-    double log_odds = 0.0;
-    std::size_t deep = 0;
-    for (; last < order.size () && width (order[last]) <= limits.alike * width (order[first]);
-         ++last) {
-      log_odds += judgements[order[last]].log_odds;
-      deep += judgements[order[last]].is_too_deep ? 1 : 0;
-    }
-    const std::size_t count = last - first;
-    for (std::size_t k = first; k < last && count >= limits.fewest_alike; ++k) {
-      judgements[order[k]].log_odds = log_odds / static_cast<double> (count);
-      judgements[order[k]].is_too_deep = 2 * deep > count;
-    }
-  }
-}
-
 std::vector<LoopJudgement>
 judgeLoops (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
             const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
@@ -413,7 +386,6 @@ judgeLoops (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
   judgements.reserve (loops.size ());
   for (std::size_t i = 0; i < loops.size (); ++i)
     judgements.push_back (judgeLoop (loops[i], evidence[i], limits));
-  judgeAlike (loops, judgements, limits);
   return judgements;
 }
 

@@ -108,11 +108,6 @@ struct OpenLoopLimits
                               ///< spacings on are deeper
   double doubtful = 0.9;      ///< probability; less certain decisions are listed in the report;
                               ///< about one in ten of those is wrong. Chosen by hand
-  double open_to_doubt = 3.0; ///< log-odds, probability 0.95, up to which loops that are alike are
-                              ///< judged together
-  double alike = 1.3;         ///< ratio of the largest to the smallest width, in spacings, of loops
-                              ///< that are alike: an octave has three kinds
-  std::size_t fewest_alike = 6; ///< loops that are a kind; fewer may be alike by chance
 };
 
 /// Judgement of a boundary loop.
@@ -135,14 +130,7 @@ judgeLoop (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoo
 bool
 isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
 
-/// Loops of about the same width that could be either are one kind: each gets the mean of their
-/// judgements. O(m log m) for m loops.
-void
-judgeAlike (const std::vector<BoundaryLoop>& loops, std::vector<LoopJudgement>& judgements,
-            const OpenLoopLimits& limits);
-
-/// Judges all loops by the evidence of each (see findEvidence). Loops of one kind, such as the gaps
-/// between crossing profiles, are judged alike.
+/// Judges all loops by the evidence of each (see findEvidence).
 std::vector<LoopJudgement>
 judgeLoops (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
             const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,

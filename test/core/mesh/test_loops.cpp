@@ -321,23 +321,5 @@ TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
   EXPECT_LT (sheet.evidence ()[1].open_share, 0.5);
 }
 
-// Profiles of two rows that cross, and 36 equal gaps of 8 by 8 spacings between them.
-TEST (OpenLoops, GapsOfOneKindAreDecidedAlike)
-{
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    RandomStream random (seed);
-    const auto jitter = [&random] { return 0.4 * (random.uniform () - 0.5); };
-    Positions points;
-    for (int i = 0; i < 62; ++i)
-      for (int j = 0; j < 62; ++j)
-        if (i % 10 < 2 || j % 10 < 2) {
-          const double x = i + jitter (), y = j + jitter ();
-          points.emplace_back (x, y, 8.0 * std::sin (x / 40.0) * std::cos (y / 45.0));
-        }
-    const std::size_t loops = reconstruct (points, {}).report.check.loops.size ();
-    EXPECT_TRUE (loops == 1 || loops == 37) << loops << ", seed " << seed;
-  }
-}
-
 } // namespace
 } // namespace pcl::floater
