@@ -24,7 +24,7 @@ def test_mesh_and_report_are_those_of_the_tool(torus_points, tool, dtype):
     assert set(report) - set(mesh.report) == of_files
     for key in of_files:
         del report[key]
-    for key in ("file", "fields"):
+    for key in ("file", "fields", "notes"):
         del report["input"][key]
     del report["seconds"]["reading"]
     assert list(report) == list(mesh.report)

@@ -234,7 +234,7 @@ class Picture(Case):
                 ("e.vtk", SQUARE.replace("2 3\n", "2 -1\n"), "none of"), ("f.vtk", "solid", "not a VTK file"),
                 ("g.vtk", SQUARE.replace("POINTS 4", "POINTS 4000000000"), "fits into the file"),
                 ("h.vtk", SQUARE.replace("POLYGONS 2", "POLYGONS 3"), "lengths"),
-                ("i.vtk", SQUARE.replace("POLYDATA", "STRUCTURED_GRID"), "no POLYDATA"),
+                ("i.vtk", SQUARE.replace("POLYDATA", "STRUCTURED_GRID"), "no polygons"),
                 ("a.ply", SQUARE_PLY[:-8], "truncated"), ("b.ply", SQUARE_PLY.replace("2 3\n", "2 4\n"), "none of")):
             self.picture(2, self.write(name, content), out, says=cause)
         self.assertFalse(os.path.exists(out))
