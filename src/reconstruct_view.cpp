@@ -98,8 +98,10 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                              static_cast<double> (points.size ());
   const bool is_doubtful = static_cast<double> (found.unused.size ()) > most_unused;
   if (options.view.use != ViewUse::GIVEN && is_doubtful &&
-      static_cast<double> (countContradictions (points, viewpoint, surface, found.unused,
-                                                limits.view.evidence)) > most_unused)
+      (static_cast<double> (found.unused.size ()) >
+           limits.view.largest_unused_in_all * static_cast<double> (points.size ()) ||
+       static_cast<double> (countContradictions (points, viewpoint, surface, found.unused,
+                                                 limits.view.evidence)) > most_unused))
     return {};
   if (surface.mesh.triangles.empty ())
     return Problem{RunStatus::INVALID_OPTION,

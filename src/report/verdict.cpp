@@ -104,6 +104,8 @@ measure (const Report& report, const VerdictLimits& limits)
   const double unused = share (report.unused.size (), points);
   const double scatter =
       share (report.scatter.size (), points + static_cast<double> (report.scatter.size ()));
+  const double outliers =
+      share (report.outliers.size (), points + static_cast<double> (report.outliers.size ()));
   const bool is_guess =
       has (report, FindingId::GUESSED_OUTSIDE) || has (report, FindingId::GUESSED_UP) ||
       has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
@@ -137,6 +139,14 @@ measure (const Report& report, const VerdictLimits& limits)
          return Reason{percent (scatter) +
                            " of the points lie on no surface, such as leaves or far background",
                        "cut them out of the cloud, or keep them with --scatter keep"};
+       }},
+      {outliers, limits.outliers,
+       [outliers, &report] {
+         return Reason{
+             percent (outliers) + " of the points lie off any surface" +
+                 (report.is_view ? ", alone between rays that miss it" : "") +
+                 ", and were left out",
+             "look at them (points of Report::outliers); --remove-outliers off keeps them"};
        }},
       {share (statistics.projected_points, points), limits.noise,
        [&statistics] { return noisy (statistics); }},

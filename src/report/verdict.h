@@ -24,6 +24,7 @@ struct VerdictLimits
                                             ///< terrain seen from afar; not for views
   VerdictBounds unused = {0.002, 0.1};      ///< share of the points without a triangle
   VerdictBounds scatter = {0.05, 0.6};      ///< share of the points on no surface
+  VerdictBounds outliers = {0.05, 0.5};     ///< share of the points off any surface
   VerdictBounds noise = {0.1, 2.0};         ///< share of the points that were projected; never poor
                                             ///< by itself
   VerdictBounds long_edges = {0.002, 0.05}; ///< long edges for each triangle

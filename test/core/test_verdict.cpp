@@ -74,6 +74,9 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   report.scatter.resize (1000);
   expectIn (judge (report).cause, "17 % of the points lie on no surface");
   report = cleanReport ();
+  report.outliers.resize (1000);
+  expectIn (judge (report).cause, "17 % of the points lie off any surface");
+  report = cleanReport ();
   report.findings.push_back ({FindingId::LONG_EDGES, {}, {50, 20}, {}});
   expectIn (judge (report).cause, "longer");
   report.findings = {{FindingId::GUESSED_UP, {}, {1}, {}}};
