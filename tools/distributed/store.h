@@ -212,8 +212,8 @@ public:
   void requireBelow (const std::vector<T>& values, std::size_t limit) const
   {
     const auto* const first = reinterpret_cast<const Index*> (values.data ());
-    require (std::all_of (first, first + values.size () * (sizeof (T) / sizeof (Index)),
-                          [limit] (Index index) { return index < limit; }));
+    const auto* const last = reinterpret_cast<const Index*> (values.data () + values.size ());
+    require (std::all_of (first, last, [limit] (Index index) { return index < limit; }));
   }
 
 private:

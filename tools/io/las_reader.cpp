@@ -161,6 +161,7 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
                                       {"withheld", 1, 2, 1}}};
   const auto& all = header.is_long ? LONG : SHORT;
   std::vector<Field> unpacked;
+  unpacked.reserve (all.size ());
   for (const Bits& bits : all)
     unpacked.push_back ({bits.name, ScalarType::UINT8});
   const auto count = static_cast<std::size_t> (header.count);

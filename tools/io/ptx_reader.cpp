@@ -152,7 +152,7 @@ parsePtx (const FileBytes& file)
   }
   else
     cloud.towards_sensors = std::move (normals);
-  leaveOut (cloud, std::move (pixels.lack_return), "without a return");
+  leaveOut (cloud, pixels.lack_return, "without a return");
   return cloud;
 }
 

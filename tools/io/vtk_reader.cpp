@@ -64,6 +64,7 @@ public:
         throw ReadError ("its " + section_ + " have fewer than " + std::to_string (names.size ()) +
                          " values for each point");
       std::vector<Field> columns;
+      columns.reserve (names.size () + 1);
       for (const std::string& name : names)
         columns.push_back ({name, column_type});
       columns.push_back ({"", column_type, each - names.size ()});
