@@ -21,9 +21,12 @@ struct PartLimits
   /// Processing a part takes some 200 MB.
   std::size_t points = std::size_t{1} << 19U;
 
-  /// Width, in rings of points, of the rim that a part passes to the stitching; increased if it
-  /// does not suffice. Judging a boundary loop takes 4, and stitching rarely moves boundaries by
-  /// more than 2.
+  /// Width, in rings of points, of the rim that a part passes to the stitching; doubled if it does
+  /// not suffice. Widening a hole and judging it takes 7.
+  std::size_t rim = 7;
+
+  /// Width, in rings of triangles, of the zone that is finished again around the seam. Stitching
+  /// rarely moves boundaries by more than 2.
   std::size_t rings = 6;
 };
 

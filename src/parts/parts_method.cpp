@@ -91,7 +91,7 @@ makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
   Surface& surface = made.surface;
   run.beginStage (Stage::CONSENSUS);
   Stitching stitching =
-      stitchParts (parts, work, 1.0 / points.scale, settings.surface, settings.parts.rings, run);
+      stitchParts (parts, work, 1.0 / points.scale, settings.surface, settings.parts.rim, run);
   surface.holes_filled = stitching.holes.filled;
   surface.doubtful_loops = std::move (stitching.holes.doubtful);
   surface.orientation_seam = std::move (stitching.orientation_seam);

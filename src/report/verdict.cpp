@@ -57,8 +57,8 @@ has (const Report& report, FindingId id)
 Reason
 noisy (const Statistics& statistics)
 {
-  return {"the points are noisy, by up to " + rounded (statistics.noise_quantile_90) +
-              " local spacings for nine tenths of them",
+  return {"the points are noisy (90 % of them by less than " +
+              rounded (statistics.noise_quantile_90) + " local spacings)",
           "thin the cloud with a voxel grid several times as wide as the noise, smooth it "
           "(pcl::MovingLeastSquares), or take a method that smooths, such as Poisson"};
 }

@@ -13,15 +13,15 @@ struct VerdictBounds
   double poor;
 };
 
-/// Measured on generated bodies, sheets and places, clean and noisy: of meshes
-/// that are right, none has a crossing pair, and nine tenths of those from noise of half a spacing
-/// on a thin or sharp body have one in 20 triangles or more.
+/// Crossing pairs and noise are measured on generated bodies, clean and noisy: meshes that are right
+/// have no crossing pair; with noise of half a spacing, four fifths of thin and sharp bodies have
+/// one in 20 triangles or more. The other bounds are chosen by hand.
 struct VerdictLimits
 {
   VerdictBounds crossing = {0.0005, 0.05};  ///< crossing pairs for each triangle
   VerdictBounds area = {0.25, 0.5};         ///< share of the area in the largest 1 % of the
-                                            ///< triangles: 2 % if even, 4 % with noise, 12 % on
-                                            ///< terrain seen from afar; not for views
+                                            ///< triangles: 2 % if even, 4 % with noise; not
+                                            ///< for views
   VerdictBounds unused = {0.002, 0.1};      ///< share of the points without a triangle
   VerdictBounds scatter = {0.05, 0.6};      ///< share of the points on no surface
   VerdictBounds outliers = {0.05, 0.5};     ///< share of the points off any surface

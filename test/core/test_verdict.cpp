@@ -47,7 +47,7 @@ TEST (Verdict, CrossingTrianglesAreExplainedByWhatIsAround)
   expectIn (judge (report).remedy, "--scatter drop");
   report.statistics.projected_points = 3000;
   report.statistics.noise_quantile_90 = 0.75;
-  expectIn (judge (report).cause, "noisy, by up to 0.75");
+  expectIn (judge (report).cause, "noisy (90 % of them by less than 0.75");
   expectIn (judge (report).remedy, "voxel grid");
   report.statistics.stacked_points = 4000;
   expectIn (judge (report).cause, "on one another");

@@ -182,7 +182,7 @@ meshStep (const StepContext& context, std::size_t part)
   if (!stored.isEmpty ()) {
     const PartPoints points = stored.points ();
     mesh = meshOf (stored, points, context);
-    rim = rimOf (stored, points, mesh, context.limits.parts.rings, context);
+    rim = rimOf (stored, points, mesh, context.limits.parts.rim, context);
   }
   ArrayWriter writer;
   writer.add ("triangles", mesh.triangles);
@@ -221,7 +221,7 @@ finishStep (const StepContext& context, std::size_t part)
 PartRim
 StoredParts::rim (std::size_t part, std::size_t rings)
 {
-  if (rings == context_.limits.parts.rings) {
+  if (rings == context_.limits.parts.rim) {
     ArrayFile file = openArrays (context_.store, blockFile (MESH, part), context_.plan);
     return readRim (file, pointsOf (part));
   }

@@ -115,7 +115,7 @@ TEST (Stitching, DoesNotDependOnWhatIsSeen)
       ASSERT_TRUE (all);
       EXPECT_FALSE (all->seam.empty ());
       std::optional<Stitching> some;
-      for (std::size_t rings = PartLimits ().rings; !some && rings < EVERYTHING; rings *= 2)
+      for (std::size_t rings = PartLimits ().rim; !some && rings < EVERYTHING; rings *= 2)
         some = making.stitchWith (rings);
       ASSERT_TRUE (some);
       expectSame (*some, *all);
@@ -310,6 +310,7 @@ reconstructInParts (const Positions& positions, std::size_t points_of_part,
   Limits limits;
   limits.parts.points = points_of_part;
   limits.parts.rings = rings;
+  limits.parts.rim = std::min (rings, limits.parts.rim);
   return reconstruct (samples::asInput (positions), Options (), limits);
 }
 
