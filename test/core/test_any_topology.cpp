@@ -247,7 +247,9 @@ cases ()
   add ("holes_9_ragged", [] {
     return generated ({Kind::CUT_OUT, 3000, 3, 1.0, 0.0, 0.0, 0.0, 9});
   });
-  add ("holes_25_of_5_spacings", [] { return sheetWithHoles (5, 12.0, 2.5, 2.5, 5); });
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    add ("holes_25_of_4_spacings_seed_" + std::to_string (seed),
+         [=] { return sheetWithHoles (5, 12.0, 2.0, 2.0, seed); });
   add ("holes_49", [] { return sheetWithHoles (7, 13.0, 4.0, 4.0, 4); });
   fill ("holes_9_all_but_border_closed", {HolePolicy::KEEP_LARGEST},
         [] { return filled (sheetWithHoles (3, 15.0, 5.0, 5.0, 2), 1); });
