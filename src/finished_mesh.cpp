@@ -33,6 +33,13 @@ nothingMade ()
           "on its own; a surface needs points side by side"};
 }
 
+// Not where noisy points were projected: the true triangles cross each other there.
+bool
+removesCrossings (const Points& points, const Options& options)
+{
+  return options.remove_self_intersections && options.flip_edges && points.projected.empty ();
+}
+
 } // namespace
 
 MeshExamination
@@ -67,24 +74,15 @@ addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
   return all;
 }
 
-bool
-removesCrossings (const Points& points, const Options& options)
-{
-  return options.remove_self_intersections && options.flip_edges && points.projected.empty ();
-}
-
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, std::optional<CrossingPairs> known,
-         const std::function<void ()>& complete)
+         const Request& request, Statistics& statistics, std::optional<CrossingPairs> known)
 {
   checkCrossing (mesh.triangles, points, request.run, found, std::move (known));
   statistics.self_intersections_found = found.crossing.size ();
   if (found.crossing.empty () || !found.crossing.untested.empty () ||
       !removesCrossings (points, request.options))
     return;
-  if (complete)
-    complete ();
   if (geometry.neighbors.rows () == 0)
     geometry.neighbors =
         findNeighbors (points, neighborSettings (request.options, nullptr), request.run);
@@ -123,28 +121,17 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   }
   std::vector<Triangle> triangles = std::move (mesh.triangles);
   mesh = {};
-  Problem problem =
-      reportFinished (triangles.size (), finish, found, trimming, points, request, report);
-  report.check.largest_area_share = largestAreaShare (triangles, points.positions);
-  result.triangles = inCloud (points, std::move (triangles));
-  return problem;
-}
-
-Problem
-reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
-                const Trimming& trimming, const Points& points, const Request& request,
-                Report& report)
-{
-  if (triangles == 0 && trimming.triangles == 0)
-    return nothingMade ();
   Problem problem = reportCheck (points, found, request.options, report);
   if (!problem)
-    problem = reportTrimming (points, trimming, request.options.trimming, triangles, report);
+    problem =
+        reportTrimming (points, trimming, request.options.trimming, triangles.size (), report);
   if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
   report.statistics.remade_points = finish.remade_points;
-  report.statistics.triangles = triangles;
+  report.statistics.triangles = triangles.size ();
+  report.check.largest_area_share = largestAreaShare (triangles, points.positions);
+  result.triangles = inCloud (points, std::move (triangles));
   return problem;
 }
 

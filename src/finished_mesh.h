@@ -12,7 +12,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <functional>
 #include <optional>
 
 namespace pcl::floater {
@@ -28,32 +27,17 @@ Points
 addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
             const Request& request);
 
-/// Whether self-intersections are removed. Not where noisy points were projected: the true
-/// triangles cross each other there.
-bool
-removesCrossings (const Points& points, const Options& options);
-
 /// Finds self-intersections. If there are any, changes the mesh and examines it again.
 /// \param known all crossing pairs of the mesh, if they were found before
-/// \param complete called before neighbours and normals of the geometry are read; may be empty
 void
 uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
          const Request& request, Statistics& statistics,
-         std::optional<CrossingPairs> known = std::nullopt,
-         const std::function<void ()>& complete = {});
+         std::optional<CrossingPairs> known = std::nullopt);
 
 /// Makes the result of a mesh.
 /// \return INTERNAL_ERROR unless it is an oriented manifold; DEGENERATE if no triangle is left
 Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
          const LocalGeometry& geometry, const Request& request, Result& result);
-
-/// Reports a finished mesh, wherever its triangles are. The end of every way.
-/// \param triangles number of triangles that are left
-/// \return like useMesh ()
-Problem
-reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
-                const Trimming& trimming, const Points& points, const Request& request,
-                Report& report);
 
 } // namespace pcl::floater

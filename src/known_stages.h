@@ -3,17 +3,13 @@
 // Stage results that were computed before, by other processes, each for a block of the points.
 #pragma once
 
-#include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
 #include "options/stage_limits.h"
-#include "parts/parts_method.h"
-#include "points/noise.h"
 #include "points/points.h"
 #include "view/ray_evidence.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <memory>
 #include <vector>
 
 namespace pcl::floater {
@@ -30,34 +26,14 @@ public:
   /// Points that lie off any surface, ascending.
   virtual std::vector<Index> outliers () = 0;
 
-  /// Neighbours of points without outliers, far neighbours included. Row i belongs to points[i].
-  virtual CsrLists neighborsOf (const std::vector<Index>& points) = 0;
-
-  /// Planes of all points without outliers; only `neighbors`, far neighbours included, is read.
+  /// Planes of all points without outliers, without tree and neighbours beside lines.
   virtual LocalPlanes planes () = 0;
 
   /// See takeAreaSamples.
   virtual std::vector<AreaSample> areaSamples () = 0;
 
-  /// See measureNoise.
-  virtual NoiseProbes noiseProbes () = 0;
-
-  /// The geometry around each point.
-  /// \param with_stars whether the star lists are read
-  virtual LocalGeometry geometry (LocalPlanes planes, bool with_stars) = 0;
-
-  /// The spacing of geometry ().
-  virtual std::vector<float> spacing () = 0;
-
-  /// The parts of a large cloud, to be meshed where their geometry is stored.
-  virtual std::unique_ptr<PartWork> parts (const PartsSettings& settings) = 0;
-
-  /// The candidates of the stars, for a cloud that is one part.
-  virtual ProposedTriangles triangles () = 0;
-
-  /// Takes the mesh of a cloud with several parts. The result then has no triangles.
-  /// \param mesh its seam has cloud indices as corners
-  virtual void keepMesh (MeshOfParts mesh) = 0;
+  /// See beginStars.
+  virtual Stars begunStars () = 0;
 };
 
 /// Reconstructs a surface from known stages.

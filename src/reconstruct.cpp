@@ -13,7 +13,6 @@
 #include "local/stars.h"
 #include "options/check_options.h"
 #include "options/stage_limits.h"
-#include "reconstruct_parts.h"
 #include "reconstruct_view.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
@@ -122,23 +121,16 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
 }
 
-// \param geometry if stages are known: neighbours and normals only where needed
 Problem
-reconstructSurface (Points& points, LocalGeometry geometry, const Request& request,
-                    KnownStages* known, Result& result)
+reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
+                    Result& result)
 {
   const Options& options = request.options;
   Report& report = result.report;
   const SurfaceSettings settings{options.holes, options.flip_edges,
                                  options.flip_edges && options.remove_self_intersections,
                                  request.limits.surface, facingHints (points, request)};
-  const Parts parts (points.size (), request.limits.parts);
-  if (parts.count () > 1)
-    return reconstructParts (points, parts, std::move (geometry), settings, request, known, result);
-  std::optional<ProposedTriangles> proposed;
-  if (known != nullptr)
-    proposed = known->triangles ();
-  Surface surface = makeSurface (points, geometry, settings, request.run, std::move (proposed));
+  Surface surface = makeSurface (points, geometry, settings, request.run);
   reportOrientationSeam (points, surface.orientation_seam, report);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
@@ -148,26 +140,9 @@ reconstructSurface (Points& points, LocalGeometry geometry, const Request& reque
   const Points& vertices = all ? *all : points;
   MeshExamination found = examine (surface.mesh, vertices, geometry, request);
   uncross (surface.mesh, found, vertices, geometry, request, report.statistics,
-           all ? std::nullopt : std::move (surface.finish.crossing), [&] {
-             if (known != nullptr && geometry.neighbors.rows () == 0)
-               geometry = known->geometry (known->planes (), false);
-           });
+           all ? std::nullopt : std::move (surface.finish.crossing));
   return useMesh (std::move (surface.mesh), surface.finish, found, vertices, geometry, request,
                   result);
-}
-
-// The neighbours of the planes; if stages are known, read on demand.
-NeighborTable
-neighborTable (LocalPlanes& planes, KnownStages* known)
-{
-  if (known == nullptr)
-    return planes.neighbors;
-  return {[known] (const std::vector<Index>& points) { return known->neighborsOf (points); },
-          [known, &planes] () -> const CsrLists& {
-            if (planes.neighbors.rows () == 0)
-              planes = known->planes ();
-            return planes.neighbors;
-          }};
 }
 
 // Reconstructs a cloud whose viewpoint is unknown, or that is not a single scan.
@@ -199,11 +174,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return problem;
   run.beginStage (Stage::STARS);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes; // if stages are known: read on demand
-  if (known == nullptr)
-    planes =
-        fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run, limits.planes);
-  const NeighborTable table = neighborTable (planes, known);
+  LocalPlanes planes =
+      known != nullptr
+          ? known->planes ()
+          : fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run,
+                            limits.planes);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
   const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
@@ -213,29 +188,19 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
     if (const std::optional<Problem> problem = reconstructFrom (
-            findViewpoint (points, table, samples, search, limits.view.evidence, run)))
+            findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
       return *problem;
   }
-  std::optional<NoiseProbes> probes;
-  if (known != nullptr)
-    probes = known->noiseProbes ();
   const bool is_measured = options.denoise || dropsScatter (options);
   Noise noise;
   if (is_measured)
-    noise = measureNoise (points.positions, table, limits.noise, run, probes ? &*probes : nullptr);
-  const bool reads_stars =
-      noise.noisy_points > 0 || !noise.unevenness.empty () ||
-      (is_measured && known != nullptr && hasFarPoints (known->spacing (), limits.scatter));
-  LocalGeometry geometry;
-  if (known == nullptr)
-    geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-  else if (!reads_stars && Parts (points.size (), limits.parts).count () > 1)
-    geometry.spacing = known->spacing (); // the parts hold all other arrays
-  else {
-    table.all ();
-    geometry = known->geometry (std::move (planes), reads_stars);
-  }
-  if (stars.reach_beyond && geometry.stars.neighbors.rows () > 0)
+    noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
+  std::optional<Stars> begun;
+  if (known != nullptr)
+    begun = known->begunStars ();
+  LocalGeometry geometry =
+      makeLocalGeometry (points, std::move (planes), stars, run, std::move (begun));
+  if (stars.reach_beyond)
     if (Problem problem = checkCurves (points, geometry, request))
       return problem;
   const auto isStrongNow = [&] (double disturbed_share) {
@@ -251,7 +216,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
             points, geometry.neighbors, samples, search, limits.view.evidence, run)))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {
-    known = nullptr; // the known stages do not fit fewer points
     geometry = {};
     if (checkPoints (points) || scatter.size () >= NEARLY_ALL * points.size ())
       return {RunStatus::DEGENERATE,
@@ -277,7 +241,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
               "the points are too noisy for a mesh that goes through them, by more than their "
               "spacing: smooth the cloud, thin it by a voxel grid, or use a method that smooths, "
               "such as Poisson reconstruction; denoise off connects them nevertheless"};
-    known = nullptr;
   }
   reportNoise (noise, noise.is_strong && noise.noisy_points > 0, report);
   noise = {};
@@ -285,7 +248,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
 
   if (as_disc)
     return reconstructDisc (points, std::move (geometry), request, result);
-  return reconstructSurface (points, std::move (geometry), request, known, result);
+  return reconstructSurface (points, std::move (geometry), request, result);
 }
 
 Problem

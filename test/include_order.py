@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-ORDER = ["core", "points", "local", "mesh", "floater", "consensus", "parts", "view", "texture", "options", "report", "input",
+ORDER = ["core", "points", "local", "mesh", "floater", "consensus", "view", "texture", "options", "report", "input",
          ".", "pcl_class"]
 # Parts of the floater folder; each includes only from those before it.
 WITHIN_FLOATER = ["floater/boundary", "floater/solvers", "floater"]

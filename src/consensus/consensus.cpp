@@ -309,15 +309,6 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
   std::vector<Candidate> open = findOpen (candidates, mesh, run);
   if (open.empty ())
     return false;
-  consensus = extendConsensus (positions, std::move (open), mesh, {}, normals, run);
-  return true;
-}
-
-Consensus
-extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> open,
-                 const TriangleMesh& mesh, const std::vector<std::array<Index, 2>>& same_side,
-                 std::vector<Eigen::Vector3f>& normals, const RunContext& run)
-{
   for (Candidate& candidate : open)
     setNormalAgreement (positions, normals, candidate);
   std::stable_sort (open.begin (), open.end (), [] (const Candidate& a, const Candidate& b) {
@@ -335,8 +326,6 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Cand
     builder.start (corners);
   }
   Orientation& orientation = builder.orientation ();
-  for (const auto& [p, q] : same_side)
-    orientation.joinSameSide (p, q);
   orientation.vote (order.data (), order.data () + order.size (), run);
   for (const Candidate* candidate : order) {
     progress.next ();
@@ -344,7 +333,7 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Cand
   }
 
   const std::vector<const Candidate*>& taken = builder.takenInOrder ();
-  Consensus consensus;
+  consensus = {};
   consensus.triangles.reserve (mesh.triangles.size () + taken.size ());
   consensus.votes.reserve (mesh.triangles.size () + taken.size ());
   std::vector<Index>& added_at = consensus.added_at.emplace ();
@@ -362,7 +351,7 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Cand
   appendTakenBefore (NONE);
   consensus.seam.swap (builder.seam ());
   orientation.turn (normals, run);
-  return consensus;
+  return true;
 }
 
 } // namespace pcl::floater

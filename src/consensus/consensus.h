@@ -47,13 +47,4 @@ extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateL
                  const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,
                  Consensus& consensus, const RunContext& run);
 
-/// extendConsensus () for candidates that are known to be free.
-/// \param open with corners, votes and circumradius ratio; the order of equal candidates is kept
-/// \param mesh complete around the corners of the candidates; elsewhere any part of it
-/// \param same_side points of one component whose connection is not in `mesh`
-Consensus
-extendConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> open,
-                 const TriangleMesh& mesh, const std::vector<std::array<Index, 2>>& same_side,
-                 std::vector<Eigen::Vector3f>& normals, const RunContext& run);
-
 } // namespace pcl::floater

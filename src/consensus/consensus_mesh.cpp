@@ -10,17 +10,21 @@
 
 namespace pcl::floater {
 ClosedHoles
-closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,
-            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals, double unit,
-            const HoleOptions& holes, const HoleClosingLimits& limits, const RunContext& run)
+closeHoles (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const LocalGeometry& geometry, double unit, const HoleOptions& holes,
+            const HoleClosingLimits& limits, const RunContext& run)
 {
+  const std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  const MeshComponents components = findComponents (mesh, run);
+  std::vector<BoundaryLoop> loops =
+      findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
   const std::vector<LoopJudgement> judgements =
       holes.policy == HolePolicy::AUTO
-          ? widenHoles (mesh, loops, positions, spacing, neighbors, normals, limits.open_loops,
-                        limits.hole_widening, run)
-          : judgeLoops (mesh, loops, positions, neighbors, normals, limits.open_loops, run);
-  chooseOpenLoops (loops, judgements, components, holes, unit);
+          ? widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals,
+                        limits.open_loops, limits.hole_widening, run)
+          : judgeLoops (mesh, loops, positions, geometry.neighbors, normals, limits.open_loops,
+                        run);
+  chooseOpenLoops (loops, judgements, components.count, holes, unit);
   const TriangleCost cost (positions, normals, nullptr, limits.cost);
   ClosedHoles closed;
   closed.filled = fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
@@ -30,41 +34,20 @@ closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t com
   return closed;
 }
 
-ProposedTriangles
-proposeTriangles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  const Stars& stars, const std::vector<float>& spacing,
-                  const CandidateLimits& limits, const RunContext& run)
-{
-  const Rows all = Rows::all (positions.size ());
-  ProposedTriangles proposed;
-  proposed.smoothed_normals = smoothedNormals (positions, neighbors, stars.normals, all, run);
-  proposed.candidates =
-      findCandidates (positions, stars, proposed.smoothed_normals, spacing, all, limits, run);
-  return proposed;
-}
-
 ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run)
 {
-  ProposedTriangles proposed =
-      proposeTriangles (positions, neighbors, stars, spacing, limits.candidates, run);
-  std::vector<Eigen::Vector3f> normals = std::move (stars.normals);
-  stars = {};
-  return makeConsensusMesh (positions, neighbors, std::move (normals), std::move (proposed), limits,
-                            run);
-}
-
-ConsensusMesh
-makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,
-                   const ConsensusLimits& limits, const RunContext& run)
-{
-  std::vector<Eigen::Vector3f> smoothed = std::move (proposed.smoothed_normals);
-  CandidateLists candidates = std::move (proposed.candidates);
+  const Rows all = Rows::all (positions.size ());
+  // Mean normals at sharp edges, where both faces are visible from them.
+  std::vector<Eigen::Vector3f> smoothed =
+      smoothedNormals (positions, neighbors, stars.normals, all, run);
+  CandidateLists candidates =
+      findCandidates (positions, stars, smoothed, spacing, all, limits.candidates, run);
   ConsensusMesh made;
-  made.normals = std::move (normals);
+  made.normals = std::move (stars.normals);
+  stars = {};
   Consensus consensus = buildConsensus (positions, candidates, smoothed, run);
   made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
   consensus = {};

@@ -5,6 +5,7 @@
 
 #include "consensus/candidates.h"
 #include "core/csr_lists.h"
+#include "local/local_geometry.h"
 #include "mesh/hole_filling.h"
 #include "mesh/hole_widening.h"
 #include "mesh/loops.h"
@@ -37,15 +38,12 @@ struct ClosedHoles
 
 /// Decides which loops stay open, widens those by the automatic policy (see widenHoles), and fills
 /// the others. O(n) plus judgeLoops () and fillHoles ().
-/// \param loops of the mesh, ascending by their smallest points
-/// \param components number of components of the mesh
-/// \param spacing, neighbors, normals of each point; read for points of loops and those around
+/// \param positions by which the mesh was made
 /// \param unit length of one unit of the cloud in the unit of the positions
 ClosedHoles
-closeHoles (TriangleMesh& mesh, std::vector<BoundaryLoop> loops, std::size_t components,
-            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals, double unit,
-            const HoleOptions& holes, const HoleClosingLimits& limits, const RunContext& run);
+closeHoles (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const LocalGeometry& geometry, double unit, const HoleOptions& holes,
+            const HoleClosingLimits& limits, const RunContext& run);
 
 /// Limits of the consensus mesh.
 struct ConsensusLimits
@@ -67,20 +65,6 @@ struct ConsensusMesh
   std::vector<Triangle> seam; ///< free triangles of three votes that contradict the orientation
 };
 
-/// Candidates and the normals that they were compared with.
-struct ProposedTriangles
-{
-  CandidateLists candidates;
-  std::vector<Eigen::Vector3f> smoothed_normals; ///< mean normals at sharp edges, where both faces
-                                                 ///< are visible from them
-};
-
-/// Smoothed normals, and the candidates by them. O(entries of the stars).
-ProposedTriangles
-proposeTriangles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  const Stars& stars, const std::vector<float>& spacing,
-                  const CandidateLimits& limits, const RunContext& run);
-
 /// Finds candidates, their consensus and its manifold part; then offers the free candidates again.
 /// O(n + m log m) for m doubtful candidates.
 /// \param positions by which the stars were made
@@ -91,12 +75,5 @@ ConsensusMesh
 makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run);
-
-/// makeConsensusMesh () from known candidates.
-/// \param normals of the stars
-ConsensusMesh
-makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   std::vector<Eigen::Vector3f> normals, ProposedTriangles proposed,
-                   const ConsensusLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

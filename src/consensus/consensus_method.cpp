@@ -49,18 +49,6 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
 }
 
 namespace {
-ClosedHoles
-closeHolesOf (TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-              const SurfaceSettings& settings, const RunContext& run)
-{
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
-  const MeshComponents components = findComponents (mesh, run);
-  return closeHoles (mesh, findBoundaryLoops (mesh, components, positions, geometry.spacing, run),
-                     components.count, positions, geometry.spacing, geometry.neighbors,
-                     geometry.stars.normals, 1.0 / points.scale, settings.holes,
-                     settings.limits.holeClosing (), run);
-}
-
 // Leaves out the loops that were to stay open, but are no boundary any more.
 void
 leaveOutClosed (const TriangleMesh& mesh, std::vector<JudgedLoop>& loops, const RunContext& run)
@@ -81,25 +69,22 @@ leaveOutClosed (const TriangleMesh& mesh, std::vector<JudgedLoop>& loops, const 
 
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run, std::optional<ProposedTriangles> proposed)
+             const RunContext& run)
 {
   const SurfaceLimits& limits = settings.limits;
   Surface surface;
   run.beginStage (Stage::CONSENSUS);
   ConsensusMesh consensus =
-      proposed
-          ? makeConsensusMesh (points.workingPositions (), geometry.neighbors,
-                               std::move (geometry.stars.normals), std::move (*proposed),
-                               limits.consensus, run)
-          : makeConsensusMesh (points.workingPositions (), geometry.neighbors,
-                               std::move (geometry.stars), geometry.spacing, limits.consensus, run);
+      makeConsensusMesh (points.workingPositions (), geometry.neighbors, std::move (geometry.stars),
+                         geometry.spacing, limits.consensus, run);
   surface.mesh = std::move (consensus.mesh);
   surface.orientation_seam = findOrientationSeam (consensus.seam, limits.consensus.shortest_seam);
   geometry.stars = {};
   geometry.stars.normals = std::move (consensus.normals);
 
   run.beginStage (Stage::HOLES);
-  ClosedHoles closed = closeHolesOf (surface.mesh, points, geometry, settings, run);
+  ClosedHoles closed = closeHoles (surface.mesh, points.workingPositions (), geometry,
+                                   1.0 / points.scale, settings.holes, limits.holeClosing (), run);
   surface.holes_filled = closed.filled;
   surface.doubtful_loops = std::move (closed.doubtful);
   orientMissingNormals (surface.mesh, geometry.neighbors, geometry.stars.normals, run);

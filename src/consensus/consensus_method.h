@@ -10,7 +10,6 @@
 #include "mesh/loops.h"
 #include "points/points.h"
 
-#include <optional>
 #include <vector>
 
 namespace pcl::floater {
@@ -87,9 +86,8 @@ struct Surface
 /// mesh is finished by the input positions. O(n log n).
 /// \param geometry in: of the points; out: without stars, but with their normals, oriented like the
 ///     mesh
-/// \param proposed known candidates; then only the normals of the stars are read
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run, std::optional<ProposedTriangles> proposed = std::nullopt);
+             const RunContext& run);
 
 } // namespace pcl::floater

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -17,8 +16,8 @@ namespace {
 class FanPruner
 {
 public:
-  FanPruner (Consensus& consensus, std::size_t points, const std::vector<std::uint8_t>& is_partial)
-      : triangles_ (consensus.triangles), votes_ (consensus.votes), is_partial_ (is_partial),
+  FanPruner (Consensus& consensus, std::size_t points)
+      : triangles_ (consensus.triangles), votes_ (consensus.votes),
         kept_ (triangles_.size (), 1), is_extended_ (consensus.added_at.has_value ())
   {
     std::vector<std::uint8_t> is_listed (points, is_extended_ ? 0 : 1);
@@ -28,14 +27,13 @@ public:
     listAround (is_listed);
   }
 
-  // Prunes the consensus. Returns false if a triangle at a partial point would have to be removed.
-  bool prune (const RunContext& run)
+  void prune (const RunContext& run)
   {
     // Removing a triangle at one point may split the fan of another one, which is then tested
     // again: in the same round if it comes later.
     std::set<Index> points = pointsToPrune (run);
     if (points.empty ())
-      return true;
+      return;
     if (is_extended_)
       listAround (std::vector<std::uint8_t> (around_.rows (), 1));
     ProgressLoop progress (run);
@@ -45,8 +43,6 @@ public:
         progress.next ();
         const std::size_t known = dirty_.size ();
         keepLargestFan (*p);
-        if (has_left_)
-          return false;
         for (std::size_t i = known; i < dirty_.size (); ++i)
           if (dirty_[i] > *p)
             points.insert (dirty_[i]);
@@ -60,7 +56,6 @@ public:
         triangles_[left++] = triangles_[t];
     }
     triangles_.resize (left);
-    return true;
   }
 
 private:
@@ -82,7 +77,7 @@ private:
     std::vector<std::vector<Index>> ranges ((points + RANGE_LENGTH - 1) / RANGE_LENGTH);
     parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p)
-        if (!isPartial (static_cast<Index> (p)) && !isOneFan (static_cast<Index> (p)))
+        if (!isOneFan (static_cast<Index> (p)))
           ranges[first / RANGE_LENGTH].push_back (static_cast<Index> (p));
     });
     std::set<Index> found;
@@ -90,8 +85,6 @@ private:
       found.insert (range.begin (), range.end ());
     return found;
   }
-
-  bool isPartial (Index p) const { return !is_partial_.empty () && is_partial_[p] != 0; }
 
   // True if the triangles around p are one fan, open or closed.
   bool isOneFan (Index p) const
@@ -193,10 +186,7 @@ private:
   void drop (Index t)
   {
     kept_[t] = 0;
-    for (const Index p : triangles_[t]) {
-      has_left_ = has_left_ || isPartial (p);
-      dirty_.push_back (p);
-    }
+    dirty_.insert (dirty_.end (), triangles_[t].begin (), triangles_[t].end ());
   }
 
   bool shareEdge (Index p, Index t, Index u) const
@@ -217,10 +207,8 @@ private:
 
   std::vector<Triangle>& triangles_;
   const std::vector<std::uint8_t>& votes_;
-  const std::vector<std::uint8_t>& is_partial_;
   std::vector<std::uint8_t> kept_;
   bool is_extended_;
-  bool has_left_ = false; // of the listed triangles
   CsrLists around_;
   std::vector<Spoke> ring_;
   std::vector<Index> dirty_;
@@ -228,10 +216,9 @@ private:
 
 // Removes islands from a mesh. Returns whether there are any.
 bool
-removeIslands (TriangleMesh& mesh, const NeighborsOf& neighbors_of, std::size_t smallest_island,
+removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smallest_island,
                const RunContext& run)
 {
-  constexpr std::size_t LARGE = std::numeric_limits<std::size_t>::max () / 2;
   const MeshComponents components = findComponents (mesh, run);
   const std::vector<Index>& component = components.of_triangle;
   const Index count = components.count;
@@ -240,20 +227,13 @@ removeIslands (TriangleMesh& mesh, const NeighborsOf& neighbors_of, std::size_t 
   ProgressLoop progress (run);
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
-    std::size_t& triangles = size[component[t]];
-    const Triangle& corners = mesh.triangles[t];
-    if (std::any_of (corners.begin (), corners.end (),
-                     [&mesh] (Index p) { return mesh.isPartial (p); }))
-      triangles = LARGE;
-    if (triangles < LARGE)
-      ++triangles;
+    ++size[component[t]];
     for (Index u : mesh.neighbors[t])
       if (u == NONE)
         is_closed[component[t]] = 0;
   }
   const auto isOfLarger = [&] (Index q, std::size_t triangles) {
-    return mesh.triangle_of[q] == NONE ? mesh.isPartial (q)
-                                       : size[component[mesh.triangle_of[q]]] > triangles;
+    return mesh.triangle_of[q] != NONE && size[component[mesh.triangle_of[q]]] > triangles;
   };
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
@@ -261,7 +241,7 @@ removeIslands (TriangleMesh& mesh, const NeighborsOf& neighbors_of, std::size_t 
     if (triangles >= smallest_island || is_closed[component[t]] != 0)
       continue;
     for (Index p : mesh.triangles[t])
-      for (Index q : neighbors_of (p))
+      for (Index q : neighbors.row (p))
         if (isOfLarger (q, triangles))
           is_island[component[t]] = 1;
   }
@@ -275,32 +255,21 @@ removeIslands (TriangleMesh& mesh, const NeighborsOf& neighbors_of, std::size_t 
 
 } // namespace
 
-std::optional<TriangleMesh>
-manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighbors_of,
-              std::size_t smallest_island, std::vector<std::uint8_t> is_partial,
-              const RunContext& run)
-{
-  if (!FanPruner (consensus, points, is_partial).prune (run))
-    return {};
-  TriangleMesh mesh;
-  mesh.triangles = std::move (consensus.triangles);
-  consensus = {};
-  mesh.is_partial = std::move (is_partial);
-  bool is_manifold = mesh.connect (points, run);
-  if (is_manifold && removeIslands (mesh, neighbors_of, smallest_island, run))
-    is_manifold = mesh.connect (points, run);
-  if (!is_manifold)
-    throw std::logic_error ("the consensus is no manifold");
-  return mesh;
-}
-
 TriangleMesh
 manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
               const RunContext& run)
 {
-  return *manifoldPart (
-      std::move (consensus), neighbors.rows (),
-      [&neighbors] (Index p) { return neighbors.row (p); }, smallest_island, {}, run);
+  const std::size_t points = neighbors.rows ();
+  FanPruner (consensus, points).prune (run);
+  TriangleMesh mesh;
+  mesh.triangles = std::move (consensus.triangles);
+  consensus = {};
+  bool is_manifold = mesh.connect (points, run);
+  if (is_manifold && removeIslands (mesh, neighbors, smallest_island, run))
+    is_manifold = mesh.connect (points, run);
+  if (!is_manifold)
+    throw std::logic_error ("the consensus is no manifold");
+  return mesh;
 }
 
 } // namespace pcl::floater

@@ -6,9 +6,6 @@
 #include "consensus/consensus.h"
 #include "mesh/triangle_mesh.h"
 
-#include <functional>
-#include <optional>
-
 namespace pcl::floater {
 /// Keeps the fan of most votes around every point, and removes small islands. An island is an open
 /// component with points of a larger component among its nearest neighbours: it lies in a hole of
@@ -19,21 +16,6 @@ namespace pcl::floater {
 /// \throws std::logic_error if the result is no manifold, which would be a bug
 TriangleMesh
 manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
-              const RunContext& run);
-
-/// The nearest neighbours of a point.
-using NeighborsOf = std::function<Row (Index point)>;
-
-/// manifoldPart () for a submesh. At partial points triangles are missing, and none may be removed.
-/// Components with such points, and those of partial points without a triangle, count as large.
-/// \param points number of points
-/// \param neighbors_of called for points of small components only
-/// \param is_partial of each point; empty: none is
-/// \return nothing if the result depends on missing triangles: one at a partial point would be
-///     removed
-std::optional<TriangleMesh>
-manifoldPart (Consensus consensus, std::size_t points, const NeighborsOf& neighbors_of,
-              std::size_t smallest_island, std::vector<std::uint8_t> is_partial,
               const RunContext& run);
 
 } // namespace pcl::floater

@@ -25,9 +25,6 @@ public:
   /// \return false if it does
   bool join (const Triangle& corners, std::uint8_t clockwise);
 
-  /// Joins the sets of two points whose normals point to the same side.
-  void joinSameSide (Index p, Index q) { sides_.join (p, q, false); }
-
   /// Joins sets that are connected by candidates and have no common orientation yet. All candidates
   /// between two sets vote together, since a single triangle across a sharp edge or between sheets
   /// may be wrong. Rounds as in Boruvka's algorithm: every set is joined to the one with the most

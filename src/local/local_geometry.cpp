@@ -22,13 +22,6 @@ makeReaching (const LocalPlanes& planes, const StarSettings& settings, Make&& ma
 }
 } // namespace
 
-void
-takeReachAsSpacing (const std::vector<float>& reach, std::vector<float>& spacing)
-{
-  for (std::size_t p = 0; p < spacing.size (); ++p)
-    spacing[p] = std::max (spacing[p], REACH_AS_SPACING * reach[p]);
-}
-
 LocalPlanes
 fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
                 const StarSettings& settings, const RunContext& run, const PlaneLimits& limits)
@@ -67,22 +60,28 @@ makeStarsOf (const std::vector<Index>& centres, const Points& points, const Loca
 
 LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
-                   const RunContext& run)
+                   const RunContext& run, std::optional<Stars> begun)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   LocalGeometry geometry;
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
-  geometry.stars = makeReaching (planes, settings, [&] (const BeyondNeighbors* beyond) {
-    return makeStars (positions, planes.neighbors, planes.normals, settings, run, beyond);
-  });
+  if (begun)
+    geometry.stars = finishStars (positions, planes.neighbors, planes.normals, std::move (*begun),
+                                  settings, run);
+  else
+    geometry.stars = makeReaching (planes, settings, [&] (const BeyondNeighbors* beyond) {
+      return makeStars (positions, planes.neighbors, planes.normals, settings, run, beyond);
+    });
   geometry.neighbors = std::move (planes.neighbors);
   geometry.spacing = std::move (planes.spacing);
   if (!settings.reach_beyond)
     return geometry;
   appendRows (geometry.stars.far_neighbors, geometry.neighbors);
   geometry.stars.far_neighbors = {};
-  takeReachAsSpacing (geometry.stars.reach, geometry.spacing);
+  for (std::size_t p = 0; p < geometry.spacing.size (); ++p)
+    geometry.spacing[p] =
+        std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;
 }
 

@@ -53,14 +53,11 @@ Stars
 makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
              const StarSettings& settings, const RunContext& run);
 
-/// Raises the spacing of the points by the reach of their stars, as in LocalGeometry.
-void
-takeReachAsSpacing (const std::vector<float>& reach, std::vector<float>& spacing);
-
 /// Stars and spacing by the working positions of the points. O(n k log k).
+/// \param begun results of beginStars () for all points, if known; then `planes` needs no tree
 LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
-                   const RunContext& run);
+                   const RunContext& run, std::optional<Stars> begun = std::nullopt);
 
 /// Planes and stars at once.
 LocalGeometry

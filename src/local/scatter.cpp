@@ -37,8 +37,7 @@ struct FarSpacing
   double middle, far_away, around;
 };
 
-} // namespace
-
+// Whether enough points are far to look for scatter among them.
 bool
 hasFarPoints (const std::vector<float>& spacing, const ScatterLimits& limits)
 {
@@ -48,6 +47,8 @@ hasFarPoints (const std::vector<float>& spacing, const ScatterLimits& limits)
                return static_cast<double> (x) >= least;
              })) >= limits.least_far;
 }
+
+} // namespace
 
 std::vector<Index>
 findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, bool is_certain,

@@ -46,11 +46,6 @@ struct ScatterLimits
   std::size_t least_far = 10; ///< far points of a region, so that the half is certain
 };
 
-/// Whether enough points are far to look for scatter among them. O(n).
-/// \param spacing of each point, see localSpacing
-bool
-hasFarPoints (const std::vector<float>& spacing, const ScatterLimits& limits);
-
 /// Finds scatter as regions: points that may be scatter and hang together by their nearest
 /// neighbours, many of which are strong; and likewise among far points. O(n).
 /// \param noise      its unevenness may be empty

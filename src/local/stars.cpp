@@ -141,8 +141,6 @@ private:
   Star star_, wider_;
 };
 
-} // namespace
-
 // The stars of a range of the rows.
 struct StarRange
 {
@@ -160,7 +158,6 @@ struct StarRange
   }
 };
 
-namespace {
 // Removes far neighbours across holes. Returns whether there were any.
 bool
 leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& reach,
@@ -180,7 +177,7 @@ leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector
 // Makes the stars of a range again from which far neighbours were removed.
 void
 makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, double gap_ratio,
-           const Rows& rows, std::size_t first, bool with_offsets, Stars& stars, StarRange& range)
+           std::size_t first, bool with_offsets, Stars& stars, StarRange& range)
 {
   StarRange renewed;
   renewed.ids.reserve (range.ids.size ());
@@ -188,7 +185,7 @@ makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, doub
   std::size_t row = first;
   const auto copyUpTo = [&] (std::size_t end) {
     for (; row < end; ++row) {
-      const Index length = stars.neighbors.offsets[rows[row] + 1];
+      const Index length = stars.neighbors.offsets[row + 1];
       renewed.ids.insert (renewed.ids.end (), range.ids.begin () + begin,
                           range.ids.begin () + begin + length);
       if (with_offsets)
@@ -199,7 +196,7 @@ makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, doub
   };
   for (auto& [far_row, far] : range.far) {
     copyUpTo (far_row);
-    const Index p = rows[far_row];
+    const auto p = static_cast<Index> (far_row);
     if (!leaveOutAcross (positions, stars.reach, gap_ratio, p, far))
       continue;
     begin += stars.neighbors.offsets[p + 1];
@@ -208,7 +205,7 @@ makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, doub
     renewed.append (maker.star (), with_offsets);
     ++row;
   }
-  copyUpTo (std::min (first + RANGE_LENGTH, rows.size ()));
+  copyUpTo (std::min (first + RANGE_LENGTH, stars.open.size ()));
   range.ids.swap (renewed.ids);
   range.offsets.swap (renewed.offsets);
 }
@@ -256,16 +253,18 @@ pack (std::vector<StarRange>& ranges, bool with_offsets, Stars& stars)
   }
 }
 
-} // namespace
+// Stars whose lists are not yet packed.
+struct StarsInMaking
+{
+  Stars stars; // without the lists; `offsets` has the length of each row instead
+  std::vector<StarRange> ranges;
+};
 
-StarsInMaking::StarsInMaking () = default;
-StarsInMaking::~StarsInMaking () = default;
-StarsInMaking::StarsInMaking (StarsInMaking&&) noexcept = default;
-
+// Stars of some points, each by itself.
 StarsInMaking
-beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
+makeEach (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+          const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+          const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
 {
   const std::size_t n = positions.size ();
   StarsInMaking made;
@@ -297,44 +296,25 @@ beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
   return made;
 }
 
-StarsInMaking
-resumeStars (Stars stars, const Rows& rows)
-{
-  StarsInMaking made;
-  made.ranges.resize ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  for (std::size_t i = 0; i < rows.size (); ++i) {
-    StarRange& range = made.ranges[i / RANGE_LENGTH];
-    const Row star = stars.neighbors.row (rows[i]), far = stars.far_neighbors.row (rows[i]);
-    range.ids.insert (range.ids.end (), star.begin (), star.end ());
-    if (far.size () > 0)
-      range.far.emplace_back (i, std::vector<Index> (far.begin (), far.end ()));
-  }
-  for (std::size_t p = stars.neighbors.rows (); p > 0; --p)
-    stars.neighbors.offsets[p] -= stars.neighbors.offsets[p - 1]; // back to row lengths
-  stars.neighbors.ids = {};
-  stars.far_neighbors = {};
-  made.stars = std::move (stars);
-  return made;
-}
-
+// Sets each reach to the maximum around, then removes far neighbours across holes.
 void
 leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                     const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-                     const StarSettings& settings, double gap_ratio, StarsInMaking& made,
-                     const RunContext& run)
+                     const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
+                     StarsInMaking& made, const RunContext& run)
 {
   made.stars.reach = largestAround (made.stars.reach, neighbors, run);
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t) {
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t) {
     StarMaker maker (positions, neighbors, normals, settings, nullptr);
     StarRange& range = made.ranges[first / RANGE_LENGTH];
     if (!range.far.empty ())
-      makeAgain (maker, positions, gap_ratio, rows, first, settings.with_offsets, made.stars,
-                 range);
+      makeAgain (maker, positions, settings.reach.gap_ratio, first, settings.with_offsets,
+                 made.stars, range);
   });
 }
 
+// Packs the lists.
 Stars
-endStars (StarsInMaking made, const Rows& rows, const StarSettings& settings)
+packStars (StarsInMaking made, const Rows& rows, const StarSettings& settings)
 {
   Stars stars = std::move (made.stars);
   if (!stars.reach.empty ())
@@ -343,17 +323,51 @@ endStars (StarsInMaking made, const Rows& rows, const StarSettings& settings)
   return stars;
 }
 
+} // namespace
+
+Stars
+beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+            const StarSettings& settings, const RunContext& run, const BeyondNeighbors& beyond)
+{
+  return packStars (makeEach (positions, neighbors, normals, rows, settings, run, &beyond), rows,
+                    settings);
+}
+
+Stars
+finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const std::vector<Eigen::Vector3f>& normals, Stars begun, const StarSettings& settings,
+             const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  StarsInMaking made;
+  made.ranges.resize ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  for (std::size_t p = 0; p < n; ++p) {
+    StarRange& range = made.ranges[p / RANGE_LENGTH];
+    const Row star = begun.neighbors.row (p), far = begun.far_neighbors.row (p);
+    range.ids.insert (range.ids.end (), star.begin (), star.end ());
+    if (far.size () > 0)
+      range.far.emplace_back (p, std::vector<Index> (far.begin (), far.end ()));
+  }
+  for (std::size_t p = n; p > 0; --p)
+    begun.neighbors.offsets[p] -= begun.neighbors.offsets[p - 1]; // back to row lengths
+  begun.neighbors.ids = {};
+  begun.far_neighbors = {};
+  made.stars = std::move (begun);
+  leaveOutAcrossHoles (positions, neighbors, normals, settings, made, run);
+  return packStars (std::move (made), Rows::all (n), settings);
+}
+
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
            const RunContext& run, const BeyondNeighbors* beyond)
 {
   const Rows all = Rows::all (positions.size ());
-  StarsInMaking made = beginStars (positions, neighbors, normals, all, settings, run, beyond);
+  StarsInMaking made = makeEach (positions, neighbors, normals, all, settings, run, beyond);
   if (beyond != nullptr)
-    leaveOutAcrossHoles (positions, neighbors, normals, all, settings, beyond->limits.gap_ratio,
-                         made, run);
-  return endStars (std::move (made), all, settings);
+    leaveOutAcrossHoles (positions, neighbors, normals, settings, made, run);
+  return packStars (std::move (made), all, settings);
 }
 
 Stars

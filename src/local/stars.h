@@ -73,45 +73,21 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
            const RunContext& run, const BeyondNeighbors* beyond = nullptr);
 
-/// Lists of some stars, not yet packed.
-struct StarRange;
-struct StarsInMaking
-{
-  StarsInMaking ();
-  ~StarsInMaking ();
-  StarsInMaking (const StarsInMaking&) = delete;
-  StarsInMaking& operator= (const StarsInMaking&) = delete;
-  StarsInMaking (StarsInMaking&&) noexcept;
-  StarsInMaking& operator= (StarsInMaking&&) = delete;
-
-  Stars stars; ///< without the lists; `offsets` has the length of each row instead
-  std::vector<StarRange> ranges;
-};
-
-/// First step of makeStars (), for a piece of a cloud. Arrays have an entry for each of its points;
-/// entries in `rows` are read and written. The normals of the points around are read and must be in
-/// the piece. The reach is that of each star alone.
-StarsInMaking
+/// First step of makeStars (), for a piece of a cloud: each star by itself. Arrays have an entry for
+/// each of its points; stars of `rows` are made. The normals of the points around are read and must
+/// be in the piece.
+Stars
 beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond);
+            const StarSettings& settings, const RunContext& run, const BeyondNeighbors& beyond);
 
-/// The state after the first step, from stars that were packed by endStars ().
-StarsInMaking
-resumeStars (Stars stars, const Rows& rows);
-
-/// Second step: sets each reach to the maximum around, then removes far neighbours across holes.
-/// \param neighbors of the points in `rows` and of their far neighbours
-/// \param made      result of the first step; its reach also covers those neighbours
-void
-leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                     const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-                     const StarSettings& settings, double gap_ratio, StarsInMaking& made,
-                     const RunContext& run);
-
-/// Last step: packs the lists.
+/// Second step, for all stars: sets each reach to the maximum around, then removes far neighbours
+/// across holes. Stars begun and finished are those of makeStars () with BeyondNeighbors.
+/// \param begun results of the first step
 Stars
-endStars (StarsInMaking made, const Rows& rows, const StarSettings& settings);
+finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+             const std::vector<Eigen::Vector3f>& normals, Stars begun, const StarSettings& settings,
+             const RunContext& run);
 
 /// Stars of the given points; row i belongs to centres[i]. Keeps far neighbours across holes.
 Stars

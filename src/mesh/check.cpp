@@ -111,7 +111,7 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
   DisjointSets sets (points.size ()); // of points, joined along edges
   {
     const TriangleRanges ranges (triangles, points.size (), run);
-    parts.around = lookAround (mesh, ranges, limits, &sets, run);
+    parts.around = lookAround (mesh, ranges, limits, sets, run);
     parts.triangles = triangles.size () - ranges.leftOut ();
   }
   if (parts.triangles < triangles.size ())
@@ -120,8 +120,7 @@ checkMesh (const std::vector<Triangle>& triangles, const Points& points,
   parts.components = parts.around.nonmanifold_vertices > 0
                          ? countComponentsByEdges (triangles, points.size ())
                          : parts.component_points.size ();
-  return makeExamination (
-      std::move (parts), mesh, [] (Index p) { return p; }, component, points);
+  return makeExamination (std::move (parts), mesh, component, points);
 }
 
 void

@@ -68,8 +68,6 @@ SurroundingsCheck::lookAround (const TriangleRanges& ranges, std::size_t r, cons
   ProgressLoop progress (run);
   for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < last_; ++p) {
     progress.next ();
-    if (mesh_.is_left_out != nullptr && (*mesh_.is_left_out)[p] != 0)
-      continue;
     const VertexStar star = stars.of (p);
     if (star.size () == 0)
       found_.unused.push_back (p);
@@ -163,12 +161,10 @@ SurroundingsCheck::lookAtEdge (Index p, const Spoke& spoke)
 {
   const Index q = spoke.to;
   ++found_.edges;
-  if (sets_ != nullptr) {
-    if (q < last_)
-      sets_->join (p, q);
-    else
-      found_.leaving.emplace_back (p, q);
-  }
+  if (q < last_)
+    sets_.join (p, q);
+  else
+    found_.leaving.emplace_back (p, q);
   const Eigen::Vector3d pq = mesh_.positions[q] - mesh_.positions[p];
   const double scale = 0.5 * (static_cast<double> (mesh_.spacing[p]) + mesh_.spacing[q]);
   const double sqr_length = scale > 0.0 ? pq.squaredNorm () / (scale * scale) : 0.0;
@@ -200,7 +196,7 @@ SurroundingsCheck::lookAtEdge (Index p, const Spoke& spoke)
 
 Surroundings
 lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckLimits& limits,
-            DisjointSets* sets, const RunContext& run)
+            DisjointSets& sets, const RunContext& run)
 {
   std::vector<Surroundings> found (ranges.count ());
   parallelTasks (run, ranges.count (), [&] (std::size_t r) {
@@ -211,7 +207,7 @@ lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckL
   for (Surroundings& part : found) {
     for (const auto& [p, q] : part.leaving) {
       progress.next ();
-      sets->join (p, q);
+      sets.join (p, q);
     }
     all.append (std::move (part));
   }
@@ -325,8 +321,7 @@ takeComponents (ExaminedParts&& parts, MeshExamination& found)
 } // namespace
 
 MeshExamination
-makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
-                 const std::function<Index (Index)>& pointOf, const std::vector<Index>& component,
+makeExamination (ExaminedParts parts, const ExaminedMesh& mesh, const std::vector<Index>& component,
                  const Points& points)
 {
   MeshExamination found;
@@ -338,8 +333,6 @@ makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
   for (BoundaryLoop& loop : found.loops) {
     measureLoop (loop, mesh.positions, mesh.spacing);
     loop.component = component[loop.points.front ()];
-    for (Index& p : loop.points)
-      p = pointOf (p);
     found.check.loops.push_back (summaryOf (loop, points));
   }
   sortLoops (found);

@@ -7,7 +7,6 @@
 #include "mesh/check.h"
 #include "mesh/vertex_stars.h"
 
-#include <functional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -40,17 +39,14 @@ struct ExaminedMesh
   const std::vector<Eigen::Vector3d>& positions;
   const std::vector<float>& spacing; ///< local spacing of each point
   double diagonal = 1.0;             ///< of the bounding box of the whole cloud
-  const std::vector<std::uint8_t>* is_left_out =
-      nullptr; ///< of each point: 1 to skip it; nullptr: skip none
 };
 
 /// Examines the triangles and edges around the points of a range, one by one.
 class SurroundingsCheck
 {
 public:
-  /// \param sets of the points; joined along edges within the range. nullptr: components are not
-  ///     needed
-  SurroundingsCheck (const ExaminedMesh& mesh, const CheckLimits& limits, DisjointSets* sets)
+  /// \param sets of the points; joined along edges within the range
+  SurroundingsCheck (const ExaminedMesh& mesh, const CheckLimits& limits, DisjointSets& sets)
       : mesh_ (mesh), limits_ (limits), sets_ (sets)
   {
   }
@@ -75,7 +71,7 @@ private:
 
   const ExaminedMesh& mesh_;
   const CheckLimits& limits_;
-  DisjointSets* sets_;
+  DisjointSets& sets_;
   std::size_t last_ = 0; // end of the range
   Surroundings found_;
   std::vector<Spoke> spokes_;
@@ -88,7 +84,7 @@ private:
 /// \param sets see SurroundingsCheck
 Surroundings
 lookAround (const ExaminedMesh& mesh, const TriangleRanges& ranges, const CheckLimits& limits,
-            DisjointSets* sets, const RunContext& run);
+            DisjointSets& sets, const RunContext& run);
 
 /// Results of an examination, point by point.
 struct ExaminedParts
@@ -101,13 +97,9 @@ struct ExaminedParts
 };
 
 /// The examination without crossing pairs: adds boundary loops and genus. O(boundary log boundary)
-/// \param parts     its boundary edges have points of `mesh`; all else is of all points
-/// \param mesh      has at least the points of the boundary
-/// \param pointOf   the point behind a point of `mesh`
-/// \param component of each point of `mesh`
+/// \param component of each point
 MeshExamination
-makeExamination (ExaminedParts parts, const ExaminedMesh& mesh,
-                 const std::function<Index (Index)>& pointOf, const std::vector<Index>& component,
+makeExamination (ExaminedParts parts, const ExaminedMesh& mesh, const std::vector<Index>& component,
                  const Points& points);
 
 } // namespace pcl::floater

@@ -10,45 +10,22 @@
 #include <utility>
 
 namespace pcl::floater {
-namespace {
-// A mesh in memory.
-class WholeMesh : public FacedMesh
-{
-public:
-  WholeMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const MeshComponents& found)
-      : mesh_ (mesh), positions_ (positions), found_ (found)
-  {
-  }
-
-  const std::vector<Triangle>& triangles () override { return mesh_.triangles; }
-  const std::vector<Index>& components () override { return found_.of_triangle; }
-  const std::vector<Eigen::Vector3d>& positions () override { return positions_; }
-  std::vector<BoundarySegment> boundary () override
-  {
-    return boundarySegments (mesh_, positions_, found_);
-  }
-
-private:
-  const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  const MeshComponents& found_;
-};
-
-} // namespace
-
 MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
 {
   MeshFacing facing;
-  const FacingHints usable = usableHints (hints, facing);
+  FacingHints usable = hints;
+  facing.lacks_viewpoint =
+      hints.wanted == Facing::VIEWPOINT && !hints.sensor && !hints.faces_sensor;
+  if (facing.lacks_viewpoint)
+    usable.wanted = Facing::AUTO;
   const MeshComponents found = findComponents (mesh, run);
   const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, usable, limits, run);
-  WholeMesh whole (mesh, positions, found);
   const std::vector<std::uint8_t> is_turned =
-      judgeFacing (whole, sums, findTogether (mesh, positions, found, sums, usable, limits, run),
-                   usable, limits, run, facing);
+      judgeFacing (mesh, positions, found, sums,
+                   findTogether (mesh, positions, found, sums, usable, limits, run), usable, limits,
+                   run, facing);
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     if (is_turned[found.of_triangle[t]] != 0) {
       std::swap (mesh.triangles[t][1], mesh.triangles[t][2]);
@@ -143,9 +120,10 @@ boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& 
   return segments;
 }
 
-std::vector<ComponentSum>
-sumTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const MeshComponents& found, const FacingHints& hints, const RunContext& run)
+std::vector<FacingSums>
+sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
+               const RunContext& run)
 {
   const std::size_t triangles = mesh.triangles.size ();
   std::vector<PartialSums> parts ((triangles + SUMMED - 1) / SUMMED);
@@ -153,15 +131,9 @@ sumTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     parts[i] = PartialSums (mesh, positions, found, hints, i * SUMMED,
                             std::min (triangles, (i + 1) * SUMMED));
   });
-  std::vector<ComponentSum> sums (found.count);
+  std::vector<ComponentSum> components (found.count);
   for (PartialSums& part : parts)
-    std::move (part).addTo (sums);
-  return sums;
-}
-
-std::vector<FacingSums>
-judgeNormals (const std::vector<ComponentSum>& components, const FacingLimits& limits)
-{
+    std::move (part).addTo (components);
   std::vector<FacingSums> sums;
   sums.reserve (components.size ());
   for (const ComponentSum& component : components) {
@@ -172,14 +144,6 @@ judgeNormals (const std::vector<ComponentSum>& components, const FacingLimits& l
     }
   }
   return sums;
-}
-
-std::vector<FacingSums>
-sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run)
-{
-  return judgeNormals (sumTriangles (mesh, positions, found, hints, run), limits);
 }
 
 std::vector<Continuation>

@@ -227,17 +227,9 @@ std::vector<BoundarySegment>
 boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   const MeshComponents& found);
 
-/// Sums over the triangles of each component, by the sensor and the normals of the hints. O(n), on
-/// all threads; the result does not depend on their number.
-std::vector<ComponentSum>
-sumTriangles (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const MeshComponents& found, const FacingHints& hints, const RunContext& run);
-
-/// Sums of whole components; contradictory normals are moved to `contradictory`.
-std::vector<FacingSums>
-judgeNormals (const std::vector<ComponentSum>& components, const FacingLimits& limits);
-
-/// The sums of each component of a mesh.
+/// Sums over the triangles of each component, by the sensor and the normals of the hints;
+/// contradictory normals are moved to `contradictory`. O(n), on all threads; the result does not
+/// depend on their number.
 std::vector<FacingSums>
 sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,

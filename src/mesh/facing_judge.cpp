@@ -43,9 +43,10 @@ certaintyOf (double factor)
 class FacingJudge
 {
 public:
-  FacingJudge (FacedMesh& mesh, const FacingObjects& objects, const FacingHints& hints,
+  FacingJudge (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const MeshComponents& found, const FacingObjects& objects, const FacingHints& hints,
                const FacingLimits& limits, const RunContext& run)
-      : mesh_ (mesh), objects_ (objects), hints_ (hints), limits_ (limits), run_ (run),
+      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints), limits_ (limits), run_ (run),
         judged_ (objects.sums.size ()), is_turned_ (objects.sums.size (), 0),
         is_body_ (objects.sums.size (), 0)
   {
@@ -149,8 +150,8 @@ private:
   double bulgeOf (Index o)
   {
     if (bulges_.empty ())
-      bulges_ = bulgesOf (mesh_.triangles (), mesh_.components (), mesh_.positions (),
-                          mesh_.boundary (), objects_, limits_.flatness);
+      bulges_ = bulgesOf (mesh_.triangles, found_.of_triangle, positions_,
+                          boundarySegments (mesh_, positions_, found_), objects_, limits_.flatness);
     return bulges_[o];
   }
 
@@ -193,7 +194,7 @@ private:
 
   Index objectOf (Index triangle) const
   {
-    return objects_.of_component[mesh_.components ()[triangle]];
+    return objects_.of_component[found_.of_triangle[triangle]];
   }
 
   std::size_t countLines (Index o) const
@@ -209,10 +210,10 @@ private:
     for (const Index o : objects)
       samplers[o].emplace (objects_.sums[o].area, countLines (o));
     std::vector<SightLine> lines;
-    const std::vector<Triangle>& triangles = mesh_.triangles ();
-    const Positions& positions = mesh_.positions ();
+    const std::vector<Triangle>& triangles = mesh_.triangles;
+    const Positions& positions = positions_;
     for (Index t = 0; t < triangles.size (); ++t) {
-      const Index component = mesh_.components ()[t];
+      const Index component = found_.of_triangle[t];
       std::optional<SightLineSampler>& sampler = samplers[objects_.of_component[component]];
       if (!sampler)
         continue;
@@ -233,8 +234,8 @@ private:
       area += sums.area;
     SightLineSampler sampler (area, limits_.lines);
     std::vector<SightLine> lines;
-    const std::vector<Triangle>& triangles = mesh_.triangles ();
-    const Positions& positions = mesh_.positions ();
+    const std::vector<Triangle>& triangles = mesh_.triangles;
+    const Positions& positions = positions_;
     for (Index t = 0; t < triangles.size (); ++t)
       sampler.add (t, areaVectorOf (triangles[t], positions).norm (),
                    middleOf (triangles[t], positions), Eigen::Vector3d::UnitZ (), lines);
@@ -253,7 +254,7 @@ private:
   const TriangleRays& rays ()
   {
     if (!rays_)
-      rays_.emplace (mesh_.triangles (), mesh_.positions (), run_);
+      rays_.emplace (mesh_.triangles, positions_, run_);
     return *rays_;
   }
 
@@ -392,7 +393,9 @@ private:
     return count;
   }
 
-  FacedMesh& mesh_;
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const MeshComponents& found_;
   const FacingObjects& objects_;
   const FacingHints& hints_;
   const FacingLimits& limits_;
@@ -407,26 +410,16 @@ private:
 
 } // namespace
 
-FacingHints
-usableHints (const FacingHints& hints, MeshFacing& facing)
-{
-  FacingHints usable = hints;
-  facing.lacks_viewpoint =
-      hints.wanted == Facing::VIEWPOINT && !hints.sensor && !hints.faces_sensor;
-  if (facing.lacks_viewpoint)
-    usable.wanted = Facing::AUTO;
-  return usable;
-}
-
 std::vector<std::uint8_t>
-judgeFacing (FacedMesh& mesh, const std::vector<FacingSums>& components,
+judgeFacing (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             const MeshComponents& found, const std::vector<FacingSums>& components,
              std::vector<Continuation> together, const FacingHints& hints,
              const FacingLimits& limits, const RunContext& run, MeshFacing& facing)
 {
   SignedSets sets (components.size ());
   joinContinuations (std::move (together), components, sets);
   const FacingObjects objects = makeObjects (components, std::move (sets));
-  FacingJudge judge (mesh, objects, hints, limits, run);
+  FacingJudge judge (mesh, positions, found, objects, hints, limits, run);
   judge.judge ();
   facing.objects = judge.objects ();
   std::vector<std::uint8_t> is_turned (components.size ());

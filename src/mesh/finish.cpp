@@ -13,19 +13,19 @@ namespace pcl::floater {
 namespace {
 // Fractions of the stage's time at the end of these steps. Measured on clean clouds.
 constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
-} // namespace
 
+// Inserts points, flips edges, repairs folds.
 MeshFinish
-repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
-            const RunContext& run)
+repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
 {
-  const auto& [positions, neighbors, spacing, normals] = input;
   MeshFinish finish;
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
-  const TriangleCost cost (positions, normals, &spacing, settings.limits.cost);
+  const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
   run.beginStep (AFTER_INSERTION);
   if (settings.insert_points && isAnyMissing (mesh))
-    insertMissingPoints (mesh, neighbors.all (), cost, settings.flip_edges, run);
+    insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
@@ -36,32 +36,24 @@ repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& 
   if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
     // Flips have turned some triangles; normals may have the wrong sign now.
     orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, neighbors.all (), cost, positions, settings.limits.repair, run);
+    moveVertices (mesh, geometry.neighbors, cost, positions, settings.limits.repair, run);
     finish.folds = findFolds (mesh, positions, run).size ();
   }
   return finish;
 }
 
-void
-openBoundary (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              std::vector<double> corners, const NotchLimits& limits, const RunContext& run,
-              MeshFinish& finish)
-{
-  const std::size_t taken = openNotches (mesh, positions, std::move (corners), limits, run);
-  if (finish.folds > 0 && taken + openBoundaryFolds (mesh, positions, run) > 0)
-    finish.folds = findFolds (mesh, positions, run).size ();
-}
+} // namespace
 
 MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
 {
-  MeshFinish finish = repairMesh (
-      mesh, {positions, geometry.neighbors, geometry.meshSpacing (), geometry.stars.normals},
-      settings, run);
-  if (settings.open_boundary)
-    openBoundary (mesh, positions, sampleCorners (mesh, positions, CORNER_SAMPLE, run),
-                  settings.limits.notches, run, finish);
+  MeshFinish finish = repairMesh (mesh, positions, geometry, settings, run);
+  if (settings.open_boundary) {
+    const std::size_t taken = openNotches (mesh, positions, settings.limits.notches, run);
+    if (finish.folds > 0 && taken + openBoundaryFolds (mesh, positions, run) > 0)
+      finish.folds = findFolds (mesh, positions, run).size ();
+  }
   if (settings.find_crossing) {
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     if (settings.remake_sheets && finish.crossing->untested.empty ())

@@ -53,30 +53,6 @@ struct MeshFinish
   MeshFacing facing;                     ///< which components were flipped, and why
 };
 
-/// Data on the points of a mesh or submesh.
-struct RepairInput
-{
-  const std::vector<Eigen::Vector3d>& positions; ///< the vertices lie on them
-  NeighborTable neighbors;                       ///< fully read only if there is something to
-                                                 ///< insert or to repair
-  const std::vector<float>& spacing;
-  std::vector<Eigen::Vector3f>& normals; ///< get the side of the mesh
-};
-
-/// First step of finishMesh (): inserts points, flips edges, repairs folds. In a submesh, fixed
-/// triangles stay.
-MeshFinish
-repairMesh (TriangleMesh& mesh, const RepairInput& input, const FinishSettings& settings,
-            const RunContext& run);
-
-/// Removes triangles that fill notches of the boundary, or fold it.
-/// \param corners see openNotches
-/// \param[in,out] finish result of repairMesh ()
-void
-openBoundary (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              std::vector<double> corners, const NotchLimits& limits, const RunContext& run,
-              MeshFinish& finish);
-
 /// Inserts missing points, flips edges, repairs the remaining folds, opens notches and folds of the
 /// boundary, and orients every component outwards. O(n log n) at worst.
 /// \param positions of the points; the vertices lie on them

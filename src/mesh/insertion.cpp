@@ -208,26 +208,20 @@ insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const Triang
 }
 
 void
-orientMissingNormal (const TriangleMesh& mesh, Index p, const Row& neighbors,
-                     std::vector<Eigen::Vector3f>& normals)
-{
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
-  for (const Index q : neighbors)
-    if (mesh.triangle_of[q] != NONE)
-      sum += normals[q];
-  if (normals[p].dot (sum) < 0.0F)
-    normals[p] = -normals[p];
-}
-
-void
 orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
                       std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
   ProgressLoop progress (run);
   for (Index p = 0; p < normals.size (); ++p) {
     progress.next ();
-    if (mesh.triangle_of[p] == NONE)
-      orientMissingNormal (mesh, p, neighbors.row (p), normals);
+    if (mesh.triangle_of[p] != NONE)
+      continue;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+    for (const Index q : neighbors.row (p))
+      if (mesh.triangle_of[q] != NONE)
+        sum += normals[q];
+    if (normals[p].dot (sum) < 0.0F)
+      normals[p] = -normals[p];
   }
 }
 

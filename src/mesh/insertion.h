@@ -22,13 +22,8 @@ std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
                      bool flip, const RunContext& run);
 
-/// Orients the normal of a point without triangle like the mean normal of the vertices among its
-/// neighbours.
-void
-orientMissingNormal (const TriangleMesh& mesh, Index p, const Row& neighbors,
-                     std::vector<Eigen::Vector3f>& normals);
-
-/// orientMissingNormal () for all points without triangle. O(n).
+/// Orients the normals of points without triangle like the mean normal of the vertices among their
+/// neighbours. O(n).
 void
 orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
                       std::vector<Eigen::Vector3f>& normals, const RunContext& run);

@@ -186,13 +186,12 @@ private:
   std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches_;
 };
 
-} // namespace
-
+// Cosines of the corners of some triangles, spread evenly over the mesh.
 std::vector<double>
-sampleCorners (const TriangleMesh& mesh, const Positions& positions, std::size_t triangles,
-               const RunContext& run)
+sampleCorners (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
-  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / triangles);
+  constexpr std::size_t SAMPLE = 20'000; // triangles
+  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
   std::vector<double> cosines;
   ProgressLoop progress (run); // each triangle may load memory pages
   for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
@@ -203,23 +202,17 @@ sampleCorners (const TriangleMesh& mesh, const Positions& positions, std::size_t
   return cosines;
 }
 
-std::size_t
-openNotches (TriangleMesh& mesh, const Positions& positions, std::vector<double> corners,
-             const NotchLimits& limits, const RunContext& run)
-{
-  NotchOpener opener (mesh, positions, run);
-  const std::size_t count = opener.run (std::move (corners), limits);
-  if (count > 0)
-    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
-  return count;
-}
+} // namespace
 
 std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
              const RunContext& run)
 {
-  return openNotches (mesh, positions, sampleCorners (mesh, positions, CORNER_SAMPLE, run), limits,
-                      run);
+  NotchOpener opener (mesh, positions, run);
+  const std::size_t count = opener.run (sampleCorners (mesh, positions, run), limits);
+  if (count > 0)
+    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
+  return count;
 }
 
 } // namespace pcl::floater

@@ -12,9 +12,7 @@ namespace pcl::floater {
 /// Marks triangles to be removed from the boundary; the mesh itself stays unchanged. A triangle may
 /// be removed if it has one boundary edge, and its other corner is inside. So every point keeps a
 /// triangle, the mesh stays a manifold, and the numbers of components and boundary loops and the
-/// genus stay. In a submesh, edges between partial points are not boundary edges; partial points
-/// count as boundary.
-/// at the boundary, and partial points count as if they were.
+/// genus stay.
 class BoundaryPeel
 {
 public:
@@ -27,15 +25,12 @@ public:
     for (Index t = 0; t < mesh.triangles.size (); ++t) {
       progress.next ();
       for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] == NONE && !isEndOfPart ({t, side})) {
+        if (mesh.neighbors[t][side] == NONE) {
           edges_.push_back ({t, side});
           is_at_boundary_[mesh.from (edges_.back ())] = 1;
           is_at_boundary_[mesh.to (edges_.back ())] = 1;
         }
     }
-    for (Index p = 0; p < mesh.is_partial.size (); ++p)
-      if (mesh.is_partial[p] != 0)
-        is_at_boundary_[p] = 1;
   }
 
   /// The boundary edges of the mesh, in the order of its triangles.
@@ -47,7 +42,7 @@ public:
   bool isBoundary (MeshEdge e) const
   {
     const Index other = mesh_.neighbors[e.triangle][e.side];
-    return other == NONE ? !isEndOfPart (e) : isTaken (other);
+    return other == NONE || isTaken (other);
   }
 
   /// \param e a boundary edge of the remaining mesh
@@ -66,11 +61,6 @@ public:
   std::vector<std::uint8_t> takenTriangles () && { return std::move (is_taken_); }
 
 private:
-  bool isEndOfPart (MeshEdge e) const
-  {
-    return mesh_.isPartial (mesh_.from (e)) && mesh_.isPartial (mesh_.to (e));
-  }
-
   const TriangleMesh& mesh_;
   std::vector<MeshEdge> edges_;
   std::vector<std::uint8_t> is_taken_;       // per triangle
@@ -109,25 +99,11 @@ struct NotchLimits
   double largest_cosine = -0.02; ///< 91 degrees: rounding does not decide in a grid
 };
 
-/// Number of triangles in the sample of angles.
-constexpr std::size_t CORNER_SAMPLE = 20'000;
-
-/// Cosines of the corners of a number of triangles, spread evenly over the mesh.
-std::vector<double>
-sampleCorners (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::size_t triangles, const RunContext& run);
-
 /// Removes triangles with one boundary edge and an unusually obtuse angle opposite to it, the most
 /// obtuse first; this includes triangles that reach the boundary meanwhile. The corner of the angle
 /// must be inside, so every point keeps a triangle, and the numbers of components and boundary
 /// loops and the genus stay. O(n); the result does not depend on the number of threads.
-/// \param corners sampleCorners () of the whole surface
 /// \return number of triangles removed
-std::size_t
-openNotches (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             std::vector<double> corners, const NotchLimits& limits, const RunContext& run);
-
-/// openNotches () for a whole mesh, with its own sample of corners.
 std::size_t
 openNotches (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const NotchLimits& limits, const RunContext& run);

@@ -261,21 +261,17 @@ private:
 class PairFinder
 {
 public:
-  PairFinder (const std::vector<Triangle>& triangles, std::size_t own_first, std::size_t own_last,
-              const Positions& positions, const RunContext& run)
-      : triangles_ (triangles), own_first_ (own_first), own_last_ (own_last),
-        positions_ (positions), run_ (run), is_plain_ (positions.size ())
+  PairFinder (const std::vector<Triangle>& triangles, const Positions& positions,
+              const RunContext& run)
+      : triangles_ (triangles), positions_ (positions), run_ (run), is_plain_ (positions.size ())
   {
-    for (std::size_t t = own_first; t < own_last; ++t)
-      for (const Index p : triangles[t])
-        is_plain_[p] = 1; // to be tested
     const TriangleRanges ranges (triangles, positions.size (), run);
     parallelTasks (run, ranges.count (), [&] (std::size_t r) {
       const VertexStars stars (triangles_, ranges, r);
       PlainFans fans (positions_);
       for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r); ++p)
-        if (is_plain_[p] != 0)
-          is_plain_[p] = fans.isPlain (static_cast<Index> (p), stars.of (p)) ? 1 : 0;
+        if (const VertexStar star = stars.of (p); star.size () > 0)
+          is_plain_[p] = fans.isPlain (static_cast<Index> (p), star) ? 1 : 0;
     });
   }
 
@@ -284,26 +280,22 @@ public:
     const BoxTree tree (
         triangles_.size (), [this] (std::size_t i) { return boxOf (triangles_[i], positions_); },
         run_);
-    const std::size_t first_leaf = own_first_ / BoxTree::LEAF_SIZE;
-    const std::size_t leaves =
-        (own_last_ + BoxTree::LEAF_SIZE - 1) / BoxTree::LEAF_SIZE - first_leaf;
+    const std::size_t leaves = (triangles_.size () + BoxTree::LEAF_SIZE - 1) / BoxTree::LEAF_SIZE;
     std::vector<CrossingPairs> found ((leaves + RANGE_LENGTH - 1) / RANGE_LENGTH);
     parallelRanges (run_, leaves, [&] (std::size_t first, std::size_t last) {
       CrossingPairs& pairs = found[first / RANGE_LENGTH];
       const std::size_t most = limits_.work * (last - first) * BoxTree::LEAF_SIZE;
       std::size_t work = 0;
-      for (std::size_t begin = first_leaf + first; begin < first_leaf + last;
-           begin += LEAVES_AT_ONCE) {
-        const std::size_t end = std::min (begin + LEAVES_AT_ONCE, first_leaf + last);
+      for (std::size_t begin = first; begin < last; begin += LEAVES_AT_ONCE) {
+        const std::size_t end = std::min (begin + LEAVES_AT_ONCE, last);
         if (work < most)
           tree.forOverlaps (begin, end, [&] (std::size_t i, std::size_t j) {
-            if (i >= own_first_ && i < own_last_ && work++ < most &&
-                isCrossing (triangles_[i], triangles_[j], work))
+            if (work++ < most && isCrossing (triangles_[i], triangles_[j], work))
               pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
           });
         if (work >= most)
-          for (std::size_t i = std::max (own_first_, begin * BoxTree::LEAF_SIZE);
-               i < std::min (own_last_, end * BoxTree::LEAF_SIZE); ++i)
+          for (std::size_t i = begin * BoxTree::LEAF_SIZE;
+               i < std::min (triangles_.size (), end * BoxTree::LEAF_SIZE); ++i)
             pairs.untested.push_back (static_cast<Index> (i));
       }
     });
@@ -333,10 +325,9 @@ private:
 
   const PairSearchLimits limits_;
   const std::vector<Triangle>& triangles_;
-  const std::size_t own_first_, own_last_;
   const Positions& positions_;
   RunContext run_;
-  std::vector<std::uint8_t> is_plain_; // per corner of an own triangle, see PlainFans
+  std::vector<std::uint8_t> is_plain_; // per corner, see PlainFans
 };
 
 } // namespace
@@ -371,40 +362,26 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
 }
 
 CrossingPairs
-findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
-                         std::size_t last, const Positions& positions, const RunContext& run)
-{
-  if (first == last)
-    return {};
-  return PairFinder (triangles, first, last, positions, run).find ();
-}
-
-CrossingPairs
-pairsInOrder (const CrossingPairs& places, const std::vector<Index>& order)
-{
-  CrossingPairs pairs;
-  pairs.reserve (places.size ());
-  for (const CrossingPair& place : places) {
-    const auto [t, u] = std::minmax (order[place.first], order[place.second]);
-    pairs.push_back ({t, u});
-  }
-  std::sort (pairs.begin (), pairs.end ());
-  for (const Index place : places.untested)
-    pairs.untested.push_back (order[place]);
-  std::sort (pairs.untested.begin (), pairs.untested.end ());
-  return pairs;
-}
-
-CrossingPairs
 findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& positions,
                        const RunContext& run)
 {
+  if (triangles.empty ())
+    return {};
   const std::vector<Index> order = orderByPoints (triangles, positions.size ());
   std::vector<Triangle> sorted;
   sorted.reserve (order.size ());
   for (const Index t : order)
     sorted.push_back (triangles[t]);
-  return pairsInOrder (findSelfIntersectionsOf (sorted, 0, sorted.size (), positions, run), order);
+  CrossingPairs pairs = PairFinder (sorted, positions, run).find ();
+  for (CrossingPair& pair : pairs) {
+    const auto [t, u] = std::minmax (order[pair.first], order[pair.second]);
+    pair = {t, u};
+  }
+  std::sort (pairs.begin (), pairs.end ());
+  for (Index& t : pairs.untested)
+    t = order[t];
+  std::sort (pairs.untested.begin (), pairs.untested.end ());
+  return pairs;
 }
 
 } // namespace pcl::floater

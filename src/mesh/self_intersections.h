@@ -61,23 +61,6 @@ CrossingPairs
 findSelfIntersections (const std::vector<Triangle>& triangles,
                        const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
 
-/// The pairs of findSelfIntersections whose first triangle is in a given range. Disjoint ranges
-/// that cover a mesh together return all its pairs once.
-/// \param triangles  in the order of their smallest points (see orderByPoints): the range, and at
-///     least all others whose boxes overlap or touch one of it
-/// \param first,last the range, without `last`
-/// \return indices into `triangles`, the smaller one first
-CrossingPairs
-findSelfIntersectionsOf (const std::vector<Triangle>& triangles, std::size_t first,
-                         std::size_t last, const std::vector<Eigen::Vector3d>& positions,
-                         const RunContext& run);
-
-/// Converts indices in an order to triangles.
-/// \param places pairs of such indices
-/// \param order triangle of each index
-CrossingPairs
-pairsInOrder (const CrossingPairs& places, const std::vector<Index>& order);
-
 /// The box around a triangle.
 inline Eigen::AlignedBox3d
 boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)

@@ -14,7 +14,6 @@
 #include "mesh/check.h"
 #include "mesh/self_intersection_removal.h"
 #include "mesh/vertex_splits.h"
-#include "parts/part_mesh.h"
 #include "points/invalid_points.h"
 #include "points/net.h"
 #include "points/noise.h"
@@ -37,7 +36,6 @@ struct Limits
   SheetLimits sheets;
   ReachLimits reach;
   SurfaceLimits surface;
-  PartLimits parts;
   ViewLimits view;
   LoopLimits loop;
   DiscLimits disc;

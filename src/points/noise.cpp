@@ -23,7 +23,7 @@ constexpr std::size_t SPACING_OF = 6; // nearest points in the mean distance tha
                                       // spacing
 constexpr std::size_t CENTRES = 8;    // noise is measured at one in this many points
 constexpr std::size_t AROUND = 10;    // centres around a point
-constexpr std::size_t PROBES = NOISE_PROBES / CENTRES; // one in this many centres is measured first
+constexpr std::size_t PROBES = 8; // one in this many centres is measured first
 // Minimum share of noisy centres. Below, NoiseLimits::disturbed_share cannot be reached unless
 // noise triples where it is smoothed, and all neighbours there disagree.
 constexpr double FEW = 0.01;
@@ -220,36 +220,6 @@ private:
   std::vector<double> heights_;
 };
 
-} // namespace
-
-bool
-mayBeNoisy (std::size_t points)
-{
-  return points >= STRIDES.back () * LOOKED_AT;
-}
-
-NoiseProbes
-probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Index>& points, const std::array<const PointSample*, SCALES>& samples,
-            const NoiseLimits& limits, const RunContext& run, bool is_unevenness_needed)
-{
-  NoiseProbes probes;
-  probes.noise.resize (points.size ());
-  probes.unevenness.resize (points.size ());
-  probes.dimension.resize (points.size ());
-  parallelRanges (run, points.size (), [&] (std::size_t first, std::size_t last) {
-    NoiseMeter meter (positions, neighbors, samples, limits);
-    for (std::size_t i = first; i < last; ++i) {
-      const NoiseMeter::Place place = meter.measure (points[i], is_unevenness_needed);
-      probes.noise[i] = place.noise;
-      probes.unevenness[i] = place.unevenness;
-      probes.dimension[i] = place.dimension;
-    }
-  });
-  return probes;
-}
-
-namespace {
 // The noise around each centre: a quantile of those measured near it.
 std::vector<float>
 smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
@@ -278,57 +248,27 @@ struct Places
   bool are_noisy = true, are_uneven = true; // enough of them
 };
 
-// The samples at the larger scales, made when they are needed.
-class Samples
-{
-public:
-  Samples (const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
-      : positions_ (positions), run_ (run)
-  {
-  }
-
-  std::array<const PointSample*, SCALES> all ()
-  {
-    if (!quarter_) {
-      quarter_.emplace (positions_, STRIDES[1], run_);
-      sixteenth_.emplace (positions_, STRIDES[2], run_);
-    }
-    return {nullptr, &*quarter_, &*sixteenth_};
-  }
-
-private:
-  const std::vector<Eigen::Vector3d>& positions_;
-  const RunContext run_;
-  std::optional<PointSample> quarter_, sixteenth_;
-};
-
 Places
-measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,
-               const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known)
+measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+               const NoiseLimits& limits, const RunContext& run)
 {
-  Samples samples (positions, run);
+  const PointSample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
   const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
   Places places;
-  places.noise.resize (centres);
-  places.unevenness.resize (centres);
+  for (auto* const values : {&places.noise, &places.unevenness, &places.dimension})
+    values->resize (centres);
   for (const std::size_t stride : {PROBES, std::size_t{1}}) {
     const std::size_t count = (centres + stride - 1) / stride;
-    NoiseProbes measured;
-    if (stride == 1 || known == nullptr) {
-      std::vector<Index> points;
-      points.reserve (count);
-      for (std::size_t i = 0; i < count; ++i)
-        points.push_back (static_cast<Index> (i * stride * CENTRES));
-      measured = probeNoise (positions, neighbors.all (), points, samples.all (), limits, run,
-                             places.are_uneven);
-    }
-    else {
-      measured = *known;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      places.noise[i * stride] = measured.noise[i];
-      places.unevenness[i * stride] = measured.unevenness[i];
-    }
+    parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
+      NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
+      for (std::size_t i = first * stride; i < last * stride; i += stride) {
+        const NoiseMeter::Place place =
+            meter.measure (static_cast<Index> (i * CENTRES), places.are_uneven);
+        places.noise[i] = place.noise;
+        places.unevenness[i] = place.unevenness;
+        places.dimension[i] = place.dimension;
+      }
+    });
     const auto noisy = std::count_if (places.noise.begin (), places.noise.end (),
                                       [] (float x) { return x > 0.0F; });
     const auto uneven =
@@ -338,7 +278,6 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const NeighborTabl
         places.are_noisy && static_cast<double> (noisy) >= FEW * static_cast<double> (count);
     places.are_uneven = places.are_uneven &&
                         static_cast<std::size_t> (uneven) * stride * CENTRES >= limits.least_uneven;
-    places.dimension = std::move (measured.dimension); // those of the first pass are not read
     if (!places.are_noisy && !places.are_uneven)
       break;
   }
@@ -375,15 +314,15 @@ summarize (std::vector<float> relative, Noise& noise)
 } // namespace
 
 Noise
-measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,
-              const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known)
+measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const NoiseLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size ();
   Noise noise;
   noise.at_point.assign (n, 0.0F);
-  if (!mayBeNoisy (n))
+  if (n < STRIDES.back () * LOOKED_AT)
     return noise;
-  const Places places = measurePlaces (positions, neighbors, limits, run, known);
+  const Places places = measurePlaces (positions, neighbors, limits, run);
   if (!places.are_noisy && !places.are_uneven)
     return noise;
   const PointSample centres (positions, CENTRES, run);
@@ -395,7 +334,6 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
     return noise;
   const std::vector<float> around =
       smoothed (positions, places.noise, centres, limits.quantile, run);
-  const CsrLists& all_neighbors = neighbors.all ();
   std::vector<float> relative (n, 0.0F);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
@@ -403,7 +341,7 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable
       // The nearest in space: along the curve, the noise would jump.
       centres.nearest (positions[p], 1, found);
       const float here = around[found.front ().point / CENTRES];
-      const double spacing = spacingOf (positions, static_cast<Index> (p), all_neighbors.row (p));
+      const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
       if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
         continue; // a caller's search may find no neighbours: no spacing
       noise.at_point[p] = here;

@@ -72,30 +72,6 @@ struct Noise
   bool is_strong = false;                                ///< see isStrong; set by the caller
 };
 
-/// Measurements at some points (probes), one value for each.
-struct NoiseProbes
-{
-  std::vector<float> noise;      ///< standard deviation across the surface; 0: there is none
-  std::vector<float> unevenness; ///< residual in spacings at the flattest scale; below 0: unknown
-  std::vector<float> dimension;  ///< see Noise::dimension; 0: unknown
-};
-
-/// Every 64th point is measured first. If none of these is noisy, the cloud has no noise.
-constexpr std::size_t NOISE_PROBES = 64;
-
-/// Whether a cloud has enough points to measure noise.
-bool
-mayBeNoisy (std::size_t points);
-
-/// Measures noise at some points. O(1) for each.
-/// \param neighbors of these points, nearest first
-/// \param samples   for all scales; the first is not read
-/// \param is_unevenness_needed if false, it stays unknown at probes without noise, which is faster
-NoiseProbes
-probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Index>& points, const std::array<const PointSample*, SCALES>& samples,
-            const NoiseLimits& limits, const RunContext& run, bool is_unevenness_needed = true);
-
 /// Measures noise at every eighth point (probe), at three scales: its 20 nearest of all points, of
 /// every fourth, and of every sixteenth. Each point has the 90 % quantile of the 10 probes around
 /// it. Clouds of fewer than 320 points lack these scales, and have neither noise nor unevenness.
@@ -103,10 +79,9 @@ probeNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 /// lines, as on a wire, is as uneven as can be. O(n log n).
 /// \param positions along a space-filling curve
 /// \param neighbors of each point, nearest first
-/// \param known of every NOISE_PROBES-th point, if measured before
 Noise
-measureNoise (const std::vector<Eigen::Vector3d>& positions, const NeighborTable& neighbors,
-              const NoiseLimits& limits, const RunContext& run, const NoiseProbes* known = nullptr);
+measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+              const NoiseLimits& limits, const RunContext& run);
 
 /// Whether points have to be projected before they are connected: enough are noisy, and their stars
 /// disagree. At creases and thin sheets of clean clouds points look noisy, but their stars agree.

@@ -44,12 +44,7 @@ struct Points
   std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, the equal point that
                                                 ///< represents it), ascending
 
-  /// Reads the position of a point if `positions` are not in memory; otherwise empty.
-  std::function<Eigen::Vector3d (Index point)> position_elsewhere = {};
-
-  bool hasPositions () const { return !position_elsewhere; }
-
-  std::size_t size () const { return hasPositions () ? positions.size () : cloud_index.size (); }
+  std::size_t size () const { return positions.size (); }
 
   /// Number of points, those set aside included.
   std::size_t total () const { return size () + stacked.of.size (); }
@@ -69,7 +64,7 @@ struct Points
   /// A position in the frame of the cloud.
   Eigen::Vector3d inCloud (Index point) const
   {
-    return centre + scale * (hasPositions () ? ownPositions ()[point] : position_elsewhere (point));
+    return centre + scale * ownPositions ()[point];
   }
 };
 
@@ -129,24 +124,12 @@ public:
   {
   }
 
-  /// Sample of a piece of a cloud: its points that are in the sample of the whole cloud, ascending.
-  PointSample (const std::vector<Eigen::Vector3d>& positions, std::vector<Index> points,
-               const RunContext& run)
-      : points_ (std::move (points)), tree_ (at (positions, points_), run)
-  {
-  }
-
-  /// See KdTree::setWatch.
-  void setWatch (SearchWatch* watch) { tree_.setWatch (watch); }
-
   /// The nearest points of the sample, as indices among all points.
   void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
   {
     tree_.nearest (query, k, found);
-    tree_.lookedForNearest (query, k, found);
     for (Neighbor& neighbor : found)
-      neighbor.point = points_.empty () ? neighbor.point * static_cast<Index> (stride_)
-                                        : points_[neighbor.point];
+      neighbor.point *= static_cast<Index> (stride_);
   }
 
 private:
@@ -160,18 +143,7 @@ private:
     return kept;
   }
 
-  static std::vector<Eigen::Vector3d> at (const std::vector<Eigen::Vector3d>& positions,
-                                          const std::vector<Index>& points)
-  {
-    std::vector<Eigen::Vector3d> kept;
-    kept.reserve (points.size ());
-    for (const Index p : points)
-      kept.push_back (positions[p]);
-    return kept;
-  }
-
   std::size_t stride_ = 1;
-  std::vector<Index> points_; // empty: every n-th
   KdTree tree_;
 };
 

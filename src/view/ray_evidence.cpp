@@ -17,7 +17,7 @@
 
 namespace pcl::floater {
 RowEvidence
-findRows (const Points& points, const NeighborTable& neighbors, std::size_t count,
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
           const RunContext& run)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
@@ -26,14 +26,9 @@ findRows (const Points& points, const NeighborTable& neighbors, std::size_t coun
   const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
   std::size_t looked_at = 0, in_rows = 0;
   Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
-  std::vector<Index> sample;
-  for (std::size_t p = step / 2; p < positions.size (); p += step)
-    sample.push_back (static_cast<Index> (p));
-  const CsrLists rows_of_sample = neighbors.some (sample);
-  for (std::size_t i = 0; i < sample.size (); ++i) {
+  for (std::size_t p = step / 2; p < positions.size (); p += step) {
     run.beginTask (); // each may load memory pages
-    const Index p = sample[i];
-    const Row row = rows_of_sample.row (i);
+    const Row row = neighbors.row (p);
     if (row.size () < 2)
       continue;
     const Eigen::Vector3d u = (positions[row[0]] - positions[p]).normalized ();

@@ -24,7 +24,7 @@ struct RowEvidence
 /// \param neighbors nearest first
 /// \param count number of tested points, spread evenly over their order. O(count).
 RowEvidence
-findRows (const Points& points, const NeighborTable& neighbors, std::size_t count,
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
           const RunContext& run);
 
 /// Patches of near points around points that are spread evenly over their order. Parallel rays to a

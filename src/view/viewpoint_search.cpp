@@ -18,7 +18,7 @@ namespace {
 class ViewpointSearch
 {
 public:
-  ViewpointSearch (const Points& points, const NeighborTable& neighbors,
+  ViewpointSearch (const Points& points, const CsrLists& neighbors,
                    const std::vector<AreaSample>& samples, const SearchLimits& limits,
                    const EvidenceLimits& evidence, const RunContext& run)
       : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
@@ -58,7 +58,7 @@ public:
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (
-        positions_, neighbors_.all (), std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
+        positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
     // Lines on a plane are even from all directions, and show none. Around the right direction,
     // costs rise slowly, so every third direction shows whether there may be one: in 80 generated
     // line scans, the least of these costs was .009 to .053 of their median.
@@ -371,7 +371,7 @@ private:
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
-  const NeighborTable& neighbors_;
+  const CsrLists& neighbors_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
   EvidenceLimits coarse_; // fewer patches, during the search
@@ -395,7 +395,7 @@ limitToCloud (EvidenceLimits limits, std::size_t points)
 } // namespace
 
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const NeighborTable& neighbors,
+findViewpoint (const Points& points, const CsrLists& neighbors,
                const std::vector<AreaSample>& samples, const SearchLimits& limits,
                const EvidenceLimits& evidence, const RunContext& run)
 {
@@ -414,7 +414,7 @@ findViewpoint (const Points& points, const NeighborTable& neighbors,
 }
 
 std::optional<Viewpoint>
-findViewpointOfEven (const Points& points, const NeighborTable& neighbors,
+findViewpointOfEven (const Points& points, const CsrLists& neighbors,
                      const std::vector<AreaSample>& samples, const SearchLimits& limits,
                      const EvidenceLimits& evidence, const RunContext& run)
 {

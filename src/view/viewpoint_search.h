@@ -69,14 +69,14 @@ struct SearchLimits
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const NeighborTable& neighbors,
+findViewpoint (const Points& points, const CsrLists& neighbors,
                const std::vector<AreaSample>& samples, const SearchLimits& limits,
                const EvidenceLimits& evidence, const RunContext& run);
 
 /// findViewpoint () for an evenly sampled cloud, which it skips: such a cloud needs a view only if
 /// it is noisy.
 std::optional<Viewpoint>
-findViewpointOfEven (const Points& points, const NeighborTable& neighbors,
+findViewpointOfEven (const Points& points, const CsrLists& neighbors,
                      const std::vector<AreaSample>& samples, const SearchLimits& limits,
                      const EvidenceLimits& evidence, const RunContext& run);
 

@@ -71,8 +71,6 @@ invariants ()
                              {"normals", noisy (SurfaceKind::HEMISPHERE, 0.0, 5000)},
                              {"trimmed", noisy (SurfaceKind::FOLDED_SHEET, 0.1, 5000)},
                              {"balls", noisy (SurfaceKind::TORUS, 0.0, 5000)},
-                             {"parts", noisy (SurfaceKind::CUT_OUT, 0.2, 4000, true)},
-                             {"parts_closed", noisy (SurfaceKind::TORUS, 0.0, 4000)},
                              {"view", frame},
                              {"disc", noisy (SurfaceKind::FINGER, 0.0, 20000)},
                              {"disc_consensus_loop", noisy (SurfaceKind::HEMISPHERE, 0.0, 3000)},
@@ -97,8 +95,6 @@ invariants ()
     }
     if (name == "balls")
       options.neighbors.kind = Neighborhood::BALL_DELAUNAY;
-    if (name.rfind ("parts", 0) == 0)
-      one.limits.parts.points = 500;
     if (name == "disc_consensus_loop")
       options.disc.boundary.method = BoundaryMethod::CONSENSUS;
     if (name == "disc_two_segments")

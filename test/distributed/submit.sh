@@ -7,15 +7,12 @@ work=$1
 shift
 pcl_floater_distributed --work "$work" --step plan "$@"
 count () { sed -n 's/^ *"'"$1"'": \([0-9]*\).*/\1/p' "$work/manifest.json"; }
-steps=(neighbors outliers planes stars triangles)
-(($(count parts) == 0)) || steps+=(mesh stitch finish)
 after=()
-for step in "${steps[@]}" join write; do
+for step in neighbors outliers planes stars join write; do
   command="pcl_floater_distributed --work $(printf %q "$work") --step $step"
   options=(--parsable "${after[@]}")
   case "$step" in
-    neighbors | planes | stars | triangles) tasks=$(count blocks) ;;
-    mesh | finish) tasks=$(count parts) ;;
+    neighbors | planes | stars) tasks=$(count blocks) ;;
     *) tasks=0 ;;
   esac
   if ((tasks > 0)); then

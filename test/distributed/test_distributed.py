@@ -27,7 +27,7 @@ import zlib
 
 OPTIONS = argparse.Namespace()
 USAGE, INPUT, RECONSTRUCTION, OUTPUT, WORK = 1, 2, 3, 4, 7
-STEPS = ["neighbors", "planes", "stars", "triangles"]
+STEPS = ["neighbors", "planes", "stars"]
 
 
 def run(command, **more):
@@ -39,11 +39,6 @@ def mpirun(processes, *more):
     """Open MPI does not bind, so that processes of several tests do not share a core."""
     return [OPTIONS.mpirun, "--oversubscribe", "--allow-run-as-root", "--bind-to", "none", *more, "-n",
             processes]
-
-
-def small_parts():
-    """Parts are of half a million points by themselves."""
-    return () if OPTIONS.long else ("--limit", "parts.points=13107")
 
 
 def write_ply(path, points, more=()):
@@ -440,7 +435,7 @@ class Steps(Case):
         expected, mesh = self.reference(cloud), self.path("mesh.ply")
         self.plan(cloud)
         groups = self.printed_steps()
-        self.assertEqual([len(group) for group in groups], [3, 1, 3, 3, 3, 1, 1])
+        self.assertEqual([len(group) for group in groups], [3, 1, 3, 3, 1, 1])
         for command in groups[0][:2]:
             self.ok(command)
         before = self.files()
@@ -464,152 +459,6 @@ class Steps(Case):
         self.assertNotIn("pcl_floater", outcome.stderr)  # MPI may have something to say of the machine
         self.assertIn('"status": "SUCCESS"', self.path("report.json").read_text())
         self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
-
-
-class Parts(Case):
-    """Clouds that are meshed in parts. With --long, parts are as large as they are for users."""
-
-    def setUp(self):
-        super().setUp()
-        self.scale = 1 if OPTIONS.long else 40
-        self.limit = small_parts()
-        self.cloud = self.generate("cut-out", "--points", 560000 // self.scale, "--holes", 40 // self.scale + 1)
-        self.mesh = self.reference(self.cloud, *self.limit)
-
-    def check(self, processes, blocks, *options):
-        return self.expect_same(self.mesh, [self.cloud], processes, blocks, *self.limit, *options)
-
-    def test_processes_and_blocks(self):
-        for processes, blocks in [(2, 5), (1, 2), (3, 64), (7, 5)] if OPTIONS.long else [(3, 5)]:
-            with self.subTest(processes=processes, blocks=blocks):
-                told = self.check(processes, blocks)
-                self.assertIn("mesh: 2 parts done", told)
-                self.assertEqual(sorted(f.name for f in self.path("work").glob("finish*")),
-                                 ["finish.0.bin", "finish.1.bin"])  # they have the triangles of the mesh
-                self.assertFalse((self.path("work") / "changes.bin").exists())
-
-    def test_messages_and_less_memory(self):
-        told = self.check(2, 3, "--exchange", "messages", "--max-memory", "300M", "--free-disk")
-        self.assertIn("finish: 2 parts done", told)
-        self.assertEqual(sorted(f.name for f in self.path("work").iterdir()),
-                         ["finish.0.bin", "finish.1.bin", "manifest.json", "mesh.bin", "outliers.bin", "points.bin",
-                          "report.json"])
-
-    def test_printed_steps_and_restart(self):
-        mesh, work = self.path("mesh.ply"), self.path("work")
-        self.ok(self.command("--step", "plan", "--blocks", 2, *self.limit, self.cloud, mesh))
-        groups = self.printed_steps()
-        self.assertEqual([len(group) for group in groups], [2, 1, 2, 2, 2, 2, 1, 2, 1, 1])
-        for group in groups[:7]:
-            for command in group:
-                self.ok(command)
-        self.ok(groups[7][0])
-        done = {f.name: f.stat().st_mtime_ns for f in work.glob("finish.*")}
-        self.assertEqual(len(done), 1)
-        # What is finished is not done again.
-        outcome = self.ok(self.command("--blocks", 2, *self.limit, self.cloud, mesh))
-        self.assertIn("mesh: 0 parts done, 2 finished before", outcome.stderr)
-        self.assertTrue(mesh.read_bytes() == self.mesh)
-        self.expect_failure(self.step("finish", "--block", 2), USAGE, "there are only 2 parts")
-        self.ok(self.command("--step", "finish", "--block", 1))
-
-    def test_ended_while_parts_are_finished(self):
-        mesh = self.path("mesh.ply")
-        command = self.command("--blocks", 2, *self.limit, self.cloud, mesh)
-        program = subprocess.Popen([str(word) for word in command], stderr=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL)
-        changes = self.path("work") / "changes.bin"
-        while program.poll() is None and not changes.exists():
-            time.sleep(0.01)
-        program.send_signal(signal.SIGKILL)
-        program.wait()
-        self.assertFalse(mesh.exists())
-        outcome = self.ok(command)
-        for step in STEPS:
-            self.assertIn(f"{step}: 0 blocks done, 2 finished before", outcome.stderr)
-        self.assertTrue(mesh.read_bytes() == self.mesh)
-
-    def test_what_the_mesh_is_made_of_is_damaged_or_missing(self):
-        mesh, work = self.path("mesh.ply"), self.path("work")
-        command = self.command("--blocks", 2, *self.limit, self.cloud, mesh)
-        self.ok(command)
-        part = work / "finish.1.bin"
-        saved = part.read_bytes()
-        part.write_bytes(saved[:-1000])
-        mesh.unlink()
-        self.expect_failure(run(command), WORK, "finish.1.bin", "is truncated")
-        self.expect_failure(self.step("write"), WORK, "finish.1.bin", "is truncated")
-        self.assertFalse(mesh.exists())
-        part.unlink()
-        self.expect_failure(self.step("write"), WORK, "finish.1.bin")
-        outcome = self.ok(command)  # makes it again
-        self.assertIn("triangles: 0 blocks done, 2 finished before", outcome.stderr)
-        self.assertTrue(part.read_bytes() == saved)
-        self.assertTrue(mesh.read_bytes() == self.mesh)
-
-    def test_forged_indices_of_parts(self):
-        work = self.path("work")
-        command = self.command("--blocks", 2, *self.limit, self.cloud, self.path("mesh.ply"))
-        self.ok(self.command("--step", "plan", "--blocks", 2, *self.limit, self.cloud, self.path("mesh.ply")))
-        for group in self.printed_steps()[:7]:
-            for step in group:
-                self.ok(step)
-        for name, array, step in [("mesh.1.bin", "rim", "join"), ("mesh.1.bin", "points", "join"),
-                                  ("mesh.1.bin", "numbers", "join"), ("mesh.1.bin", "others", "join"),
-                                  ("mesh.1.bin", "component", "join"), ("mesh.1.bin", "components", "join"),
-                                  ("mesh.1.bin", "neighbors", "join"), ("mesh.1.bin", "neighbors.ends", "join"),
-                                  ("mesh.1.bin", "triangles", "finish"), ("changes.bin", "added", "finish"),
-                                  ("changes.bin", "seam", "finish"), ("finish.1.bin", "zone", "join"),
-                                  ("finish.1.bin", "rim", "join"), ("finish.1.bin", "rim.component", "join"),
-                                  ("finish.1.bin", "triangles", "write"), ("mesh.bin", "triangles", "write")]:
-            file = work / name
-            if not file.exists():
-                self.ok(command)
-            good = file.read_bytes()
-            forge(file, array, 0xFFFFFFFE)
-            if step == "join":
-                (work / "mesh.bin").unlink(missing_ok=True)
-            if name == "changes.bin":
-                (work / "finish.0.bin").unlink(missing_ok=True)
-            block = ["--block", 0 if name == "changes.bin" else 1] if step == "finish" else []
-            with self.subTest(name=name, array=array):
-                if step != "finish" or (work / "changes.bin").exists():
-                    self.assertIn(self.step(step, *block).returncode, (0, WORK) if file.read_bytes() == good else (WORK,))
-            file.write_bytes(good)
-
-    def test_two_sheets(self):
-        """So that each part has several components, which face different ways, or cross."""
-        numbers = random.Random(3)
-        side = int(520 / math.sqrt(self.scale)) + 1
-        for gap, *options in (60.0, "--use-input-normals", "on"), (1.8,):
-            points = []
-            for i in range(2 * side * side):
-                x, y = i // 2 % side + 0.6 * numbers.random(), i // 2 // side + 0.6 * numbers.random()
-                z = 8.0 * math.sin(0.02 * x) * math.cos(0.03 * y) + 0.2 * numbers.random()
-                is_upper = i % 2 == 1
-                points.append((x + (0.4 if is_upper else 0), y, z + gap * is_upper, 0, 0, -1.0 if is_upper else 1.0))
-            sheets = write_ply(self.path("sheets.ply"), points, ["nx", "ny", "nz"])
-            options += self.limit
-            told = self.expect_same(self.reference(sheets, *options), [sheets], 2, 3, *options)
-            self.assertIn("finish: 2 parts done", told)
-
-    def test_trimming(self):
-        options = ("--min-component", 300000 // self.scale, "--max-edge-ratio", 4, *self.limit)
-        self.expect_same(self.reference(self.cloud, *options), [self.cloud], 2, 2, *options)
-        self.assertEqual(list(self.path("work").glob("finish*")), [])
-
-    def test_one_part_is_left_without_outliers(self):
-        """The plan has two parts, as the points with outliers would have."""
-        cloud = self.terrain(523300 // self.scale)
-        self.expect_same(self.reference(cloud, *self.limit), [cloud], 2, 2, *self.limit)
-        manifest = json.loads((self.path("work") / "manifest.json").read_text())
-        self.assertEqual(manifest["parts"], 2)
-
-    def test_slurm_script(self):
-        tasks = self.submit("--blocks", 3, *self.limit, self.cloud, self.path("mesh.ply"))
-        self.assertEqual(tasks, {"neighbors": 3, "outliers": 1, "planes": 3, "stars": 3, "triangles": 3,
-                                 "mesh": 2, "stitch": 1, "finish": 2, "join": 1, "write": 1})
-        self.assertTrue(self.path("mesh.ply").read_bytes() == self.mesh)
 
 
 class Disk(Case):
@@ -637,7 +486,7 @@ class Restart(Case):
         self.check_killed(self.generate("height-field", "--points", 20000), 6, 4)
         shutil.rmtree(self.path("work"))
         points = 560000 if OPTIONS.long else 14000
-        self.check_killed(self.generate("height-field", "--points", points), 3, 3, *small_parts())
+        self.check_killed(self.generate("height-field", "--points", points), 3, 3)
 
     def check_killed(self, cloud, blocks, moments, *options):
         expected = self.reference(cloud, *options)
@@ -662,8 +511,7 @@ class Restart(Case):
                     self.kill_one_of(process, i)
             if not self.path("work").exists():
                 continue
-            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")
-                     if f.name != "changes.bin"}  # parts are stitched again
+            files = {f.name: f.stat().st_ino for f in self.path("work").glob("*.bin")}
             for name, inode in known.items():
                 self.assertEqual(files.get(name), inode, f"{name} was made again")
             known = files
@@ -777,8 +625,8 @@ class Errors(Case):
         self.finish()
         work = self.path("work")
         for name, arrays in [("points.bin", ["cloud_index"]), ("neighbors.1.bin", ["ids"]),
-                             ("planes.1.bin", ["beside", "beside.ends"]), ("triangles.1.bin", [
-                                 "sure.corners", "doubtful.corners", "far", "far.ends", "stars", "stars.ends"]),
+                             ("planes.1.bin", ["beside", "beside.ends"]),
+                             ("stars.1.bin", ["far", "far.ends", "stars", "stars.ends"]),
                              ("mesh.bin", ["triangles"])]:
             file = work / name
             good, mesh = file.read_bytes(), (work / "mesh.bin").read_bytes()
@@ -789,10 +637,7 @@ class Errors(Case):
                 if name != "mesh.bin":
                     (work / "mesh.bin").unlink()
                 with self.subTest(name=name, array=array):
-                    outcome = self.again()
-                    # Stars and planes are read only where they are needed.
-                    self.assertIn(outcome.returncode, (0, WORK) if array in ("stars", "stars.ends") else (WORK,),
-                                  outcome.stderr)
+                    self.assertEqual(self.again().returncode, WORK)
                 file.write_bytes(good)
                 (work / "mesh.bin").write_bytes(mesh)
         self.assertEqual(self.again().returncode, 0)
@@ -848,7 +693,7 @@ class Errors(Case):
     def test_damaged_file_of_a_step(self):
         self.plan(self.cloud)
         self.steps_of_blocks()
-        file = self.path("work") / "triangles.1.bin"
+        file = self.path("work") / "stars.1.bin"
         saved = file.read_bytes()
         file.write_bytes(saved[:len(saved) // 2] + b"damage" + saved[len(saved) // 2 + 6:])
         outcome = self.step("join")
@@ -951,7 +796,7 @@ class Messages(Case):
         expected = self.reference(cloud)
         outcome = self.nodes(cloud, "--exchange", "messages", "--join-threads", 1)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        self.assertIn("triangles: 5 blocks done", outcome.stderr)
+        self.assertIn("stars: 5 blocks done", outcome.stderr)
         self.assertTrue(self.path("mesh.ply").read_bytes() == expected)
 
     def test_no_common_folder_and_no_messages(self):

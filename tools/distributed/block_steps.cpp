@@ -3,13 +3,11 @@
 #include "block_steps.h"
 
 #include "cloud_geometry.h"
-#include "known_stages.h"
 #include "local/planes.h"
-#include "part_files.h"
-#include "part_steps.h"
 #include "points/neighbors.h"
 #include "points/outliers.h"
 #include "stored_cloud.h"
+#include "view/ray_evidence.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -158,8 +156,7 @@ chooseOutliersStep (const StepContext& context)
 }
 
 namespace {
-// Width, see BlockCutter. Every sixteenth point has its 20 nearest of these within 10 spacings.
-constexpr double PLANE_HALO = 2.0;
+constexpr double PLANE_HALO = 2.0; // width, see BlockCutter
 
 // A point before outliers were removed, by its number after that.
 Index
@@ -190,31 +187,6 @@ renewOwn (const OwnBlock& own, BlockSearch& search, const StepContext& context)
   });
 }
 
-NoiseProbes
-probeOwn (BlockSearch& search, const CsrLists& neighbors, std::size_t points,
-          const StepContext& context)
-{
-  if (!mayBeNoisy (points))
-    return {};
-  const PointBlock& block = search.block ();
-  std::vector<Index> probed, quarter, sixteenth;
-  for (Index place = 0; place < block.points.size (); ++place) {
-    if (block.points[place] % STRIDES[1] == 0)
-      quarter.push_back (place);
-    if (block.points[place] % STRIDES[2] == 0)
-      sixteenth.push_back (place);
-    if (block.points[place] % NOISE_PROBES == 0 && place >= search.ownFirst () &&
-        place < search.ownLast ())
-      probed.push_back (place);
-  }
-  PointSample every_fourth (block.positions, std::move (quarter), context.run);
-  PointSample every_sixteenth (block.positions, std::move (sixteenth), context.run);
-  every_fourth.setWatch (&search.watch ());
-  every_sixteenth.setWatch (&search.watch ());
-  return probeNoise (block.positions, neighbors, probed, {nullptr, &every_fourth, &every_sixteenth},
-                     context.limits.noise, context.run);
-}
-
 } // namespace
 
 void
@@ -225,7 +197,6 @@ planesStep (const StepContext& context, std::size_t block)
   CsrLists renewed, beside_lists;
   std::vector<float> beside_reach, spacing;
   std::vector<Eigen::Vector3f> normals;
-  NoiseProbes probes;
   if (!own.isEmpty ()) {
     StoredCloud& cloud = own.cloud;
     BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
@@ -249,7 +220,6 @@ planesStep (const StepContext& context, std::size_t block)
         beside =
             findBesideLines (positions, neighbors, spacing, search.tree (), rows,
                              context.limits.planes.least_aspect, context.limits.reach, context.run);
-      probes = probeOwn (search, neighbors, cloud.points (), context);
       appendRows (beside.neighbors, neighbors);
       normals = fitTangentPlanes (positions, neighbors, rows, context.run, context.limits.planes);
       beside_lists = {};
@@ -279,8 +249,6 @@ planesStep (const StepContext& context, std::size_t block)
   writer.add ("beside_reach", beside_reach);
   writer.add ("spacing", spacing);
   writer.add ("normals", normals);
-  writer.add ("probes.noise", probes.noise);
-  writer.add ("probes.unevenness", probes.unevenness);
   context.store.put (blockFile ("planes", block), writer, context.plan.id);
 }
 
@@ -358,23 +326,6 @@ writeStars (const StepContext& context, std::size_t block, const OwnStars& own,
   context.store.put (blockFile ("stars", block), writer, context.plan.id);
 }
 
-void
-writeTriangles (const StepContext& context, std::size_t block, const CandidateLists& candidates,
-                const std::vector<Eigen::Vector3f>& smoothed, const std::vector<float>& spacing,
-                const CsrLists& stars, const std::vector<std::uint8_t>& open, const CsrLists& far,
-                const std::vector<std::uint8_t>& reaches_out)
-{
-  ArrayWriter writer;
-  addCandidates (candidates, writer);
-  writer.add ("smoothed_normals", smoothed);
-  writer.add ("spacing", spacing);
-  writeLists ("stars", stars, writer);
-  writer.add ("open", open);
-  writeLists ("far", far, writer);
-  writer.add ("reaches_out", reaches_out);
-  context.store.put (blockFile ("triangles", block), writer, context.plan.id);
-}
-
 StarSettings
 settingsOf (const StepContext& context)
 {
@@ -431,8 +382,7 @@ starsStep (const StepContext& context, std::size_t block)
     const Rows rows =
         is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
     const OwnStars made = takeStars (
-        endStars (beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond),
-                  rows, settings),
+        beginStars (positions, neighbors, normals, rows, settings, context.run, beyond),
         rows, local);
     if (is_first)
       all = made;
@@ -455,82 +405,13 @@ starsStep (const StepContext& context, std::size_t block)
 }
 
 void
-trianglesStep (const StepContext& context, std::size_t block)
-{
-  OwnBlock own_block (context, block);
-  if (own_block.isEmpty ()) {
-    writeTriangles (context, block, {}, {}, {}, {}, {}, {}, {});
-    return;
-  }
-  StoredCloud& cloud = own_block.cloud;
-  const Index first = own_block.first, last = own_block.last;
-  const StarSettings settings = settingsOf (context);
-  StoredNeighbors stored (context, own_block.outliers, cloud.ranges ());
-  Slices stars_before (context.store, context.plan, cloud.ranges (), "stars");
-
-  // Candidates are judged by the stars and normals of their corners; a star without neighbours
-  // across holes, by the reach at both ends of its edges; and that is the largest around each.
-  const std::vector<Index> own = own_block.points ();
-  const CsrLists own_rows = stored.all (own), own_far = stars_before.gatherLists ("far", own);
-  const std::vector<Index> corners = joinPoints (first, last, {&own_rows.ids, &own_far.ids});
-  CsrLists far = stars_before.gatherLists ("far", corners);
-  const std::vector<Index> with_rows = joinPoints (first, last, {&corners, &far.ids});
-  CsrLists rows = stored.all (with_rows);
-  const std::vector<Index> points = joinPoints (first, last, {&with_rows, &rows.ids});
-
-  const LocalPoints local (points);
-  const std::vector<Eigen::Vector3d> positions = cloud.gather (points);
-  const std::vector<Eigen::Vector3f> normals =
-      stored.planes ().gather<Eigen::Vector3f> ("normals", points);
-  std::vector<float> spacing = stored.planes ().gather<float> ("spacing", points);
-  CsrLists neighbors = local.toPlaces (with_rows, std::move (rows));
-  Stars begun;
-  begun.neighbors = local.toPlaces (corners, stars_before.gatherLists ("stars", corners));
-  begun.far_neighbors = local.toPlaces (corners, std::move (far));
-  begun.open = stars_before.gather<std::uint8_t> ("open", points);
-  begun.normals = stars_before.gather<Eigen::Vector3f> ("normals", points);
-  begun.reach = stars_before.gather<float> ("reach", points);
-  std::vector<Index> corner_places = corners;
-  local.toPlaces (corner_places);
-  const Rows corner_rows = Rows::of (corner_places);
-  StarsInMaking made = resumeStars (std::move (begun), corner_rows);
-  leaveOutAcrossHoles (positions, neighbors, normals, corner_rows, settings,
-                       settings.reach.gap_ratio, made, context.run);
-  const Stars stars = endStars (std::move (made), corner_rows, settings);
-  appendRows (stars.far_neighbors, neighbors);
-  takeReachAsSpacing (stars.reach, spacing);
-
-  const Index own_first = local.placeOf (first), own_last = own_first + (last - first);
-  const std::vector<Eigen::Vector3f> smoothed =
-      smoothedNormals (positions, neighbors, stars.normals, corner_rows, context.run);
-  CandidateLists candidates =
-      findCandidates (positions, stars, smoothed, spacing, Rows::range (own_first, own_last),
-                      context.limits.surface.consensus.candidates, context.run);
-  for (SureTriangle& sure : candidates.sure)
-    for (Index& corner : sure.corners)
-      corner = points[corner];
-  for (Candidate& doubtful : candidates.doubtful)
-    for (Index& corner : doubtful.corners)
-      corner = points[corner];
-  const OwnStars ended = takeStars (stars, Rows::range (own_first, own_last), local);
-  writeTriangles (
-      context, block, candidates, {smoothed.begin () + own_first, smoothed.begin () + own_last},
-      {spacing.begin () + own_first, spacing.begin () + own_last}, ended.stars, ended.open,
-      ended.far, reachesOut (ended.stars, first, Parts (cloud.points (), context.limits.parts)));
-}
-
-void
 blockStep (const StepContext& context, const std::string& step, std::size_t block)
 {
   constexpr std::array<void (*) (const StepContext&, std::size_t), BLOCK_STEPS.size ()> FUNCTIONS{
-      neighborsStep, planesStep, starsStep, trianglesStep};
+      neighborsStep, planesStep, starsStep};
   for (std::size_t i = 0; i < BLOCK_STEPS.size (); ++i)
     if (step == BLOCK_STEPS[i])
       return FUNCTIONS[i](context, block);
-  if (step == MESH)
-    return meshStep (context, block);
-  if (step == FINISH)
-    return finishStep (context, block);
   throw std::logic_error ("a block step of this name");
 }
 

@@ -11,7 +11,7 @@
 namespace pcl::floater {
 /// The steps that are done for each block, in order. A step starts when the one before is complete
 /// for all blocks. Run chooseOutliersStep () between the first two.
-constexpr std::array<const char*, 4> BLOCK_STEPS{"neighbors", "planes", "stars", "triangles"};
+constexpr std::array<const char*, 3> BLOCK_STEPS{"neighbors", "planes", "stars"};
 
 /// All that a step needs.
 struct StepContext
@@ -32,19 +32,15 @@ neighborsStep (const StepContext& context, std::size_t block);
 void
 chooseOutliersStep (const StepContext& context);
 
-/// Spacing, tangent planes, and the noise at some points.
+/// Spacing and tangent planes.
 void
 planesStep (const StepContext& context, std::size_t block);
 
-/// Delaunay stars, as far as each can be made alone.
+/// Delaunay stars, each by itself (see beginStars).
 void
 starsStep (const StepContext& context, std::size_t block);
 
-/// Stars without neighbours across holes, and the triangles that they propose.
-void
-trianglesStep (const StepContext& context, std::size_t block);
-
-/// Does one of BLOCK_STEPS, or of a part, MESH or FINISH.
+/// Does one of BLOCK_STEPS.
 void
 blockStep (const StepContext& context, const std::string& step, std::size_t block);
 

@@ -42,10 +42,9 @@ readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts 
   return cloud;
 }
 
-// Bytes of each point that have to stay in memory for the steps of the whole cloud. Measured for
-// `plan` with 10 and 30 million points: below, more time goes to pages that come back than to all
-// else. `join` was run with 9 (10 million points) and 11 (100 million).
-constexpr double KEPT_BY_STEP = 9.0;
+// Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
+// points: below, more time goes to pages that come back than to all else.
+constexpr double KEPT_BY_PLAN = 9.0;
 
 // What the report and the mesh need to know of the cloud.
 void
@@ -142,7 +141,7 @@ planStep (const Job& job, FolderStore& store)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
   Cloud cloud = readClouds (job.inputs, readOptionsOf (line));
-  checkMemory (line, cloud.size (), KEPT_BY_STEP);
+  checkMemory (line, cloud.size (), KEPT_BY_PLAN);
   Input input = makeInput (cloud);
   takeNormals (line, cloud, input);
   warnOfDegrees (input.positions, cloud);
@@ -169,8 +168,6 @@ planStep (const Job& job, FolderStore& store)
   plan.parameters = parametersText (job);
   plan.points = points.size ();
   plan.blocks = job.blocks > 0 ? job.blocks : defaultBlocks (points.size ());
-  const std::size_t parts = Parts (points.size (), effective.limits.parts).count ();
-  plan.parts = parts > 1 ? parts : 0;
   plan.cloud_size = report.statistics.cloud_points;
   plan.selected_points = report.statistics.selected_points;
   plan.lattice_width = points.lattice_width;
@@ -209,21 +206,18 @@ requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
 }
 
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& help)
+joinStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
   const EffectiveOptions effective (line);
   const RunContext run (job.join_threads);
   const StepContext context{store, plan, effective.options, effective.limits, run};
-  checkMemory (line, plan.cloud_size, KEPT_BY_STEP);
-  StoredStages stages (context, store, job.frees_disk ? &store : nullptr);
-  stages.setHelp (help);
+  checkMemory (line, plan.cloud_size);
+  StoredStages stages (context, job.frees_disk ? &store : nullptr);
   for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
     for (std::size_t block = 0; block < plan.blocks; ++block)
       openArrays (store, blockFile (step, block), plan);
-  for (std::size_t part = 0; part < plan.parts; ++part)
-    openArrays (store, blockFile (MESH, part), plan);
   Input input;
   input.cloud_size = plan.cloud_size;
   input.sensor_origin = plan.sensor_origin;
@@ -234,8 +228,6 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
       Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
   Result result = reconstruct (std::move (input), options, line.limits, stages);
   Report& report = result.report;
-  if (report.status == RunStatus::CANCELLED) // only stitchStep () cancels
-    return EXIT_OK;
   RunFigures figures;
   figures.reconstruct_seconds = secondsSince (start);
 
@@ -257,35 +249,21 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& 
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
-  const FinishedMesh mesh{std::move (result.triangles), stages.takeMesh (), is_single,
-                          job.frees_disk};
-  putMesh (store, plan, mesh);
-  removeFinished (store, plan, !mesh.parts);
+  putMesh (store, plan, {std::move (result.triangles), is_single, job.frees_disk});
   if (job.frees_disk) {
     store.finish (); // the mesh is on the disk before that of which it was made goes
     for (const char* step : BLOCK_STEPS)
       for (std::size_t block = 0; block < plan.blocks; ++block)
         store.remove (blockFile (step, block));
-    for (std::size_t part = 0; part < plan.parts; ++part)
-      store.remove (blockFile (MESH, part));
   }
   return EXIT_OK;
-}
-
-int
-stitchStep (const Job& job, FolderStore& store, const Plan& plan, JoinHelp help)
-{
-  help.finish = [] (const std::string&, const std::deque<std::size_t>&) { throw Cancelled (); };
-  return joinStep (job, store, plan, help);
 }
 
 int
 writeStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const CommandLine& line = job.line;
-  const EffectiveOptions effective (line);
-  const RunContext run (job.join_threads);
-  FinishedMesh mesh = readMesh ({store, plan, effective.options, effective.limits, run});
+  FinishedMesh mesh = readMesh (store, plan);
   Triangles triangles = std::move (mesh.triangles);
   std::vector<std::size_t> firsts;
   Cloud cloud = readShifted (job, plan, &firsts);
@@ -351,25 +329,20 @@ Exit codes:
   7  a file of the work folder is missing, damaged, of another version, or of another plan
 )";
 
-constexpr std::array<const char*, 5> SINGLE_STEPS{"plan", "outliers", STITCH, "join", "write"};
-constexpr std::array<const char*, 2> PART_STEPS{MESH, FINISH};
+constexpr std::array<const char*, 4> SINGLE_STEPS{"plan", "outliers", "join", "write"};
 
 std::vector<std::string>
 stepNames ()
 {
   std::vector<std::string> names (SINGLE_STEPS.begin (), SINGLE_STEPS.end ());
   names.insert (names.end (), BLOCK_STEPS.begin (), BLOCK_STEPS.end ());
-  names.insert (names.end (), PART_STEPS.begin (), PART_STEPS.end ());
   return names;
 }
 
 bool
 isBlockStep (const std::string& step)
 {
-  const auto isIn = [&step] (const auto& steps) {
-    return std::find (steps.begin (), steps.end (), step) != steps.end ();
-  };
-  return isIn (BLOCK_STEPS) || isIn (PART_STEPS);
+  return std::find (BLOCK_STEPS.begin (), BLOCK_STEPS.end (), step) != BLOCK_STEPS.end ();
 }
 
 void
@@ -392,15 +365,14 @@ addSteps (CLI::App& app, Job& job)
   };
   addParsed (
       app, "--step", choose,
-      "do this step only: plan, outliers, stitch, join, write; for a block: neighbors, planes, "
-      "stars, triangles; or for a part of a large cloud: mesh, finish",
+      "do this step only: plan, outliers, join, write; or for a block: neighbors, planes, stars",
       "NAME (all)", group);
   const auto setBlock = [&job] (const std::string& word) {
     if (!parseNumber (word, job.block))
       throw CLI::ValidationError ("--block", "'" + word + "' is not a whole number");
     job.has_block = true;
   };
-  addParsed (app, "--block", setBlock, "block or part of the step, from 0", "N", group);
+  addParsed (app, "--block", setBlock, "block of the step, from 0", "N", group);
   app.add_flag ("--print-steps", job.prints_steps,
                 "print the commands of all steps after the plan, and exit")
       ->group (group);

@@ -5,7 +5,6 @@
 
 #include "block_steps.h"
 #include "command_line.h"
-#include "part_steps.h"
 #include "plan.h"
 
 #include <optional>
@@ -15,9 +14,6 @@
 namespace pcl::floater {
 /// Exit code if a file of the work folder cannot be used.
 constexpr int EXIT_WORK = 7;
-
-/// Stitches all parts. After this step, each part can be finished by a step of its own.
-constexpr const char* STITCH = "stitch";
 
 /// What the user asked for.
 struct Job
@@ -74,12 +70,7 @@ planStep (const Job& job, FolderStore& store);
 /// Puts together what the blocks have found out.
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& help = {});
-
-/// The first half of joinStep, up to where parts are finished: what they need for that is then in
-/// the work folder. If the mesh is not made of parts, all of joinStep.
-int
-stitchStep (const Job& job, FolderStore& store, const Plan& plan, JoinHelp help);
+joinStep (const Job& job, FolderStore& store, const Plan& plan);
 
 /// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
 /// block.

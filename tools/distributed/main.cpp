@@ -153,17 +153,16 @@ struct Workers
 void
 sayDone (const Workers& workers, const std::string& step, std::size_t done, std::size_t before)
 {
-  const bool is_of_parts = step == MESH || step == FINISH;
-  say (workers.job, step + ": " + std::to_string (done) + (is_of_parts ? " parts" : " blocks") +
-                        " done, " + std::to_string (before) + " finished before, " +
-                        workers.watch.time ());
+  say (workers.job, step + ": " + std::to_string (done) + " blocks done, " +
+                        std::to_string (before) + " finished before, " + workers.watch.time ());
 }
 
-// Does a step for those of so many blocks or parts that are not finished.
+// Does a step for those blocks that are not finished.
 void
-workOn (const Workers& workers, const char* step, std::size_t count)
+workOn (const Workers& workers, const char* step)
 {
   const StepContext& context = workers.context;
+  const std::size_t count = context.plan.blocks;
   std::deque<std::size_t> left;
   for (std::size_t number = 0; number < count; ++number)
     if (!isFinished (workers.folder, blockFile (step, number), context.plan))
@@ -180,37 +179,16 @@ workOn (const Workers& workers, const char* step, std::size_t count)
   sayDone (workers, step, count - finished, finished);
 }
 
-// Does all steps of the blocks, and meshes the parts.
+// Does all steps of the blocks.
 void
 workOnBlocks (const Workers& workers)
 {
   const StepContext& context = workers.context;
   for (const char* step : BLOCK_STEPS) {
-    workOn (workers, step, context.plan.blocks);
+    workOn (workers, step);
     if (step == BLOCK_STEPS.front () && !isFinished (workers.folder, OUTLIERS, context.plan))
       chooseOutliersStep (context);
   }
-  if (context.plan.parts > 0)
-    workOn (workers, MESH, context.plan.parts);
-}
-
-// `join` has parts finished by all processes if together these have as many threads for them as
-// this one has for the whole cloud.
-JoinHelp
-helpOfJoin (const Workers& workers)
-{
-  JoinHelp help;
-  help.limit = workers.limit;
-  if (workers.dealer == nullptr || workers.dealer->processes () * workers.context.run.threads () <
-                                       RunContext (workers.job.join_threads).threads ())
-    return help;
-  help.finish = [&workers] (const std::string& step, std::deque<std::size_t> numbers) {
-    const std::size_t all = partsOf (workers.context).count ();
-    const std::size_t count = numbers.size ();
-    workers.dealer->run (workers.context, step, std::move (numbers));
-    sayDone (workers, step, count, all - count);
-  };
-  return help;
 }
 
 int
@@ -232,8 +210,8 @@ workAlone (Job job, FolderStore& folder, Dealer* dealer)
   const Workers workers{job, context, folder, dealer, limit.get (), watch};
   if (!areBlocksFreed (folder, plan))
     workOnBlocks (workers);
-  if (!isMeshKnown (context, folder))
-    if (const int code = joinStep (job, folder, plan, helpOfJoin (workers)); code != EXIT_OK)
+  if (!isFinished (folder, TRIANGLES, plan))
+    if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
       return code;
   say (job, "joined: " + watch.time ());
   const int code = writeStep (job, folder, plan);
@@ -281,23 +259,16 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
       chooseOutliersStep (context);
     return EXIT_OK;
   }
-  if (step == "join" || step == STITCH)
-    return isMeshKnown (context, folder) ? static_cast<int> (EXIT_OK)
-           : step == STITCH              ? stitchStep (job, folder, plan, {{}, limit.get ()})
-                                         : joinStep (job, folder, plan, {{}, limit.get ()});
+  if (step == "join")
+    return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
+                                                : joinStep (job, folder, plan);
   if (step == "write")
     return writeStep (job, folder, plan);
-  const bool is_of_part = step == MESH || step == FINISH;
-  const std::size_t count = is_of_part ? plan.parts : plan.blocks;
-  if (job.block >= count)
+  if (job.block >= plan.blocks)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
-                      std::to_string (count) + (is_of_part ? " parts" : " blocks") +
-                      ", which are numbered from 0");
-  const bool is_done =
-      step == FINISH ? isMeshKnown (context, folder) || isPartFinished (context, folder, job.block)
-                     : isFinished (folder, blockFile (step.c_str (), job.block), plan);
+                      std::to_string (plan.blocks) + " blocks, which are numbered from 0");
   const HeapReuse reuse (limit.get ());
-  if (!is_done)
+  if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
     blockStep (context, step, job.block);
   return EXIT_OK;
 }
@@ -351,11 +322,6 @@ printSteps (const Job& job, FolderStore& folder)
     printAll (step, plan.blocks);
     if (step == BLOCK_STEPS.front ())
       print ("outliers");
-  }
-  if (plan.parts > 0) {
-    printAll (MESH, plan.parts);
-    print (STITCH);
-    printAll (FINISH, plan.parts);
   }
   print ("join");
   std::printf ("%swrite\n", command.c_str ());

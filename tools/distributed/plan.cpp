@@ -53,7 +53,6 @@ forMembers (Of& plan, const Visit& visit)
   visit ("parameters", plan.parameters);
   visit ("points", plan.points);
   visit ("blocks", plan.blocks);
-  visit ("parts", plan.parts);
   visit ("cloud_points", plan.cloud_size);
   visit ("selected_points", plan.selected_points);
   visit ("lattice_width", plan.lattice_width);

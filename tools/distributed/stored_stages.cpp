@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stored_stages.h"
 
-#include "part_files.h"
 #include "report/report_cloud.h"
 #include "stored_cloud.h"
 
@@ -33,10 +32,8 @@ appendLists (ArrayFile& file, const std::string& name, std::size_t rows, std::si
 
 } // namespace
 
-StoredStages::StoredStages (const StepContext& context, FolderStore& folder,
-                            const FolderStore* freed)
-    : context_ (context), folder_ (folder),
-      freed_ (partsOf (context).count () > 1 ? nullptr : freed), outliers_ (readOutliers (context)),
+StoredStages::StoredStages (const StepContext& context, const FolderStore* freed)
+    : context_ (context), freed_ (freed), outliers_ (readOutliers (context)),
       ranges_ (blockRanges (context.plan, context.plan.points - outliers_.size ()))
 {
 }
@@ -75,12 +72,6 @@ StoredStages::points (Report& report)
   return points;
 }
 
-CsrLists
-StoredStages::neighborsOf (const std::vector<Index>& points)
-{
-  return StoredNeighbors (context_, outliers_, ranges_).all (points);
-}
-
 LocalPlanes
 StoredStages::planes ()
 {
@@ -107,7 +98,11 @@ StoredStages::planes ()
     if (!outliers_.empty ())
       appendLists (file, "renewed", own_, n, neighbors);
     appendLists (file, "beside", own_, n, beside);
+    file.append ("spacing", 0, own_, planes.spacing);
+    file.append ("normals", 0, own_, planes.normals);
   });
+  for (const char* step : {"neighbors", "planes"})
+    remove (step);
   neighbors.findWraps (); // others have fewer entries
   appendRows (beside, neighbors);
   return planes;
@@ -122,83 +117,20 @@ StoredStages::areaSamples ()
   return samples;
 }
 
-NoiseProbes
-StoredStages::noiseProbes ()
-{
-  NoiseProbes probes;
-  forEachBlock ("planes", [&] (ArrayFile& file, std::size_t /*block*/) {
-    file.append ("probes.noise", probes.noise);
-    file.append ("probes.unevenness", probes.unevenness);
-  });
-  return probes;
-}
-
-LocalGeometry
-StoredStages::geometry (LocalPlanes planes, bool with_stars)
+Stars
+StoredStages::begunStars ()
 {
   const std::size_t n = ranges_.points ();
-  LocalGeometry geometry;
-  Stars& stars = geometry.stars;
-  geometry.spacing.reserve (n);
-  stars.normals.reserve (n);
-  CsrLists far;
-  far.offsets.reserve (n + 1);
+  Stars stars;
   forEachBlock ("stars", [&] (ArrayFile& file, std::size_t /*block*/) {
-    file.append ("normals", 0, own_, stars.normals);
-  });
-  for (const char* step : {"neighbors", "planes", "stars"})
-    remove (step); // the neighbours of the planes are in memory by now
-  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    file.append ("spacing", 0, own_, geometry.spacing);
-    appendLists (file, "far", own_, n, far);
-    if (!with_stars)
-      return;
     appendLists (file, "stars", own_, n, stars.neighbors);
+    appendLists (file, "far", own_, n, stars.far_neighbors);
     file.append ("open", 0, own_, stars.open);
+    file.append ("normals", 0, own_, stars.normals);
+    file.append ("reach", 0, own_, stars.reach);
   });
-  geometry.neighbors = std::move (planes.neighbors);
-  appendRows (far, geometry.neighbors);
-  return geometry;
-}
-
-std::vector<float>
-StoredStages::spacing ()
-{
-  std::vector<float> spacing;
-  spacing.reserve (ranges_.points ());
-  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    file.append ("spacing", 0, own_, spacing);
-  });
-  return spacing;
-}
-
-std::unique_ptr<PartWork>
-StoredStages::parts (const PartsSettings& settings)
-{
-  return std::make_unique<StoredParts> (context_, folder_, settings, help_);
-}
-
-ProposedTriangles
-StoredStages::triangles ()
-{
-  ProposedTriangles proposed;
-  CandidateLists& candidates = proposed.candidates;
-  candidates.sure_ranks = context_.limits.surface.consensus.candidates.sure_ranks;
-  std::size_t sure = 0, doubtful = 0;
-  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t /*block*/) {
-    sure += file.count<Triangle> ("sure.corners");
-    doubtful += file.count<Triangle> ("doubtful.corners");
-  });
-  candidates.sure.reserve (sure);
-  candidates.doubtful.reserve (doubtful);
-  proposed.smoothed_normals.reserve (ranges_.points ());
-  forEachBlock ("triangles", [&] (ArrayFile& file, std::size_t block) {
-    file.append ("smoothed_normals", 0, own_, proposed.smoothed_normals);
-    appendCandidates (file, 0, NONE, ranges_.points (), candidates);
-    if (freed_ != nullptr)
-      freed_->remove (blockFile ("triangles", block));
-  });
-  return proposed;
+  remove ("stars");
+  return stars;
 }
 
 } // namespace pcl::floater

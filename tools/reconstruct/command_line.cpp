@@ -92,9 +92,6 @@ setLimit (const std::string& setting, CommandLine& line)
     else
       problem = "'" + word + "' is no value of " + name;
   };
-  offer ("parts.points", line.limits.parts.points, std::size_t{1000});
-  offer ("parts.rim", line.limits.parts.rim, std::size_t{1});
-  offer ("parts.rings", line.limits.parts.rings, std::size_t{1});
   offer ("page.triangles", line.shown_triangles, std::size_t{100});
   return problem;
 }

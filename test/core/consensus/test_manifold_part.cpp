@@ -35,9 +35,9 @@ partOf (const std::vector<std::vector<Triangle>>& bodies, const std::vector<std:
       consensus.triangles.push_back (triangle);
       consensus.votes.push_back (votes[i]);
     }
-  return manifoldPart (
-             std::move (consensus), points, [] (Index) { return Row (); }, 1, {}, 1)
-      .value ();
+  CsrLists no_neighbors;
+  no_neighbors.offsets.assign (points + 1, 0);
+  return manifoldPart (std::move (consensus), no_neighbors, 1, 1);
 }
 
 TEST (ManifoldPart, KeepsWholeBodies)
@@ -68,16 +68,6 @@ TEST (ManifoldPart, DropsTheTriangleOfFewerVotesAtADoubleEdge)
 {
   const TriangleMesh mesh = partOf ({{{0, 1, 2}}, {{0, 1, 3}}}, {1, 2}, 4);
   EXPECT_EQ (mesh.triangles, (std::vector<Triangle>{{0, 1, 3}}));
-}
-
-TEST (ManifoldPart, LeavesTheDecisionAtAPartialPointOpen)
-{
-  Consensus consensus;
-  consensus.triangles = {{0, 1, 2}, {0, 3, 4}};
-  consensus.votes = {3, 2};
-  const auto none = [] (Index) { return Row (); };
-  EXPECT_FALSE (manifoldPart (consensus, 5, none, 1, {0, 0, 0, 1, 0}, 1));
-  EXPECT_EQ (manifoldPart (consensus, 5, none, 1, {}, 1)->triangles.size (), 1);
 }
 
 // The places of a crumb of the lattice of 3 x 3 x 3 points, as bits.
