@@ -174,11 +174,10 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return problem;
   run.beginStage (Stage::STARS);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes =
-      known != nullptr
-          ? known->planes ()
-          : fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars, run,
-                            limits.planes);
+  LocalPlanes planes = known != nullptr
+                           ? known->planes ()
+                           : fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars,
+                                             run, limits.planes);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
   const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {

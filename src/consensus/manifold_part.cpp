@@ -17,8 +17,8 @@ class FanPruner
 {
 public:
   FanPruner (Consensus& consensus, std::size_t points)
-      : triangles_ (consensus.triangles), votes_ (consensus.votes),
-        kept_ (triangles_.size (), 1), is_extended_ (consensus.added_at.has_value ())
+      : triangles_ (consensus.triangles), votes_ (consensus.votes), kept_ (triangles_.size (), 1),
+        is_extended_ (consensus.added_at.has_value ())
   {
     std::vector<std::uint8_t> is_listed (points, is_extended_ ? 0 : 1);
     if (is_extended_)

@@ -46,9 +46,9 @@ public:
   FacingJudge (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const MeshComponents& found, const FacingObjects& objects, const FacingHints& hints,
                const FacingLimits& limits, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints), limits_ (limits), run_ (run),
-        judged_ (objects.sums.size ()), is_turned_ (objects.sums.size (), 0),
-        is_body_ (objects.sums.size (), 0)
+      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
+        limits_ (limits), run_ (run), judged_ (objects.sums.size ()),
+        is_turned_ (objects.sums.size (), 0), is_body_ (objects.sums.size (), 0)
   {
   }
 

@@ -263,7 +263,8 @@ class PairFinder
 public:
   PairFinder (const std::vector<Triangle>& triangles, const Positions& positions,
               const RunContext& run)
-      : triangles_ (triangles), positions_ (positions), run_ (run), is_plain_ (positions.size ())
+      : triangles_ (triangles), order_ (orderByPoints (triangles, positions.size ())),
+        positions_ (positions), run_ (run), is_plain_ (positions.size ())
   {
     const TriangleRanges ranges (triangles, positions.size (), run);
     parallelTasks (run, ranges.count (), [&] (std::size_t r) {
@@ -278,8 +279,8 @@ public:
   CrossingPairs find () const
   {
     const BoxTree tree (
-        triangles_.size (), [this] (std::size_t i) { return boxOf (triangles_[i], positions_); },
-        run_);
+        triangles_.size (),
+        [this] (std::size_t i) { return boxOf (triangles_[order_[i]], positions_); }, run_);
     const std::size_t leaves = (triangles_.size () + BoxTree::LEAF_SIZE - 1) / BoxTree::LEAF_SIZE;
     std::vector<CrossingPairs> found ((leaves + RANGE_LENGTH - 1) / RANGE_LENGTH);
     parallelRanges (run_, leaves, [&] (std::size_t first, std::size_t last) {
@@ -290,13 +291,14 @@ public:
         const std::size_t end = std::min (begin + LEAVES_AT_ONCE, last);
         if (work < most)
           tree.forOverlaps (begin, end, [&] (std::size_t i, std::size_t j) {
-            if (work++ < most && isCrossing (triangles_[i], triangles_[j], work))
-              pairs.push_back ({static_cast<Index> (i), static_cast<Index> (j)});
+            const auto [t, u] = std::minmax (order_[i], order_[j]);
+            if (work++ < most && isCrossing (triangles_[t], triangles_[u], work))
+              pairs.push_back ({t, u});
           });
         if (work >= most)
           for (std::size_t i = begin * BoxTree::LEAF_SIZE;
                i < std::min (triangles_.size (), end * BoxTree::LEAF_SIZE); ++i)
-            pairs.untested.push_back (static_cast<Index> (i));
+            pairs.untested.push_back (order_[i]);
       }
     });
     CrossingPairs all;
@@ -305,6 +307,7 @@ public:
       all.untested.insert (all.untested.end (), pairs.untested.begin (), pairs.untested.end ());
     }
     std::sort (all.begin (), all.end ());
+    std::sort (all.untested.begin (), all.untested.end ());
     return all;
   }
 
@@ -325,6 +328,7 @@ private:
 
   const PairSearchLimits limits_;
   const std::vector<Triangle>& triangles_;
+  const std::vector<Index> order_; // along the curve, for the tree
   const Positions& positions_;
   RunContext run_;
   std::vector<std::uint8_t> is_plain_; // per corner, see PlainFans
@@ -367,21 +371,7 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
 {
   if (triangles.empty ())
     return {};
-  const std::vector<Index> order = orderByPoints (triangles, positions.size ());
-  std::vector<Triangle> sorted;
-  sorted.reserve (order.size ());
-  for (const Index t : order)
-    sorted.push_back (triangles[t]);
-  CrossingPairs pairs = PairFinder (sorted, positions, run).find ();
-  for (CrossingPair& pair : pairs) {
-    const auto [t, u] = std::minmax (order[pair.first], order[pair.second]);
-    pair = {t, u};
-  }
-  std::sort (pairs.begin (), pairs.end ());
-  for (Index& t : pairs.untested)
-    t = order[t];
-  std::sort (pairs.untested.begin (), pairs.untested.end ());
-  return pairs;
+  return PairFinder (triangles, positions, run).find ();
 }
 
 } // namespace pcl::floater

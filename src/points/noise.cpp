@@ -23,7 +23,7 @@ constexpr std::size_t SPACING_OF = 6; // nearest points in the mean distance tha
                                       // spacing
 constexpr std::size_t CENTRES = 8;    // noise is measured at one in this many points
 constexpr std::size_t AROUND = 10;    // centres around a point
-constexpr std::size_t PROBES = 8; // one in this many centres is measured first
+constexpr std::size_t PROBES = 8;     // one in this many centres is measured first
 // Minimum share of noisy centres. Below, NoiseLimits::disturbed_share cannot be reached unless
 // noise triples where it is smoothed, and all neighbours there disagree.
 constexpr double FEW = 0.01;

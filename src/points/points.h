@@ -62,10 +62,7 @@ struct Points
   }
 
   /// A position in the frame of the cloud.
-  Eigen::Vector3d inCloud (Index point) const
-  {
-    return centre + scale * ownPositions ()[point];
-  }
+  Eigen::Vector3d inCloud (Index point) const { return centre + scale * ownPositions ()[point]; }
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points

@@ -17,8 +17,7 @@
 
 namespace pcl::floater {
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
-          const RunContext& run)
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count, const RunContext& run)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
   constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3

@@ -451,6 +451,12 @@ class Steps(Case):
         self.assertTrue(mesh.read_bytes() == expected)
         self.assertEqual(after, self.files())
 
+    def test_slurm_script(self):
+        cloud = self.generate("torus", "--points", 6000)
+        tasks = self.submit("--blocks", 3, cloud, self.path("mesh.ply"))
+        self.assertEqual(tasks, {"neighbors": 3, "outliers": 1, "planes": 3, "stars": 3, "join": 1, "write": 1})
+        self.assertTrue(self.path("mesh.ply").read_bytes() == self.reference(cloud))
+
     def test_report_and_memory_limit(self):
         cloud = self.generate("torus", "--points", 30000)
         outcome = self.ok(self.command("-q", "--max-memory", "150M", "--report", self.path("report.json"), cloud,
@@ -778,7 +784,7 @@ class Errors(Case):
         self.expect_failure(self.again("--max-memory", "52M"), USAGE, "too small", "400000 points")
         self.expect_failure(self.again("--max-memory", "58M", "--step", "plan"), USAGE, "too small", "59M")
         self.ok(self.command("--blocks", 3, "--max-memory", "60M", "--step", "plan", self.cloud, self.path("mesh.ply")))
-        self.expect_failure(self.step("join", "--max-memory", "58M"), USAGE, "too small", "59M")
+        self.expect_failure(self.step("join", "--max-memory", "60M"), USAGE, "too small", "75M")
         self.expect_no_mesh()
 
 

@@ -102,7 +102,6 @@ class Dealer
 public:
   Dealer (Processes& processes, FolderStore& folder) : processes_ (processes), folder_ (folder) {}
 
-
   /// Deals out the blocks of a step, and works on some.
   /// \throws RemoteFailure, and whatever a block of its own throws
   void run (const StepContext& context, const std::string& step, std::deque<std::size_t> blocks);
