@@ -88,23 +88,6 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
   }
 }
 
-TEST (BoundaryFolds, NothingIsTakenWhereAPartOfAMeshEnds)
-{
-  // The mesh goes on beyond the ends of the strip, but for the first column in the second case:
-  // that is too far from the fold to end it.
-  const Mesh mesh = foldedStrip ();
-  for (const Index first : {0U, 1U}) {
-    TriangleMesh part = connected (mesh);
-    part.is_partial.assign (mesh.positions.size (), 0);
-    for (const std::vector<Index>& loop : boundaryLoops (part, 1))
-      for (const Index p : loop)
-        part.is_partial[p] = p % 7 >= first ? 1 : 0;
-    ASSERT_GT (foldsOf (part, mesh), 0U);
-    EXPECT_EQ (openBoundaryFolds (part, mesh.positions, 1), 0U);
-    EXPECT_EQ (part.triangles, mesh.triangles);
-  }
-}
-
 TEST (BoundaryFolds, EveryPointKeepsATriangle)
 {
   // A fold whose triangles are all that their points have.

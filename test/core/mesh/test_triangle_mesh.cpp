@@ -49,15 +49,6 @@ TEST (TriangleMesh, FansGoRoundTheirPointAndHaveItsEdges)
   }
 }
 
-TEST (TriangleMesh, FlipExchangesTheDiagonals)
-{
-  TriangleMesh mesh = connected ({{0, 1, 2}, {3, 2, 1}}, 4);
-  mesh.flip ({0, 0});
-  EXPECT_EQ (mesh.triangles[0], (Triangle{0, 1, 3})); // corner, from, opposite
-  EXPECT_EQ (mesh.triangles[1], (Triangle{3, 2, 0})); // opposite, to, corner
-  expectConsistent (mesh);
-}
-
 TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
 {
   RandomStream random (1);
@@ -145,34 +136,6 @@ TEST (TriangleMesh, ComponentsAreNumberedByTheirFirstTriangles)
     EXPECT_TRUE (components.of_triangle == expected);
   }
   EXPECT_EQ (findComponents ({}, 2).count, 0U);
-}
-
-TEST (TriangleMesh, UndoesFlipsAndSplits)
-{
-  TriangleMesh mesh = connected (gridTriangles (6), 37);
-  mesh.split (0, 36); // not recorded
-  EXPECT_EQ (mesh.mark (), 0U);
-  const TriangleMesh before = mesh;
-  mesh.recordChanges ();
-  mesh.flip ({20, 1});
-  const std::size_t mark = mesh.mark ();
-  const TriangleMesh between = mesh;
-  mesh.flip ({20, 1});
-  mesh.flip ({30, 1});
-  std::vector<Index> changed;
-  mesh.journal.appendTriangles (changed);
-  for (const Index t : {20, 30})
-    EXPECT_GT (std::count (changed.begin (), changed.end (), t), 0);
-  TriangleMesh copy = mesh; // with a journal of its own
-  mesh.undo (mark);
-  samples::expectSame (mesh, between);
-  mesh.undo (0);
-  samples::expectSame (mesh, before);
-  copy.undo (mark);
-  samples::expectSame (copy, between);
-  mesh.recordChanges (false);
-  mesh.flip ({20, 1});
-  EXPECT_EQ (mesh.mark (), 0U);
 }
 
 } // namespace

@@ -122,15 +122,6 @@ TEST (Stitching, DoesNotDependOnWhatIsSeen)
     }
 }
 
-// A boundary loop is judged by what lies four rings behind it.
-TEST (Stitching, TellsThatTooLittleIsSeen)
-{
-  Making making (surface (SurfaceKind::HEIGHT_FIELD, 3000), 700);
-  making.beginWork (1);
-  EXPECT_FALSE (making.stitchWith (2));
-  EXPECT_TRUE (making.stitchWith (8));
-}
-
 struct PartsCase
 {
   std::string name;

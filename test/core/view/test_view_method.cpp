@@ -310,7 +310,7 @@ TEST (GivenViewpoint, IsDoubtedIfItIsWrong)
 {
   int told = 0, given = 0;
   for (const Raster raster : {Raster::CAMERA, Raster::RINGS, Raster::SPHERE})
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       SCOPED_TRACE (seed);
       for (const double noise : {0.0, 0.005}) {
         const Scan noisy = samples::scanScene (raster, {noise, 0.0}, seed);
