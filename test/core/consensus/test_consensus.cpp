@@ -38,53 +38,6 @@ vote (Orientation& orientation, const std::vector<Candidate>& candidates)
   orientation.vote (pointers.data (), pointers.data () + pointers.size (), 1);
 }
 
-// Sides of points at random: 1 where the normal points down.
-std::vector<std::uint8_t>
-randomSides (Index points, std::uint64_t seed)
-{
-  RandomStream random (seed);
-  std::vector<std::uint8_t> down (points);
-  for (std::uint8_t& side : down)
-    side = static_cast<std::uint8_t> (random.below (2));
-  return down;
-}
-
-// Of the triangle of a point and the next two, as it is seen where the normals are.
-std::uint8_t
-sidesFrom (const std::vector<std::uint8_t>& down, Index p)
-{
-  return static_cast<std::uint8_t> (down[p] | (down[p + 1] << 1U) | (down[p + 2] << 2U));
-}
-
-void
-expectSides (Orientation& orientation, const std::vector<std::uint8_t>& down)
-{
-  const std::vector<std::uint8_t> sides = sidesOf (orientation, down.size ());
-  for (std::size_t p = 0; p < down.size (); ++p)
-    EXPECT_EQ (sides[p] ^ sides[0], down[p] ^ down[0]);
-}
-
-TEST (Orientation, TurnsNormalsToOneSide)
-{
-  // A strip of triangles over points with normals at random, each given as it is seen there.
-  constexpr Index POINTS = 100;
-  const std::vector<std::uint8_t> down = randomSides (POINTS, 1);
-  Orientation orientation (POINTS);
-  for (const Index p : samples::permutation (POINTS - 2, 2)) {
-    const std::uint8_t clockwise = sidesFrom (down, p);
-    EXPECT_TRUE (orientation.join ({p, p + 1, p + 2}, clockwise));
-    // The other way round it contradicts.
-    EXPECT_FALSE (orientation.join ({p, p + 1, p + 2}, static_cast<std::uint8_t> (clockwise ^ 1U)));
-  }
-  expectSides (orientation, down);
-  // All triangles face to one side then.
-  const Triangle first = orientation.turned ({0, 1, 2}, static_cast<std::uint8_t> (down[0]));
-  for (Index p = 0; p + 2 < POINTS; ++p) {
-    const Triangle turned = orientation.turned ({p, p + 1, p + 2}, down[p]);
-    EXPECT_EQ (turned == (Triangle{p, p + 1, p + 2}), first == (Triangle{0, 1, 2}));
-  }
-}
-
 TEST (Orientation, TheMajorityOfVotesDecides)
 {
   // Two sets of points, 0 to 2 and 3 to 5, and candidates between them.

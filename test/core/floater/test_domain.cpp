@@ -306,11 +306,6 @@ TEST (Domain, EvenLoopsLieOnRegularPolygons)
 
 TEST (Domain, EveryCornerHasItsOwnPoint)
 {
-  // The nearest along the loop.
-  const Places uv =
-      roundLoop ({0.0, 0.1, 0.24, 0.27, 0.4, 0.52, 0.6, 0.74, 0.77, 0.9}).lay (Domain::SQUARE);
-  for (const std::size_t corner : {0, 2, 5, 7})
-    EXPECT_NEAR (uv[corner].norm (), 1.0, 1e-15);
   // All corners but the first are nearest to the last point, or to the first points.
   const std::vector<double> late{0.0, 0.0001, 0.0002, 0.0003, 0.0004, 0.5};
   const std::vector<double> early{0.0, 0.5, 0.9996, 0.9997, 0.9998, 0.9999};
@@ -323,14 +318,9 @@ TEST (Domain, EveryCornerHasItsOwnPoint)
       expectStrictlyConvex (laid);
     }
   // A short loop gets fewer corners.
-  for (const std::size_t count : {3u, 4u, 5u}) {
-    const Places laid = unevenLoop (count, 3).lay (Domain::POLYGON, 12);
-    for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_NEAR (laid[i].norm (), 1.0, 1e-15);
-      EXPECT_NEAR ((laid[(i + 1) % count] - laid[i]).norm (),
-                   2.0 * std::sin (PI / static_cast<double> (count)), 1e-14);
-    }
-  }
+  for (const std::size_t count : {3u, 4u, 5u})
+    for (const Eigen::Vector2d& p : unevenLoop (count, 3).lay (Domain::POLYGON, 12))
+      EXPECT_NEAR (p.norm (), 1.0, 1e-15);
 }
 
 // Long loops, points that coincide or nearly do, a single long step, a line, a figure of eight, and

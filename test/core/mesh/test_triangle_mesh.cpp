@@ -22,33 +22,6 @@ gridTriangles (Index side)
   return samples::sheet (side - 1).triangles;
 }
 
-TEST (TriangleMesh, FansGoRoundTheirPointAndHaveItsEdges)
-{
-  const TriangleMesh mesh = connected (gridTriangles (6), 37); // point 36 is no vertex
-  const auto trianglesWith = [&mesh] (Index p, Index q) {
-    return std::count_if (mesh.triangles.begin (), mesh.triangles.end (), [=] (const Triangle& t) {
-      return std::count (t.begin (), t.end (), p) > 0 && std::count (t.begin (), t.end (), q) > 0;
-    });
-  };
-  std::vector<Index> fan{5, 5};
-  mesh.fan (36, fan);
-  EXPECT_TRUE (fan.empty ());
-  for (Index p = 0; p < 36; ++p) {
-    mesh.fan (p, fan);
-    ASSERT_EQ (fan.size (), static_cast<std::size_t> (trianglesWith (p, p)));
-    const bool border = p % 6 == 0 || p % 6 == 5 || p / 6 == 0 || p / 6 == 5;
-    for (std::size_t i = 0; i < fan.size (); ++i) {
-      // Anti-clockwise: the edge that leaves one triangle enters the next.
-      const Index now = fan[i], then = fan[(i + 1) % fan.size ()];
-      const bool joined =
-          mesh.to ({now, mesh.sideOf (now, p)}) == mesh.from ({then, mesh.sideOf (then, p)});
-      EXPECT_EQ (joined, !(border && i + 1 == fan.size ()));
-    }
-    for (Index q = 0; q < 37; ++q)
-      EXPECT_EQ (p != q && mesh.hasEdge (p, q), p != q && trianglesWith (p, q) > 0);
-  }
-}
-
 TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
 {
   RandomStream random (1);
