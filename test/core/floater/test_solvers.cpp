@@ -105,22 +105,6 @@ shuffle (const LinearSystem& system, std::uint64_t seed)
   return permuteSystem (system, {order.begin (), order.end ()});
 }
 
-// Adds a ring of unknowns that depend on each other only.
-void
-addFloating (int count, RandomStream& random, LinearSystem& system)
-{
-  const auto first = static_cast<int> (system.unknowns ());
-  for (int i = 0; i < count; ++i) {
-    Row row{{first + i, 0.0}};
-    for (const int step : {1, 2, count - 1}) {
-      row.emplace_back (first + (i + step) % count, -0.1 - random.uniform ());
-      row.front ().second -= row.back ().second;
-    }
-    system.addRow (row);
-  }
-  system.rhs.conservativeResizeLike (Eigen::MatrixX2d::Zero (first + count, 2));
-}
-
 // Random entries and a dominant diagonal. The pattern is not symmetric.
 LinearSystem
 randomSystem (int n, RandomStream& random)
@@ -283,21 +267,6 @@ TEST (Solvers, TellIfTheyAreNotThere)
     EXPECT_EQ (solve (empty, choice (solver), 1).outcome, Outcome::OK);
     EXPECT_EQ (checkSolver (solver, Ordering::COLAMD).status, RunStatus::INVALID_OPTION);
     expectFailure (solve (empty, choice (solver, Ordering::COLAMD), 1), Outcome::FAILED);
-  }
-}
-
-TEST (Solvers, RefuseFloatingUnknowns)
-{
-  RandomStream random (8);
-  for (const int floating : {4, 50, 5000}) {
-    LinearSystem system = squareSystem (16, 3);
-    addFloating (floating, random, system);
-    EXPECT_EQ (countFloatingUnknowns (system), static_cast<std::size_t> (floating));
-    for (const Solver solver : allSolvers ())
-      for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::REVERSE_CUTHILL_MCKEE}) {
-        SCOPED_TRACE (nameOf (solver, ordering));
-        expectFailure (solve (system, choice (solver, ordering), 1), Outcome::SINGULAR);
-      }
   }
 }
 

@@ -114,32 +114,6 @@ TEST (Insertion, PutsEveryPointIn)
   EXPECT_EQ (insertMissingPoints (mesh, neighbors, cost, false, 1), 0U);
 }
 
-// Inserts points after the first three into the triangle of these; point i has the i-th neighbour
-// only. Returns how many are in.
-std::size_t
-inserted (const Positions& positions, const std::vector<Index>& neighbor_of)
-{
-  const std::vector<Eigen::Vector3f> normals = upward (positions.size ());
-  const CsrLists neighbors = makeCsrLists (positions.size (), [&] (const auto& emit) {
-    for (std::size_t i = 0; i < neighbor_of.size (); ++i)
-      emit (3 + i, neighbor_of[i]);
-  });
-  TriangleMesh mesh = connected ({{0, 1, 2}}, positions.size ());
-  const std::size_t count =
-      insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals), false, 1);
-  EXPECT_EQ (mesh.triangles.size (), 1 + 2 * count);
-  samples::expectConsistent (mesh);
-  return count;
-}
-
-TEST (Insertion, ARowOfPointsFindsItsWayInAndPointsWithoutVerticesNearbyStayOut)
-{
-  const Positions positions = {{0, 0, 0},   {10, 0, 0},  {0, 10, 0},
-                               {3, 3.1, 0}, {2, 2.3, 0}, {2.5, 1.5, 0}};
-  EXPECT_EQ (inserted (positions, {4, 5, 0}), 3U);
-  EXPECT_EQ (inserted (positions, {4, 3, 4}), 0U);
-}
-
 // A flat sheet whose triangulation has some points in the wrong places.
 struct MixedUpSheet : SortedDisc
 {

@@ -43,26 +43,6 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
   }
 }
 
-TEST (BoundaryLoops, AreFoundInOrderWithTheirComponentsAndSizes)
-{
-  // Two triangles apart from each other; point 3 is no vertex.
-  const Positions positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {9, 9, 9},
-                               {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
-  const TriangleMesh mesh = samples::connected ({{5, 6, 4}, {0, 1, 2}}, positions.size ());
-  const MeshComponents components = findComponents (mesh, 1);
-  EXPECT_EQ (countPoints (mesh, components), (std::vector<std::size_t>{3, 3}));
-  const std::vector<BoundaryLoop> loops = findBoundaryLoops (
-      mesh, components, positions, {1.0F, 2.0F, 6.0F, 9.0F, 2.0F, 2.0F, 2.0F}, 1);
-  ASSERT_EQ (loops.size (), 2U);
-  EXPECT_EQ (loops[0].points, (std::vector<Index>{0, 1, 2}));
-  EXPECT_EQ (loops[0].component, 1U);
-  EXPECT_DOUBLE_EQ (loops[0].length, 12.0);
-  EXPECT_DOUBLE_EQ (loops[0].width, 5.0);
-  EXPECT_DOUBLE_EQ (loops[0].spacing, 3.0);
-  EXPECT_EQ (loops[1].points, (std::vector<Index>{4, 5, 6}));
-  EXPECT_EQ (loops[1].component, 0U);
-}
-
 HoleOptions
 policy (HolePolicy kind)
 {

@@ -187,7 +187,7 @@ TEST (ViewpointFit, AllRastersAreFittedToTheirPlace)
 {
   for (const Raster raster :
        {Raster::CAMERA, Raster::RINGS, Raster::SPHERE, Raster::PARALLEL, Raster::LINES})
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const Scan scan = samples::scanScene (raster, {0.002, 0.0}, seed);
       RandomStream random (seed);
       Viewpoint viewpoint{scan.viewpoint, scan.is_far};
