@@ -129,6 +129,18 @@ TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
   EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)), Indices{});
 }
 
+TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)
+{
+  const OpenLoopLimits limits; // nine in ten
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_TRUE (isDoubtful ({sign * 2.19, 0.0, false}, limits)); // log (9) is 2.197
+    EXPECT_FALSE (isDoubtful ({sign * 2.20, 0.0, false}, limits));
+  }
+  EXPECT_TRUE (isDoubtful ({-9.0, 0.0, true}, limits));
+  EXPECT_FALSE (isDoubtful ({9.0, 0.0, true}, limits));
+  EXPECT_NEAR ((LoopJudgement{std::log (9.0), 0.0, false}.probability ()), 0.9, 1e-12);
+}
+
 // A sheet of equilateral triangles of side 1 without those that have a corner nearer to the middle
 // than `inside`.
 struct TriangularSheet
