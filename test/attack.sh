@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The long versions of the attacks: hard and random clouds, memory that runs out, runs that are killed
-# or whose input shrinks, cancellation, and all fuzz targets.
+# or whose input shrinks, and all fuzz targets.
 set -euo pipefail
 
 usage () {
@@ -11,8 +11,8 @@ Usage: attack.sh [MINUTES [SEED]]
 Attacks the library and the tool for about so many minutes (default: 60) after the builds:
 a third of the time random clouds from SEED on (default: the date), up to a sixth memory that runs
 out on clouds of 5000 points, then runs of the tool that are killed, and others whose input shrinks,
-at 200 moments each, a cancellation at 200 moments, and for the rest fuzz targets, each from its
-corpus and what earlier runs have found. From 60 minutes on, 30 million points with a limit on the
+at 200 moments each, and for the rest fuzz targets, each from its corpus and what earlier runs have
+found. From 60 minutes on, 30 million points with a limit on the
 memory come first, which take about 10 GB on the disk, and 54 kinds of hard clouds of 2, 8 and 20
 thousand points; of the latter none may take more than 300 microseconds a point or 200 MB. One process
 at a time, at the lowest priority.
@@ -36,7 +36,7 @@ cd "$root"
 work=$root/build/attack
 mkdir -p "$work"
 cmake --preset dev >"$work/configure.log"
-cmake --build --preset dev --target sweep_clouds test_memory_faults test_concurrency \
+cmake --build --preset dev --target test_random_clouds test_memory_faults \
   pcl_floater_generate pcl_floater_reconstruct
 cmake --preset fuzz >>"$work/configure.log"
 cmake --build --preset fuzz
@@ -103,9 +103,16 @@ fi
 if ((minutes >= 60)); then
   nice -n 19 /usr/bin/python3 test/benchmark/worst_cases.py --build build/dev --strict | tee "$work/worst.txt" || result=1
 fi
-clouds=$((seconds / 9))
-for points in 30 400 3000; do
-  nice -n 19 "$tests/sweep_clouds" "${seed}000" "$clouds" "$points" | tee "$work/clouds_$points.txt" || result=1
+clouds=$((seconds / 12))
+for points in 12 60 300 3000; do
+  code=0
+  PCL_FLOATER_FIRST_SEED=${seed}000 PCL_FLOATER_RANDOM_CLOUDS=1000000000 PCL_FLOATER_LONGEST=2 \
+    timeout "$clouds" nice -n 19 "$tests/test_random_clouds" --gtest_also_run_disabled_tests --gtest_brief=1 \
+    --gtest_filter="*/$points" >"$work/clouds_$points.txt" 2>&1 || code=$?
+  if ((code != 124)) || grep -q Failure "$work/clouds_$points.txt"; then # 124: the time is over
+    cat "$work/clouds_$points.txt"
+    result=1
+  fi
 done
 
 memory=0
@@ -121,8 +128,6 @@ fi
 
 at_200_moments kill_it "0 137" || result=1
 at_200_moments shrink_it "0 2 3" || result=1
-PCL_FLOATER_MOMENTS=200 nice -n 19 "$tests/test_concurrency" --gtest_brief=1 \
-  --gtest_filter='*CancelledFromAnotherThread' || result=1
 
 declare -A share=([pcd]=1 [ply]=1 [vtk]=1 [obj]=1 [stl]=1 [las]=1 [table]=1 [command_line]=1 [reconstruct]=5)
 for target in pcd ply vtk obj stl las table command_line reconstruct; do

@@ -3,6 +3,7 @@
 // Clouds on known surfaces and checks of the meshes made from them, for the tests of the PCL class.
 #pragma once
 
+#include "mesh_oracle.h"
 #include "random_stream.h"
 #include "surfaces.h"
 
@@ -85,18 +86,16 @@ trianglesOf (const Polygons& polygons)
 inline void
 expectDisc (const Triangles& triangles, std::size_t points, std::size_t border)
 {
-  std::set<std::pair<pcl::index_t, pcl::index_t>> edges;
-  std::set<pcl::index_t> vertices;
-  for (const auto& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      vertices.insert (t[i]);
-      EXPECT_TRUE (edges.emplace (t[i], t[(i + 1) % 3]).second)
-          << "two triangles run along the edge " << t[i] << ", " << t[(i + 1) % 3];
-    }
-  ASSERT_EQ (vertices.size (), points);
-  EXPECT_EQ (*vertices.rbegin (), static_cast<pcl::index_t> (points) - 1);
-  // One border and Euler characteristic 1: V - E + F with 2E = 3F + border.
-  EXPECT_EQ (triangles.size (), 2 * points - 2 - border);
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (const auto& [a, b, c] : triangles)
+    corners.push_back ({static_cast<std::uint32_t> (a), static_cast<std::uint32_t> (b),
+                        static_cast<std::uint32_t> (c)});
+  const samples::Topology topology = samples::topologyOf (corners);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.vertices, points);
+  EXPECT_EQ (topology.euler, 1);
+  ASSERT_EQ (topology.loops.size (), 1U);
+  EXPECT_EQ (topology.loops.front ().size (), border);
 }
 
 /// Runs and returns the triangles; expects success, and nothing but the warnings on the console.
@@ -120,16 +119,6 @@ runWell (pcl::FloaterReconstruction<PointT>& floater)
   EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
   EXPECT_EQ (floater.getMessage (), "");
   return trianglesOf (polygons);
-}
-
-/// The same for a surface that is a disc over so many points.
-template <typename PointT>
-Triangles
-runDisc (pcl::FloaterReconstruction<PointT>& floater, std::size_t points)
-{
-  Triangles triangles = runWell (floater);
-  expectDisc (triangles, points, floater.getBoundaryLoop ().size ());
-  return triangles;
 }
 
 /// Runs both forms of reconstruct (), with an old mesh in the output. Expects the status, an empty

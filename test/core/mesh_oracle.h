@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iomanip>
 #include <map>
 #include <set>
 #include <string>
@@ -173,21 +171,6 @@ geometryOf (const std::vector<Triangle>& triangles, const Positions& points)
     }
   }
   return geometry;
-}
-
-/// Saves a mesh that a test made as a PLY file in text, to be viewed.
-inline void
-savePly (const std::string& path, const Positions& points, const std::vector<Triangle>& triangles)
-{
-  std::ofstream file (path);
-  file << "ply\nformat ascii 1.0\nelement vertex " << points.size ()
-       << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-       << triangles.size () << "\nproperty list uchar int vertex_indices\nend_header\n"
-       << std::setprecision (9);
-  for (const Eigen::Vector3d& p : points)
-    file << p.x () << ' ' << p.y () << ' ' << p.z () << '\n';
-  for (const Triangle& t : triangles)
-    file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
 }
 
 } // namespace pcl::floater::samples

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole method on samples of surfaces of known topology: the mesh is that surface.
 //
-// Environment variables: PCL_FLOATER_SAVE is a folder into which the meshes are saved as PLY files.
-// If PCL_FLOATER_SHOW_WRONG is set, cases that are known not to work yet fail instead of being
-// skipped.
+// If PCL_FLOATER_SHOW_WRONG is set in the environment, cases that are known not to work yet fail instead of
+// being skipped.
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "mesh_oracle.h"
-#include "still_wrong.h"
 #include "surface_samples.h"
 
 #include <gtest/gtest.h>
@@ -127,9 +125,6 @@ expectSurface (const Case& one)
   Options options;
   options.holes = one.holes;
   const Result result = reconstruct (samples::asInput (surface.points), options);
-  if (const char* folder = std::getenv ("PCL_FLOATER_SAVE"))
-    samples::savePly (std::string (folder) + "/" + one.name + ".ply", surface.points,
-                      result.triangles);
   SCOPED_TRACE (std::to_string (surface.points.size ()) + " points, by " +
                 (result.report.topology == Topology::DISC ? "DISC: " : "SURFACE: ") +
                 result.report.topology_reason + warningsOf (result.report));
@@ -143,8 +138,13 @@ expectSurface (const Case& one)
 
 TEST_P (AnyTopology, IsTheSurface)
 {
-  const Case& one = GetParam ();
-  expectUnlessStillWrong (one.name, [&one] { expectSurface (one); });
+  // Outliers less than 10 spacings away in the plane of a sheet are taken for a part of it, and a thin body
+  // without points at its sides has the same points as two close sheets.
+  const std::set<std::string> still_wrong{"sphere_outliers_near", "parallel_2"};
+  if (still_wrong.count (GetParam ().name) != 0 &&
+      std::getenv ("PCL_FLOATER_SHOW_WRONG") == nullptr)
+    GTEST_SKIP () << "this surface does not come out right yet";
+  expectSurface (GetParam ());
 }
 
 // A surface without an orientation has no right mesh: it is refused, or cut with a warning.

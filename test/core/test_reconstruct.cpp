@@ -65,6 +65,28 @@ TEST (Reconstruct, KnownDiscs)
   }
 }
 
+// Open tubes with round tips, whose regions collapse in the plane and are laid out again. Each level shrinks by a
+// million.
+TEST (Reconstruct, DeepFingersAreDiscsWithShortEdges)
+{
+  constexpr double TUBE_RADIUS = 3.6;              // in spacings; 23 points around
+  for (const double length : {1.0, 30.0, 100.0}) { // over the radius
+    SCOPED_TRACE (length);
+    SurfaceSpec spec;
+    spec.kind = SurfaceKind::FINGER;
+    spec.length = length;
+    spec.points =
+        static_cast<std::size_t> (2.0 * samples::PI * (1.0 + length) * TUBE_RADIUS * TUBE_RADIUS);
+    const Positions cloud = generateSurface (spec);
+    const Result result = reconstruct (asInput (cloud), discOptions ());
+    expectDisc (result, cloud.size ());
+    EXPECT_EQ (result.report.statistics.folds, 0U);
+    EXPECT_LT (samples::geometryOf (result.triangles, cloud).longest_edge, 2.6);
+    EXPECT_NEAR (static_cast<double> (result.report.statistics.levels), length / 14.0,
+                 length < 12.0 ? 0.9 : 1.5);
+  }
+}
+
 TEST (Reconstruct, PointsInDoublePrecision)
 {
   // Centimetres apart on a map, where floats are half a metre apart.

@@ -156,6 +156,7 @@ TEST (RunStatus, InvalidInput)
 TEST (Stages, ComeInOrderAndEndWithTheOneThatFails)
 {
   Options options = discOptions ();
+  options.disc.boundary.method = BoundaryMethod::CONSENSUS; // whose own stages are none of the run
   std::vector<Stage> stages;
   options.stage_callback = [&stages] (Stage stage) { stages.push_back (stage); };
   const Report report = reconstruct (asInput (samples::disc (0.1, 6).positions), options).report;
@@ -274,7 +275,7 @@ TEST (Cancellation, IsSeenWithinStages)
   // All but DELAUNAY, which is a single call of CGAL.
   for (const Stage stage : {Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE})
     for (const BoundaryMethod method :
-         {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
+         {BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
       disc.disc.boundary.method = method;
       EXPECT_TRUE (isCancelledWithin (stage, surface (SurfaceKind::HEIGHT_FIELD, 5000), disc))
           << stageName (stage) << ", method " << static_cast<int> (method);
@@ -297,43 +298,6 @@ TEST (Callbacks, WhateverTheyThrowStaysInside)
     expectFailure (result, RunStatus::INTERNAL_ERROR, "");
     EXPECT_NE (result.report.message, "");
   }
-}
-
-// A callback may run another reconstruction with callbacks of its own. The runs do not disturb each
-// other.
-TEST (Callbacks, MayRunAnotherReconstruction)
-{
-  using Callback = std::function<void ()>;
-  const auto expectAsAlone = [] (const Positions& points, Options options, const Callback& in_stage,
-                                 const Callback& in_progress, std::size_t least = 7) {
-    const Result alone = reconstruct (asInput (points), options);
-    std::vector<double> fractions;
-    std::vector<Stage> stages;
-    options.stage_callback = [&] (Stage stage) {
-      stages.push_back (stage);
-      in_stage ();
-    };
-    options.progress_callback = [&] (double fraction) {
-      fractions.push_back (fraction);
-      in_progress ();
-    };
-    const Result result = reconstruct (asInput (points), options);
-    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-    EXPECT_EQ (result.triangles, alone.triangles);
-    EXPECT_TRUE (std::is_sorted (stages.begin (), stages.end ()));
-    expectProgress (fractions, least);
-  };
-  const Callback nothing = [] {};
-  int inner_runs = 0;
-  const Callback run_another = [&] {
-    expectAsAlone (surface (SurfaceKind::HEIGHT_FIELD, 400), discOptions (), nothing, nothing);
-    ++inner_runs;
-  };
-  expectAsAlone (surface (SurfaceKind::TORUS, 3000), {}, run_another, nothing);
-  EXPECT_GE (inner_runs, 3);
-  inner_runs = 0; // called seldom, as it takes long
-  expectAsAlone (surface (SurfaceKind::TORUS, 3000), {}, nothing, run_another, 2);
-  EXPECT_GE (inner_runs, 2);
 }
 
 } // namespace

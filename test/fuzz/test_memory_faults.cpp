@@ -5,8 +5,7 @@
 //
 // Malloc and its kin are replaced, and with them operator new and what C libraries allocate. For
 // glibc, and not together with a sanitizer, which replaces them itself.
-#include "samples.h"
-#include "surfaces.h"
+#include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -153,15 +152,6 @@ struct Way
   Options options;
 };
 
-Positions
-makeSurface (SurfaceKind kind, std::size_t points)
-{
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  return generateSurface (spec);
-}
-
 // A bent wall with a step in it, as a camera at the origin sees it.
 Positions
 makeScan (int width)
@@ -192,7 +182,7 @@ allWays (std::size_t points)
   view.view.use = ViewUse::GIVEN;
   const auto make = [points] (const char* name, SurfaceKind kind, Options options) {
     options.threads = 1;
-    return Way{name, samples::asInput (makeSurface (kind, points)), options};
+    return Way{name, samples::asInput (samples::surface (kind, points)), options};
   };
   std::vector<Way> ways{make ("disc", SurfaceKind::HEIGHT_FIELD, disc),
                         make ("hemisphere", SurfaceKind::HEMISPHERE, disc),

@@ -128,28 +128,6 @@ def test_no_memory_for_the_points():
     assert (done.returncode, done.stdout) == (0, "no memory\n128\n")
 
 
-def test_compiled_part_checks_what_it_gets():
-    """Nothing that Python can pass reaches memory that is not there."""
-    run = pcl_floater._core.run
-    with pytest.raises(TypeError, match="has no argument 'colour'"):
-        run(SQUARE, 0, None, None, {"colour": 1}, None)
-    for array in (np.zeros((5, 2)), np.zeros(5), np.zeros((5, 3), np.int32), np.zeros((5, 3), np.int64),
-                  np.zeros((5, 3), np.complex64)):
-        with pytest.raises(ValueError, match=r"shape \(n, 3\)"):
-            run(array, 0, None, None, {}, None)
-    with pytest.raises(TypeError):
-        run(7, 0, None, None, {}, None)
-    assert run(SQUARE, 2, None, None, {}, None)[0] == "INVALID_INDICES"  # 9 points in rows of 2
-    for function in (pcl_floater._core.vertex_normals,
-                     lambda *mesh: pcl_floater._core.texture_coordinates(*mesh[:2], 1.06, False, 1, None)):
-        for triangles in (np.zeros((2, 2), np.uint32), np.zeros(3, np.uint32), np.zeros((2, 3), np.int64),
-                          np.zeros((2, 3), np.float32), np.zeros((4, 6), np.uint32)[:, ::2]):
-            with pytest.raises(ValueError, match=r"shape \(m, 3\)"):
-                function(SQUARE, triangles, 1)
-    with pytest.raises(IndexError):
-        pcl_floater._core.vertex_normals(SQUARE, np.full((1, 3), 9, np.uint32), 1)
-
-
 @pytest.mark.parametrize("points, arguments, status, text", [
     (np.zeros((0, 3)), {}, "NO_INPUT", "the input cloud is empty"),
     (np.full((9, 3), np.nan), {}, "TOO_FEW_POINTS", ""),
@@ -179,13 +157,3 @@ def test_strict_refuses_lost_points_and_poor_meshes(terrain_points):
         pcl_floater.reconstruct(np.vstack([terrain_points, island]), topology="disc", strict=np.bool_(True))
     assert raised.value.status == raised.value.report["status"] == "REFUSED"
     assert str(raised.value) == "36 points are in no triangle, which strict does not allow"
-
-
-def test_numbers_of_numpy_are_numbers(terrain_points):
-    mesh = pcl_floater.reconstruct(
-        terrain_points, neighbors=np.int64(15), max_edge=np.float32(4), denoise=np.bool_(False),
-        viewpoint=np.array([10, 10, 100.0]))
-    options = mesh.report["options"]
-    assert (options["neighbors"], options["max_edge"], options["denoise"]) == (15, 4.0, False)
-    assert options["viewpoint"] == [10, 10, 100]
-    assert pcl_floater.reconstruct(terrain_points, max_edge=4).report["options"]["max_edge"] == 4.0

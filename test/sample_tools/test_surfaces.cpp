@@ -43,66 +43,32 @@ nearestDistances (const Points& points)
   return nearest;
 }
 
-class EverySurface : public testing::TestWithParam<SurfaceKind>
+TEST (Surfaces, AreSampledAsAskedForAndTheSameForTheSameSeedOnly)
 {
-};
+  for (const SurfaceKind kind : surfaceKinds ()) {
+    SCOPED_TRACE (surfaceName (kind));
+    for (const std::size_t points : {1000U, 1001U, 1499U})
+      EXPECT_EQ (generateSurface (specOf (kind, points)).size (), points);
+    SurfaceSpec spec = specOf (kind);
+    std::vector<double> nearest = nearestDistances (generateSurface (spec));
+    EXPECT_GT (*std::min_element (nearest.begin (), nearest.end ()), 0.25);
+    EXPECT_LT (*std::max_element (nearest.begin (), nearest.end ()), 1.6);
 
-TEST_P (EverySurface, HasAsManyPointsAsAskedForAndTheSameForTheSameSeedOnly)
-{
-  for (const std::size_t points : {1000U, 1001U, 1499U})
-    EXPECT_EQ (generateSurface (specOf (GetParam (), points)).size (), points);
-  SurfaceSpec spec = specOf (GetParam ());
-  spec.noise = 0.1;
-  const Points first = generateSurface (spec);
-  EXPECT_EQ (generateSurface (spec), first);
-  spec.seed = 2;
-  EXPECT_NE (generateSurface (spec), first);
-}
+    spec.density_ratio = 25.0;
+    nearest = nearestDistances (generateSurface (spec));
+    std::sort (nearest.begin (), nearest.end ());
+    const double dense = nearest[nearest.size () / 20];
+    const double sparse = nearest[nearest.size () - 1 - nearest.size () / 200];
+    EXPECT_GT (dense, 0.2);
+    EXPECT_GT (sparse / dense, 3.0); // the spacings' ratio is 5 from end to end
 
-TEST_P (EverySurface, IsEvenlySampledWithUnitSpacing)
-{
-  const std::vector<double> nearest = nearestDistances (generateSurface (specOf (GetParam ())));
-  EXPECT_GT (*std::min_element (nearest.begin (), nearest.end ()), 0.25);
-  EXPECT_LT (*std::max_element (nearest.begin (), nearest.end ()), 1.6);
-}
-
-TEST_P (EverySurface, IsAsUnevenAsAskedFor)
-{
-  SurfaceSpec spec = specOf (GetParam ());
-  spec.density_ratio = 25.0;
-  std::vector<double> nearest = nearestDistances (generateSurface (spec));
-  std::sort (nearest.begin (), nearest.end ());
-  const double dense = nearest[nearest.size () / 20];
-  const double sparse = nearest[nearest.size () - 1 - nearest.size () / 200];
-  EXPECT_GT (dense, 0.2);
-  EXPECT_GT (sparse / dense, 3.0); // the spacings' ratio is 5 from end to end
-}
-
-TEST_P (EverySurface, MovesEachPointByTheNoise)
-{
-  SurfaceSpec spec = specOf (GetParam ());
-  const Points exact = generateSurface (spec);
-  spec.noise = 0.3;
-  const Points noisy = generateSurface (spec);
-  // The order differs, because the noise uses random numbers first; so moments are compared.
-  double sum_exact = 0.0, sum_noisy = 0.0;
-  for (std::size_t i = 0; i < exact.size (); ++i) {
-    sum_exact += exact[i].squaredNorm ();
-    sum_noisy += noisy[i].squaredNorm ();
+    spec.noise = 0.1;
+    const Points first = generateSurface (spec);
+    EXPECT_EQ (generateSurface (spec), first);
+    spec.seed = 2;
+    EXPECT_NE (generateSurface (spec), first);
   }
-  const double count = static_cast<double> (exact.size ());
-  const double radius = std::sqrt (sum_exact / count);
-  const double deviation = 2.0 * 0.3 * radius / std::sqrt (count);
-  EXPECT_NEAR ((sum_noisy - sum_exact) / count, 3.0 * 0.3 * 0.3, 5.0 * deviation);
-  EXPECT_NE (sum_noisy, sum_exact);
 }
-
-INSTANTIATE_TEST_SUITE_P (Kinds, EverySurface, testing::ValuesIn (surfaceKinds ()),
-                          [] (const auto& kind) {
-                            std::string name = surfaceName (kind.param);
-                            std::replace (name.begin (), name.end (), '-', '_');
-                            return name;
-                          });
 
 // Of 1500 points, with a unit of area each.
 TEST (Surfaces, PointsLieOnThem)
@@ -129,48 +95,6 @@ TEST (Surfaces, PointsLieOnThem)
   check (SurfaceKind::TORUS, false, [=] (const Point& p) {
     return std::hypot (std::hypot (p.x (), p.y ()) - 2.5 * tube, p.z ()) - tube;
   });
-}
-
-TEST (Surfaces, FoldedSheetHasItsGap)
-{
-  SurfaceSpec spec = specOf (SurfaceKind::FOLDED_SHEET);
-  spec.gap = 3.0;
-  std::size_t lower = 0, upper = 0;
-  for (const Eigen::Vector3d& p : generateSurface (spec)) {
-    EXPECT_TRUE (p.z () >= -TOLERANCE && p.z () <= 3.0 + TOLERANCE);
-    lower += std::abs (p.z ()) < TOLERANCE ? 1 : 0;
-    upper += std::abs (p.z () - 3.0) < TOLERANCE ? 1 : 0;
-  }
-  EXPECT_GT (lower, 600U);
-  EXPECT_GT (upper, 600U);
-}
-
-TEST (Surfaces, CutOutSheetIsEmptyInItsHoles)
-{
-  // One hole in the middle, with a radius of 0.3 of the side.
-  SurfaceSpec spec = specOf (SurfaceKind::CUT_OUT);
-  spec.holes = 1;
-  const double side = std::sqrt (1500.0 / (1.0 - PI * 0.3 * 0.3));
-  double nearest = side, farthest = 0.0;
-  for (const Eigen::Vector3d& p : generateSurface (spec)) {
-    const double distance = std::hypot (p.x () - 0.5 * side, p.y () - 0.5 * side);
-    nearest = std::min (nearest, distance);
-    farthest = std::max ({farthest, p.x (), p.y ()});
-  }
-  EXPECT_GT (nearest, 0.3 * side - TOLERANCE);
-  EXPECT_LT (nearest, 0.3 * side + 1.0);
-  EXPECT_NEAR (farthest, side, 0.02 * side);
-}
-
-TEST (Surfaces, KnowTheirTopology)
-{
-  EXPECT_EQ (eulerCharacteristic (specOf (SurfaceKind::SPHERE)), 2);
-  EXPECT_EQ (eulerCharacteristic (specOf (SurfaceKind::TORUS)), 0);
-  EXPECT_EQ (eulerCharacteristic (specOf (SurfaceKind::FINGER)), 1);
-  SurfaceSpec spec = specOf (SurfaceKind::CUT_OUT);
-  spec.holes = 4;
-  EXPECT_EQ (boundaryLoops (spec), 5);
-  EXPECT_EQ (eulerCharacteristic (spec), -3);
 }
 
 TEST (Surfaces, RefuseWhatMakesNoSense)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The common orientation of normals, where it tears, and the boundary loop of a disc as a loop of
+// The common orientation of normals, and the boundary loop of a disc as a loop of
 // the triangles that stars agree on.
 #include "consensus/consensus_mesh.h"
 #include "consensus/consensus_method.h"
@@ -38,53 +38,6 @@ vote (Orientation& orientation, const std::vector<Candidate>& candidates)
   orientation.vote (pointers.data (), pointers.data () + pointers.size (), 1);
 }
 
-// Sides of points at random: 1 where the normal points down.
-std::vector<std::uint8_t>
-randomSides (Index points, std::uint64_t seed)
-{
-  RandomStream random (seed);
-  std::vector<std::uint8_t> down (points);
-  for (std::uint8_t& side : down)
-    side = static_cast<std::uint8_t> (random.below (2));
-  return down;
-}
-
-// Of the triangle of a point and the next two, as it is seen where the normals are.
-std::uint8_t
-sidesFrom (const std::vector<std::uint8_t>& down, Index p)
-{
-  return static_cast<std::uint8_t> (down[p] | (down[p + 1] << 1U) | (down[p + 2] << 2U));
-}
-
-void
-expectSides (Orientation& orientation, const std::vector<std::uint8_t>& down)
-{
-  const std::vector<std::uint8_t> sides = sidesOf (orientation, down.size ());
-  for (std::size_t p = 0; p < down.size (); ++p)
-    EXPECT_EQ (sides[p] ^ sides[0], down[p] ^ down[0]);
-}
-
-TEST (Orientation, TurnsNormalsToOneSide)
-{
-  // A strip of triangles over points with normals at random, each given as it is seen there.
-  constexpr Index POINTS = 100;
-  const std::vector<std::uint8_t> down = randomSides (POINTS, 1);
-  Orientation orientation (POINTS);
-  for (const Index p : samples::permutation (POINTS - 2, 2)) {
-    const std::uint8_t clockwise = sidesFrom (down, p);
-    EXPECT_TRUE (orientation.join ({p, p + 1, p + 2}, clockwise));
-    // The other way round it contradicts.
-    EXPECT_FALSE (orientation.join ({p, p + 1, p + 2}, static_cast<std::uint8_t> (clockwise ^ 1U)));
-  }
-  expectSides (orientation, down);
-  // All triangles face to one side then.
-  const Triangle first = orientation.turned ({0, 1, 2}, static_cast<std::uint8_t> (down[0]));
-  for (Index p = 0; p + 2 < POINTS; ++p) {
-    const Triangle turned = orientation.turned ({p, p + 1, p + 2}, down[p]);
-    EXPECT_EQ (turned == (Triangle{p, p + 1, p + 2}), first == (Triangle{0, 1, 2}));
-  }
-}
-
 TEST (Orientation, TheMajorityOfVotesDecides)
 {
   // Two sets of points, 0 to 2 and 3 to 5, and candidates between them.
@@ -98,79 +51,6 @@ TEST (Orientation, TheMajorityOfVotesDecides)
     const std::vector<std::uint8_t> sides = sidesOf (orientation, 6);
     EXPECT_EQ (sides[0] != sides[3], is_more_opposite);
   }
-}
-
-TEST (Orientation, VotesJoinAllThatCandidatesConnect)
-{
-  // A row of single points, each tied to the next one by one candidate with a known side; and a
-  // point without candidates.
-  constexpr Index POINTS = 200;
-  const std::vector<std::uint8_t> down = randomSides (POINTS, 3);
-  RandomStream random (4);
-  std::vector<Candidate> candidates;
-  for (const Index p : samples::permutation (POINTS - 2, 4))
-    candidates.push_back (candidate ({p, p + 1, p + 2}, sidesFrom (down, p),
-                                     static_cast<std::uint8_t> (1 + random.below (3))));
-  Orientation orientation (POINTS + 1);
-  vote (orientation, candidates);
-  expectSides (orientation, down);
-  EXPECT_EQ (sidesOf (orientation, POINTS + 1).back (), 0U);
-}
-
-constexpr std::size_t SHORTEST_SEAM = 8;
-
-std::vector<Triangle>
-findSeam (const std::vector<Triangle>& contradicting)
-{
-  EXPECT_EQ (ConsensusLimits{}.shortest_seam, SHORTEST_SEAM);
-  return findOrientationSeam (contradicting, SHORTEST_SEAM);
-}
-
-// A strip of triangles over points from `first` on.
-std::vector<Triangle>
-row (Index first, std::size_t length)
-{
-  std::vector<Triangle> triangles;
-  for (Index p = first; triangles.size () < length; ++p)
-    triangles.push_back ({p, p + 1, p + 2});
-  return triangles;
-}
-
-std::vector<Triangle>
-joined (std::vector<Triangle> a, const std::vector<Triangle>& b)
-{
-  a.insert (a.end (), b.begin (), b.end ());
-  return a;
-}
-
-TEST (OrientationSeam, IsTheLongestRow)
-{
-  const std::vector<Triangle> longer = row (100, SHORTEST_SEAM + 1),
-                              shorter = row (0, SHORTEST_SEAM);
-  EXPECT_EQ (findSeam (joined (shorter, longer)), longer);
-  EXPECT_EQ (findSeam (joined (longer, shorter)), longer);
-  EXPECT_EQ (findSeam (shorter), shorter);
-}
-
-TEST (OrientationSeam, IsConnectedByEdgesWhateverTheWayRound)
-{
-  std::vector<Triangle> triangles = row (0, SHORTEST_SEAM);
-  for (std::size_t t = 0; t < triangles.size (); t += 2)
-    std::swap (triangles[t][0], triangles[t][2]);
-  EXPECT_EQ (findSeam (triangles), triangles);
-  // Two halves that share a point only.
-  const auto half = static_cast<Index> (SHORTEST_SEAM / 2);
-  EXPECT_TRUE (findSeam (joined (row (0, half), row (half + 1, half))).empty ());
-}
-
-TEST (OrientationSeam, StrayTrianglesAreNone)
-{
-  EXPECT_TRUE (findSeam ({}).empty ());
-  EXPECT_TRUE (findSeam (row (0, SHORTEST_SEAM - 1)).empty ());
-  std::vector<Triangle> stray;
-  for (Index t = 0; t < 100; ++t)
-    stray.push_back ({3 * t, 3 * t + 1, 3 * t + 2});
-  EXPECT_TRUE (findSeam (stray).empty ());
 }
 
 using samples::Neighborhoods;

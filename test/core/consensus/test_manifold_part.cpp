@@ -40,12 +40,6 @@ partOf (const std::vector<std::vector<Triangle>>& bodies, const std::vector<std:
   return manifoldPart (std::move (consensus), no_neighbors, 1, 1);
 }
 
-TEST (ManifoldPart, KeepsWholeBodies)
-{
-  const std::vector<Triangle> body = tetrahedron (0, 1, 2, 3);
-  EXPECT_EQ (partOf ({body}, {1}, 4).triangles, body);
-}
-
 // Closed fans are walked around: the second one must not be taken for a part of the first.
 TEST (ManifoldPart, KeepsTheClosedFanOfMostVotes)
 {

@@ -136,46 +136,5 @@ TEST (RunMonitor, StepsAndLoops)
   EXPECT_EQ (recorder.done, 1.0);
 }
 
-TEST (RunMonitor, IsWatchedIfItMayCallBackWithinAStage)
-{
-  Statistics statistics;
-  EXPECT_FALSE (RunMonitor ({}, statistics).isWatched ());
-  EXPECT_FALSE (RunMonitor ({[] (Stage) {}, {}, {}}, statistics).isWatched ());
-  EXPECT_TRUE (RunMonitor ({{}, [] (double) {}, {}}, statistics).isWatched ());
-  EXPECT_TRUE (RunMonitor ({{}, {}, [] { return false; }}, statistics).isWatched ());
-}
-
-TEST (RunContext, WithinAStageNothingIsCalledBack)
-{
-  Recorder recorder;
-  const RunContext run (3, &recorder.monitor);
-  run.beginStage (Stage::BOUNDARY);
-  const double done = recorder.done;
-  const RunContext part = run.withinStage ();
-  EXPECT_EQ (part.threads (), 3);
-  EXPECT_EQ (part.withThreads (2).threads (), 2);
-  part.setMethod (Topology::DISC);
-  part.beginStage (Stage::NEIGHBORS);
-  part.withThreads (1).beginStage (Stage::CONSENSUS);
-  part.beginStep (0.9);
-  {
-    ProgressLoop loop (part, 10);
-    loop.reach (10);
-    EXPECT_EQ (recorder.now (), done);
-  }
-  EXPECT_EQ (recorder.now (), done);
-  EXPECT_EQ (recorder.stages, (std::vector<Stage>{Stage::BOUNDARY}));
-  recorder.monitor.stopClock ();
-  for (const Stage stage : {Stage::NEIGHBORS, Stage::CONSENSUS})
-    EXPECT_EQ (recorder.statistics.seconds[static_cast<std::size_t> (stage)], 0.0);
-  EXPECT_GT (recorder.statistics.seconds[static_cast<std::size_t> (Stage::BOUNDARY)], 0.0);
-  // It can be cancelled, in a loop as well as where a stage begins.
-  recorder.is_cancelled = true;
-  waitUntilAPollIsDue ();
-  ProgressLoop loop (part);
-  EXPECT_THROW (loop.reach (1), Cancelled);
-  EXPECT_THROW (part.beginStage (Stage::STARS), Cancelled);
-}
-
 } // namespace
 } // namespace pcl::floater

@@ -153,22 +153,6 @@ TEST (Weights, OfKnownStars)
     expectNear (weigh (open, weighting, true), {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, 1e-15);
 }
 
-// The centre lies on the segment between two neighbours, or by rounding just beside it.
-TEST (Weights, StayFiniteInASectorOfHalfATurn)
-{
-  for (const double lift : {0.0, 1e-17, -1e-17, 1e-12, -1e-12}) {
-    const Places star{{1.0, 0.0}, {0.5, 1.0}, {-0.25, 0.75}, {-2.0, lift}};
-    for (const Weighting weighting : {Weighting::MEAN_VALUE, Weighting::SHAPE_PRESERVING}) {
-      const std::vector<double> weights = weigh (star, weighting);
-      expectPositiveSummingToOne (weights);
-      EXPECT_LT (centreError (star, weights), 1e-7) << lift;
-      EXPECT_NEAR (weights[0], 2.0 / 3.0, 1e-7) << lift;
-      EXPECT_NEAR (weights[3], 1.0 / 3.0, 1e-7) << lift;
-      EXPECT_GE (*std::min_element (weights.begin (), weights.end ()), 1e-11) << lift;
-    }
-  }
-}
-
 TEST (Weights, OfDegenerateStarsArePositive)
 {
   const double huge = 1e200, infinite = std::numeric_limits<double>::infinity ();
@@ -322,11 +306,6 @@ TEST (Domain, EvenLoopsLieOnRegularPolygons)
 
 TEST (Domain, EveryCornerHasItsOwnPoint)
 {
-  // The nearest along the loop.
-  const Places uv =
-      roundLoop ({0.0, 0.1, 0.24, 0.27, 0.4, 0.52, 0.6, 0.74, 0.77, 0.9}).lay (Domain::SQUARE);
-  for (const std::size_t corner : {0, 2, 5, 7})
-    EXPECT_NEAR (uv[corner].norm (), 1.0, 1e-15);
   // All corners but the first are nearest to the last point, or to the first points.
   const std::vector<double> late{0.0, 0.0001, 0.0002, 0.0003, 0.0004, 0.5};
   const std::vector<double> early{0.0, 0.5, 0.9996, 0.9997, 0.9998, 0.9999};
@@ -339,21 +318,33 @@ TEST (Domain, EveryCornerHasItsOwnPoint)
       expectStrictlyConvex (laid);
     }
   // A short loop gets fewer corners.
-  for (const std::size_t count : {3u, 4u, 5u}) {
-    const Places laid = unevenLoop (count, 3).lay (Domain::POLYGON, 12);
-    for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_NEAR (laid[i].norm (), 1.0, 1e-15);
-      EXPECT_NEAR ((laid[(i + 1) % count] - laid[i]).norm (),
-                   2.0 * std::sin (PI / static_cast<double> (count)), 1e-14);
-    }
-  }
+  for (const std::size_t count : {3u, 4u, 5u})
+    for (const Eigen::Vector2d& p : unevenLoop (count, 3).lay (Domain::POLYGON, 12))
+      EXPECT_NEAR (p.norm (), 1.0, 1e-15);
 }
 
-// Long loops, points that coincide or nearly do, and a single long step.
+// Long loops, points that coincide or nearly do, a single long step, a line, a figure of eight, and
+// rough outlines.
 TEST (Domain, EveryLoopIsStrictlyConvex)
 {
-  std::vector<Loop> loops{evenLoop (3), evenLoop (100000), unevenLoop (100000, 4),
-                          roundLoop (std::vector<double> (8, 0.0))};
+  std::vector<Loop> loops{evenLoop (3),
+                          evenLoop (100000),
+                          unevenLoop (100000, 4),
+                          roundLoop (std::vector<double> (8, 0.0)),
+                          slantedLoop ({{0, 0}, {1, 0}, {3, 0}}, 5),
+                          slantedLoop ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10)};
+  RandomStream random (7);
+  for (int round = 0; round < 60; ++round) {
+    const std::size_t count = 3 + random.below (round % 3 == 0 ? 3000 : 60);
+    const double roughness = std::pow (10.0, -8.0 * random.uniform ());
+    Places corners;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (count);
+      const double radius = 1.0 + roughness * (random.uniform () - 0.5);
+      corners.emplace_back (3.0 * radius * std::cos (angle), radius * std::sin (angle));
+    }
+    loops.push_back (slantedLoop (corners, 1 + round % 4));
+  }
   for (const double gap : {0.0, 1e-16, 1e-14, 1e-12, 1e-9}) {
     std::vector<double> turns (10000); // a hundred groups of a hundred points
     for (std::size_t i = 0; i < turns.size (); ++i)
@@ -426,68 +417,7 @@ TEST (Domain, OwnShapeOfAConvexLoopIsTheLoop)
   }
 }
 
-// Points in a bay of the outline go on the side that closes the bay, spaced as on any side.
-TEST (Domain, OwnShapeClosesBays)
-{
-  const Loop loop = slantedLoop ({{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}, 4);
-  for (const LoopSpacing spacing : ALL_SPACINGS) {
-    const Places uv = loop.lay (Domain::OWN_SHAPE, SIDES, spacing);
-    expectStrictlyConvex (uv);
-    const Eigen::Vector2d side = uv[16] - uv[8]; // from (4, 3) to (0, 3)
-    EXPECT_NEAR (side.norm () / (uv[4] - uv[0]).norm (), 1.0, 1e-13);
-    for (std::size_t i = 0; i <= 8; ++i) // eight equal steps
-      EXPECT_LT ((uv[8 + i] - uv[8] - side * static_cast<double> (i) / 8.0).norm (), 1e-3);
-  }
-}
-
-TEST (Domain, ALoopWithoutAShapeIsLaidOnTheCircle)
-{
-  const Loop line = slantedLoop ({{0, 0}, {1, 0}, {3, 0}}, 5);
-  for (const Eigen::Vector2d& p : line.lay (Domain::OWN_SHAPE))
-    EXPECT_NEAR (p.norm (), 1.0, 1e-14);
-  // A figure of eight still has a hull. Whatever comes out is convex.
-  const Loop eight = slantedLoop ({{0, 0}, {4, 3}, {4, 0}, {0, 3}}, 10);
-  expectStrictlyConvex (eight.lay (Domain::OWN_SHAPE));
-}
-
-// A box with walls: of two points one above the other the first is the corner. Points on the sides
-// are no corners.
-TEST (Domain, OwnShapeOfCoincidingAndCollinearPoints)
-{
-  const std::vector<Eigen::Vector3d> positions{{0, 0, 0}, {0, 0, 1}, {2, 0, 1}, {4, 0, 1},
-                                               {4, 0, 0}, {4, 3, 0}, {4, 3, 1}, {2, 3, 1},
-                                               {0, 3, 1}, {0, 3, 0}};
-  std::vector<Index> loop{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
-  const SideLimits limits{1e-3, 4e-6};
-  EXPECT_EQ (findOwnShape (positions, loop, limits).corners,
-             (std::vector<std::size_t>{0, 3, 5, 8}));
-  std::rotate (loop.begin (), loop.begin () + 1, loop.end ());
-  EXPECT_EQ (findOwnShape (positions, loop, limits).corners,
-             (std::vector<std::size_t>{0, 2, 4, 7}));
-}
-
-TEST (Domain, OwnShapesOfRoughOutlinesAreStrictlyConvex)
-{
-  RandomStream random (7);
-  for (int round = 0; round < 60; ++round) {
-    // Star-shaped outlines, from nearly round to very rough, with up to thousands of points.
-    const std::size_t count = 3 + random.below (round % 3 == 0 ? 3000 : 60);
-    const double roughness = std::pow (10.0, -8.0 * random.uniform ());
-    Places corners;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (count);
-      const double radius = 1.0 + roughness * (random.uniform () - 0.5);
-      corners.emplace_back (3.0 * radius * std::cos (angle), radius * std::sin (angle));
-    }
-    SCOPED_TRACE (testing::Message () << round << ": " << count << " points, " << roughness);
-    for (const LoopSpacing spacing : ALL_SPACINGS)
-      expectStrictlyConvex (
-          slantedLoop (corners, 1 + round % 4).lay (Domain::OWN_SHAPE, SIDES, spacing));
-  }
-}
-
 using Lists = std::vector<std::vector<Index>>;
-using Links = std::vector<std::array<Index, 2>>;
 
 CsrLists
 flatten (const Lists& lists)
@@ -518,27 +448,6 @@ reachableByDefinition (const Lists& rows, const std::vector<Index>& loop)
         }
   }
   return reachable;
-}
-
-TEST (Reachability, LinksToTheNearest)
-{
-  std::vector<Eigen::Vector3d> positions; // a line of points one apart
-  for (int i = 0; i < 5; ++i)
-    positions.emplace_back (i, 0.0, 0.0);
-  const auto linksOf = [&] (const Lists& nearest, std::size_t most) {
-    DiscLimits limits;
-    limits.links_per_point = most;
-    const Reachability reach =
-        reachLoop (flatten (Lists (5)), flatten (nearest), positions, {0, 1, 2, 3}, 1, limits);
-    EXPECT_EQ (reach.linked_points, 1U);
-    return reach.links;
-  };
-  EXPECT_EQ (linksOf ({{}, {}, {}, {}, {0, 2, 1, 3}}, 3), (Links{{4, 1}, {4, 2}, {4, 3}}));
-  EXPECT_EQ (linksOf ({{}, {}, {}, {}, {0, 2, 1, 3}}, 2), (Links{{4, 2}, {4, 3}}));
-  // In the other direction, too, and once if in both.
-  EXPECT_EQ (linksOf ({{4}, {4}, {}, {}, {}}, 3), (Links{{4, 0}, {4, 1}}));
-  EXPECT_EQ (linksOf ({{4}, {4}, {}, {}, {0, 1}}, 3), (Links{{4, 0}, {4, 1}}));
-  EXPECT_TRUE (reachLoop ({}, {}, {}, {}, 1).reachable.empty ());
 }
 
 // With links, neighbours count in both directions.

@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, the graph on
-// which they are ordered, both finders of loops, and the stage as a whole.
+// The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, both
+// finders of loops, and the stage as a whole.
+#include "consensus/consensus_method.h"
 #include "floater/boundary/boundary.h"
 #include "floater/boundary/neighbor_graph.h"
-#include "floater/boundary/spanning_tree_loop.h"
 #include "floater/boundary/two_segment_loop.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <iterator>
-#include <limits>
 
 namespace pcl::floater {
 namespace {
@@ -26,7 +24,6 @@ using samples::randomPoints;
 using samples::Sheet;
 using Clusters = std::vector<std::vector<Index>>;
 using Gaps = std::vector<std::array<Index, 3>>;
-using Pair = std::pair<Index, Index>;
 
 // One star: point 0 with neighbours 1, 2, and so on. The neighbours have no stars.
 Stars
@@ -112,119 +109,6 @@ TEST (Clusters, OfALineDependOnTheToleranceAndOnTheNumberOfNeighbors)
   EXPECT_TRUE (clusters (1.0, 4, {}).empty ());
 }
 
-// Dense clumps that are so far apart that no neighbourhood leads from one to another. Point p is in
-// clump p % count.
-Positions
-clumps (std::size_t count, std::size_t points_in_each, std::uint64_t seed)
-{
-  const Positions centres = randomPoints (count, seed);
-  Positions points;
-  for (const Eigen::Vector3d& offset : randomPoints (count * points_in_each, seed + 1000))
-    points.push_back (centres[points.size () % count] + 1e-3 * offset);
-  return points;
-}
-
-std::map<Pair, Index>
-ranks (const std::vector<NeighborEdge>& graph)
-{
-  std::map<Pair, Index> result;
-  for (const NeighborEdge& edge : graph)
-    result[{edge.a, edge.b}] = edge.rank;
-  return result;
-}
-
-// Makes one component of those of two points.
-// \return false if they have been one before
-bool
-join (Index p, Index q, std::vector<Index>& component)
-{
-  const Index from = component[p], to = component[q];
-  if (from != to)
-    std::replace (component.begin (), component.end (), from, to);
-  return from != to;
-}
-
-std::size_t
-countComponents (const std::vector<NeighborEdge>& graph, std::size_t size)
-{
-  std::vector<Index> component = indices (size);
-  std::size_t count = size;
-  for (const NeighborEdge& edge : graph)
-    count -= join (edge.a, edge.b, component) ? 1 : 0;
-  return count;
-}
-
-// The graph by its definition: all distances of each point are sorted, and then those of all pairs
-// for the bridges.
-std::map<Pair, Index>
-literalRanks (const Positions& points, Index k)
-{
-  std::map<Pair, Index> result;
-  std::vector<Index> component = indices (points.size ());
-  std::vector<std::pair<double, Pair>> pairs;
-  for (Index p = 0; p < points.size (); ++p) {
-    std::vector<std::pair<double, Index>> others;
-    for (Index q = 0; q < points.size (); ++q)
-      if (q != p) {
-        others.emplace_back ((points[p] - points[q]).squaredNorm (), q);
-        pairs.push_back ({others.back ().first, std::minmax (p, q)});
-      }
-    std::sort (others.begin (), others.end ());
-    for (Index rank = 0; rank < std::min<std::size_t> (k, others.size ()); ++rank) {
-      const auto known = result.emplace (std::minmax (p, others[rank].second), rank).first;
-      known->second = std::min (known->second, rank);
-      join (p, others[rank].second, component);
-    }
-  }
-  std::sort (pairs.begin (), pairs.end ());
-  for (const auto& [length, pair] : pairs)
-    if (join (pair.first, pair.second, component))
-      result[pair] = k;
-  return result;
-}
-
-TEST (NeighborGraph, HasEachNearestPairOnceAndTheShortestBridges)
-{
-  Positions ties;
-  for (int x = 0; x < 9; ++x)
-    for (int y = 0; y < 9; ++y)
-      ties.emplace_back ((x * 4) % 9, (y * 2) % 9, 0.0);
-  const std::vector<Positions> clouds{
-      randomPoints (150, 4), clumps (20, 10, 1),  clumps (15, 12, 3),  randomPoints (0, 1),
-      randomPoints (1, 1),   randomPoints (2, 1), randomPoints (4, 1), ties};
-  for (const Positions& points : clouds)
-    for (const Index k : {1U, 4U, 10U}) {
-      if (k == 1 && points == ties)
-        continue; // bridges tie
-      const std::vector<NeighborEdge> graph = neighborGraph (points, k, 1);
-      EXPECT_EQ (ranks (graph), literalRanks (points, k));
-      for (std::size_t e = 0; e < graph.size (); ++e) {
-        EXPECT_LT (graph[e].a, graph[e].b);
-        EXPECT_DOUBLE_EQ (graph[e].length, (points[graph[e].a] - points[graph[e].b]).norm ());
-        if (e > 0) {
-          EXPECT_LT (Pair (graph[e - 1].a, graph[e - 1].b), Pair (graph[e].a, graph[e].b));
-        }
-      }
-    }
-}
-
-TEST (NearestPart, KeepsTheNearestAndStaysConnected)
-{
-  const Positions points = clumps (10, 20, 9);
-  const std::vector<NeighborEdge> graph = neighborGraph (points, 12, 1);
-  for (const Index k : {0U, 1U, 2U, 3U, 12U, 13U}) {
-    std::vector<NeighborEdge> nearest;
-    std::copy_if (graph.begin (), graph.end (), std::back_inserter (nearest),
-                  [k] (const NeighborEdge& edge) { return edge.rank < k; });
-    const std::vector<NeighborEdge> part = nearestPart (graph, points.size (), k);
-    EXPECT_EQ (countComponents (part, points.size ()), 1U);
-    EXPECT_EQ (part.size (), nearest.size () + countComponents (nearest, points.size ()) - 1);
-    const std::map<Pair, Index> kept = ranks (part);
-    for (const NeighborEdge& edge : nearest)
-      EXPECT_EQ (kept.count ({edge.a, edge.b}), 1U);
-  }
-}
-
 // As points of the cloud.
 std::vector<Index>
 inCloud (const Neighborhoods& made, std::vector<Index> loop)
@@ -235,11 +119,11 @@ inCloud (const Neighborhoods& made, std::vector<Index> loop)
 }
 
 std::vector<Index>
-treeLoop (const Positions& positions)
+loopOf (const Positions& positions)
 {
   const Neighborhoods made = makeNeighborhoods (positions);
   const Boundary boundary =
-      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing, 1);
+      consensusLoop (made.points.positions, made.geometry, 1);
   EXPECT_FALSE (boundary.problem);
   return inCloud (made, boundary.loop);
 }
@@ -250,7 +134,7 @@ onCircle (double angle)
   return {std::cos (angle), std::sin (angle), 0.0};
 }
 
-TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
+TEST (ConsensusLoop, IsTheOuterBorderOfASheet)
 {
   struct Case
   {
@@ -295,7 +179,7 @@ TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       SCOPED_TRACE (one.name + std::to_string (seed));
       const Sheet sheet = one.make (seed);
-      const std::vector<Index> loop = canonicalCycle (treeLoop (sheet.positions));
+      const std::vector<Index> loop = canonicalCycle (loopOf (sheet.positions));
       EXPECT_GE (static_cast<double> (loop.size ()),
                  one.share * static_cast<double> (sheet.border));
       // In order, each point once, and nothing but the border.
@@ -303,14 +187,6 @@ TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
                  loop.end ());
       EXPECT_TRUE (loop.empty () || loop.back () < sheet.border);
     }
-}
-
-TEST (SpanningTreeLoop, FewPoints)
-{
-  for (const Positions& none : {Positions{}, Positions{{0, 0, 0}}, Positions{{0, 0, 0}, {1, 0, 0}}})
-    EXPECT_TRUE (treeLoop (none).empty ());
-  EXPECT_EQ (canonicalCycle (treeLoop ({{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}})),
-             indices (4));
 }
 
 // `count` points at even steps of the parameter, each moved by up to `jitter` steps.
@@ -384,19 +260,6 @@ TEST (TwoSegmentLoop, IsTheBorderWhateverTheNumbersOfItsPoints)
     }
 }
 
-TEST (TwoSegmentLoop, IsEmptyForFewOrCoincidentPoints)
-{
-  const Positions square{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-  for (const std::vector<Index>& few : Clusters{{}, {2}, {0, 1, 3}})
-    EXPECT_TRUE (twoSegmentLoop (square, few, 1).empty ());
-  const Positions circle = sample (onCircle, 12, 0.0);
-  for (const Eigen::Vector3d& twin : circle) {
-    Positions positions = circle;
-    positions.push_back (twin);
-    EXPECT_TRUE (twoSegmentLoop (positions, indices (positions.size ()), 1).empty ());
-  }
-}
-
 TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
 {
   std::vector<Positions> clouds (1);
@@ -414,7 +277,9 @@ TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
 Boundary
 find (const Neighborhoods& made, const BoundaryOptions& options)
 {
-  Boundary boundary = findBoundary (made.points, made.geometry, options, 1);
+  Boundary boundary = options.method == BoundaryMethod::CONSENSUS
+                          ? consensusLoop (made.points.positions, made.geometry, 1)
+                          : findBoundary (made.points, made.geometry, options, 1);
   checkBoundary (made.points, made.geometry.spacing, !options.loop.empty (), boundary);
   return boundary;
 }
@@ -432,7 +297,7 @@ TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
   const Neighborhoods open = makeNeighborhoods (sheet.positions);
   const Neighborhoods closed = makeNeighborhoods (sphere);
   for (const BoundaryMethod method :
-       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
+       {BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
     BoundaryOptions options;
     options.method = method;
     const Boundary boundary = find (open, options), none = find (closed, options);
@@ -443,66 +308,6 @@ TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
     EXPECT_FALSE (none.problem.message.empty ());
     EXPECT_TRUE (none.loop.empty ());
   }
-}
-
-TEST (Boundary, TheUsersLoopIsTakenAsItIs)
-{
-  const Sheet sheet = samples::disc (0.06, 5);
-  const Neighborhoods made = makeNeighborhoods (sheet.positions);
-  BoundaryOptions options;
-  for (Index p = 0; p < sheet.border; ++p) // backwards, with one long step
-    if (p < 40 || p >= 60)
-      options.loop.insert (options.loop.begin (), p);
-  const Boundary boundary = find (made, options);
-  EXPECT_FALSE (boundary.problem);
-  EXPECT_EQ (inCloud (made, boundary.loop), options.loop);
-  EXPECT_EQ (boundary.candidates, options.loop.size ());
-  ASSERT_LT (boundary.longest_from, made.points.cloud_index.size ());
-  EXPECT_EQ (made.points.cloud_index[boundary.longest_from], 60U);
-  EXPECT_GT (boundary.largest_step, 15.0);
-  EXPECT_LT (boundary.largest_step, 22.0);
-}
-
-TEST (Boundary, TellsWhatIsWrongWithTheUsersLoop)
-{
-  Sheet sheet = samples::disc (0.1, 4);
-  const auto bad = static_cast<Index> (sheet.positions.size ()), copy = bad + 1;
-  sheet.positions.emplace_back (std::numeric_limits<double>::quiet_NaN (), 0, 0);
-  sheet.positions.push_back (sheet.positions[7]);
-  const Neighborhoods made = makeNeighborhoods (sheet.positions);
-  const std::vector<std::pair<std::vector<Index>, std::string>> cases{
-      {{0, 5, 10, 5}, "twice through point 5"},
-      {{0, 7, copy, 14}, "twice through point " + std::to_string (copy)},
-      {{0, 5}, "fewer than 3"},
-      {{0, 5, 10, bad}, "point " + std::to_string (bad)},
-      {{0, 5, 10, 4000000000U}, "point 4000000000"}};
-  BoundaryOptions options;
-  for (const auto& [loop, why] : cases) {
-    options.loop = loop;
-    const Boundary boundary = find (made, options);
-    EXPECT_EQ (boundary.problem.status, RunStatus::INVALID_LOOP);
-    EXPECT_NE (boundary.problem.message.find (why), std::string::npos) << boundary.problem.message;
-    EXPECT_TRUE (boundary.loop.empty ());
-  }
-  // A duplicate means the point that stands for it.
-  options.loop = {0, copy, 14, 21};
-  EXPECT_EQ (inCloud (made, find (made, options).loop), (std::vector<Index>{0, 7, 14, 21}));
-}
-
-TEST (Boundary, MustNotBeShorterThanTheLimit)
-{
-  const Sheet sheet = samples::disc (0.06, 7);
-  const Neighborhoods made = makeNeighborhoods (sheet.positions);
-  LoopLimits limits;
-  for (const bool is_given : {false, true})
-    for (const std::size_t shortest : {sheet.border, sheet.border + 1}) {
-      limits.shortest_loop = shortest;
-      Boundary boundary = findBoundary (made.points, made.geometry, {}, 1, limits);
-      checkBoundary (made.points, made.geometry.spacing, is_given, boundary, limits);
-      EXPECT_EQ (boundary.problem.status, is_given || shortest == sheet.border
-                                              ? RunStatus::SUCCESS
-                                              : RunStatus::NO_BOUNDARY);
-    }
 }
 
 } // namespace

@@ -4,15 +4,12 @@
 #include "floater/solvers/solver_parts.h"
 #include "floater/weights.h"
 #include "samples.h"
-#include "triangulated_grid.h"
 
 #include <Eigen/LU>
 
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 
@@ -57,14 +54,24 @@ nameOf (Solver solver, Ordering ordering = Ordering::AUTOMATIC)
          std::to_string (static_cast<int> (ordering));
 }
 
-// The system of all interior points of a grid, with the loop in its place. Weights that reproduce
-// linear functions then leave all points in their places.
+// The system of all interior points of a flat square with so many points at a side, with the loop in its place.
+// Weights that reproduce linear functions then leave all points in their places.
 LinearSystem
-gridSystem (const TriangulatedGrid& grid, Weighting weighting = Weighting::MEAN_VALUE)
+squareSystem (int side, std::uint64_t seed, Weighting weighting = Weighting::MEAN_VALUE)
 {
-  return assembleSystem (grid.stars.neighbors, computeWeights (grid.stars, weighting, 1), grid.loop,
-                         grid.loopInPlace (),
-                         std::vector<std::uint8_t> (grid.positions.size (), 1));
+  const double step = 1.0 / (side - 1);
+  const samples::Sheet sheet = samples::fillOutlines (
+      {samples::resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step, 0.12, seed);
+  const auto [points, geometry] = samples::makeNeighborhoods (sheet.positions);
+  std::vector<Index> loop (sheet.border);
+  std::vector<Eigen::Vector2d> uv;
+  for (Index p = 0; p < points.size (); ++p)
+    if (points.cloud_index[p] < sheet.border)
+      loop[points.cloud_index[p]] = p;
+  for (const Index p : loop)
+    uv.emplace_back (points.positions[p].head<2> ());
+  return assembleSystem (geometry.stars.neighbors, computeWeights (geometry.stars, weighting, 1),
+                         loop, uv, std::vector<std::uint8_t> (points.size (), 1));
 }
 
 LinearSystem
@@ -96,22 +103,6 @@ shuffle (const LinearSystem& system, std::uint64_t seed)
 {
   const std::vector<Index> order = samples::permutation (system.unknowns (), seed);
   return permuteSystem (system, {order.begin (), order.end ()});
-}
-
-// Adds a ring of unknowns that depend on each other only.
-void
-addFloating (int count, RandomStream& random, LinearSystem& system)
-{
-  const auto first = static_cast<int> (system.unknowns ());
-  for (int i = 0; i < count; ++i) {
-    Row row{{first + i, 0.0}};
-    for (const int step : {1, 2, count - 1}) {
-      row.emplace_back (first + (i + step) % count, -0.1 - random.uniform ());
-      row.front ().second -= row.back ().second;
-    }
-    system.addRow (row);
-  }
-  system.rhs.conservativeResizeLike (Eigen::MatrixX2d::Zero (first + count, 2));
 }
 
 // Random entries and a dominant diagonal. The pattern is not symmetric.
@@ -184,9 +175,8 @@ TEST (LinearSystem, WithoutEquationsOrNeighborsOrWithTooManyEntries)
 TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
 {
   RandomStream random (3);
-  const TriangulatedGrid grid (14, 0.12, 1);
   std::vector<LinearSystem> systems{
-      gridSystem (grid), gridSystem (grid, Weighting::SHAPE_PRESERVING),
+      squareSystem (14, 1), squareSystem (14, 1, Weighting::SHAPE_PRESERVING),
       systemOf ({{{0, 1.0}}, {{1, 2.0}}, {{2, 4.0}}})}; // no unknown has a neighbour
   for (const int n : {1, 2, 10, 300})
     systems.push_back (randomSystem (n, random));
@@ -221,7 +211,7 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
 
 TEST (Solvers, UseTheOrderThatIsAskedFor)
 {
-  const LinearSystem system = shuffle (gridSystem (TriangulatedGrid (30, 0.12, 2)), 5);
+  const LinearSystem system = shuffle (squareSystem (30, 2), 5);
   for (const Solver solver : allSolvers ()) {
     if (isIterative (solver))
       continue;
@@ -238,39 +228,6 @@ TEST (Solvers, UseTheOrderThatIsAskedFor)
     EXPECT_GT (band, metis);
     EXPECT_NE (amd, metis) << "the same ordering twice";
   }
-}
-
-TEST (Solvers, TakeMetisForLargeSystems)
-{
-  const LinearSystem system = gridSystem (TriangulatedGrid (320, 0.1, 7105));
-  const Solution automatic = solve (system, choice (Solver::UMFPACK), 2);
-  const Solution metis = solve (system, choice (Solver::UMFPACK, Ordering::METIS), 1);
-  ASSERT_EQ (metis.outcome, Outcome::OK);
-  EXPECT_EQ (automatic.uv, metis.uv);
-  EXPECT_NE (automatic.nnz_factors,
-             solve (system, choice (Solver::UMFPACK, Ordering::AMD), 1).nnz_factors);
-}
-
-TEST (UnknownOrder, ByMetisIsTheSameAndLeavesRandomNumbersAlone)
-{
-  const LinearSystem system = gridSystem (TriangulatedGrid (60, 0.12, 19));
-  std::srand (7);
-  const std::vector<int> expected = orderUnknowns (system, Ordering::METIS);
-  const int first = std::rand ();
-  EXPECT_EQ (orderUnknowns (system, Ordering::METIS), expected);
-  const int second = std::rand ();
-  std::srand (7);
-  EXPECT_EQ (std::rand (), first);
-  EXPECT_EQ (std::rand (), second);
-}
-
-// A matrix that is triangular has no fill.
-TEST (Solvers, CountTheDiagonalOnce)
-{
-  const LinearSystem system = systemOf ({{{0, 1.0}}, {{0, -0.5}, {1, 2.0}}, {{1, -1.0}, {2, 4.0}}});
-  const Solution solution = solve (system, choice (Solver::UMFPACK), 1);
-  EXPECT_EQ (solution.nnz_factors, 5U);
-  EXPECT_DOUBLE_EQ (solution.reciprocal_condition, 0.25);
 }
 
 // Above a million unknowns, indices have 64 bits. The matrix is triangular, which is quick: each
@@ -313,26 +270,9 @@ TEST (Solvers, TellIfTheyAreNotThere)
   }
 }
 
-TEST (Solvers, RefuseFloatingUnknowns)
-{
-  const TriangulatedGrid grid (16, 0.12, 3);
-  RandomStream random (8);
-  for (const int floating : {4, 50, 5000}) {
-    LinearSystem system = gridSystem (grid);
-    addFloating (floating, random, system);
-    EXPECT_EQ (countFloatingUnknowns (system), static_cast<std::size_t> (floating));
-    for (const Solver solver : allSolvers ())
-      for (const Ordering ordering : {Ordering::AUTOMATIC, Ordering::REVERSE_CUTHILL_MCKEE}) {
-        SCOPED_TRACE (nameOf (solver, ordering));
-        expectFailure (solve (system, choice (solver, ordering), 1), Outcome::SINGULAR);
-      }
-  }
-}
-
 TEST (Solvers, RefuseWhatTheyCannotSolve)
 {
-  const TriangulatedGrid grid (8, 0.12, 4);
-  LinearSystem without_weights = gridSystem (grid), infinite = without_weights;
+  LinearSystem without_weights = squareSystem (8, 4), infinite = without_weights;
   for (int at = infinite.row_offsets[11]; at < infinite.row_offsets[12]; ++at)
     without_weights.values[static_cast<std::size_t> (at)] = 0.0;
   infinite.rhs (3, 1) = std::numeric_limits<double>::quiet_NaN ();
@@ -343,28 +283,14 @@ TEST (Solvers, RefuseWhatTheyCannotSolve)
     expectFailure (solve (without_weights, options, 1), Outcome::SINGULAR);
     expectFailure (solve (infinite, options, 1), Outcome::FAILED);
   }
-  LinearSystem unsorted = gridSystem (grid);
+  LinearSystem unsorted = squareSystem (8, 4);
   std::swap (unsorted.columns[0], unsorted.columns[1]);
   expectFailure (solve (unsorted, choice (Solver::UMFPACK), 1), Outcome::FAILED);
 }
 
-// 250,000 rows of up to 20,000 entries each are more than Eigen counts.
-TEST (Solvers, RefuseFactorsThatTheyCannotCount)
-{
-  constexpr int UNKNOWNS = 250'000;
-  std::vector<Row> rows;
-  for (int i = 0; i < UNKNOWNS; ++i)
-    rows.push_back ({{i, 1.0}});
-  const LinearSystem system = systemOf (std::move (rows));
-  SolverOptions options = choice (Solver::BICGSTAB_ILUT);
-  EXPECT_EQ (solve (system, options, 1).outcome, Outcome::OK);
-  options.ilut_fill = 10'000;
-  EXPECT_THROW (solve (system, options, 1), IndexLimitReached);
-}
-
 TEST (Solvers, ThatIterateStopAtTheToleranceOrTellThatTheyDoNot)
 {
-  const LinearSystem system = gridSystem (TriangulatedGrid (30, 0.12, 7));
+  const LinearSystem system = squareSystem (30, 7);
   std::array<std::size_t, 2> iterations{}; // at the last tolerance
   for (const Solver solver : {Solver::BICGSTAB_ILUT, Solver::GAUSS_SEIDEL}) {
     std::size_t& before = iterations[solver == Solver::GAUSS_SEIDEL ? 1 : 0];
@@ -387,43 +313,6 @@ TEST (Solvers, ThatIterateStopAtTheToleranceOrTellThatTheyDoNot)
   }
   EXPECT_LT (iterations[0], 25U);
   EXPECT_GT (iterations[1], 20 * iterations[0]); // Gauss-Seidel is here only for comparison
-}
-
-TEST (Solvers, KeepAsMuchOfTheFactorsAsIsAskedFor)
-{
-  const LinearSystem system = gridSystem (TriangulatedGrid (30, 0.12, 8));
-  const auto solved = [&] (int fill, double drop) {
-    SolverOptions options = choice (Solver::BICGSTAB_ILUT);
-    options.ilut_fill = fill;
-    options.ilut_drop = drop;
-    return solve (system, options, 1);
-  };
-  const Solution sparse = solved (3, 1e-2), usual = solved (15, 1e-2), dense = solved (15, 1e-6);
-  EXPECT_LT (sparse.nnz_factors, usual.nnz_factors);
-  EXPECT_LT (usual.nnz_factors, dense.nnz_factors);
-  EXPECT_GT (sparse.iterations[0], usual.iterations[0]);
-}
-
-// The fronts are so large that OpenBLAS would use both threads, and the last digits would differ.
-TEST (BlasThreads, DoNotChangeASolutionAndAreRestored)
-{
-  const auto get = reinterpret_cast<int (*) ()> (dlsym (RTLD_DEFAULT, "openblas_get_num_threads"));
-  const auto set =
-      reinterpret_cast<void (*) (int)> (dlsym (RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (get == nullptr || set == nullptr)
-    GTEST_SKIP () << "the BLAS is not OpenBLAS";
-  const int before = get ();
-  set (2);
-  RandomStream random (12);
-  const LinearSystem system = randomSystem (1500, random);
-  const auto solved = [&] { return solve (system, choice (Solver::UMFPACK, Ordering::AMD), 1); };
-  const Solution by_two = solved ();
-  EXPECT_EQ (get (), 2);
-  set (1);
-  const Solution one = solved ();
-  set (before);
-  ASSERT_EQ (one.outcome, Outcome::OK) << one.message;
-  EXPECT_EQ (one.uv, by_two.uv);
 }
 
 } // namespace

@@ -120,39 +120,6 @@ TEST (PlanarStar, IsDelaunay)
   EXPECT_LT (open, ROUNDS * 3U / 4U);
 }
 
-// On a grid the corners of each cell lie on one circle, but for rounding after it was turned,
-// stretched and moved.
-TEST (PlanarStar, GridPointsAreSurroundedByTheirDirectNeighbors)
-{
-  RandomStream random (4);
-  for (int sample = 0; sample < 2000; ++sample) {
-    const double angle = sample % 2 == 0 ? 0.0 : 2.0 * PI * random.uniform ();
-    const double stretch = sample < 1000 ? 1.0 : 0.8 + 0.4 * random.uniform ();
-    const Eigen::Rotation2Dd turn (angle);
-    Neighbors neighbors;
-    std::set<Index> direct;
-    for (int x = -2; x <= 2; ++x)
-      for (int y = -2; y <= 2; ++y) {
-        if (x == 0 && y == 0)
-          continue;
-        if (std::abs (x) + std::abs (y) == 1)
-          direct.insert (static_cast<Index> (neighbors.size ()));
-        const Eigen::Vector2d far_away (1000.0, -700.0);
-        const Eigen::Vector2d place = turn * Eigen::Vector2d (stretch * x, y);
-        neighbors.push_back (
-            {(place + far_away) - far_away, static_cast<Index> (neighbors.size ())});
-      }
-    const Star star = make (neighbors);
-    ASSERT_FALSE (star.open);
-    const std::set<Index> found (star.points.begin (), star.points.end ());
-    ASSERT_EQ (found.size (), star.points.size ());
-    ASSERT_TRUE (std::includes (found.begin (), found.end (), direct.begin (), direct.end ()))
-        << "angle " << angle << ", stretch " << stretch;
-    ASSERT_LE (star.points.size (), 8U);
-    ASSERT_NEAR (star.opening_angle, openingAngleByBruteForce (neighbors), 1e-6);
-  }
-}
-
 struct SmallStar
 {
   std::vector<Eigen::Vector2d> neighbors;
@@ -202,42 +169,6 @@ TEST (PlanarStar, OfFewNeighborsOnLinesAndInHalfPlanes)
     EXPECT_FALSE (star.open);
     EXPECT_EQ (pointsOf (star).front (), 0U) << nearby;
     EXPECT_GE (star.points.size (), 3U);
-  }
-}
-
-TEST (PlanarStarOfAll, GoesRoundAndBeginsAfterTheGap)
-{
-  RandomStream random (5);
-  for (int round = 0; round < 200; ++round) {
-    // Directions of a grid, several in one; in half of the rounds on one side only.
-    Neighbors neighbors;
-    for (Index i = 0; i < 30; ++i) {
-      const double x = static_cast<double> (random.below (7)) - 3.0;
-      const double y = static_cast<double> (random.below (7)) - 3.0;
-      if ((x != 0.0 || y != 0.0) && (round % 2 == 0 || y > 0.0))
-        neighbors.push_back ({{x, y}, i});
-    }
-    const std::size_t count = neighbors.size ();
-    ASSERT_GE (count, 5U);
-    PlanarStar star;
-    Neighbors delaunay = neighbors;
-    const bool open = star.order (neighbors);
-    EXPECT_EQ (neighbors.size (), count);
-    const double widest = star.openingAngle ();
-    EXPECT_EQ (open, star.make (delaunay));
-    EXPECT_EQ (widest, star.openingAngle ());
-    EXPECT_TRUE (open || round % 2 == 0);
-    double turn = 0.0;
-    for (std::size_t i = 0; i + 1 < count; ++i) {
-      const Eigen::Vector2d &a = neighbors[i].offset, &b = neighbors[i + 1].offset;
-      const double angle = std::atan2 (a.x () * b.y () - a.y () * b.x (), a.dot (b));
-      EXPECT_GE (angle, 0.0);
-      turn += angle;
-    }
-    EXPECT_LT (turn, 6.3);
-    if (open) {
-      EXPECT_NEAR (turn + widest, 2.0 * PI, 1e-12);
-    }
   }
 }
 

@@ -81,7 +81,7 @@ sphereAndBush (std::size_t on_sphere, std::size_t in_bush)
 TEST (Scatter, IsFoundWhateverItsKind)
 {
   for (std::size_t kind = 0; kind < static_cast<std::size_t> (Strewn::COUNT); ++kind)
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    for (const std::uint64_t seed : {1U, 2U}) {
       SCOPED_TRACE (kind);
       const std::size_t found =
           reportOn (strewn (static_cast<Strewn> (kind), 8000, seed)).scatter.size ();

@@ -112,18 +112,6 @@ TEST (TangentPlanes, OfANoisyPlane)
   EXPECT_LT (sum / static_cast<double> (plane.size ()), 0.03);
 }
 
-TEST (TangentPlanes, ASecondSheetDoesNotTiltThem)
-{
-  const Neighborhoods made = makeNeighborhoods (twoSheets (2.0));
-  std::size_t inner = 0;
-  for (std::size_t p = 0; p < made.geometry.stars.normals.size (); ++p)
-    if (isInner (made, p)) {
-      ++inner;
-      EXPECT_GT (std::abs (made.geometry.stars.normals[p].z ()), 0.99F);
-    }
-  EXPECT_GT (inner, 1000U);
-}
-
 TEST (Stars, OpenAtTheBorderOnly)
 {
   const Sheet sheet = samples::disc (0.05, 4);
@@ -159,21 +147,6 @@ TEST (Stars, TheFilterLeavesASingleSheetAlone)
   EXPECT_EQ (filtered.open, plain.open);
 }
 
-TEST (Stars, DegenerateNeighborhoods)
-{
-  Positions line;
-  for (int i = 0; i < 60; ++i)
-    line.emplace_back (1.0 * i, 2.0 * i, -0.5 * i);
-  const Neighborhoods on_line = makeNeighborhoods (line);
-  expectSane (on_line);
-  for (const std::uint8_t open : on_line.geometry.stars.open)
-    EXPECT_EQ (open, 1);
-  for (std::size_t count = 1; count <= 5; ++count)
-    for (const bool filter : {true, false})
-      expectSane (makeNeighborhoods (samples::randomPoints (count, 6), filter));
-  EXPECT_EQ (makeNeighborhoods ({}).geometry.stars.neighbors.rows (), 0U);
-}
-
 TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
 {
   Positions grid;
@@ -193,64 +166,6 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
   }
   EXPECT_NEAR (makeNeighborhoods ({{0, 0, 0}, {1, 0, 0}}).geometry.spacing[0], 1.0, 1e-6);
   EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).geometry.spacing[0], 0.0F);
-}
-
-// A tree is divided otherwise if there are other points, however far away.
-TEST (BesideLines, DoNotDependOnHowTheTreeIsDivided)
-{
-  Positions positions;
-  for (int row = 0; row < 15; ++row)
-    for (int i = 0; i < 400; ++i)
-      positions.emplace_back (0.1 * i + 0.02 * std::sin (7.0 * i * (row + 1)), 1.5 * row,
-                              0.3 * std::sin (0.1 * i));
-  const auto lookedUp = [&positions] (int others) {
-    Positions all = positions;
-    for (int i = 0; i < others; ++i)
-      all.emplace_back (1e4 + i, 1e4 * std::cos (i), 1e4 * std::sin (i));
-    const Rows rows = Rows::range (0, static_cast<Index> (positions.size ()));
-    const KdTree tree (all);
-    const CsrLists neighbors = findNearestNeighbors (all, Rows::all (all.size ()), 20, tree, 1);
-    const std::vector<float> spacing = localSpacing (all, neighbors, rows, 1);
-    const PlaneLimits planes;
-    EXPECT_TRUE (isAnyOnLine (all, neighbors, rows, planes.least_aspect, 1));
-    return findBesideLines (all, neighbors, spacing, tree, rows, planes.least_aspect, {}, 1);
-  };
-  const BesideLines whole = lookedUp (0);
-  EXPECT_GT (whole.neighbors.ids.size (), positions.size ());
-  for (const int others : {1, 700, 5000}) {
-    const BesideLines same = lookedUp (others);
-    for (Index p = 0; p < positions.size (); ++p) {
-      const Row row = same.neighbors.row (p), wanted = whole.neighbors.row (p);
-      ASSERT_TRUE (std::equal (row.begin (), row.end (), wanted.begin (), wanted.end ())) << p;
-      ASSERT_EQ (same.reach[p], whole.reach[p]) << p;
-    }
-  }
-}
-
-TEST (Stars, OfSomePointsAreThoseOfAll)
-{
-  const Positions positions = twoSheets (3.0);
-  for (const bool with_offsets : {true, false}) {
-    const Points points = makePoints (positions, samples::indices (positions.size ()), 1);
-    StarSettings settings;
-    settings.with_offsets = with_offsets;
-    const CsrLists neighbors = findNeighbors (points, {}, 1);
-    const LocalPlanes planes = fitLocalPlanes (points, neighbors, std::nullopt, settings, 1);
-    const Stars all = makeLocalGeometry (points, neighbors, settings, 1).stars;
-    std::vector<Index> centres;
-    for (Index p = static_cast<Index> (points.size ()); p-- > 0;)
-      if (p % 3 != 1)
-        centres.push_back (p); // in another order
-    const Stars some = makeStarsOf (centres, points, planes, settings, 2);
-    ASSERT_EQ (some.neighbors.rows (), centres.size ());
-    for (Index i = 0; i < centres.size (); ++i) {
-      const Row row = some.neighbors.row (i), same = all.neighbors.row (centres[i]);
-      ASSERT_TRUE (std::equal (row.begin (), row.end (), same.begin (), same.end ())) << i;
-      ASSERT_EQ (some.open[i], all.open[centres[i]]) << i;
-      ASSERT_EQ (some.normals[i], all.normals[centres[i]]) << i;
-    }
-    EXPECT_EQ (some.offsets_in_plane.size (), with_offsets ? some.neighbors.ids.size () : 0U);
-  }
 }
 
 // Lines on a wavy sheet. Where they are half as far apart as the neighbours reach, or as far, a few

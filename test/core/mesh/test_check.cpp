@@ -119,17 +119,6 @@ TEST (MeshCheck, LoopsHaveTheirComponentsAndTheirSizeInTheCloud)
   }
 }
 
-TEST (MeshCheck, ADiscIsOneComponentWithOneLoopAndNoHandle)
-{
-  Mesh holed_torus = torus (20, 9);
-  holed_torus.triangles.pop_back ();
-  EXPECT_TRUE (check (sheet (6)).isDisc ());
-  // Of the last one, Euler characteristic and loops are those of a disc.
-  for (const Mesh& mesh : {Mesh (), annulus (9), tetrahedron (), holed_torus,
-                           beside (sheet (2), sheet (2)), beside (sheet (6), torus (3, 3))})
-    EXPECT_FALSE (check (mesh).isDisc ());
-}
-
 TEST (MeshCheck, WhatIsBrokenIsCounted)
 {
   struct Case
@@ -172,31 +161,6 @@ TEST (MeshCheck, WhatIsBrokenIsCounted)
     EXPECT_NE (problem.message.find ("not an oriented manifold"), std::string::npos);
     EXPECT_TRUE (report.check.done);
   }
-}
-
-// The check takes any triangles, and agrees with TriangleMesh::connect on what is a manifold.
-TEST (MeshCheck, AnyTriangles)
-{
-  RandomStream random (11);
-  std::size_t sound = 0;
-  for (int run = 0; run < 3000; ++run) {
-    constexpr std::size_t POINTS = 7;
-    Mesh mesh;
-    mesh.positions = samples::randomPoints (POINTS, static_cast<std::uint64_t> (run));
-    mesh.triangles.resize (1 + random.below (6));
-    for (Triangle& t : mesh.triangles)
-      for (Index& p : t)
-        p = static_cast<Index> (random.below (POINTS));
-    TriangleMesh connected;
-    connected.triangles = mesh.triangles;
-    const bool is_sound = connected.connect (POINTS, 1);
-    const MeshExamination found = check (mesh);
-    // But for two triangles back to back, which are a sphere for TriangleMesh.
-    const bool is_flat = samples::unordered (mesh.triangles).size () < mesh.triangles.size ();
-    EXPECT_EQ (found.isManifold (), is_sound && !is_flat);
-    sound += is_sound ? 1 : 0;
-  }
-  EXPECT_GT (sound, 100U);
 }
 
 std::vector<std::string>

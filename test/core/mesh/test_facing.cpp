@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which side of a surface becomes its front, what that is decided by, and where sheets continue
-// each other.
+// Which side of a surface becomes its front, and what that is decided by.
 #include "mesh/facing.h"
 
 #include "facing_cases.h"
@@ -88,15 +87,6 @@ TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
       samples::expectConsistent (mesh);
     }
   }
-}
-
-TEST (Facing, AMeshOfNothingStaysNothing)
-{
-  TriangleMesh mesh;
-  EXPECT_EQ (faceOutwards (mesh, {}, {}, {}, 1).turned, 0U);
-  mesh = connected ({{0, 1, 2}}, 3); // without area
-  faceOutwards (mesh, Positions (3, Eigen::Vector3d::Zero ()), {}, {}, 1);
-  EXPECT_EQ (mesh.triangles.size (), 1U);
 }
 
 // Bodies with windows, hollows, bodies within others, torn surfaces.
@@ -194,73 +184,6 @@ TEST (Facing, WhatOneViewHasShownIsTurnedTogether)
     EXPECT_EQ (facing.objects.size (), is_one_view ? 1U : 2U);
     EXPECT_EQ (facing.turned, is_one_view ? 0U : 1U);
   }
-}
-
-TEST (Facing, SumsOverTwoRangesOfTrianglesAreThoseOfATorus)
-{
-  const Mesh torus = samples::torus (200, 170); // with the radii 1 and 0.4
-  const TriangleMesh mesh = connected (torus);
-  const MeshComponents found = findComponents (mesh, 1);
-  const FacingSums sum = sumComponents (mesh, torus.positions, found, {}, {}, 1).at (0);
-  EXPECT_NEAR (sum.area_vector.norm (), 0.0, 1e-9);
-  EXPECT_NEAR (std::abs (sum.volume) / 6.0, 2.0 * PI * PI * 0.16, 0.01);
-  EXPECT_NEAR (sum.area / 2.0, 4.0 * PI * PI * 0.4, 0.05);
-}
-
-constexpr Index SHEET_SIDE = 10; // squares of unit spacing
-
-std::vector<Continuation>
-continuationsOf (const Mesh& sheets)
-{
-  const TriangleMesh mesh = connected (sheets);
-  return findContinuations (mesh, findComponents (mesh, 1), sheets.positions, {}, 1);
-}
-
-Mesh
-flatSheet (const Eigen::Isometry3d& place = Eigen::Isometry3d::Identity ())
-{
-  return samples::cells (SHEET_SIDE, SHEET_SIDE, [&] (Index x, Index y) -> Eigen::Vector3d {
-    return place * Eigen::Vector3d (x, y, 0.0);
-  });
-}
-
-// One sheet, and another one beside it, which turns halfway across the gap.
-std::vector<Continuation>
-beside (double gap, double height, double degrees, bool is_reversed)
-{
-  Eigen::Isometry3d place = Eigen::Isometry3d::Identity ();
-  place.translate (Eigen::Vector3d (SHEET_SIDE + 0.5 * gap, 0.0, height));
-  place.rotate (Eigen::AngleAxisd (-degrees * DEGREE, Eigen::Vector3d::UnitY ()));
-  place.translate (Eigen::Vector3d (0.5 * gap, 0.0, 0.0));
-  Mesh both = flatSheet (), other = flatSheet (place);
-  if (is_reversed)
-    samples::turnRound (other);
-  samples::append (both, other);
-  return continuationsOf (both);
-}
-
-TEST (Continuations, AreFoundBesideWhateverTheAngle)
-{
-  for (const double degrees : {0.0, 30.0, 90.0, -90.0})
-    for (const bool is_reversed : {false, true}) {
-      SCOPED_TRACE (degrees);
-      const std::vector<Continuation> found = beside (2.0, 0.0, degrees, is_reversed);
-      ASSERT_EQ (found.size (), 1U);
-      EXPECT_EQ (found.front ().a, 0U);
-      EXPECT_EQ (found.front ().b, 1U);
-      EXPECT_EQ (found.front ().is_opposite, is_reversed);
-      EXPECT_GT (found.front ().support, 0.5 * SHEET_SIDE);
-    }
-}
-
-TEST (Continuations, AreNeitherFarNorAboveNorOfOneComponent)
-{
-  EXPECT_EQ (beside (7.0, 0.0, 0.0, false).size (), 1U);
-  EXPECT_TRUE (beside (9.0, 0.0, 0.0, false).empty ());
-  EXPECT_TRUE (beside (-1.0 * SHEET_SIDE, 1.0, 0.0, false).empty ());
-  EXPECT_TRUE (beside (-1.0 * SHEET_SIDE, 0.1, 0.0, true).empty ());
-  EXPECT_TRUE (continuationsOf ({}).empty ());
-  EXPECT_TRUE (continuationsOf (flatSheet ()).empty ());
 }
 
 } // namespace

@@ -93,51 +93,6 @@ TEST (Flips, AreDelaunayInThePlane)
   }
 }
 
-TEST (Flips, EndOnStraightLines)
-{
-  // A square grid in space: along straight lines any two diagonals cost the same, up to rounding.
-  constexpr double SIDE = 15.0;
-  Sheet sheet = samples::fillOutlines (
-      {samples::resample ({{0, 0}, {SIDE, 0}, {SIDE, SIDE}, {0, SIDE}}, 1.0)}, 1.0, 0.0, 1);
-  // The border is laid on a circle, so that some triangles have all corners on one line.
-  Places uv;
-  for (std::size_t i = 0; i < sheet.positions.size (); ++i) {
-    const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (sheet.border);
-    if (i < sheet.border)
-      uv.emplace_back (std::cos (angle), std::sin (angle));
-    else
-      uv.emplace_back (0.05 * (sheet.positions[i].head<2> () - Eigen::Vector2d (7.5, 7.5)));
-  }
-  TriangleMesh mesh = triangulatePlane (uv, samples::indices (sheet.border));
-  const Eigen::Vector3d x (0.9, 0.3, 0.1), y (-0.3, 0.9, -0.7);
-  for (Eigen::Vector3d& p : sheet.positions)
-    p = p.x () * x + p.y () * y;
-  const std::vector<Eigen::Vector3f> normals (sheet.positions.size (),
-                                              x.cross (y).normalized ().cast<float> ());
-  flipEdges (mesh, TriangleCost (sheet.positions, normals), 1);
-  EXPECT_EQ (expectDisc (mesh, sheet.positions.size ()), samples::indices (sheet.border));
-}
-
-TEST (Flips, NormalsAreTurnedToTheSideOfTheAreasAroundThem)
-{
-  samples::Mesh torus = samples::torus (200, 170); // three ranges of points
-  const TriangleMesh mesh = connected (torus);
-  torus.positions.emplace_back (0, 0, 0); // no vertex
-  const Positions random = samples::randomPoints (torus.positions.size (), 4);
-  std::vector<Eigen::Vector3f> normals, area (random.size (), Eigen::Vector3f::Zero ());
-  for (const Eigen::Vector3d& p : random)
-    normals.emplace_back ((p - Eigen::Vector3d::Constant (0.5)).cast<float> ());
-  for (const Triangle& t : mesh.triangles)
-    for (const Index p : t)
-      area[p] += areaVector (torus.positions[t[0]], torus.positions[t[1]], torus.positions[t[2]])
-                     .cast<float> ();
-  std::vector<Eigen::Vector3f> turned = normals;
-  orientNormals (mesh, torus.positions, turned, 2);
-  EXPECT_EQ (turned.back (), normals.back ());
-  for (std::size_t p = 0; p < normals.size (); ++p)
-    EXPECT_EQ (turned[p], (normals[p].dot (area[p]) < 0.0F ? -1.0F : 1.0F) * normals[p]);
-}
-
 TEST (Insertion, PutsEveryPointIn)
 {
   const SortedDisc disc (0.07, 7);
@@ -157,53 +112,6 @@ TEST (Insertion, PutsEveryPointIn)
   EXPECT_EQ (insertMissingPoints (mesh, neighbors, cost, false, 1), missing);
   expectDisc (mesh, positions.size ());
   EXPECT_EQ (insertMissingPoints (mesh, neighbors, cost, false, 1), 0U);
-}
-
-// Inserts points after the first three into the triangle of these; point i has the i-th neighbour
-// only. Returns how many are in.
-std::size_t
-inserted (const Positions& positions, const std::vector<Index>& neighbor_of)
-{
-  const std::vector<Eigen::Vector3f> normals = upward (positions.size ());
-  const CsrLists neighbors = makeCsrLists (positions.size (), [&] (const auto& emit) {
-    for (std::size_t i = 0; i < neighbor_of.size (); ++i)
-      emit (3 + i, neighbor_of[i]);
-  });
-  TriangleMesh mesh = connected ({{0, 1, 2}}, positions.size ());
-  const std::size_t count =
-      insertMissingPoints (mesh, neighbors, TriangleCost (positions, normals), false, 1);
-  EXPECT_EQ (mesh.triangles.size (), 1 + 2 * count);
-  samples::expectConsistent (mesh);
-  return count;
-}
-
-TEST (Insertion, ARowOfPointsFindsItsWayInAndPointsWithoutVerticesNearbyStayOut)
-{
-  const Positions positions = {{0, 0, 0},   {10, 0, 0},  {0, 10, 0},
-                               {3, 3.1, 0}, {2, 2.3, 0}, {2.5, 1.5, 0}};
-  EXPECT_EQ (inserted (positions, {4, 5, 0}), 3U);
-  EXPECT_EQ (inserted (positions, {4, 3, 4}), 0U);
-}
-
-// Points that differ by less than squares can tell, and whose spacing is 0 as a float.
-TEST (TriangleCost, IsFiniteHoweverNearThePointsAre)
-{
-  const Positions positions{{0.0, 0.0, 0.0},     {1e-200, 0.0, 0.0}, {0.0, 1e-200, 0.0},
-                            {2e-200, 3e-200, 0}, {1.0, 0.0, 0.0},    {0.0, 1.0, 0.0}};
-  const std::vector<Eigen::Vector3f> normals = upward (positions.size ());
-  const std::vector<float> spacing (positions.size (), 0.0F);
-  const TriangleCost cost (positions, normals, &spacing);
-  for (Index a = 0; a < positions.size (); ++a)
-    for (Index b = 0; b < positions.size (); ++b)
-      for (Index c = 0; c < positions.size (); ++c)
-        if (a != b && b != c && c != a) {
-          EXPECT_TRUE (std::isfinite (cost (a, b, c))) << a << b << c;
-          EXPECT_GT (cost (a, b, c), 0.0) << a << b << c;
-        }
-  // Flips end there, too.
-  TriangleMesh mesh =
-      connected ({{0, 1, 2}, {2, 1, 3}, {3, 1, 4}, {2, 3, 5}, {3, 4, 5}}, positions.size ());
-  EXPECT_LT (flipEdges (mesh, cost, 1), 10U);
 }
 
 // A flat sheet whose triangulation has some points in the wrong places.
@@ -246,27 +154,6 @@ TEST (Finish, PutsPointsInOrderThatThePlaneHasMixedUp)
     EXPECT_EQ (finish.folds, flip ? 0U : finish.folds_after_flips);
     EXPECT_EQ (finish.flips > 0, flip);
     EXPECT_EQ (unordered (sheet.mesh.triangles) == unordered (before), !flip);
-  }
-}
-
-TEST (Finish, RepairIsSkippedAboveTheLargestShareOfFolds)
-{
-  MixedUpSheet sheet;
-  const MeshFinish repaired = sheet.finish ({});
-  ASSERT_GT (repaired.folds_after_flips, 0U);
-  EXPECT_TRUE (repaired.is_repairable);
-  EXPECT_EQ (repaired.folds, 0U);
-  // The share is that of 1.5 edges per triangle.
-  const double share = static_cast<double> (repaired.folds_after_flips) /
-                       (1.5 * static_cast<double> (sheet.mesh.triangles.size ()));
-  for (const bool is_above : {true, false}) {
-    FinishSettings settings;
-    settings.largest_fold_share = share * (is_above ? 0.999 : 1.001);
-    const MeshFinish finish = MixedUpSheet ().finish (settings);
-    EXPECT_EQ (finish.is_repairable, !is_above);
-    EXPECT_EQ (finish.folds_after_flips, repaired.folds_after_flips);
-    EXPECT_EQ (finish.folds, is_above ? repaired.folds_after_flips : 0U);
-    EXPECT_EQ (finish.flips, repaired.flips);
   }
 }
 

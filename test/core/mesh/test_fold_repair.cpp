@@ -224,28 +224,5 @@ TEST (FoldRepair, EndsWhenItHasAskedForAllItsCosts)
   EXPECT_GT (repair (0, MANY), 0U);
 }
 
-TEST (FoldRepair, CachedCostsAreTheCostsFromAnyCornerOn)
-{
-  // More triangles than the table holds, asked for again and again. Some are needles.
-  Positions positions = samples::randomPoints (40, 7);
-  for (std::size_t p = 0; p < 20; ++p)
-    positions[p].tail<2> () *= 1e-8;
-  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
-  const TriangleCost cost (positions, normals);
-  CachedCost cached (cost);
-  RandomStream random (8);
-  for (int i = 0; i < 100000; ++i) {
-    const auto a = static_cast<Index> (random.below (38));
-    const auto b = static_cast<Index> (a + 1 + random.below (38 - a));
-    const auto c = static_cast<Index> (b + 1 + random.below (39 - b));
-    const Triangle corners = i % 3 == 0   ? Triangle{a, b, c}
-                             : i % 3 == 1 ? Triangle{c, a, b}
-                                          : Triangle{b, a, c};
-    const TriangleCost::Value value = cached (corners);
-    ASSERT_EQ (value.cost, cost (corners));
-    ASSERT_EQ (value.unit_normal, cost.value (corners[0], corners[1], corners[2]).unit_normal);
-  }
-}
-
 } // namespace
 } // namespace pcl::floater

@@ -49,22 +49,6 @@ TEST (PolygonFilling, IsTheBestOfAllTriangulations)
   }
 }
 
-TEST (PolygonFilling, UsesAllowedEdgesOnly)
-{
-  PolygonFilling filling (1);
-  const std::vector<Index> square = {3, 5, 7, 9};
-  const auto cost = [] (Index, Index, Index) { return 1.0; };
-  const auto without = [] (Index a, Index b) {
-    return [a, b] (Index p, Index q) { return std::minmax (p, q) != std::minmax (a, b); };
-  };
-  using Set = std::set<Triangle>;
-  EXPECT_EQ (samples::unordered (filling.fill (square, cost, without (3, 7))),
-             (Set{{3, 5, 9}, {5, 7, 9}}));
-  EXPECT_EQ (samples::unordered (filling.fill (square, cost, without (5, 9))),
-             (Set{{3, 5, 7}, {3, 7, 9}}));
-  EXPECT_TRUE (filling.fill (square, cost, [] (Index, Index) { return false; }).empty ());
-}
-
 // A flat ring of two rows of points, a circle of radius 1.2 and one of radius 1; its triangles, and
 // its loops with the inner one last.
 struct Ring

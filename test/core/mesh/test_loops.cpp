@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sizes of boundary loops, evidence of what they are, and which of them are kept open.
-#include "mesh/hole_widening.h"
 #include "mesh/loops.h"
 
 #include "mesh/known_meshes.h"
@@ -42,26 +41,6 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
     EXPECT_LE (loop.width, exact);
     EXPECT_GE (loop.width, count <= 256 ? exact : exact - 2.0 * step);
   }
-}
-
-TEST (BoundaryLoops, AreFoundInOrderWithTheirComponentsAndSizes)
-{
-  // Two triangles apart from each other; point 3 is no vertex.
-  const Positions positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {9, 9, 9},
-                               {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
-  const TriangleMesh mesh = samples::connected ({{5, 6, 4}, {0, 1, 2}}, positions.size ());
-  const MeshComponents components = findComponents (mesh, 1);
-  EXPECT_EQ (countPoints (mesh, components), (std::vector<std::size_t>{3, 3}));
-  const std::vector<BoundaryLoop> loops = findBoundaryLoops (
-      mesh, components, positions, {1.0F, 2.0F, 6.0F, 9.0F, 2.0F, 2.0F, 2.0F}, 1);
-  ASSERT_EQ (loops.size (), 2U);
-  EXPECT_EQ (loops[0].points, (std::vector<Index>{0, 1, 2}));
-  EXPECT_EQ (loops[0].component, 1U);
-  EXPECT_DOUBLE_EQ (loops[0].length, 12.0);
-  EXPECT_DOUBLE_EQ (loops[0].width, 5.0);
-  EXPECT_DOUBLE_EQ (loops[0].spacing, 3.0);
-  EXPECT_EQ (loops[1].points, (std::vector<Index>{4, 5, 6}));
-  EXPECT_EQ (loops[1].component, 0U);
 }
 
 HoleOptions
@@ -221,78 +200,6 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   // The border turns the other way.
   EXPECT_NEAR (border.turning, 1.0, 1e-9);
   EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
-}
-
-// A fan over the hole, without one triangle, leaves a loop of three points.
-TEST (HoleWidening, RemovesWhatIsTooLargeForTheSamplingAround)
-{
-  TriangularSheet sheet (10, 2.5);
-  const std::vector<Index> hole = sheet.loops[0].points;
-  const auto inner = sheet.mesh.triangles.size ();
-  for (std::size_t i = 1; i + 2 < hole.size (); ++i)
-    sheet.mesh.triangles.push_back ({hole[0], hole[i + 1], hole[i]});
-  ASSERT_TRUE (sheet.mesh.connect (sheet.positions.size (), 1));
-  const std::vector<float> spacing (sheet.positions.size (), 1.0F);
-  sheet.loops =
-      findBoundaryLoops (sheet.mesh, findComponents (sheet.mesh, 1), sheet.positions, spacing, 1);
-  const auto small = static_cast<std::size_t> (
-      std::find_if (sheet.loops.begin (), sheet.loops.end (),
-                    [] (const BoundaryLoop& loop) { return loop.points.size () == 3; }) -
-      sheet.loops.begin ());
-  ASSERT_LT (small, sheet.loops.size ());
-  std::vector<std::uint8_t> is_looked (sheet.loops.size (), 0);
-  is_looked[small] = 1;
-  HoleWideningLimits limits;
-  limits.rings = hole.size ();
-  const auto find = [&] {
-    return trianglesOverHoles (sheet.mesh, sheet.loops, sheet.evidence (), is_looked,
-                               sheet.positions, limits, 1);
-  };
-  std::size_t large =
-      0; // the triangles at the ends of the fan may be as small as those of the sheet
-  for (const auto& [triangle, loop] : find ()) {
-    EXPECT_GE (triangle, inner);
-    EXPECT_EQ (loop, small);
-    ++large;
-  }
-  EXPECT_GE (large + 4, hole.size () - 3);
-  limits.rings = 2;
-  EXPECT_EQ (find ().size (), 2U); // one triangle beside the loop, and one beside that
-  is_looked[small] = 0;
-  EXPECT_TRUE (find ().empty ());
-}
-
-// Teeth make the loop more than twice as long, and leave the hole nearly as wide.
-TEST (LoopEvidence, ARaggedHoleIsAsDeepAsItIsWide)
-{
-  constexpr double RADIUS = 6.5, TOOTH = 2.0;
-  TriangularSheet sheet (12, RADIUS);
-  const auto widest = [&sheet] {
-    const std::vector<Index>& loop = sheet.loops[0].points;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < loop.size (); ++i)
-      squares +=
-          (sheet.positions[loop[i]] - sheet.positions[loop[(i + 1) % loop.size ()]]).squaredNorm ();
-    return sheet.evidence ()[0].depth * std::sqrt (squares / static_cast<double> (loop.size ()));
-  };
-  // Some triangle holds the middle of the hole; the largest of its heights is above the radius.
-  EXPECT_GT (widest (), RADIUS);
-  const std::vector<Index>& loop = sheet.loops[0].points;
-  for (std::size_t i = 0; i < loop.size (); i += 2)
-    sheet.positions[loop[i]] *= (RADIUS - TOOTH) / sheet.positions[loop[i]].norm ();
-  EXPECT_GT (widest (), RADIUS - TOOTH);
-}
-
-TEST (LoopEvidence, GrowthIsThatOfTheEdgesTowardsTheLoop)
-{
-  // Distances from the middle to the power of 1/2: edges at the hole are longer than those beyond.
-  TriangularSheet sheet (12, 2.5);
-  for (Eigen::Vector3d& p : sheet.positions)
-    p *= std::pow (std::max (p.norm (), 1e-9), -0.5);
-  EXPECT_GT (sheet.evidence ()[0].growth, 0.1);
-  for (Eigen::Vector3d& p : sheet.positions)
-    p *= std::pow (p.norm (), 3.0); // to the power of 2
-  EXPECT_LT (sheet.evidence ()[0].growth, -0.1);
 }
 
 TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)

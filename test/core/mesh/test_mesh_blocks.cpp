@@ -50,67 +50,6 @@ neighborsInGrid ()
   });
 }
 
-bool
-isAtBorder (Index p)
-{
-  const Index x = p % BLOCKS_SIDE, y = p / BLOCKS_SIDE;
-  return x == 0 || y == 0 || x == BLOCKS_SIDE - 1 || y == BLOCKS_SIDE - 1;
-}
-
-TEST (MeshBlocks, AreTheSameMeshWhereTheyAreFreeAndArePutBackAsTheyWere)
-{
-  const BumpySheet sheet;
-  TriangleMesh mesh = sheet.mesh;
-  const MeshBlocks blocks (mesh, 2);
-  ASSERT_EQ (blocks.count (), 6U);
-  std::size_t free_triangles = 0;
-  for (std::size_t b = 0; b < blocks.count (); ++b) {
-    const MeshBlock block = blocks.cutOut (mesh, b);
-    ASSERT_EQ (block.first, blocks.first (b));
-    ASSERT_EQ (block.mesh.triangle_of.size (), blocks.last (b) - blocks.first (b));
-    for (Index t = 0; t < block.mesh.triangles.size (); ++t) {
-      if (!block.mesh.isFree (t))
-        continue;
-      ++free_triangles;
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        // Across every edge is a triangle, or the boundary of the whole mesh.
-        const MeshEdge e{t, side};
-        if (block.mesh.mate (e).triangle == NONE) {
-          EXPECT_TRUE (isAtBorder (block.first + block.mesh.from (e)) &&
-                       isAtBorder (block.first + block.mesh.to (e)));
-        }
-      }
-    }
-    // Edges are known but between two points of which triangles are missing.
-    for (Index p = 0; p + 1 < block.mesh.triangle_of.size (); ++p)
-      for (const Index step :
-           {Index{1}, BLOCKS_SIDE - 1, BLOCKS_SIDE, BLOCKS_SIDE + 1, 2 * BLOCKS_SIDE}) {
-        const Index q = p + step;
-        if (q >= block.mesh.triangle_of.size () || block.mesh.triangle_of[p] == NONE ||
-            block.mesh.triangle_of[q] == NONE)
-          continue;
-        const bool are_partial = block.mesh.isPartial (p) && block.mesh.isPartial (q);
-        EXPECT_EQ (block.mesh.hasEdge (p, q),
-                   are_partial || mesh.hasEdge (block.first + p, block.first + q));
-      }
-    blocks.putBack (block, b, mesh);
-  }
-  EXPECT_TRUE (mesh.triangles == sheet.mesh.triangles);
-  samples::expectConsistent (mesh);
-  EXPECT_GT (free_triangles, mesh.triangles.size () * 8 / 10);
-  EXPECT_LT (free_triangles, mesh.triangles.size ());
-}
-
-TEST (MeshBlocks, SmallMeshesAreOneBlock)
-{
-  TriangleMesh mesh;
-  EXPECT_EQ (MeshBlocks (mesh, 1).count (), 0U);
-  mesh = samples::connected ({{0, 1, 2}}, 4096);
-  EXPECT_EQ (MeshBlocks (mesh, 1).count (), 1U);
-  ASSERT_TRUE (mesh.connect (4097, 1));
-  EXPECT_EQ (MeshBlocks (mesh, 1).count (), 2U);
-}
-
 TEST (MeshBlocks, FlipsEndWhereNoFlipIsBetter)
 {
   const BumpySheet sheet;

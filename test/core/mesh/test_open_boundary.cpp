@@ -88,18 +88,6 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
   }
 }
 
-TEST (BoundaryFolds, EveryPointKeepsATriangle)
-{
-  // A fold whose triangles are all that their points have.
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.9, 0.01}};
-  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
-  TriangleMesh changed = connected (mesh);
-  ASSERT_EQ (foldsOf (changed, mesh), 1U);
-  EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 0U);
-  EXPECT_EQ (changed.triangles, mesh.triangles);
-}
-
 TEST (BoundaryNotches, FillingsAreTakenOut)
 {
   constexpr Index COLUMNS = 20, ROWS = 12;
@@ -115,20 +103,6 @@ TEST (BoundaryNotches, FillingsAreTakenOut)
   TriangleMesh changed = connected (filled);
   EXPECT_EQ (openNotches (changed, filled.positions, NotchLimits (), 1), ROWS - 1U);
   EXPECT_EQ (changed.triangles, mesh.triangles);
-}
-
-TEST (BoundaryNotches, EveryPointKeepsATriangle)
-{
-  // A fan whose middle is its only inner point: the angles there are all of 120 degrees.
-  Mesh fan;
-  fan.positions = {{0, 0, 0}, {1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0}};
-  fan.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
-  NotchLimits limits;
-  limits.usual_share = 0.5; // so that these count as unusual
-  TriangleMesh changed = connected (fan);
-  EXPECT_EQ (openNotches (changed, fan.positions, limits, 1), 1U);
-  EXPECT_EQ (changed.triangles.size (), 2U);
-  samples::expectDisc (changed, 4);
 }
 
 // A sphere of uneven points, triangulated as a whole, and then cut: what is made of the points

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places in space: tetrahedra, the two sides of a surface, and zones of a mesh made anew.
+// Places in space: the two sides of a surface, and zones of a mesh made anew.
 #include "mesh/remaking.h"
 
-#include "core/tetrahedra.h"
 #include "mesh/known_meshes.h"
 #include "mesh/two_sides.h"
 #include "mesh_oracle.h"
@@ -14,52 +13,6 @@
 namespace pcl::floater {
 namespace {
 using samples::Positions;
-
-TEST (Tetrahedra, HaveNoPointInTheirBallsAndKnowEachOther)
-{
-  const Positions points = samples::randomPoints (60, 1);
-  const Tetrahedra all = delaunayInSpace (points);
-  std::size_t finite = 0;
-  for (Index t = 0; t < all.size (); ++t) {
-    const auto& c = all.corners[t];
-    for (unsigned k = 0; k < 4; ++k) {
-      const auto& back = all.neighbors[all.neighbors[t][k]];
-      EXPECT_NE (std::find (back.begin (), back.end (), t), back.end ());
-      if (c[k] != NONE) {
-        const Row around = all.around.row (c[k]);
-        EXPECT_TRUE (std::binary_search (around.begin (), around.end (), t));
-      }
-    }
-    if (all.isInfinite (t))
-      continue;
-    ++finite;
-    // The centre has the same distance from all corners.
-    Eigen::Matrix3d edges;
-    Eigen::Vector3d half_squares;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d edge = points[c[static_cast<unsigned> (k) + 1]] - points[c[0]];
-      edges.row (k) = edge;
-      half_squares[k] = 0.5 * edge.squaredNorm ();
-    }
-    for (unsigned k = 0; k < 4; ++k) {
-      const Triangle facet = all.facet (t, k);
-      const Eigen::Vector3d outwards =
-          areaVector (points[facet[0]], points[facet[1]], points[facet[2]]);
-      EXPECT_LT (outwards.dot (points[c[k]] - points[facet[0]]), 0.0);
-    }
-    const Eigen::Vector3d to_centre = edges.inverse () * half_squares;
-    for (const Eigen::Vector3d& p : points)
-      EXPECT_GT ((p - points[c[0]] - to_centre).norm (), to_centre.norm () - 1e-6);
-  }
-  EXPECT_GT (finite, 100U);
-  EXPECT_EQ (delaunayInSpace ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}).size (), 0U);
-  EXPECT_EQ (delaunayInSpace ({}).size (), 0U);
-  // Each point of a line and each of another one would share tetrahedra.
-  Positions lines;
-  for (int i = 0; i < 1000; ++i)
-    lines.push_back (i % 2 == 0 ? Eigen::Vector3d (i, 0, 0) : Eigen::Vector3d (0, i, 1000));
-  EXPECT_EQ (delaunayInSpace (lines).size (), 0U);
-}
 
 // Without a frame, the outside is the front.
 TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
@@ -79,14 +32,6 @@ TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
   for (const Triangle& t : made.triangles)
     volume += place.positions[t[0]].dot (place.positions[t[1]].cross (place.positions[t[2]])) / 6.0;
   EXPECT_NEAR (volume, 4.0 / 3.0 * PI, 0.15);
-}
-
-TEST (TwoSides, NeedPointsInSpace)
-{
-  Place place;
-  place.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-  place.is_free = place.is_rim = place.is_boundary = {0, 0, 0, 0};
-  EXPECT_FALSE (remakePlace (place, 1).is_right);
 }
 
 CsrLists

@@ -172,24 +172,6 @@ TEST (SelfIntersections, AreRemovedByPatchesWhereMovesDoNotHelp)
   EXPECT_LT (left, left_by_moves);
 }
 
-// What has been done when the tests are used up stays, and is told.
-TEST (SelfIntersections, FewTestsEndTheRemovalEarly)
-{
-  UncrossingLimits limits;
-  limits.tests_per_triangle = 0;
-  std::size_t left_before = Swapped ({10, 30, 50}).crossing ().size ();
-  for (const std::size_t tests : {0U, 300U, 1'000'000U}) {
-    limits.fewest_tests = tests;
-    const Uncrossing done = Swapped ({10, 30, 50}).remove (limits);
-    EXPECT_EQ (done.moves + done.flips == 0, tests == 0);
-    if (tests > 0) {
-      EXPECT_LT (done.pairs_left, left_before);
-    }
-    left_before = done.pairs_left;
-  }
-  EXPECT_EQ (left_before, 0U);
-}
-
 // Needles across each other like the threads of a cloth: each overlaps half of all others.
 TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
 {

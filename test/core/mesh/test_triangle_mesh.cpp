@@ -22,42 +22,6 @@ gridTriangles (Index side)
   return samples::sheet (side - 1).triangles;
 }
 
-TEST (TriangleMesh, FansGoRoundTheirPointAndHaveItsEdges)
-{
-  const TriangleMesh mesh = connected (gridTriangles (6), 37); // point 36 is no vertex
-  const auto trianglesWith = [&mesh] (Index p, Index q) {
-    return std::count_if (mesh.triangles.begin (), mesh.triangles.end (), [=] (const Triangle& t) {
-      return std::count (t.begin (), t.end (), p) > 0 && std::count (t.begin (), t.end (), q) > 0;
-    });
-  };
-  std::vector<Index> fan{5, 5};
-  mesh.fan (36, fan);
-  EXPECT_TRUE (fan.empty ());
-  for (Index p = 0; p < 36; ++p) {
-    mesh.fan (p, fan);
-    ASSERT_EQ (fan.size (), static_cast<std::size_t> (trianglesWith (p, p)));
-    const bool border = p % 6 == 0 || p % 6 == 5 || p / 6 == 0 || p / 6 == 5;
-    for (std::size_t i = 0; i < fan.size (); ++i) {
-      // Anti-clockwise: the edge that leaves one triangle enters the next.
-      const Index now = fan[i], then = fan[(i + 1) % fan.size ()];
-      const bool joined =
-          mesh.to ({now, mesh.sideOf (now, p)}) == mesh.from ({then, mesh.sideOf (then, p)});
-      EXPECT_EQ (joined, !(border && i + 1 == fan.size ()));
-    }
-    for (Index q = 0; q < 37; ++q)
-      EXPECT_EQ (p != q && mesh.hasEdge (p, q), p != q && trianglesWith (p, q) > 0);
-  }
-}
-
-TEST (TriangleMesh, FlipExchangesTheDiagonals)
-{
-  TriangleMesh mesh = connected ({{0, 1, 2}, {3, 2, 1}}, 4);
-  mesh.flip ({0, 0});
-  EXPECT_EQ (mesh.triangles[0], (Triangle{0, 1, 3})); // corner, from, opposite
-  EXPECT_EQ (mesh.triangles[1], (Triangle{3, 2, 0})); // opposite, to, corner
-  expectConsistent (mesh);
-}
-
 TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
 {
   RandomStream random (1);
@@ -145,34 +109,6 @@ TEST (TriangleMesh, ComponentsAreNumberedByTheirFirstTriangles)
     EXPECT_TRUE (components.of_triangle == expected);
   }
   EXPECT_EQ (findComponents ({}, 2).count, 0U);
-}
-
-TEST (TriangleMesh, UndoesFlipsAndSplits)
-{
-  TriangleMesh mesh = connected (gridTriangles (6), 37);
-  mesh.split (0, 36); // not recorded
-  EXPECT_EQ (mesh.mark (), 0U);
-  const TriangleMesh before = mesh;
-  mesh.recordChanges ();
-  mesh.flip ({20, 1});
-  const std::size_t mark = mesh.mark ();
-  const TriangleMesh between = mesh;
-  mesh.flip ({20, 1});
-  mesh.flip ({30, 1});
-  std::vector<Index> changed;
-  mesh.journal.appendTriangles (changed);
-  for (const Index t : {20, 30})
-    EXPECT_GT (std::count (changed.begin (), changed.end (), t), 0);
-  TriangleMesh copy = mesh; // with a journal of its own
-  mesh.undo (mark);
-  samples::expectSame (mesh, between);
-  mesh.undo (0);
-  samples::expectSame (mesh, before);
-  copy.undo (mark);
-  samples::expectSame (copy, between);
-  mesh.recordChanges (false);
-  mesh.flip ({20, 1});
-  EXPECT_EQ (mesh.mark (), 0U);
 }
 
 } // namespace

@@ -119,28 +119,6 @@ TEST (Trimming, TrianglesThatCrossAreOpened)
   EXPECT_TRUE (findSelfIntersections (mesh.triangles, mesh.positions, 1).empty ());
 }
 
-TEST (Trimming, OfTwoFansOneStays)
-{
-  // Of the eight triangles, those at the two points that were moved go. Two are left, which share
-  // the point in the middle only.
-  Mesh mesh = sheet (2);
-  mesh.positions[1].z () = 5.0;
-  mesh.positions[7].z () = 5.0;
-  const Trimming trimming = trim (mesh, longestRatio (3.0));
-  EXPECT_EQ (mesh.triangles.size (), 1U);
-  EXPECT_EQ (trimming.triangles, 7U);
-  EXPECT_EQ (trimming.points.size (), 6U);
-
-  // A corner of one triangle at a larger part: the larger fan stays.
-  mesh = sheet (2);
-  mesh.positions[1].z () = 5.0;
-  mesh.positions[6].z () = 5.0; // a corner of {3, 7, 6} only
-  mesh.positions[3].z () = 0.01;
-  trim (mesh, longestRatio (3.0));
-  EXPECT_EQ (unordered (mesh.triangles).count ({0, 3, 4}), 1U);
-  EXPECT_EQ (mesh.triangles.size (), 4U);
-}
-
 TEST (Trimming, WhateverIsCutTheMeshStaysAManifold)
 {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U})

@@ -86,17 +86,5 @@ TEST (VertexNormals, PointsThatNoTriangleTellsOfHaveNone)
   EXPECT_THROW (vertexNormals (positions, {{0, 1, 10}}), std::out_of_range);
 }
 
-// A needle has hardly an angle at its foot, and a hair of it at its tip.
-TEST (VertexNormals, NeedlesWeighWhatTheirAnglesAre)
-{
-  const Positions positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-9, 0, 1}};
-  const std::vector<Eigen::Vector3f> normals = vertexNormals (positions, {{0, 1, 2}, {0, 2, 3}}, 1);
-  // At point 0 both have a right angle, at point 2 both have 45 degrees.
-  expectNear (normals[0], {1, 0, 1}, 1e-6F);
-  const std::vector<Eigen::Vector3f> thin =
-      vertexNormals ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1e-9}}, {{0, 1, 2}, {0, 3, 1}}, 1);
-  expectNear (thin[0], {0, 0, 1}, 1e-6F);
-}
-
 } // namespace
 } // namespace pcl::floater

@@ -98,13 +98,5 @@ TEST (VertexSplits, StacksAreConnectedWithoutFolds)
   EXPECT_GE (foldsOf (expectSplits (sheet, stacked, once), positions), folds);
 }
 
-TEST (VertexSplits, NothingToSplitOrToAdd)
-{
-  TriangleMesh empty = connected (samples::Triangles{}, 2);
-  EXPECT_EQ (splitVertices (empty, {{0, 0, 0}, {1, 1, 1}}, {0, 1}, {}, 1).points, 0U);
-  EXPECT_TRUE (empty.triangles.empty ());
-  expectSplits (samples::sheet (2), {});
-}
-
 } // namespace
 } // namespace pcl::floater

@@ -122,6 +122,16 @@ TEST (NearestNeighbors, DoNotDependOnBlocks)
   for (int i = 0; i < 60; ++i)
     crowd.emplace_back (-1e-170 * i, 0.0, 0.0);
   clouds.push_back (crowd);
+  // Ties, which go by index: a cube, a line, and equal points; and squares that are no normal numbers.
+  Positions cube, line, tiny, equal (30, Eigen::Vector3d (1, 2, 3));
+  for (const Index i : samples::permutation (1331, 4))
+    cube.emplace_back (i % 11, i / 11 % 11, i / 121); // NOLINT (bugprone-integer-division)
+  for (const Index i : samples::permutation (500, 6)) {
+    line.emplace_back (0.1 * i, -0.2 * i, 0.3 * i);
+    tiny.emplace_back (1e-161 * (i % 20), 1e-161 * (i / 20), 0.0); // NOLINT
+  }
+  equal.resize (130, Eigen::Vector3d (1, 2, 4));
+  clouds.insert (clouds.end (), {cube, line, tiny, equal});
   for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud) {
     const Positions& positions = clouds[cloud];
     const Rows all = Rows::all (positions.size ());
@@ -254,27 +264,6 @@ allSettings ()
   blocks.blocks = 5;
   balls.options.kind = Neighborhood::BALL_DELAUNAY;
   return {nearest, few, blocks, balls};
-}
-
-// Whoever searches later shares the tree; where the search needed none, an earlier one is gone.
-TEST (FindNeighbors, TheTreeOfAllPointsIsHandedOut)
-{
-  const Points points = workingPoints (samples::randomPoints (1500, 1));
-  std::optional<KdTree> tree;
-  for (const NeighborSettings& settings : allSettings ()) {
-    const bool is_ball = settings.options.kind == Neighborhood::BALL_DELAUNAY;
-    expectSame (findNeighbors (points, settings, 2, &tree),
-                listsByTryingAll (points.positions, Rows::all (points.size ()),
-                                  static_cast<std::size_t> (settings.options.k),
-                                  is_ball ? settings.options.ball_radius : 0.0));
-    ASSERT_EQ (tree.has_value (), settings.blocks == 0 && !is_ball);
-    if (!tree)
-      continue;
-    std::vector<Neighbor> found;
-    tree->nearest (points.positions[7], 1, found);
-    ASSERT_EQ (found.size (), 1U);
-    EXPECT_EQ (found[0].point, 7U);
-  }
 }
 
 // Chooses each point with the same probability, and all points of the cloud from `first_sure` on.

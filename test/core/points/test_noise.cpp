@@ -72,21 +72,6 @@ TEST (Noise, TellsStrongNoiseFromNone)
   }
 }
 
-TEST (Noise, IsStrongWhereStarsOfNoisyPointsDisagree)
-{
-  Noise noise;
-  noise.at_point.assign (100, 0.0F);
-  const auto isStrongIf = [&noise] (std::size_t noisy, float agreement) {
-    std::fill_n (noise.at_point.begin (), noisy, 1.0F);
-    noise.noisy_points = noisy;
-    return isStrong (noise, std::vector<float> (100, agreement), NoiseLimits{}.disturbed_share);
-  };
-  EXPECT_FALSE (isStrongIf (0, 0.8F));
-  EXPECT_FALSE (isStrongIf (17, 0.8F));
-  EXPECT_TRUE (isStrongIf (18, 0.8F));
-  EXPECT_FALSE (isStrongIf (100, 1.0F));
-}
-
 // Two chains of points; projection explains the first, and only moves the disagreement of the other.
 TEST (Noise, IsKeptInRegionsThatItExplains)
 {
@@ -121,18 +106,6 @@ TEST (Noise, ThinSheetsAreNone)
                 placed (jitteredGrid (60, 60, 1.0, 0.5, random), {0.0, 0.0, gap}));
     EXPECT_FALSE (reconstruct (samples::asInput (sheets), {}).report.denoised);
   }
-}
-
-TEST (Noise, PointsWithoutNeighboursAreNotNoisy)
-{
-  Cloud cloud (surface (SurfaceKind::TORUS, 2000, 0.5));
-  std::vector<Index>& offsets = cloud.neighbors.offsets; // as a caller's search may answer
-  std::fill (offsets.begin () + 1, offsets.begin () + 100, 0U);
-  const Noise noise = cloud.noise ();
-  EXPECT_GT (noise.noisy_points, 1000U);
-  EXPECT_EQ (noise.at_point[50], 0.0F);
-  EXPECT_TRUE (std::isfinite (noise.largest));
-  EXPECT_EQ (cloud.projected ()[50], cloud.points.positions[50]);
 }
 
 TEST (Noise, DegenerateClouds)

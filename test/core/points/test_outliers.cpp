@@ -226,19 +226,5 @@ TEST (Outliers, SmallClustersFarAwayButNotSmallComponents)
     }
 }
 
-TEST (Outliers, DegenerateClouds)
-{
-  EXPECT_TRUE (findOutliers ({}, {}, 1).empty ());
-  for (const std::size_t count : {1U, 5U, 20U, 40U})
-    for (const int k : {6, 20}) {
-      Positions line;
-      for (std::size_t i = 0; i < count; ++i)
-        line.emplace_back (static_cast<double> (i), 0.0, 0.0);
-      EXPECT_TRUE (outliersOf (line, k).empty ());
-    }
-  const Positions too_few = joined (square (4, 1), Positions{{0.0, 0.0, 1e3}});
-  EXPECT_TRUE (outliersOf (too_few).empty ());
-}
-
 } // namespace
 } // namespace pcl::floater

@@ -75,6 +75,7 @@ TEST (Points, AreTheDistinctFiniteOnes)
   };
   const std::vector<Case> cases{
       {samples::placed (samples::randomPoints (2000, 1), {3.0, 40.0, -7.0}, 25.0), {}, {}},
+      {samples::randomPoints (70'000, 5), {}, {}}, // sorted in parts
       {copies, {{100, 50}, {101, 7}, {102, 7}, {103, 99}}, {}},
       {not_finite, {}, {100, 101, 102, 103, 104, 105, 106, 107, 108}},
       {{}, {}, {}},
@@ -133,36 +134,6 @@ TEST (Points, ABoxAsSmallAsOneDigit)
   }
 }
 
-RunStatus
-statusOf (const Positions& positions)
-{
-  return checkPoints (workingPoints (positions)).status;
-}
-
-TEST (CheckPoints, FourDistinctFinitePointsThatAreNoLine)
-{
-  const Eigen::Vector3d a (0, 0, 0), b (1, 0, 0), c (1, 1, 0), d (0, 1, 0);
-  EXPECT_EQ (statusOf ({a, b, c, d}), RunStatus::SUCCESS);
-  for (const Positions& few :
-       {Positions{}, Positions{a, b, c, b, a}, Positions{a, b, c, {0, NOT_A_NUMBER, 0}}})
-    EXPECT_EQ (statusOf (few), RunStatus::TOO_FEW_POINTS);
-  for (const double scale : {1e-20, 1.0, 1e20}) {
-    Positions line;
-    for (int i = 0; i < 30; ++i) // rounded to single precision, as clouds are
-      line.emplace_back (
-          (scale * i * Eigen::Vector3d (0.1, 0.3, -0.7)).cast<float> ().cast<double> ());
-    EXPECT_EQ (statusOf (line), RunStatus::DEGENERATE);
-    line.emplace_back (scale * 0.01, 0.0, 0.0);
-    EXPECT_EQ (statusOf (line), RunStatus::SUCCESS);
-  }
-  // Small objects far apart are none, either.
-  const Positions object = samples::randomPoints (200, 11);
-  EXPECT_EQ (statusOf (samples::joined (object, Positions{{1e10, 0.0, 0.0}})), RunStatus::SUCCESS);
-  EXPECT_EQ (statusOf (samples::joined (
-                 object, samples::placed (samples::randomPoints (300, 12), {1e8, 2e8, 0.0}))),
-             RunStatus::SUCCESS);
-}
-
 // Random points in a cube, and the last two far away. Normals turn from point to point.
 Points
 withFarPoints ()
@@ -217,21 +188,6 @@ TEST (RemovePoints, KeepsTheOrderThePlacesAndTheNormals)
   EXPECT_NEAR (points.diagonal, box.diagonal ().norm (), 1e-15);
   EXPECT_GE (points.diagonal, 0.5);
   EXPECT_LE (points.diagonal, 1.0);
-}
-
-TEST (RemovePoints, DownToOneAndToNone)
-{
-  Points points = withFarPoints ();
-  std::vector<Index> all_but_one = indices (points.size ());
-  all_but_one.erase (all_but_one.begin () + 40);
-  const Index kept = points.cloud_index[40];
-  const Eigen::Vector3d place = points.inCloud (40);
-  EXPECT_EQ (removePoints (points, all_but_one).size (), 201U);
-  EXPECT_EQ (points.cloud_index, (std::vector<Index>{kept}));
-  EXPECT_EQ (points.inCloud (0), place);
-  EXPECT_TRUE (points.positions.front ().allFinite ());
-  EXPECT_EQ (removePoints (points, {0}), (std::vector<Index>{kept}));
-  EXPECT_TRUE (points.positions.empty ());
 }
 
 } // namespace

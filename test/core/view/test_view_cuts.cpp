@@ -155,25 +155,5 @@ TEST (ViewGaps, GapsOfAnyShapeAreFound)
   }
 }
 
-// Of rays at random, hardly any triangle lies in a gap.
-TEST (ViewGaps, RaysAtRandomHaveHardlyAny)
-{
-  std::vector<Eigen::Vector3d> positions = samples::randomPoints (20000, 3);
-  for (Eigen::Vector3d& p : positions)
-    p = {p.x () - 0.5, p.y () - 0.5, 1.0};
-  const Rays rays = makeRays (positions, {Eigen::Vector3d::Zero (), false}, 1);
-  const TriangleMesh view = triangulateHull (rays.places);
-  const std::vector<std::uint8_t> is_gap = findGaps (view, rays, {}, 1);
-  std::size_t inside = 0;
-  for (std::size_t t = 0; t < is_gap.size (); ++t) {
-    const auto isInside = [&] (Index p) {
-      return positions[p].head<2> ().cwiseAbs ().maxCoeff () < 0.45;
-    };
-    const auto& [a, b, c] = view.triangles[t];
-    inside += is_gap[t] != 0 && isInside (a) && isInside (b) && isInside (c) ? 1 : 0;
-  }
-  EXPECT_LT (inside, 120U); // 3 of 1000 triangles
-}
-
 } // namespace
 } // namespace pcl::floater

