@@ -123,28 +123,17 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   }
   std::vector<Triangle> triangles = std::move (mesh.triangles);
   mesh = {};
-  Problem problem =
-      reportFinished (triangles.size (), finish, found, trimming, points, request, report);
-  report.check.largest_area_share = largestAreaShare (triangles, points.positions);
-  result.triangles = inCloud (points, std::move (triangles));
-  return problem;
-}
-
-Problem
-reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
-                const Trimming& trimming, const Points& points, const Request& request,
-                Report& report)
-{
-  if (triangles == 0 && trimming.triangles == 0)
-    return nothingMade ();
   Problem problem = reportCheck (points, found, request.options, report);
   if (!problem)
-    problem = reportTrimming (points, trimming, request.options.trimming, triangles, report);
+    problem =
+        reportTrimming (points, trimming, request.options.trimming, triangles.size (), report);
   if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
   report.statistics.remade_points = finish.remade_points;
-  report.statistics.triangles = triangles;
+  report.statistics.triangles = triangles.size ();
+  report.check.largest_area_share = largestAreaShare (triangles, points.positions);
+  result.triangles = inCloud (points, std::move (triangles));
   return problem;
 }
 

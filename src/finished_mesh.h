@@ -42,18 +42,10 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
          std::optional<CrossingPairs> known = std::nullopt,
          const std::function<void ()>& complete = {});
 
-/// Makes the result of a mesh.
+/// Makes the result of a mesh, and reports it. The end of every way.
 /// \return INTERNAL_ERROR unless it is an oriented manifold; DEGENERATE if no triangle is left
 Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,
          const LocalGeometry& geometry, const Request& request, Result& result);
-
-/// Reports a finished mesh, wherever its triangles are. The end of every way.
-/// \param triangles number of triangles that are left
-/// \return like useMesh ()
-Problem
-reportFinished (std::size_t triangles, const MeshFinish& finish, const MeshExamination& found,
-                const Trimming& trimming, const Points& points, const Request& request,
-                Report& report);
 
 } // namespace pcl::floater

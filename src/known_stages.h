@@ -6,14 +6,13 @@
 #include "consensus/consensus_mesh.h"
 #include "local/local_geometry.h"
 #include "options/stage_limits.h"
-#include "parts/parts_method.h"
+#include "parts/part_work.h"
 #include "points/noise.h"
 #include "points/points.h"
 #include "view/ray_evidence.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <memory>
 #include <vector>
 
 namespace pcl::floater {
@@ -49,15 +48,15 @@ public:
   /// The spacing of geometry ().
   virtual std::vector<float> spacing () = 0;
 
-  /// The parts of a large cloud, to be meshed where their geometry is stored.
-  virtual std::unique_ptr<PartWork> parts (const PartsSettings& settings) = 0;
+  /// The normals of the stars.
+  virtual std::vector<Eigen::Vector3f> normals () = 0;
+
+  /// What the parts of a large cloud are meshed from.
+  /// \param parts must outlive it
+  virtual PartSource parts (const Parts& parts) = 0;
 
   /// The candidates of the stars, for a cloud that is one part.
   virtual ProposedTriangles triangles () = 0;
-
-  /// Takes the mesh of a cloud with several parts. The result then has no triangles.
-  /// \param mesh its seam has cloud indices as corners
-  virtual void keepMesh (MeshOfParts mesh) = 0;
 };
 
 /// Reconstructs a surface from known stages.

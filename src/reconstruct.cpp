@@ -229,8 +229,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   LocalGeometry geometry;
   if (known == nullptr)
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-  else if (!reads_stars && Parts (points.size (), limits.parts).count () > 1)
-    geometry.spacing = known->spacing (); // the parts hold all other arrays
+  else if (!reads_stars &&
+           Parts (points.size (), limits.parts).count () > 1) { // the parts read the rest
+    geometry.spacing = known->spacing ();
+    geometry.stars.normals = known->normals ();
+  }
   else {
     table.all ();
     geometry = known->geometry (std::move (planes), reads_stars);
@@ -316,9 +319,9 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
   Result result;
   Problem problem;
   try {
-    RunMonitor monitor ({options.stage_callback, options.progress_callback,
-                         options.cancelled_callback, options.task_callback},
-                        result.report.statistics);
+    RunMonitor monitor (
+        {options.stage_callback, options.progress_callback, options.cancelled_callback},
+        result.report.statistics);
     const RunContext context (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();
     const Options effective = effectiveOptions (options);

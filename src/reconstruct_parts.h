@@ -7,12 +7,10 @@
 
 namespace pcl::floater {
 /// Reconstructs the surface of a cloud that has several parts.
-/// \param points   unchanged at the end; without positions if stages are known and kept elsewhere
-/// \param geometry if stages are known: the spacing only
-/// \param known    nullptr: no stages are known. Otherwise it receives the mesh, unless the mesh is
-///     trimmed: then the result has it
+/// \param geometry if stages are known: the spacing and the normals of the stars only
+/// \param known    nullptr: no stages are known
 Problem
-reconstructParts (Points& points, const Parts& parts, LocalGeometry geometry,
+reconstructParts (const Points& points, const Parts& parts, LocalGeometry geometry,
                   const SurfaceSettings& surface_settings, const Request& request,
                   KnownStages* known, Result& result);
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "parts/part_finish.h"
+#include "parts/part_work.h"
 
 #include <vector>
 

@@ -97,7 +97,8 @@ makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
   surface.orientation_seam = std::move (stitching.orientation_seam);
 
   run.beginStage (Stage::FLIPS);
-  work.finish (std::move (stitching.parts), run);
+  work.finish (std::move (stitching.parts), settings.ofPart (parts),
+               settings.surface.facing.normals, run);
   FinishedSeam seam =
       joinFinished (parts, work, stitching.seam, settings, run, made.checks, surface.finish);
 

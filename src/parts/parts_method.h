@@ -34,7 +34,6 @@ struct SurfaceOfParts
 /// Makes the surface of a cloud that has several parts. Stages CONSENSUS, HOLES, FLIPS and CHECK.
 /// Joint decisions are needed only where the meshes of parts end: O(n / sqrt (m)) for parts of m
 /// points. O(n log n).
-/// \param points their positions need not be in memory
 SurfaceOfParts
 makeSurfaceOfParts (const Points& points, const Parts& parts, PartWork& work,
                     const PartsSettings& settings, const RunContext& run);

@@ -274,14 +274,7 @@ private:
 
     const std::vector<Triangle>& triangles () override { return assembled ().triangles; }
     const std::vector<Index>& components () override { return assembled ().components; }
-    const std::vector<Eigen::Vector3d>& positions () override
-    {
-      if (checker_.cloud_.hasPositions ())
-        return checker_.cloud_.positions;
-      if (positions_.empty ())
-        positions_ = valuesOfAll (work_, checker_.cloud_.size ()).positions;
-      return positions_;
-    }
+    const std::vector<Eigen::Vector3d>& positions () override { return checker_.cloud_.positions; }
     std::vector<BoundarySegment> boundary () override
     {
       return boundarySegments (seam_, checker_.positions_, of_seam_);
@@ -337,7 +330,6 @@ private:
     const Parts& parts_;
     PartWork& work_;
     std::optional<Assembled> assembled_;
-    std::vector<Eigen::Vector3d> positions_; // if the cloud has none in memory
   };
 
   const std::vector<InnerCheck>& checks_;

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A mesh whose inner triangles stay with the parts.
+/// A mesh whose inner triangles are with the parts.
 struct MeshOfParts
 {
   std::size_t triangles = 0;                        ///< all
@@ -44,7 +44,6 @@ struct PartsCheckSettings
 /// lines of sight, the whole mesh is assembled: O(n log n). Crossings of inner triangles of two
 /// parts stay.
 /// \param checks of all parts
-/// \param points their positions need not be in memory
 CheckedParts
 checkParts (FinishedSeam seam, const std::vector<InnerCheck>& checks, const Parts& parts,
             PartWork& work, const Points& points, const PartsCheckSettings& settings,

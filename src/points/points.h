@@ -9,7 +9,6 @@
 #include "points/kd_tree.h"
 
 #include <array>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -44,12 +43,7 @@ struct Points
   std::vector<std::array<Index, 2>> duplicates; ///< cloud indices (point, the equal point that
                                                 ///< represents it), ascending
 
-  /// Reads the position of a point if `positions` are not in memory; otherwise empty.
-  std::function<Eigen::Vector3d (Index point)> position_elsewhere = {};
-
-  bool hasPositions () const { return !position_elsewhere; }
-
-  std::size_t size () const { return hasPositions () ? positions.size () : cloud_index.size (); }
+  std::size_t size () const { return positions.size (); }
 
   /// Number of points, those set aside included.
   std::size_t total () const { return size () + stacked.of.size (); }
@@ -67,10 +61,7 @@ struct Points
   }
 
   /// A position in the frame of the cloud.
-  Eigen::Vector3d inCloud (Index point) const
-  {
-    return centre + scale * (hasPositions () ? ownPositions ()[point] : position_elsewhere (point));
-  }
+  Eigen::Vector3d inCloud (Index point) const { return centre + scale * ownPositions ()[point]; }
 };
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points

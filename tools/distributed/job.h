@@ -5,7 +5,6 @@
 
 #include "block_steps.h"
 #include "command_line.h"
-#include "part_steps.h"
 #include "plan.h"
 
 #include <optional>
@@ -16,9 +15,6 @@ namespace pcl::floater {
 /// Exit code if a file of the work folder cannot be used.
 constexpr int EXIT_WORK = 7;
 
-/// Stitches all parts. After this step, each part can be finished by a step of its own.
-constexpr const char* STITCH = "stitch";
-
 /// What the user asked for.
 struct Job
 {
@@ -26,14 +22,14 @@ struct Job
   std::vector<std::filesystem::path> inputs;
   std::vector<std::string> arguments; ///< as they were typed
   std::filesystem::path work;
-  std::string step;          ///< empty: all
-  std::size_t block = 0;     ///< of the step
-  bool has_block = false;    ///< it was given
-  std::size_t blocks = 0;    ///< 0: chosen by the number of points
-  int join_threads = 0;      ///< 0: all cores
-  bool sends_files = false;  ///< --exchange messages
-  bool writes_tiles = false; ///< OUTPUT is a folder
-  bool frees_disk = false;   ///< files of blocks go as soon as `join` needs them no longer
+  const Step* step = nullptr; ///< nullptr: all
+  std::size_t block = 0;      ///< of the step
+  bool has_block = false;     ///< it was given
+  std::size_t blocks = 0;     ///< 0: chosen by the number of points
+  int join_threads = 0;       ///< 0: all cores
+  bool sends_files = false;   ///< --exchange messages
+  bool writes_tiles = false;  ///< OUTPUT is a folder
+  bool frees_disk = false;    ///< files of blocks go when the mesh is known
   bool prints_steps = false;
   bool is_from_manifest = false; ///< files and options are those of the manifest
 };
@@ -47,15 +43,6 @@ parseJob (const std::vector<std::string>& arguments, Job& job);
 /// What decides the result, as text.
 std::string
 parametersText (const Job& job);
-
-/// Options and limits with which the core works.
-struct EffectiveOptions
-{
-  explicit EffectiveOptions (const CommandLine& line);
-
-  Options options;
-  Limits limits;
-};
 
 /// Makes the work folder, and checks that all outputs can be written.
 /// \throws WriteError
@@ -74,12 +61,7 @@ planStep (const Job& job, FolderStore& store);
 /// Puts together what the blocks have found out.
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan, const JoinHelp& help = {});
-
-/// The first half of joinStep, up to where parts are finished: what they need for that is then in
-/// the work folder. If the mesh is not made of parts, all of joinStep.
-int
-stitchStep (const Job& job, FolderStore& store, const Plan& plan, JoinHelp help);
+joinStep (const Job& job, FolderStore& store, const Plan& plan);
 
 /// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
 /// block.

@@ -30,8 +30,6 @@ struct Plan
   std::string parameters;             ///< those that decide the result, as text
   std::size_t points = 0;             ///< of the working set, with outliers
   std::size_t blocks = 0;
-  std::size_t parts = 0; ///< that are meshed by themselves; 0: the cloud is meshed as a whole. If
-                         ///< outliers are taken out, the last one may have no points
   std::size_t cloud_size = 0, selected_points = 0;
   std::size_t lattice_width = 0;
   std::array<double, 3> centre{}, sensor_origin{}, shift{};
@@ -60,7 +58,7 @@ Plan
 parseManifest (const std::string& text, const std::string& name);
 
 /// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
-/// are those that all files have with one type, and coordinates of different types become double.
+/// are those that all files have with one type, and coordinates are doubles.
 /// \param[out] firsts if it is not nullptr, the first row of each file, and the number of all rows
 /// \throws ReadError, which names the file
 Cloud

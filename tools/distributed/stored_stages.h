@@ -5,10 +5,9 @@
 
 #include "block_steps.h"
 #include "known_stages.h"
-#include "part_steps.h"
+#include "stored_cloud.h"
 
-#include <optional>
-#include <utility>
+#include <vector>
 
 namespace pcl::floater {
 /// Reads the files of all blocks, each when it is needed.
@@ -16,11 +15,7 @@ class StoredStages : public KnownStages
 {
 public:
   /// \param context must outlive this
-  /// \param freed   where the files of a step are removed when all of it that is needed has been
-  ///                read; nullptr: they stay, as they do of a cloud that has several parts
-  /// \param folder  for what the parts write
-  StoredStages (const StepContext& context, FolderStore& folder,
-                const FolderStore* freed = nullptr);
+  explicit StoredStages (const StepContext& context);
 
   Points points (Report& report) override;
   std::vector<Index> outliers () override { return outliers_; }
@@ -30,31 +25,27 @@ public:
   NoiseProbes noiseProbes () override;
   LocalGeometry geometry (LocalPlanes planes, bool with_stars) override;
   std::vector<float> spacing () override;
-  std::unique_ptr<PartWork> parts (const PartsSettings& settings) override;
-  ProposedTriangles triangles () override;
-  void keepMesh (MeshOfParts mesh) override { mesh_ = std::move (mesh); }
-
-  /// The mesh, if it is in parts.
-  std::optional<MeshOfParts> takeMesh () { return std::move (mesh_); }
-
-  /// For the parts.
-  void setHelp (JoinHelp help) { help_ = std::move (help); }
+  std::vector<Eigen::Vector3f> normals () override;
+  PartSource parts (const Parts& parts) override;
+  ProposedTriangles triangles () override
+  {
+    return proposed (0, static_cast<Index> (ranges_.points ()));
+  }
 
 private:
-  // Calls visit (file of a step, block) for all blocks.
-  template <typename Visit>
-  void forEachBlock (const char* step, Visit&& visit);
+  ArrayFile file (const char* step, std::size_t block) const;
+  Slices slices (const char* step) const;
+  std::vector<Index> allPoints () const
+  {
+    return pointsFrom (0, static_cast<Index> (ranges_.points ()));
+  }
 
-  void remove (const char* step) const;
+  // The candidates whose first corner is in a range, and the smoothed normals of its points.
+  ProposedTriangles proposed (Index first, Index last) const;
 
   const StepContext& context_;
-  FolderStore& folder_;
-  const FolderStore* freed_;
-  JoinHelp help_;
-  std::optional<MeshOfParts> mesh_;
   std::vector<Index> outliers_;
-  BlockRanges ranges_;  // without outliers
-  std::size_t own_ = 0; // points of the block that is visited
+  BlockRanges ranges_; // without outliers
 };
 
 } // namespace pcl::floater

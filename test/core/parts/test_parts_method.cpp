@@ -6,7 +6,7 @@
 
 #include "mesh/flips.h"
 #include "options/stage_limits.h"
-#include "parts/local_parts.h"
+#include "parts/part_work.h"
 #include "parts/seam_check.h"
 #include "parts/stitching.h"
 #include "points/point_samples.h"
@@ -53,7 +53,7 @@ struct Making
   Prepared prepared;
   PartsSettings settings;
   std::optional<Parts> parts;
-  std::unique_ptr<LocalParts> work;
+  std::unique_ptr<PartWork> work;
   SurfaceOfParts made;
   std::vector<Triangle> triangles;
 
@@ -66,8 +66,11 @@ struct Making
 
   void beginWork (int threads)
   {
-    work = std::make_unique<LocalParts> (prepared.points, *parts, prepared.geometry, settings,
-                                         RunContext (threads));
+    const RunContext run (threads);
+    const ConsensusLimits& limits = settings.surface.limits.consensus;
+    work = std::make_unique<PartWork> (
+        prepared.points, *parts, prepared.geometry,
+        sourceOf (prepared.points, *parts, prepared.geometry, limits.candidates, run), limits, run);
   }
 
   void make (int threads)

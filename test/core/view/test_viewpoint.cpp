@@ -178,7 +178,7 @@ RowEvidence
 rowsOf (const Positions& positions)
 {
   const Points points = pointsOf (positions);
-  return findRows (points, findNeighbors (points, {}, 1), SAMPLES, 1);
+  return findRows (points, findNeighbors (points, {}, 1), SAMPLES);
 }
 
 // Sections of a cylinder along z: 20 circles of 200 points.
@@ -209,17 +209,6 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   EXPECT_GT (std::abs (of_circles.across.z ()), 0.999);
   // By chance, the second neighbour lies opposite to the first one in a quarter of all directions.
   EXPECT_LT (rowsOf (random).share, 0.5);
-}
-
-// A sample touches memory that no other does, so that a limit on it has to be watched.
-TEST (RowEvidence, EachSampleIsATask)
-{
-  const Points points = pointsOf (circles ());
-  Statistics statistics;
-  std::size_t tasks = 0;
-  RunMonitor monitor ({{}, {}, {}, [&tasks] { ++tasks; }}, statistics);
-  findRows (points, findNeighbors (points, {}, 1), SAMPLES, RunContext (1, &monitor));
-  EXPECT_EQ (tasks, SAMPLES);
 }
 
 // The room has a diagonal of 9: a search begins a three hundredth of it away.

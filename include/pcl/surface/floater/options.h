@@ -299,9 +299,7 @@ struct Options
   /// they return.
   std::function<bool ()> cancelled_callback;
 
-  /// Called before each piece of work, by the thread that does it: from several threads at once, up
-  /// to some ten thousand times a second. For callers that watch resources such as memory, and free
-  /// some. Must not throw, and should be quick.
+  /// Deprecated: is not called. It stays until version 2.
   std::function<void ()> task_callback;
 };
 

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stored_mesh.h"
+#include "tiles.h"
 
 #include "atomic_file.h"
 #include "block_steps.h"
 #include "cloud.h"
 #include "core/csr_lists.h"
-#include "core/parallel.h"
 #include "mesh_writer.h"
-#include "part_files.h"
 #include "stored_cloud.h"
 
 #include <nlohmann/json.hpp>
@@ -20,101 +18,6 @@
 #include <tuple>
 
 namespace pcl::floater {
-namespace {
-// The inner triangles of a part, as the mesh has them.
-std::vector<Triangle>
-readPart (const StepContext& context, const Parts& parts, std::size_t part,
-          const std::vector<std::uint8_t>& is_turned)
-{
-  ArrayFile file = openArrays (context.store, blockFile (FINISH, part), context.plan);
-  std::vector<Triangle> triangles = file.read<Triangle> ("triangles");
-  const Index first = parts.first (part), last = parts.last (part);
-  for (const Triangle& corners : triangles)
-    file.require (std::all_of (corners.begin (), corners.end (), [&] (Index p) {
-      return p >= parts.first (part) && p < parts.last (part);
-    }));
-  turnInner (triangles, is_turned, first, last - first, context.run.withThreads (1));
-  const std::vector<Index> cloud_index =
-      openArrays (context.store, pointsLeft (readOutliers (context)), context.plan)
-          .read<Index> ("cloud_index", first, last);
-  for (Triangle& corners : triangles)
-    for (Index& p : corners)
-      p = cloud_index[p - first];
-  return triangles;
-}
-
-} // namespace
-
-void
-putMesh (FolderStore& folder, const Plan& plan, const FinishedMesh& mesh)
-{
-  ArrayWriter writer;
-  const std::vector<std::uint8_t> marks{static_cast<std::uint8_t> (mesh.is_single ? 1 : 0),
-                                        static_cast<std::uint8_t> (mesh.are_blocks_freed ? 1 : 0),
-                                        static_cast<std::uint8_t> (mesh.parts ? 1 : 0)};
-  writer.add ("marks", marks);
-  writer.add ("triangles", mesh.parts ? mesh.parts->seam : mesh.triangles);
-  const std::vector<std::vector<std::uint8_t>> none;
-  addMarks ("turned", mesh.parts ? mesh.parts->is_turned : none, writer);
-  folder.put (TRIANGLES, writer, plan.id);
-}
-
-bool
-isMeshKnown (const StepContext& context, FolderStore& folder)
-{
-  if (!folder.has (TRIANGLES))
-    return false;
-  ArrayFile file = openArrays (folder, TRIANGLES, context.plan);
-  file.verify ();
-  for (std::size_t part = 0; part < file.count<std::uint64_t> ("turned.ends"); ++part) {
-    if (!folder.has (blockFile (FINISH, part)))
-      return false;
-    openArrays (folder, blockFile (FINISH, part), context.plan).verify ();
-  }
-  return true;
-}
-
-bool
-areBlocksFreed (FolderStore& folder, const Plan& plan)
-{
-  return folder.has (TRIANGLES) &&
-         openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("marks", 1, 2).front () != 0;
-}
-
-FinishedMesh
-readMesh (const StepContext& context)
-{
-  ArrayFile file = openArrays (context.store, TRIANGLES, context.plan);
-  const std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("marks", 0, 3);
-  FinishedMesh mesh;
-  mesh.is_single = marks[0] != 0;
-  mesh.are_blocks_freed = marks[1] != 0;
-  if (marks[2] == 0) {
-    mesh.triangles = file.read<Triangle> ("triangles");
-    file.requireBelow (mesh.triangles, context.plan.cloud_size);
-    return mesh;
-  }
-  const Parts parts = partsOf (context);
-  std::vector<std::size_t> begins (1, 0);
-  for (std::size_t part = 0; part < parts.count (); ++part)
-    begins.push_back (begins.back () +
-                      openArrays (context.store, blockFile (FINISH, part), context.plan)
-                          .count<Triangle> ("triangles"));
-  const std::vector<Triangle> seam = file.read<Triangle> ("triangles");
-  const std::vector<std::vector<std::uint8_t>> is_turned = readMarks (file, "turned");
-  file.requireBelow (seam, context.plan.cloud_size);
-  file.require (is_turned.size () == parts.count ());
-  mesh.triangles.resize (begins.back () + seam.size ());
-  parallelTasks (context.run, parts.count (), [&] (std::size_t part) {
-    const std::vector<Triangle> triangles = readPart (context, parts, part, is_turned[part]);
-    std::copy (triangles.begin (), triangles.end (),
-               mesh.triangles.begin () + static_cast<std::ptrdiff_t> (begins[part]));
-  });
-  std::copy (seam.begin (), seam.end (),
-             mesh.triangles.begin () + static_cast<std::ptrdiff_t> (begins.back ()));
-  return mesh;
-}
-
 namespace {
 using Json = nlohmann::ordered_json;
 
@@ -149,20 +52,15 @@ struct Counts
 std::pair<std::uint64_t, std::string>
 sumOf (const std::filesystem::path& path)
 {
-  constexpr std::size_t AT_ONCE = std::size_t{1} << 20U;
-  const std::unique_ptr<ByteSource> file = openFile (path, false);
-  std::vector<char> bytes (AT_ONCE);
   uLong sum = 0;
-  for (std::uint64_t at = 0; at < file->size (); at += AT_ONCE) {
-    const auto count =
-        static_cast<std::size_t> (std::min<std::uint64_t> (AT_ONCE, file->size () - at));
-    file->read (at, count, bytes.data ());
-    sum = ::crc32 (sum, reinterpret_cast<const Bytef*> (bytes.data ()), static_cast<uInt> (count));
-  }
+  const std::uint64_t size =
+      forAllBytes (*openFile (path, false), [&sum] (const char* bytes, std::size_t count) {
+        sum = ::crc32 (sum, reinterpret_cast<const Bytef*> (bytes), static_cast<uInt> (count));
+      });
   constexpr std::size_t DIGITS = 8;
   std::array<char, DIGITS + 1> text{};
   std::snprintf (text.data (), text.size (), "%08lx", sum);
-  return {file->size (), text.data ()};
+  return {size, text.data ()};
 }
 
 // Runs of border vertices that one tile owns.
