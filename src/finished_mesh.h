@@ -34,7 +34,7 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
          const Request& request, Statistics& statistics,
          std::optional<CrossingPairs> known = std::nullopt);
 
-/// Makes the result of a mesh.
+/// Makes the result of a mesh, and reports it. The end of every way.
 /// \return INTERNAL_ERROR unless it is an oriented manifold; DEGENERATE if no triangle is left
 Problem
 useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, const Points& points,

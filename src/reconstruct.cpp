@@ -278,9 +278,9 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
   Result result;
   Problem problem;
   try {
-    RunMonitor monitor ({options.stage_callback, options.progress_callback,
-                         options.cancelled_callback, options.task_callback},
-                        result.report.statistics);
+    RunMonitor monitor (
+        {options.stage_callback, options.progress_callback, options.cancelled_callback},
+        result.report.statistics);
     const RunContext context (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();
     const Options effective = effectiveOptions (options);

@@ -45,10 +45,8 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
   };
   const auto help = [&] {
     guarded ([&] {
-      for (std::size_t i = next++; i < count; i = next++) {
-        run.beginTask ();
+      for (std::size_t i = next++; i < count; i = next++)
         body (i);
-      }
     });
   };
   const auto end = [&] {
@@ -72,7 +70,6 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
   }
   guarded ([&] {
     for (std::size_t i = next++; i < count; i = next++) {
-      run.beginTask ();
       body (i);
       progress.reach (i);
     }

@@ -8,7 +8,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::chrono::milliseconds BETWEEN_POLLS{50};
 constexpr int REST = 9; // times as long as the last callbacks took, before the next ones ...
 constexpr std::chrono::milliseconds QUICK{1}; // ... unless they took less than this
 constexpr auto STAGES = static_cast<std::size_t> (Stage::COUNT);
@@ -24,7 +23,7 @@ constexpr Shares OF_DISC{2, 10, 17, 0, 2, 2, 46, 5, 0, 13, 3};
 
 RunMonitor::RunMonitor (Callbacks callbacks, Statistics& statistics)
     : callbacks_ (std::move (callbacks)), statistics_ (statistics),
-      is_watched_ (callbacks_.progress || callbacks_.cancelled || callbacks_.task)
+      is_watched_ (callbacks_.progress || callbacks_.cancelled)
 {
 }
 
@@ -96,7 +95,7 @@ RunMonitor::poll ()
 void
 RunMonitor::pollNowAndThen ()
 {
-  if (is_cancelled_ || (isOwnThread () && Clock::now () - last_poll_ >= BETWEEN_POLLS))
+  if (is_cancelled_ || (isOwnThread () && Clock::now () - last_poll_ >= between_polls))
     poll ();
 }
 
@@ -190,7 +189,6 @@ ProgressLoop::reach (std::size_t count)
         std::max (monitor_->done_,
                   monitor_->step_begin_ + share * (monitor_->step_end_ - monitor_->step_begin_));
   }
-  monitor_->beginTask ();
   monitor_->pollNowAndThen ();
 }
 

@@ -21,15 +21,12 @@ struct Cancelled
 {
 };
 
-/// Functions of the caller; each may be empty. All except `task` are called by the thread that made
-/// the monitor.
+/// Functions of the caller; each may be empty. Called by the thread that made the monitor.
 struct Callbacks
 {
   std::function<void (Stage)> stage;     ///< a stage begins
   std::function<void (double)> progress; ///< fraction of the run done
   std::function<bool ()> cancelled;      ///< whether the run is to be cancelled
-  std::function<void ()> task{};         ///< a thread is about to begin a task, or a piece of one;
-                                         ///< must not throw
 };
 
 /// Floating-point numbers as the library needs them, whatever the caller has set: divisions by zero and
@@ -80,19 +77,15 @@ public:
   /// Ends the stage; the following time is not counted.
   void stopClock ();
 
+  /// Least time between two polls within a stage. Only tests change it.
+  static inline std::chrono::milliseconds between_polls{50};
+
   /// Polls for cancellation if the last poll is long enough ago.
   /// \throws Cancelled
   void pollNowAndThen ();
 
   /// Reports the end of a successful run: progress 1.
   void finish ();
-
-  /// Announces a task. Thread-safe.
-  void beginTask () const
-  {
-    if (callbacks_.task)
-      callbacks_.task ();
-  }
 
   /// Threads for the loops of the run.
   HelperThreads& helpers () { return helpers_; }
@@ -152,17 +145,10 @@ public:
   void beginStage (Stage stage) const;
   void beginStep (double until) const;
   void setMethod (Topology method) const;
-  void beginTask () const
-  {
-    if (monitor_ != nullptr)
-      monitor_->beginTask ();
-  }
   void poll () const
   {
-    if (monitor_ == nullptr || !monitor_->isWatched ())
-      return;
-    monitor_->beginTask ();
-    monitor_->pollNowAndThen ();
+    if (monitor_ != nullptr && monitor_->isWatched ())
+      monitor_->pollNowAndThen ();
   }
 
   /// A context for stages within the running stage. They are not reported to the caller, and their
@@ -182,7 +168,7 @@ private:
 /// reports progress; all can be cancelled. A few ns per item.
 ///
 /// Helper threads may use it as well. They report no progress; if the run is cancelled, they
-/// unwind. Each poll also calls the task callback.
+/// unwind.
 class ProgressLoop
 {
 public:

@@ -384,7 +384,6 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, neighbors, normals, settings, beyond);
     for (std::size_t i = first; i < last; ++i) {
-      run.beginTask (); // the centres may lie far apart, in different memory pages
       stars.open[i] = maker.make (centres[i], stars.normals[i]) ? 1 : 0;
       stars.neighbors.offsets[i + 1] = static_cast<Index> (maker.star ().size ());
       ranges[first / RANGE_LENGTH].append (maker.star (), settings.with_offsets);

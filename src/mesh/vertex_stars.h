@@ -40,8 +40,7 @@ class TriangleRanges
 {
 public:
   /// Points of a range. Measured: ranges two or four times as long are no faster. The data of a
-  /// range fits into a second-level cache, and few edges leave it. Longer ranges would have arrays
-  /// that are stored in files where memory is limited.
+  /// range fits into a second-level cache, and few edges leave it.
   static constexpr std::size_t LENGTH = 8192;
 
   /// Leaves out triangles that are not proper. O(triangles), on all threads.

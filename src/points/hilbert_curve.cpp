@@ -276,7 +276,7 @@ private:
 
   void sortParts (const std::vector<std::size_t>& ends)
   {
-    // Several parts in a task: arrays in files are created less often.
+    // Several parts in a task, which share an array.
     constexpr std::size_t MOST_TASKS = 256;
     const std::size_t in_task = (ends.size () + MOST_TASKS - 1) / MOST_TASKS;
     parallelTasks (run_, (ends.size () + in_task - 1) / in_task, [&] (std::size_t task) {

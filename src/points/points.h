@@ -9,7 +9,6 @@
 #include "points/kd_tree.h"
 
 #include <array>
-#include <functional>
 #include <utility>
 #include <vector>
 

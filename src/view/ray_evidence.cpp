@@ -17,7 +17,7 @@
 
 namespace pcl::floater {
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count, const RunContext& run)
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
   constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
@@ -26,7 +26,6 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count, co
   std::size_t looked_at = 0, in_rows = 0;
   Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
   for (std::size_t p = step / 2; p < positions.size (); p += step) {
-    run.beginTask (); // each may load memory pages
     const Row row = neighbors.row (p);
     if (row.size () < 2)
       continue;
@@ -50,12 +49,11 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count, co
 
 std::vector<RayPatch>
 findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  std::size_t count, std::size_t size, const RunContext& run)
+                  std::size_t count, std::size_t size)
 {
   std::vector<RayPatch> patches (count);
   std::vector<Index> sorted;
   for (std::size_t k = 0; k < count; ++k) {
-    run.beginTask (); // each may load memory pages
     const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
     RayPatch& patch = patches[k];
     patch.assign (1, static_cast<Index> (seed));
@@ -368,13 +366,12 @@ areaSampleCentres (std::size_t points, std::size_t count)
 
 std::vector<AreaSample>
 takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-                 const Stars& stars, const RunContext& run)
+                 const Stars& stars)
 {
   std::vector<AreaSample> samples;
   for (std::size_t k = 0; k < centres.size (); ++k) {
     if (stars.open[k] != 0)
       continue;
-    run.beginTask (); // each may load memory pages
     const Eigen::Vector3d& centre = positions[centres[k]];
     const Row star = stars.neighbors.row (static_cast<Index> (k));
     double area = 0.0;
@@ -394,7 +391,7 @@ takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSett
 {
   const std::vector<Index> centres = areaSampleCentres (points.size (), count);
   return takeAreaSamples (centres, points.positions,
-                          makeStarsOf (centres, points, planes, settings, run), run);
+                          makeStarsOf (centres, points, planes, settings, run));
 }
 
 double

@@ -24,8 +24,7 @@ struct RowEvidence
 /// \param neighbors nearest first
 /// \param count number of tested points, spread evenly over their order. O(count).
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
-          const RunContext& run);
+findRows (const Points& points, const CsrLists& neighbors, std::size_t count);
 
 /// Patches of near points around points that are spread evenly over their order. Parallel rays to a
 /// patch are near each other for any direction.
@@ -35,7 +34,7 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count,
 /// \return the points of each patch, sorted by distance to the first one
 std::vector<RayPatch>
 findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  std::size_t count, std::size_t size, const RunContext& run);
+                  std::size_t count, std::size_t size);
 
 struct EvidenceLimits
 {
@@ -154,7 +153,7 @@ areaSampleCentres (std::size_t points, std::size_t count);
 /// \param stars the i-th belongs to centres[i]
 std::vector<AreaSample>
 takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-                 const Stars& stars, const RunContext& run);
+                 const Stars& stars);
 
 /// Area samples at at most `2 * count` points, spread evenly over their order, except those with an
 /// open star. O(count).

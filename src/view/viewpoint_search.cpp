@@ -58,7 +58,7 @@ public:
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (
-        positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
+        positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points);
     // Lines on a plane are even from all directions, and show none. Around the right direction,
     // costs rise slowly, so every third direction shows whether there may be one: in 80 generated
     // line scans, the least of these costs was .009 to .053 of their median.
@@ -403,7 +403,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   if (!filled)
     return {};
   const ViewpointSearch search (points, neighbors, samples, limits, *filled, run);
-  const RowEvidence rows = findRows (points, neighbors, limits.samples, run);
+  const RowEvidence rows = findRows (points, neighbors, limits.samples);
   if (rows.share > limits.rows && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;

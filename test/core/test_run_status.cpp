@@ -4,17 +4,17 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "core/index_limit.h"
+#include "core/run_context.h"
 #include "points/point_samples.h"
-#include "poll_wait.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <mutex>
 #include <new>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -186,7 +186,7 @@ expectProgress (const std::vector<double>& fractions, std::size_t least = 7)
   EXPECT_EQ (fractions.back (), 1.0);
 }
 
-// Each thread tells of its tasks; progress and cancellation are those of the calling thread.
+// Progress and cancellation are asked of the calling thread, whatever the number of threads.
 TEST (Callbacks, ComeFromTheirThreadsAndChangeNothing)
 {
   Options balls, disc = discOptions (), iterative = discOptions ();
@@ -199,56 +199,40 @@ TEST (Callbacks, ComeFromTheirThreadsAndChangeNothing)
                                                     {SurfaceKind::HEIGHT_FIELD, disc},
                                                     {SurfaceKind::HEIGHT_FIELD, iterative},
                                                     {SurfaceKind::FINGER, disc}}) {
-    constexpr std::size_t POINTS = 20'000, RANGE = 1024; // of a search
+    constexpr std::size_t POINTS = 20'000;
     const Positions points = surface (kind, POINTS);
     const Result plain = reconstruct (asInput (points), options);
     for (const int threads : {1, 3}) {
       SCOPED_TRACE (surfaceName (kind) + std::to_string (threads));
-      std::mutex mutex;
-      std::size_t tasks = 0;
-      std::set<std::thread::id> of_tasks, of_others;
+      std::set<std::thread::id> of_calls;
       std::vector<double> fractions;
       Options watched = options;
       watched.threads = threads;
-      watched.task_callback = [&] {
-        const std::lock_guard<std::mutex> lock (mutex);
-        ++tasks;
-        of_tasks.insert (std::this_thread::get_id ());
-      };
       watched.progress_callback = [&] (double fraction) {
         fractions.push_back (fraction);
-        of_others.insert (std::this_thread::get_id ());
+        of_calls.insert (std::this_thread::get_id ());
       };
       watched.cancelled_callback = [&] {
-        of_others.insert (std::this_thread::get_id ());
+        of_calls.insert (std::this_thread::get_id ());
         return false;
       };
       const Result result = reconstruct (asInput (points), watched);
       ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
       EXPECT_EQ (result.triangles, plain.triangles);
-      EXPECT_EQ (of_others, std::set<std::thread::id>{here});
-      EXPECT_GT (tasks, POINTS / RANGE);
-      EXPECT_TRUE (threads > 1 ? of_tasks.size () > 1 : of_tasks == of_others);
+      EXPECT_EQ (of_calls, std::set<std::thread::id>{here});
       expectProgress (fractions);
     }
   }
 }
 
 // Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. A
-// small cloud would be done before the next poll is due. So a task after the first poll waits for
-// that: a callback that took so long would not be called again soon.
+// small cloud would be done before the next poll is due: so every poll is.
 bool
 isCancelledWithin (Stage stage, const Positions& points, Options options)
 {
   Stage running = Stage::COUNT;
   int questions = 0; // within the stage
-  bool has_waited = false;
-  options.task_callback = [&, here = std::this_thread::get_id ()] {
-    if (std::this_thread::get_id () != here || running != stage || questions != 1 || has_waited)
-      return;
-    has_waited = true;
-    samples::waitUntilAPollIsDue ();
-  };
+  const std::chrono::milliseconds usual = std::exchange (RunMonitor::between_polls, {});
   options.stage_callback = [&] (Stage begun) { running = begun; };
   options.cancelled_callback = [&] {
     if (running != stage)
@@ -256,6 +240,7 @@ isCancelledWithin (Stage stage, const Positions& points, Options options)
     return ++questions > 1;
   };
   const Report report = reconstruct (asInput (points), options).report;
+  RunMonitor::between_polls = usual;
   EXPECT_TRUE (report.status == RunStatus::CANCELLED || questions < 2) << report.message;
   EXPECT_GT (questions, 0) << "the run has not reached this stage";
   return report.status == RunStatus::CANCELLED && running == stage;

@@ -6,13 +6,13 @@ set -euo pipefail
 work=$1
 shift
 pcl_floater_distributed --work "$work" --step plan "$@"
-count () { sed -n 's/^ *"'"$1"'": \([0-9]*\).*/\1/p' "$work/manifest.json"; }
+blocks=$(sed -n 's/^ *"blocks": \([0-9]*\).*/\1/p' "$work/manifest.json")
 after=()
 for step in neighbors outliers planes stars join write; do
   command="pcl_floater_distributed --work $(printf %q "$work") --step $step"
   options=(--parsable "${after[@]}")
   case "$step" in
-    neighbors | planes | stars) tasks=$(count blocks) ;;
+    neighbors | planes | stars) tasks=$blocks ;;
     *) tasks=0 ;;
   esac
   if ((tasks > 0)); then

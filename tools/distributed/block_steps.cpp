@@ -4,6 +4,7 @@
 
 #include "cloud_geometry.h"
 #include "local/planes.h"
+#include "options/check_options.h"
 #include "points/neighbors.h"
 #include "points/outliers.h"
 #include "stored_cloud.h"
@@ -17,6 +18,14 @@ namespace pcl::floater {
 namespace {
 constexpr double HALO = 1.0; // width, see BlockCutter: neighbours are nearer
 constexpr std::size_t POINTS_OF_APART = 20, REACH_OF = 6; // neighbours that findApart looks at
+
+// Writes what a block has found. Without arrays: it has no points.
+void
+put (const StepContext& context, const char* step, std::size_t block,
+     const ArrayWriter& writer = {})
+{
+  context.store.put (blockFile (step, block), writer, context.plan.id);
+}
 
 // Whether points lie apart. The reach of the points around is needed, and these may be of other
 // blocks.
@@ -85,28 +94,33 @@ findOwnApart (const std::vector<Index>& own, const CsrLists& neighbors, BlockSea
 
 } // namespace
 
+StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
+                          const RunContext& context)
+    : store (files), plan (of), options (effectiveOptions (line.options)),
+      limits (effectiveLimits (line.limits, line.options)), run (context)
+{
+}
+
 void
 neighborsStep (const StepContext& context, std::size_t block)
 {
   StoredCloud cloud (context, {}, true);
   const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
-  ArrayWriter writer;
-  CsrLists neighbors;
+  if (first == last)
+    return put (context, "neighbors", block);
+  BlockSearch search (cloud.cutter (), block, context.run, HALO);
+  const CsrLists neighbors = findNearestOfBlock (search, Rows::range (first, last), cloud.points (),
+                                                 context.options.neighbors.k, context.run);
   std::vector<std::uint8_t> apart;
-  std::vector<std::uint64_t> count (1, 0);
-  if (first < last) {
-    BlockSearch search (cloud.cutter (), block, context.run, HALO);
-    neighbors = findNearestOfBlock (search, Rows::range (first, last), cloud.points (),
-                                    context.options.neighbors.k, context.run);
-    if (context.options.remove_outliers &&
-        mayHaveOutliers (cloud.points (), context.limits.outliers))
-      apart = findOwnApart (pointsFrom (first, last), neighbors, search, context);
-    count[0] = static_cast<std::uint64_t> (std::count (apart.begin (), apart.end (), 1));
-  }
+  if (context.options.remove_outliers && mayHaveOutliers (cloud.points (), context.limits.outliers))
+    apart = findOwnApart (pointsFrom (first, last), neighbors, search, context);
+  const std::vector<std::uint64_t> count{
+      static_cast<std::uint64_t> (std::count (apart.begin (), apart.end (), 1))};
+  ArrayWriter writer;
   writer.add ("ids", neighbors.ids);
   writer.add ("apart", apart);
   writer.add ("apart_count", count);
-  context.store.put (blockFile ("neighbors", block), writer, context.plan.id);
+  put (context, "neighbors", block, writer);
 }
 
 void
@@ -117,7 +131,8 @@ chooseOutliersStep (const StepContext& context)
   Slices found (context.store, context.plan, ranges, "neighbors");
   std::uint64_t apart_count = 0;
   for (std::size_t block = 0; block < ranges.blocks (); ++block)
-    apart_count += found.file (block).read<std::uint64_t> ("apart_count", 0, 1).front ();
+    if (!ranges.isEmpty (block))
+      apart_count += found.file (block).read<std::uint64_t> ("apart_count", 0, 1).front ();
   std::vector<Index> outliers;
   if (apart_count > 0) {
     const std::size_t k =
@@ -133,6 +148,8 @@ chooseOutliersStep (const StepContext& context)
     neighbors.ids.reserve (n * own);
     for (std::size_t block = 0; block < ranges.blocks (); ++block) {
       const std::size_t points = ranges.last (block) - ranges.first (block);
+      if (points == 0)
+        continue;
       const auto ids = found.file (block).read<Index> ("ids", 0, points * k);
       found.file (block).requireBelow (ids, n);
       for (std::size_t i = 0; i < ids.size (); i += k)
@@ -193,55 +210,55 @@ void
 planesStep (const StepContext& context, std::size_t block)
 {
   OwnBlock own (context, block);
+  if (own.isEmpty ())
+    return put (context, "planes", block);
   ArrayWriter writer;
   CsrLists renewed, beside_lists;
   std::vector<float> beside_reach, spacing;
   std::vector<Eigen::Vector3f> normals;
-  if (!own.isEmpty ()) {
-    StoredCloud& cloud = own.cloud;
-    BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
-    const std::vector<Index> points = own.points ();
-    CsrLists nearest;
-    if (own.outliers.empty ())
-      nearest = StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points);
-    else
-      nearest = renewed = renewOwn (own, search, context);
-    takeIn (points, nearest, cloud, search);
-    lookUntilInside (search, [&] (const LocalPoints& local,
-                                  const std::vector<Eigen::Vector3d>& positions) {
-      const Index own_first = search.ownFirst (), own_last = search.ownLast ();
-      const Rows rows = Rows::range (own_first, own_last);
-      CsrLists neighbors = local.toPlaces (points, nearest);
-      spacing = localSpacing (positions, neighbors, rows, context.run);
-      BesideLines beside;
-      beside.neighbors.offsets.assign (local.size () + 1, 0);
-      beside.reach.assign (local.size (), 0.0F);
-      if (isAnyOnLine (positions, neighbors, rows, context.limits.planes.least_aspect, context.run))
-        beside =
-            findBesideLines (positions, neighbors, spacing, search.tree (), rows,
-                             context.limits.planes.least_aspect, context.limits.reach, context.run);
-      appendRows (beside.neighbors, neighbors);
-      normals = fitTangentPlanes (positions, neighbors, rows, context.run, context.limits.planes);
-      beside_lists = {};
-      for (Index p = own_first; p < own_last; ++p)
-        appendRow (beside.neighbors.row (p), beside_lists);
-      local.toPoints (beside_lists.ids);
-      const auto keepOwn = [&] (auto& values) {
-        values.erase (values.begin () + own_last, values.end ());
-        values.erase (values.begin (), values.begin () + own_first);
-      };
-      beside_reach = std::move (beside.reach);
-      keepOwn (beside_reach);
-      keepOwn (spacing);
-      keepOwn (normals);
-    });
-    if (cloud.file ().count<Eigen::Vector3f> ("normals") > 0) {
-      std::vector<Eigen::Vector3f> given;
-      cloud.file ().append ("normals", own.first, own.last, given);
-      for (std::size_t i = 0; i < given.size (); ++i)
-        if (!given[i].isZero (0.0F))
-          normals[i] = given[i];
-    }
+  StoredCloud& cloud = own.cloud;
+  BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
+  const std::vector<Index> points = own.points ();
+  CsrLists nearest;
+  if (own.outliers.empty ())
+    nearest = StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points);
+  else
+    nearest = renewed = renewOwn (own, search, context);
+  takeIn (points, nearest, cloud, search);
+  lookUntilInside (search, [&] (const LocalPoints& local,
+                                const std::vector<Eigen::Vector3d>& positions) {
+    const Index own_first = search.ownFirst (), own_last = search.ownLast ();
+    const Rows rows = Rows::range (own_first, own_last);
+    CsrLists neighbors = local.toPlaces (points, nearest);
+    spacing = localSpacing (positions, neighbors, rows, context.run);
+    BesideLines beside;
+    beside.neighbors.offsets.assign (local.size () + 1, 0);
+    beside.reach.assign (local.size (), 0.0F);
+    if (isAnyOnLine (positions, neighbors, rows, context.limits.planes.least_aspect, context.run))
+      beside =
+          findBesideLines (positions, neighbors, spacing, search.tree (), rows,
+                           context.limits.planes.least_aspect, context.limits.reach, context.run);
+    appendRows (beside.neighbors, neighbors);
+    normals = fitTangentPlanes (positions, neighbors, rows, context.run, context.limits.planes);
+    beside_lists = {};
+    for (Index p = own_first; p < own_last; ++p)
+      appendRow (beside.neighbors.row (p), beside_lists);
+    local.toPoints (beside_lists.ids);
+    const auto keepOwn = [&] (auto& values) {
+      values.erase (values.begin () + own_last, values.end ());
+      values.erase (values.begin (), values.begin () + own_first);
+    };
+    beside_reach = std::move (beside.reach);
+    keepOwn (beside_reach);
+    keepOwn (spacing);
+    keepOwn (normals);
+  });
+  if (cloud.file ().count<Eigen::Vector3f> ("normals") > 0) {
+    std::vector<Eigen::Vector3f> given;
+    cloud.file ().append ("normals", own.first, own.last, given);
+    for (std::size_t i = 0; i < given.size (); ++i)
+      if (!given[i].isZero (0.0F))
+        normals[i] = given[i];
   }
   if (!own.outliers.empty ())
     writeLists ("renewed", renewed, writer);
@@ -249,7 +266,7 @@ planesStep (const StepContext& context, std::size_t block)
   writer.add ("beside_reach", beside_reach);
   writer.add ("spacing", spacing);
   writer.add ("normals", normals);
-  context.store.put (blockFile ("planes", block), writer, context.plan.id);
+  put (context, "planes", block, writer);
 }
 
 namespace {
@@ -312,39 +329,17 @@ replaceStars (const std::vector<Index>& points, const OwnStars& more, Index firs
   }
 }
 
-void
-writeStars (const StepContext& context, std::size_t block, const OwnStars& own,
-            const std::vector<AreaSample>& samples)
-{
-  ArrayWriter writer;
-  writeLists ("stars", own.stars, writer);
-  writeLists ("far", own.far, writer);
-  writer.add ("open", own.open);
-  writer.add ("normals", own.normals);
-  writer.add ("reach", own.reach);
-  writer.add ("areas", samples);
-  context.store.put (blockFile ("stars", block), writer, context.plan.id);
-}
-
-StarSettings
-settingsOf (const StepContext& context)
-{
-  return starSettings ({context.options, context.limits, context.run});
-}
-
 } // namespace
 
 void
 starsStep (const StepContext& context, std::size_t block)
 {
   OwnBlock own_block (context, block);
-  if (own_block.isEmpty ()) {
-    writeStars (context, block, {}, {});
-    return;
-  }
+  if (own_block.isEmpty ())
+    return put (context, "stars", block);
   StoredCloud& cloud = own_block.cloud;
   const Index first = own_block.first, last = own_block.last;
-  const StarSettings settings = settingsOf (context);
+  const StarSettings settings = starSettings ({context.options, context.limits, context.run});
   StoredNeighbors stored (context, own_block.outliers, cloud.ranges ());
   const std::vector<Index> own = own_block.points ();
   const CsrLists beside_lists = stored.beside (own);
@@ -381,9 +376,9 @@ starsStep (const StepContext& context, std::size_t block)
     local.toPlaces (left_places);
     const Rows rows =
         is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
-    const OwnStars made =
-        takeStars (beginStars (positions, neighbors, normals, rows, settings, context.run, beyond),
-                   rows, local);
+    const OwnStars made = takeStars (
+        beginStars (positions, neighbors, normals, rows, settings, context.run, beyond), rows,
+        local);
     if (is_first)
       all = made;
     else
@@ -398,21 +393,25 @@ starsStep (const StepContext& context, std::size_t block)
           makeStarsOf (places, positions, neighbors, normals, settings, context.run, &beyond);
       are_sampled = !search.hasLeft ();
       if (are_sampled)
-        samples = takeAreaSamples (places, positions, stars, context.run);
+        samples = takeAreaSamples (places, positions, stars);
     }
   });
-  writeStars (context, block, all, samples);
+  ArrayWriter writer;
+  writeLists ("stars", all.stars, writer);
+  writeLists ("far", all.far, writer);
+  writer.add ("open", all.open);
+  writer.add ("normals", all.normals);
+  writer.add ("reach", all.reach);
+  writer.add ("areas", samples);
+  put (context, "stars", block, writer);
 }
 
-void
-blockStep (const StepContext& context, const std::string& step, std::size_t block)
+const Step*
+findStep (const std::string& name)
 {
-  constexpr std::array<void (*) (const StepContext&, std::size_t), BLOCK_STEPS.size ()> FUNCTIONS{
-      neighborsStep, planesStep, starsStep};
-  for (std::size_t i = 0; i < BLOCK_STEPS.size (); ++i)
-    if (step == BLOCK_STEPS[i])
-      return FUNCTIONS[i](context, block);
-  throw std::logic_error ("a block step of this name");
+  const auto* const step = std::find_if (
+      STEPS.begin (), STEPS.end (), [&name] (const Step& known) { return name == known.name; });
+  return step == STEPS.end () ? nullptr : step;
 }
 
 } // namespace pcl::floater

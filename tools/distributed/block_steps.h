@@ -5,22 +5,21 @@
 // not depend on the blocks.
 #pragma once
 
-#include "options/stage_limits.h"
+#include "command_line.h"
 #include "store.h"
 
 namespace pcl::floater {
-/// The steps that are done for each block, in order. A step starts when the one before is complete
-/// for all blocks. Run chooseOutliersStep () between the first two.
-constexpr std::array<const char*, 3> BLOCK_STEPS{"neighbors", "planes", "stars"};
-
 /// All that a step needs.
 struct StepContext
 {
+  /// \param store, plan must outlive this
+  StepContext (Store& files, const Plan& of, const CommandLine& line, const RunContext& context);
+
   Store& store;
   const Plan& plan;
-  const Options& options; ///< effective
-  const Limits& limits;   ///< effective
-  const RunContext& run;
+  Options options; ///< effective
+  Limits limits;   ///< effective
+  RunContext run;
 };
 
 /// The nearest neighbours, and which points lie apart from all surfaces.
@@ -40,9 +39,38 @@ planesStep (const StepContext& context, std::size_t block);
 void
 starsStep (const StepContext& context, std::size_t block);
 
-/// Does one of BLOCK_STEPS.
-void
-blockStep (const StepContext& context, const std::string& step, std::size_t block);
+/// What a step is for: each block, or the whole cloud.
+enum class StepKind
+{
+  PLAN,
+  OF_BLOCK,
+  CHOOSE_OUTLIERS,
+  JOIN,
+  WRITE
+};
+
+/// A step of a run.
+struct Step
+{
+  const char* name;
+  StepKind kind;
+  void (*of_block) (const StepContext&, std::size_t block); ///< nullptr: it is for the whole cloud
+  const char* file; ///< which tells that it is finished; nullptr: nothing does, or see blockFile
+};
+
+/// All steps, in order. Each starts when the one before is complete for all blocks.
+inline constexpr std::array<Step, 7> STEPS{
+    {{"plan", StepKind::PLAN, nullptr, MANIFEST},
+     {"neighbors", StepKind::OF_BLOCK, neighborsStep, nullptr},
+     {"outliers", StepKind::CHOOSE_OUTLIERS, nullptr, OUTLIERS},
+     {"planes", StepKind::OF_BLOCK, planesStep, nullptr},
+     {"stars", StepKind::OF_BLOCK, starsStep, nullptr},
+     {"join", StepKind::JOIN, nullptr, TRIANGLES},
+     {"write", StepKind::WRITE, nullptr, nullptr}}};
+
+/// The step of this name; nullptr if there is none.
+const Step*
+findStep (const std::string& name);
 
 /// Outliers that the second step has chosen, ascending.
 std::vector<Index>

@@ -5,7 +5,6 @@
 #include "atomic_file.h"
 #include "format.h"
 #include "input/input.h"
-#include "memory_limit.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
 #include "option_table.h"
@@ -14,8 +13,8 @@
 #include "prepared_input.h"
 #include "report_json.h"
 #include "run_report.h"
-#include "stored_mesh.h"
 #include "stored_stages.h"
+#include "tiles.h"
 #include "usage_message.h"
 
 #include <CLI/CLI.hpp>
@@ -33,15 +32,6 @@ namespace {
 constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
 constexpr const char* REPORT = "report.json";
 
-// The cloud of the job, with its origin shifted as in the plan.
-Cloud
-readShifted (const Job& job, const Plan& plan, std::vector<std::size_t>* firsts = nullptr)
-{
-  Cloud cloud = readClouds (job.inputs, readOptionsOf (job.line), firsts);
-  cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
-  return cloud;
-}
-
 // Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
 // points: below, more time goes to pages that come back than to all else.
 constexpr double KEPT_BY_PLAN = 9.0;
@@ -58,6 +48,16 @@ describeCloud (const Cloud& cloud, const Input& input, Plan& plan)
       std::count_if (input.positions.begin (), input.positions.end (),
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
   plan.is_single = cloud.single_precision;
+}
+
+// Calls visit (name) for the files of all blocks.
+template <typename Visit>
+void
+forBlockFiles (const Plan& plan, Visit&& visit)
+{
+  for (const Step& step : STEPS)
+    for (std::size_t block = 0; step.of_block != nullptr && block < plan.blocks; ++block)
+      visit (blockFile (step.name, block));
 }
 
 void
@@ -116,12 +116,6 @@ prepareFolders (const Job& job)
     requireWritable (job.line.report);
 }
 
-EffectiveOptions::EffectiveOptions (const CommandLine& line)
-    : options (effectiveOptions (line.options)),
-      limits (effectiveLimits (line.limits, line.options))
-{
-}
-
 std::size_t
 defaultBlocks (std::size_t points)
 {
@@ -147,15 +141,13 @@ planStep (const Job& job, FolderStore& store)
   warnOfDegrees (input.positions, cloud);
   shiftOrigin (line, cloud, input);
   describeCloud (cloud, input, plan);
-  const EffectiveOptions effective (line);
-  Statistics times; // which nobody reads
-  RunMonitor monitor ({{}, {}, {}, line.options.task_callback}, times);
-  const RunContext run (job.join_threads, &monitor);
+  const RunContext run (job.join_threads);
+  const Options options = effectiveOptions (line.options);
+  const Limits limits = effectiveLimits (line.limits, line.options);
   Points points;
   Report report;
   const std::array<double, 3> sensor_origin = input.sensor_origin;
-  Problem problem =
-      takePoints (input, {effective.options, effective.limits, run, sensor_origin}, points, report);
+  Problem problem = takePoints (input, {options, limits, run, sensor_origin}, points, report);
   if (!problem)
     problem = checkPoints (points);
   if (problem) {
@@ -186,7 +178,7 @@ Plan
 readPlan (const Job& job, const FolderStore& store)
 {
   Plan plan = parseManifest (store.readText (MANIFEST), store.describe (MANIFEST));
-  if (!job.is_from_manifest || job.step == "join")
+  if (!job.is_from_manifest || (job.step != nullptr && job.step->kind == StepKind::JOIN))
     requirePlan (job, store, plan);
   return plan;
 }
@@ -210,14 +202,12 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
-  const EffectiveOptions effective (line);
-  const RunContext run (job.join_threads);
-  const StepContext context{store, plan, effective.options, effective.limits, run};
+  const StepContext context (store, plan, line, job.join_threads);
   checkMemory (line, plan.cloud_size);
-  StoredStages stages (context, job.frees_disk ? &store : nullptr);
-  for (const char* step : BLOCK_STEPS) // what is missing is told before hours of work
-    for (std::size_t block = 0; block < plan.blocks; ++block)
-      openArrays (store, blockFile (step, block), plan);
+  StoredStages stages (context);
+  forBlockFiles (plan, [&] (const std::string& name) { // missing ones are told before hours of work
+    openArrays (store, name, plan);
+  });
   Input input;
   input.cloud_size = plan.cloud_size;
   input.sensor_origin = plan.sensor_origin;
@@ -236,11 +226,9 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   figures.single_precision = plan.is_single;
   figures.input_fields = plan.fields;
   figures.notes = plan.notes;
-  std::vector<std::string> warnings = plan.warnings;
-  const bool is_single = line.precision != Precision::DOUBLE;
-  figures.writes_single = is_single;
+  figures.writes_single = line.precision != Precision::DOUBLE;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
-  report.warnings.insert (report.warnings.begin (), warnings.begin (), warnings.end ());
+  report.warnings.insert (report.warnings.begin (), plan.warnings.begin (), plan.warnings.end ());
   reportMemory (line, report);
   if (report.status == RunStatus::SUCCESS)
     figures.vertices = plan.finite_points;
@@ -249,12 +237,12 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
-  putMesh (store, plan, {std::move (result.triangles), is_single, job.frees_disk});
+  ArrayWriter writer;
+  writer.add ("triangles", result.triangles);
+  store.put (TRIANGLES, writer, plan.id);
   if (job.frees_disk) {
     store.finish (); // the mesh is on the disk before that of which it was made goes
-    for (const char* step : BLOCK_STEPS)
-      for (std::size_t block = 0; block < plan.blocks; ++block)
-        store.remove (blockFile (step, block));
+    forBlockFiles (plan, [&store] (const std::string& name) { store.remove (name); });
   }
   return EXIT_OK;
 }
@@ -263,12 +251,14 @@ int
 writeStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const CommandLine& line = job.line;
-  FinishedMesh mesh = readMesh (store, plan);
-  Triangles triangles = std::move (mesh.triangles);
+  ArrayFile file = openArrays (store, TRIANGLES, plan);
+  auto triangles = file.read<Triangle> ("triangles");
+  file.requireBelow (triangles, plan.cloud_size);
   std::vector<std::size_t> firsts;
-  Cloud cloud = readShifted (job, plan, &firsts);
+  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), &firsts);
+  cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
+  cloud.single_precision = line.precision != Precision::DOUBLE;
   requirePlan (job, store, plan); // the bytes of now
-  cloud.single_precision = mesh.is_single;
   if (line.compute_normals)
     replaceNormals (cloud, triangles, job.join_threads);
   removeNonFinitePoints (cloud, triangles);
@@ -284,10 +274,10 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
                          job.inputs.size () > 1 ? ownersByFile (cloud, firsts, job.inputs)
                                                 : ownersByBlock (cloud, store, plan));
   else {
-    AtomicFile file (line.output);
-    losses = writeMesh (file, line.output, cloud, triangles, line.output_format);
-    file.close ();
-    file.publish ();
+    AtomicFile mesh (line.output);
+    losses = writeMesh (mesh, line.output, cloud, triangles, line.output_format);
+    mesh.close ();
+    mesh.publish ();
   }
   for (const std::string& loss : losses)
     std::fprintf (stderr, "warning: %s\n", printable (loss).c_str ());
@@ -329,22 +319,6 @@ Exit codes:
   7  a file of the work folder is missing, damaged, of another version, or of another plan
 )";
 
-constexpr std::array<const char*, 4> SINGLE_STEPS{"plan", "outliers", "join", "write"};
-
-std::vector<std::string>
-stepNames ()
-{
-  std::vector<std::string> names (SINGLE_STEPS.begin (), SINGLE_STEPS.end ());
-  names.insert (names.end (), BLOCK_STEPS.begin (), BLOCK_STEPS.end ());
-  return names;
-}
-
-bool
-isBlockStep (const std::string& step)
-{
-  return std::find (BLOCK_STEPS.begin (), BLOCK_STEPS.end (), step) != BLOCK_STEPS.end ();
-}
-
 void
 addSteps (CLI::App& app, Job& job)
 {
@@ -357,16 +331,21 @@ addSteps (CLI::App& app, Job& job)
              "blocks into which the points are cut; 0: of half a million points each; the result "
              "is the same",
              group);
-  const auto choose = [&job] (const std::string& word) {
-    const std::vector<std::string> names = stepNames ();
-    if (std::find (names.begin (), names.end (), word) == names.end ())
+  std::vector<std::string> names;
+  std::string of_blocks, of_all;
+  for (const Step& step : STEPS) {
+    names.emplace_back (step.name);
+    (step.of_block != nullptr ? of_blocks : of_all) += std::string (", ") + step.name;
+  }
+  const auto choose = [&job, names] (const std::string& word) {
+    job.step = findStep (word);
+    if (job.step == nullptr)
       throw CLI::ValidationError ("--step", "'" + word + "' is no step" + didYouMean (word, names));
-    job.step = word;
   };
-  addParsed (
-      app, "--step", choose,
-      "do this step only: plan, outliers, join, write; or for a block: neighbors, planes, stars",
-      "NAME (all)", group);
+  addParsed (app, "--step", choose,
+             "do this step only: " + of_all.substr (2) +
+                 "; or for a block: " + of_blocks.substr (2),
+             "NAME (all)", group);
   const auto setBlock = [&job] (const std::string& word) {
     if (!parseNumber (word, job.block))
       throw CLI::ValidationError ("--block", "'" + word + "' is not a whole number");
@@ -381,10 +360,8 @@ addSteps (CLI::App& app, Job& job)
              "how processes get what others have found: from files in the work folder, or by "
              "messages of the first one",
              group);
-  app.add_flag (
-         "--free-disk", job.frees_disk,
-         "remove the files of the blocks as soon as join needs them no longer; if join is ended "
-         "early, the blocks are worked on again")
+  app.add_flag ("--free-disk", job.frees_disk,
+                "remove the files of the blocks when join has made the mesh")
       ->group (group);
 }
 
@@ -494,13 +471,15 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
     throw UsageError ("--work is missing: name a folder for what is known between the steps");
   if (const Problem problem = checkOptions (job.line.options))
     throw UsageError (rangeMessage (app, problem, arguments));
-  if (job.prints_steps && !job.step.empty ())
+  if (job.prints_steps && job.step != nullptr)
     throw UsageError ("--print-steps and --step exclude each other");
-  if (isBlockStep (job.step) != job.has_block)
+  if ((job.step != nullptr && job.step->of_block != nullptr) != job.has_block)
     throw UsageError (job.has_block
-                          ? "--block is for a --step that is done for each block"
-                          : "--step " + job.step + " is done for one block: give --block");
-  const bool needs_files = job.step == "plan" || (job.step.empty () && !job.prints_steps);
+                          ? std::string ("--block is for a --step that is done for each block")
+                          : std::string ("--step ") + job.step->name +
+                                " is done for one block: give --block");
+  const bool needs_files =
+      job.step == nullptr ? !job.prints_steps : job.step->kind == StepKind::PLAN;
   if (needs_files || !files.empty ())
     takeFiles (files, job);
   return std::nullopt;

@@ -22,14 +22,14 @@ struct Job
   std::vector<std::filesystem::path> inputs;
   std::vector<std::string> arguments; ///< as they were typed
   std::filesystem::path work;
-  std::string step;          ///< empty: all
-  std::size_t block = 0;     ///< of the step
-  bool has_block = false;    ///< it was given
-  std::size_t blocks = 0;    ///< 0: chosen by the number of points
-  int join_threads = 0;      ///< 0: all cores
-  bool sends_files = false;  ///< --exchange messages
-  bool writes_tiles = false; ///< OUTPUT is a folder
-  bool frees_disk = false;   ///< files of blocks go as soon as `join` needs them no longer
+  const Step* step = nullptr; ///< nullptr: all
+  std::size_t block = 0;      ///< of the step
+  bool has_block = false;     ///< it was given
+  std::size_t blocks = 0;     ///< 0: chosen by the number of points
+  int join_threads = 0;       ///< 0: all cores
+  bool sends_files = false;   ///< --exchange messages
+  bool writes_tiles = false;  ///< OUTPUT is a folder
+  bool frees_disk = false;    ///< files of blocks go when the mesh is known
   bool prints_steps = false;
   bool is_from_manifest = false; ///< files and options are those of the manifest
 };
@@ -43,15 +43,6 @@ parseJob (const std::vector<std::string>& arguments, Job& job);
 /// What decides the result, as text.
 std::string
 parametersText (const Job& job);
-
-/// Options and limits with which the core works.
-struct EffectiveOptions
-{
-  explicit EffectiveOptions (const CommandLine& line);
-
-  Options options;
-  Limits limits;
-};
 
 /// Makes the work folder, and checks that all outputs can be written.
 /// \throws WriteError

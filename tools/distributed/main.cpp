@@ -5,23 +5,19 @@
 // known by its file alone, so that a run that was ended goes on where it was.
 #include "atomic_file.h"
 #include "blas_threads.h"
-#include "heap_reuse.h"
+#include "heap.h"
 #include "job.h"
-#include "memory_limit.h"
 #include "messages.h"
 #include "run_report.h"
-#include "stored_mesh.h"
+#include "scratch_arrays.h"
 
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <functional>
 #include <new>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace pcl::floater {
 namespace {
@@ -35,8 +31,11 @@ say (const Job& job, const std::string& text)
 }
 
 bool
-isFinished (FolderStore& folder, const std::string& name, const Plan& plan)
+isFinished (FolderStore& folder, const Step& step, std::size_t block, const Plan& plan)
 {
+  if (step.kind == StepKind::WRITE) // is always done again
+    return false;
+  const std::string name = step.file != nullptr ? step.file : blockFile (step.name, block);
   if (!folder.has (name))
     return false;
   openArrays (folder, name, plan).verify ();
@@ -71,14 +70,11 @@ tell (int code, const std::string& message)
 }
 
 // Limits the memory of this process, if that is asked for.
-std::unique_ptr<MemoryLimit>
-beginMemoryLimit (Job& job)
+void
+limitMemory (const Job& job)
 {
-  if (job.line.max_memory == 0)
-    return {};
-  auto limit = std::make_unique<MemoryLimit> (job.line.max_memory, job.line.scratch);
-  job.line.options.task_callback = [limit = limit.get ()] { limit->makeRoom (); };
-  return limit;
+  if (job.line.max_memory > 0)
+    keepLargeArraysIn (job.line.scratch, job.line.max_memory);
 }
 
 // A process that is not the first.
@@ -87,9 +83,6 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
 {
   RemoteStore remote (processes);
   Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
-  const EffectiveOptions effective (job.line);
-  const RunContext run (job.line.options.threads);
-  const HeapReuse reuse (nullptr);
   std::optional<Plan> plan;
   for (;;) {
     processes.send (0, {});
@@ -111,8 +104,8 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
             source->read (0, text.size (), text.data ());
             plan = parseManifest (text, store.describe (MANIFEST));
           }
-          blockStep ({store, *plan, effective.options, effective.limits, run}, order.text,
-                     order.number);
+          findStep (order.text)
+              ->of_block ({store, *plan, job.line, job.line.options.threads}, order.number);
           return static_cast<int> (EXIT_OK);
         },
         message);
@@ -139,85 +132,67 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
 
-// The workers, and where progress is printed.
-struct Workers
-{
-  const Job& job;
-  const StepContext& context;
-  FolderStore& folder;
-  Dealer* dealer;           // nullptr: this process does all
-  const MemoryLimit* limit; // nullptr: there is none
-  const Watch& watch;
-};
-
+// Does a step for those blocks that are not finished, with all processes if there is a dealer.
 void
-sayDone (const Workers& workers, const std::string& step, std::size_t done, std::size_t before)
+workOnBlocks (const Step& step, const StepContext& context, FolderStore& folder, Dealer* dealer,
+              const std::function<void (const std::string&)>& tellOf)
 {
-  say (workers.job, step + ": " + std::to_string (done) + " blocks done, " +
-                        std::to_string (before) + " finished before, " + workers.watch.time ());
-}
-
-// Does a step for those blocks that are not finished.
-void
-workOn (const Workers& workers, const char* step)
-{
-  const StepContext& context = workers.context;
-  const std::size_t count = context.plan.blocks;
   std::deque<std::size_t> left;
-  for (std::size_t number = 0; number < count; ++number)
-    if (!isFinished (workers.folder, blockFile (step, number), context.plan))
-      left.push_back (number);
-  const std::size_t finished = count - left.size ();
-  {
-    const HeapReuse reuse (workers.limit);
-    if (workers.dealer != nullptr)
-      workers.dealer->run (context, step, std::move (left));
-    else
-      for (const std::size_t number : left)
-        blockStep (context, step, number);
-  }
-  sayDone (workers, step, count - finished, finished);
+  for (std::size_t block = 0; block < context.plan.blocks; ++block)
+    if (!isFinished (folder, step, block, context.plan))
+      left.push_back (block);
+  const std::size_t count = left.size ();
+  if (dealer != nullptr)
+    dealer->run (context, step, std::move (left));
+  else
+    for (const std::size_t block : left)
+      step.of_block (context, block);
+  tellOf (std::string (step.name) + ": " + std::to_string (count) + " blocks done, " +
+          std::to_string (context.plan.blocks - count) + " finished before");
 }
 
-// Does all steps of the blocks.
-void
-workOnBlocks (const Workers& workers)
+// Does a step of the whole cloud that is not finished.
+int
+workOnAll (const Step& step, const Job& job, const StepContext& context, FolderStore& folder)
 {
-  const StepContext& context = workers.context;
-  for (const char* step : BLOCK_STEPS) {
-    workOn (workers, step);
-    if (step == BLOCK_STEPS.front () && !isFinished (workers.folder, OUTLIERS, context.plan))
-      chooseOutliersStep (context);
-  }
+  if (step.kind == StepKind::JOIN)
+    return joinStep (job, folder, context.plan);
+  if (step.kind == StepKind::WRITE)
+    return writeStep (job, folder, context.plan);
+  chooseOutliersStep (context);
+  return EXIT_OK;
 }
 
 int
-workAlone (Job job, FolderStore& folder, Dealer* dealer)
+workAlone (const Job& job, FolderStore& folder, Dealer* dealer)
 {
   const Watch watch;
+  const auto tellOf = [&] (const std::string& text) { say (job, text + ", " + watch.time ()); };
   prepareFolders (job);
-  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
+  limitMemory (job);
   if (!folder.has (MANIFEST))
     if (const int code = planStep (job, folder); code != EXIT_OK)
       return code;
   const Plan plan = readPlan (job, folder);
   openArrays (folder, POINTS, plan).verify ();
-  say (job, "plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
-                " blocks, " + watch.time ());
-  const EffectiveOptions effective (job.line);
-  const RunContext run (job.line.options.threads);
-  const StepContext context{folder, plan, effective.options, effective.limits, run};
-  const Workers workers{job, context, folder, dealer, limit.get (), watch};
-  if (!areBlocksFreed (folder, plan))
-    workOnBlocks (workers);
-  if (!isFinished (folder, TRIANGLES, plan))
-    if (const int code = joinStep (job, folder, plan); code != EXIT_OK)
-      return code;
-  say (job, "joined: " + watch.time ());
-  const int code = writeStep (job, folder, plan);
+  tellOf ("plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
+          " blocks");
+  const StepContext context (folder, plan, job.line, job.line.options.threads);
+  const bool is_mesh_known = isFinished (folder, *findStep ("join"), 0, plan);
+  for (const Step& step : STEPS) {
+    if (step.kind == StepKind::PLAN || (is_mesh_known && step.kind != StepKind::WRITE))
+      continue;
+    if (step.kind == StepKind::OF_BLOCK) {
+      workOnBlocks (step, context, folder, dealer, tellOf);
+      continue;
+    }
+    if (!isFinished (folder, step, 0, plan))
+      if (const int code = workOnAll (step, job, context, folder); code != EXIT_OK)
+        return code;
+    tellOf (step.name);
+  }
   folder.finish ();
-  say (job, "written: " + watch.time ());
-  return code;
+  return EXIT_OK;
 }
 
 int
@@ -242,34 +217,24 @@ runOnAll (const Job& job, FolderStore& folder, Processes& processes)
 }
 
 int
-doStep (Job& job, FolderStore& folder, const std::string& step)
+doStep (const Job& job, FolderStore& folder)
 {
-  if (step == "plan")
+  const Step& step = *job.step;
+  if (step.kind == StepKind::PLAN)
     prepareFolders (job);
-  const std::unique_ptr<MemoryLimit> limit = beginMemoryLimit (job);
-  if (step == "plan")
-    return folder.has (MANIFEST) ? (readPlan (job, folder), static_cast<int> (EXIT_OK))
-                                 : planStep (job, folder);
+  limitMemory (job);
+  if (step.kind == StepKind::PLAN && !folder.has (MANIFEST))
+    return planStep (job, folder);
   const Plan plan = readPlan (job, folder);
-  const EffectiveOptions effective (job.line);
-  const RunContext run (job.line.options.threads);
-  const StepContext context{folder, plan, effective.options, effective.limits, run};
-  if (step == "outliers") {
-    if (!isFinished (folder, OUTLIERS, plan))
-      chooseOutliersStep (context);
-    return EXIT_OK;
-  }
-  if (step == "join")
-    return isFinished (folder, TRIANGLES, plan) ? static_cast<int> (EXIT_OK)
-                                                : joinStep (job, folder, plan);
-  if (step == "write")
-    return writeStep (job, folder, plan);
-  if (job.block >= plan.blocks)
+  if (step.of_block != nullptr && job.block >= plan.blocks)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (plan.blocks) + " blocks, which are numbered from 0");
-  const HeapReuse reuse (limit.get ());
-  if (!isFinished (folder, blockFile (step.c_str (), job.block), plan))
-    blockStep (context, step, job.block);
+  if (step.kind == StepKind::PLAN || isFinished (folder, step, job.block, plan))
+    return EXIT_OK;
+  const StepContext context (folder, plan, job.line, job.line.options.threads);
+  if (step.of_block == nullptr)
+    return workOnAll (step, job, context, folder);
+  step.of_block (context, job.block);
   return EXIT_OK;
 }
 
@@ -280,7 +245,6 @@ doStep (Job& job, FolderStore& folder, const std::string& step)
 int
 runAll (const Job& job, FolderStore& folder)
 {
-  useOneHeap (); // MPI has threads
   int argc = 0;
   char** argv = nullptr;
   Processes processes (argc, argv);
@@ -289,14 +253,6 @@ runAll (const Job& job, FolderStore& folder)
   if (code == EXIT_OK)
     say (job, "process " + std::to_string (processes.self ()) + ": peak memory " +
                   std::to_string (peakMemory () / MEGABYTE) + " MB");
-  return code;
-}
-
-int
-runStep (Job job, FolderStore& folder, const std::string& step)
-{
-  const int code = doStep (job, folder, step);
-  folder.finish ();
   return code;
 }
 
@@ -310,27 +266,22 @@ printSteps (const Job& job, FolderStore& folder)
   for (const char c : job.work.string ())
     work += c == '\'' ? "'\\''" : std::string (1, c);
   const std::string command = "pcl_floater_distributed --work '" + work + "' --step ";
-  const auto print = [&command] (const char* step) {
-    std::printf ("%s%s\n\n", command.c_str (), step);
-  };
-  const auto printAll = [&command] (const char* step, std::size_t count) {
-    for (std::size_t number = 0; number < count; ++number)
-      std::printf ("%s%s --block %zu\n", command.c_str (), step, number);
-    std::printf ("\n");
-  };
-  for (const char* step : BLOCK_STEPS) {
-    printAll (step, plan.blocks);
-    if (step == BLOCK_STEPS.front ())
-      print ("outliers");
+  for (const Step& step : STEPS) {
+    if (step.kind == StepKind::PLAN)
+      continue;
+    for (std::size_t block = 0; step.of_block != nullptr && block < plan.blocks; ++block)
+      std::printf ("%s%s --block %zu\n", command.c_str (), step.name, block);
+    if (step.of_block == nullptr)
+      std::printf ("%s%s\n", command.c_str (), step.name);
+    if (step.kind != StepKind::WRITE)
+      std::printf ("\n");
   }
-  print ("join");
-  std::printf ("%swrite\n", command.c_str ());
 }
 
 int
 run (Job job)
 {
-  const bool is_single_step = !job.step.empty () || job.prints_steps;
+  const bool is_single_step = job.step != nullptr || job.prints_steps;
   FolderStore folder (job.work);
   if (is_single_step && job.inputs.empty ()) {
     // The command line that made the plan; what belongs to this step comes from this one.
@@ -356,7 +307,11 @@ run (Job job)
     printSteps (job, folder);
     return EXIT_OK;
   }
-  return job.step.empty () ? runAll (job, folder) : runStep (job, folder, job.step);
+  if (job.step == nullptr)
+    return runAll (job, folder);
+  const int code = doStep (job, folder);
+  folder.finish ();
+  return code;
 }
 
 int
@@ -380,10 +335,7 @@ runTool (const std::vector<std::string>& arguments)
 int
 main (int argc, char** argv)
 {
-#ifdef __GLIBC__
-  mallopt (M_MMAP_THRESHOLD,
-           1 << 20); // large arrays go back to the system as soon as they are freed
-#endif
+  pcl::floater::prepareHeap (true);
   pcl::floater::endBlasThreads ();
   return pcl::floater::runTool ({argv + (argc > 0 ? 1 : 0), argv + argc});
 }

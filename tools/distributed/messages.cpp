@@ -145,7 +145,7 @@ private:
 std::unique_ptr<ByteSource>
 RemoteStore::open (const std::string& name)
 {
-  processes_.send (0, {Topic::OPEN, 0, 0, name});
+  processes_.send (0, {Topic::READ, 0, 0, name}); // no bytes, only the size
   const Message answer = processes_.receive (0);
   return std::make_unique<RemoteFile> (processes_, name, answer.number);
 }
@@ -166,11 +166,9 @@ namespace {
 class Queue
 {
 public:
-  void fill (std::deque<std::size_t> blocks)
+  explicit Queue (std::deque<std::size_t> blocks)
+      : blocks_ (std::move (blocks)), open_ (blocks_.size ())
   {
-    const std::lock_guard<std::mutex> lock (mutex_);
-    blocks_ = std::move (blocks);
-    open_ = blocks_.size ();
   }
 
   std::optional<std::size_t> take ()
@@ -208,7 +206,7 @@ public:
 private:
   std::mutex mutex_;
   std::deque<std::size_t> blocks_;
-  std::size_t open_ = 0; // those that are not finished
+  std::size_t open_; // those that are not finished
   std::exception_ptr error_;
 };
 
@@ -236,11 +234,8 @@ Dealer::serve (Done&& done)
     break;
   case Topic::FAIL:
     throw RemoteFailure (static_cast<int> (message.number), message.text);
-  case Topic::OPEN:
-    answerSize (from, message.text);
-    break;
   case Topic::READ:
-    answerBytes (from, message);
+    processes_.send (from, answerTo (message));
     break;
   case Topic::PUT:
     write (from, message.text);
@@ -251,30 +246,20 @@ Dealer::serve (Done&& done)
   }
 }
 
-void
-Dealer::answerSize (int process, const std::string& name)
+Message
+Dealer::answerTo (const Message& wanted)
 {
   Message answer;
   try {
-    answer.number = source (name).size ();
-  }
-  catch (const WorkError&) { // of size 0, which the other process refuses
-  }
-  processes_.send (process, answer);
-}
-
-void
-Dealer::answerBytes (int process, const Message& wanted)
-{
-  Message answer;
-  try {
+    ByteSource& file = source (wanted.text);
+    answer.number = file.size ();
     answer.text.resize (wanted.count);
-    source (wanted.text).read (wanted.number, wanted.count, answer.text.data ());
+    file.read (wanted.number, wanted.count, answer.text.data ());
   }
-  catch (const WorkError&) {
-    answer.text.clear (); // too short, which the other process refuses
+  catch (const WorkError&) { // of size 0 or too short, which the other process refuses
+    answer = {};
   }
-  processes_.send (process, answer);
+  return answer;
 }
 
 void
@@ -306,14 +291,13 @@ Dealer::source (const std::string& name)
 }
 
 void
-Dealer::run (const StepContext& context, const std::string& step, std::deque<std::size_t> blocks)
+Dealer::run (const StepContext& context, const Step& step, std::deque<std::size_t> blocks)
 {
-  Queue queue;
-  queue.fill (std::move (blocks));
+  Queue queue (std::move (blocks));
   std::thread own ([&] {
     try {
       while (const std::optional<std::size_t> block = queue.take ()) {
-        blockStep (context, step, *block);
+        step.of_block (context, *block);
         queue.finish ();
       }
     }
@@ -326,7 +310,7 @@ Dealer::run (const StepContext& context, const std::string& step, std::deque<std
     while (!queue.isDone ()) {
       while (!idle_.empty ())
         if (const std::optional<std::size_t> block = queue.take ()) {
-          processes_.send (*idle_.begin (), {Topic::WORK, *block, 0, step});
+          processes_.send (*idle_.begin (), {Topic::WORK, *block, 0, step.name});
           idle_.erase (idle_.begin ());
         }
         else

@@ -23,8 +23,8 @@ enum class Topic : std::uint32_t
   IDLE, ///< to process 0: what next?
   DONE, ///< to process 0: the block of the step is finished
   FAIL, ///< to process 0: `number` is an exit code, the text a message
-  OPEN, ///< to process 0: how long is the file named in the text? The answer's `number` tells
-  READ, ///< to process 0: `count` bytes of that file from `number`; the answer's text has them
+  READ, ///< to process 0: `count` bytes from `number` of the file named in the text. The answer's
+        ///< text has them, and its `number` is the size of the file
   PUT,  ///< to process 0: the text is a file, after its name and a line feed
   WORK, ///< to another process: do the block `number` of the step in the text
   END   ///< to another process: end with the exit code `number`
@@ -102,9 +102,11 @@ class Dealer
 public:
   Dealer (Processes& processes, FolderStore& folder) : processes_ (processes), folder_ (folder) {}
 
+  int processes () const { return processes_.count (); }
+
   /// Deals out the blocks of a step, and works on some.
   /// \throws RemoteFailure, and whatever a block of its own throws
-  void run (const StepContext& context, const std::string& step, std::deque<std::size_t> blocks);
+  void run (const StepContext& context, const Step& step, std::deque<std::size_t> blocks);
 
   /// Ends all other processes, and answers those that still work on something.
   void end (int code);
@@ -114,8 +116,7 @@ private:
   template <typename Done>
   void serve (Done&& done);
 
-  void answerSize (int process, const std::string& name);
-  void answerBytes (int process, const Message& wanted);
+  Message answerTo (const Message& wanted);
   void write (int process, const std::string& file);
   ByteSource& source (const std::string& name);
 

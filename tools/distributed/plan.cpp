@@ -6,6 +6,7 @@
 #include "cloud_reader.h"
 #include "format.h"
 #include "prepared_input.h"
+#include "run_report.h"
 #include "store.h"
 
 #include <nlohmann/json.hpp>
@@ -24,24 +25,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* FORMAT = "pcl_floater work folder";
 
-// FNV-1a.
 std::uint64_t
 hash (const std::string& text)
 {
-  std::uint64_t value = 0xcbf29ce484222325ULL;
-  for (const char c : text)
-    value = (value ^ static_cast<unsigned char> (c)) * 0x100000001b3ULL;
-  return value;
-}
-
-std::string
-hexadecimal (std::uint64_t value)
-{
-  constexpr std::size_t DIGITS = 16;
-  std::string text (DIGITS, '0');
-  for (std::size_t i = DIGITS; i-- > 0; value >>= 4U)
-    text[i] = "0123456789abcdef"[value & 15U];
-  return text;
+  return XXH3_64bits (text.data (), text.size ());
 }
 
 // Calls visit (key, member) for what the manifest has as it is, in its order.
@@ -120,9 +107,8 @@ std::string
 manifestText (const Plan& plan)
 {
   Json json = contents (plan);
-  json["checksum"] =
-      hexadecimal (hash (json.dump (-1, ' ', false, Json::error_handler_t::replace)));
-  json["id"] = hexadecimal (plan.id);
+  json["checksum"] = hash (dump (json));
+  json["id"] = plan.id;
   return json.dump (2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -141,40 +127,29 @@ parseManifest (const std::string& text, const std::string& name)
               std::to_string (WORK_FORMAT) +
               "; use the version that made it, or an empty work folder");
     Plan plan;
-    plan.id = std::stoull (json.at ("id").get<std::string> (), nullptr, 16);
-    const std::string checksum = json.at ("checksum").get<std::string> ();
+    plan.id = json.at ("id").get<std::uint64_t> ();
     for (const Json& input : json.at ("inputs"))
       plan.inputs.push_back ({input.at ("file").get<std::string> (),
                               input.at ("bytes").get<std::uint64_t> (),
                               input.at ("checksum").get<std::uint64_t> ()});
     forMembers (plan, [&json] (const char* key, auto& value) { json.at (key).get_to (value); });
-    if (checksum !=
-        hexadecimal (hash (contents (plan).dump (-1, ' ', false, Json::error_handler_t::replace))))
+    if (json.at ("checksum") != hash (dump (contents (plan))))
       refuse ("is damaged; delete it and run again");
     return plan;
   }
   catch (const Json::exception&) {
     refuse ("is damaged; delete it and run again");
   }
-  catch (const std::logic_error&) { // the id is no number
-    refuse ("is damaged; delete it and run again");
-  }
   return {};
 }
 
 namespace {
-bool
-areAlike (const Field& a, const Field& b)
-{
-  return a.type == b.type && a.count == b.count;
-}
-
 // A field of the merged cloud, and that of each file.
 struct Column
 {
   Field merged;
   std::vector<const Field*> parts;
-  bool are_scaled = false; // numbers as they are meant, not as they are in the files
+  bool is_coordinate = false; // a double, as it is meant and not as it is in the files
 };
 
 Column
@@ -182,16 +157,11 @@ coordinateColumn (const std::vector<Cloud>& clouds, std::size_t axis)
 {
   constexpr std::array<const char*, 3> NAMES{"x", "y", "z"};
   Column column;
-  const Field& first = clouds.front ().coordinates[axis];
-  bool are_plain = first.scale == 1.0 && first.offset == 0.0;
-  for (const Cloud& cloud : clouds) {
-    const Field& field = cloud.coordinates[axis];
-    are_plain = are_plain && areAlike (field, first) && field.scale == 1.0 && field.offset == 0.0;
-    column.parts.push_back (&field);
-  }
+  for (const Cloud& cloud : clouds)
+    column.parts.push_back (&cloud.coordinates[axis]);
   column.merged.name = NAMES[axis];
-  column.merged.type = are_plain ? first.type : ScalarType::FLOAT64;
-  column.are_scaled = !are_plain;
+  column.merged.type = ScalarType::FLOAT64;
+  column.is_coordinate = true;
   return column;
 }
 
@@ -202,7 +172,7 @@ fieldColumn (const std::vector<Cloud>& clouds, const Field& first)
   Column column;
   for (const Cloud& cloud : clouds) {
     const Field* field = cloud.find (first.name);
-    if (field == nullptr || !areAlike (*field, first))
+    if (field == nullptr || field->type != first.type || field->count != first.count)
       return {};
     column.parts.push_back (field);
   }
@@ -218,7 +188,7 @@ copyColumn (const Column& column, const std::vector<Cloud>& clouds, char* to)
   for (std::size_t c = 0; c < clouds.size (); ++c) {
     const Field& from = *column.parts[c];
     for (std::size_t row = 0; row < clouds[c].rows; ++row, to += column.merged.stride) {
-      if (column.are_scaled) {
+      if (column.is_coordinate) {
         const double number = from.scaled (row);
         std::memcpy (to, &number, sizeof (number));
         continue;

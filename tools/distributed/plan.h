@@ -58,7 +58,7 @@ Plan
 parseManifest (const std::string& text, const std::string& name);
 
 /// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
-/// are those that all files have with one type, and coordinates of different types become double.
+/// are those that all files have with one type, and coordinates are doubles.
 /// \param[out] firsts if it is not nullptr, the first row of each file, and the number of all rows
 /// \throws ReadError, which names the file
 Cloud

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <limits>
 
 namespace pcl::floater {
 // A head, a table of the arrays, the checksums of all pieces of each array, and the arrays, each
@@ -21,7 +20,7 @@ namespace pcl::floater {
 namespace {
 constexpr std::uint64_t MAGIC = 0x0a42464c54434c50ULL; // "PLCTLFB\n" on a little-endian machine
 constexpr std::size_t PIECE = 16384; // bytes; what is read at least, to compare its checksum
-constexpr std::uint64_t NOWHERE = std::numeric_limits<std::uint64_t>::max ();
+constexpr std::uint64_t AT_ONCE = 8 * PIECE; // bytes that are read at most
 constexpr std::size_t LONGEST_NAME = 24;
 constexpr std::uint32_t MOST_ARRAYS = 64;
 
@@ -205,7 +204,7 @@ ArrayFile::refuse (const std::string& cause) const
 }
 
 ArrayFile::ArrayFile (std::unique_ptr<ByteSource> source, std::string name, std::uint64_t plan)
-    : source_ (std::move (source)), name_ (std::move (name)), piece_at_ (NOWHERE)
+    : source_ (std::move (source)), name_ (std::move (name))
 {
   Head head{};
   if (source_->size () < sizeof (head))
@@ -274,55 +273,35 @@ ArrayFile::readBytes (const Array& array, std::size_t element, std::size_t first
                       char* bytes)
 {
   require (element == array.element && first <= last && last <= array.count);
-  const std::uint64_t size = array.element * array.count;
-  std::uint64_t at = first * element;
-  const std::uint64_t end = last * element;
-  while (at < end) {
-    const std::uint64_t piece = at / PIECE, begin = piece * PIECE;
-    const auto length = static_cast<std::size_t> (std::min<std::uint64_t> (PIECE, size - begin));
-    const bool is_whole = at == begin && end - at >= length;
-    // Whole pieces go where they are wanted, many at once; they are still in the cache of the
-    // processor when their checksums are computed.
-    const std::uint64_t whole =
-        is_whole ? std::min (end == size ? end : end / PIECE * PIECE, begin + (1U << 18U)) : 0;
-    char* to = bytes;
-    const char* from = nullptr;
-    std::uint64_t until = 0;
-    if (is_whole) {
-      until = std::max (whole, begin + length);
-      source_->read (array.offset + begin, static_cast<std::size_t> (until - begin), to);
-      from = to;
-    }
-    else {
-      until = begin + length;
-      if (piece_at_ != array.offset + begin) {
-        piece_.resize (PIECE);
-        piece_at_ = NOWHERE;
-        source_->read (array.offset + begin, length, piece_.data ());
-      }
-      from = piece_.data ();
-    }
-    if (is_whole || piece_at_ != array.offset + begin)
-      for (std::uint64_t p = begin; p < until; p += PIECE)
-        if (checksumOf (from + (p - begin),
-                        static_cast<std::size_t> (std::min<std::uint64_t> (PIECE, size - p))) !=
-            array.checksums[static_cast<std::size_t> (p / PIECE)])
+  const std::uint64_t size = array.element * array.count, end = last * element;
+  for (std::uint64_t at = first * element; at < end;) {
+    const std::uint64_t place = array.offset + at;
+    if (place < buffer_at_ || place - buffer_at_ >= buffer_.size ()) {
+      const std::uint64_t begin = at / PIECE * PIECE;
+      const std::uint64_t wanted = pieces (std::min (end - begin, AT_ONCE)) * PIECE;
+      const auto count = static_cast<std::size_t> (std::min (wanted, size - begin));
+      buffer_.clear (); // as long as nothing is known of its bytes
+      std::vector<char> read (count);
+      source_->read (array.offset + begin, count, read.data ());
+      for (std::size_t p = 0; p < count; p += PIECE)
+        if (checksumOf (read.data () + p, std::min (PIECE, count - p)) !=
+            array.checksums[static_cast<std::size_t> (begin + p) / PIECE])
           refuse ("is damaged; delete it and run again");
-    if (!is_whole) {
-      piece_at_ = array.offset + begin;
-      const std::uint64_t stop = std::min (end, until);
-      std::memcpy (to, from + (at - begin), static_cast<std::size_t> (stop - at));
-      until = stop;
+      buffer_ = std::move (read);
+      buffer_at_ = array.offset + begin;
     }
-    bytes += until - at;
-    at = until;
+    const auto skipped = static_cast<std::size_t> (place - buffer_at_);
+    const auto count =
+        static_cast<std::size_t> (std::min<std::uint64_t> (end - at, buffer_.size () - skipped));
+    std::memcpy (bytes, buffer_.data () + skipped, count);
+    bytes += count;
+    at += count;
   }
 }
 
 void
 ArrayFile::verify ()
 {
-  constexpr std::size_t AT_ONCE = std::size_t{1} << 20U;
   std::vector<char> bytes;
   for (const Array& array : arrays_) {
     const auto step = std::max<std::size_t> (1, AT_ONCE / array.element);

@@ -47,14 +47,29 @@ public:
   virtual void read (std::uint64_t offset, std::size_t count, char* bytes) = 0;
 };
 
+/// Calls visit (bytes, count) for all bytes of a file, piece by piece.
+template <typename Visit>
+std::uint64_t
+forAllBytes (ByteSource& file, Visit&& visit)
+{
+  constexpr std::size_t EACH = std::size_t{1} << 20U;
+  std::vector<char> bytes (EACH);
+  for (std::uint64_t at = 0; at < file.size (); at += EACH) {
+    const auto count = static_cast<std::size_t> (std::min<std::uint64_t> (EACH, file.size () - at));
+    file.read (at, count, bytes.data ());
+    visit (bytes.data (), count);
+  }
+  return file.size ();
+}
+
 /// \param is_work a file of a work folder: others must not be able to write it. It is a file of this
 ///     user, writable by nobody else, and no symbolic link
 /// \throws WorkError if the file does not exist or cannot be read
 std::unique_ptr<ByteSource>
 openFile (const std::filesystem::path& path, bool is_work);
 
-// What a file has for a value: of a vector, box, triangle, sample or pair, its plain numbers. Only the
-// types of these functions are used.
+// What a file has for a value: of a vector, box, triangle or sample, its plain numbers. Only the types
+// of these functions are used.
 template <typename T>
 T
 elementOf (const T*);
@@ -67,8 +82,6 @@ double
 elementOf (const AreaSample*);
 Index
 elementOf (const Triangle*);
-Index
-elementOf (const std::pair<Index, Index>*);
 
 template <typename T>
 using Element = decltype (elementOf (static_cast<const T*> (nullptr)));
@@ -101,15 +114,6 @@ public:
               count * countElements<T> ());
   }
 
-  /// Keeps values that are made for the file.
-  template <typename T>
-  void keep (const std::string& name, std::vector<T> values)
-  {
-    const auto kept = std::make_shared<const std::vector<T>> (std::move (values));
-    kept_.push_back (kept);
-    add (name, *kept);
-  }
-
   /// Passes the bytes of the file to `write`, one piece after the other.
   /// \param plan of which the arrays are a part; 0: they are the plan
   void emit (std::uint64_t plan,
@@ -133,7 +137,6 @@ private:
                  std::size_t count);
 
   std::vector<Array> arrays_;
-  std::vector<std::shared_ptr<const void>> kept_;
 };
 
 /// Arrays of a file. What is read is compared with its checksums.
@@ -232,8 +235,8 @@ private:
   std::unique_ptr<ByteSource> source_;
   std::string name_;
   std::vector<Array> arrays_;
-  std::vector<char> piece_; // that was read last
-  std::uint64_t piece_at_;  // where it is; NOWHERE: there is none
+  std::vector<char> buffer_;    // pieces that were read last
+  std::uint64_t buffer_at_ = 0; // where they are in the file
 };
 
 /// The files of a run.
@@ -324,6 +327,7 @@ public:
     return static_cast<std::uint32_t> (firsts_[block]);
   }
   std::uint32_t last (std::size_t block) const { return first (block + 1); }
+  bool isEmpty (std::size_t block) const { return first (block) == last (block); }
   std::size_t blockOf (std::uint32_t point) const;
 
 private:

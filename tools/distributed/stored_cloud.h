@@ -33,20 +33,13 @@ public:
   /// Values of some points, `width` for each.
   /// \param points ascending
   template <typename T>
-  void gather (const std::string& array, const std::vector<Index>& points, std::size_t width,
-               T* values)
-  {
-    forEachRun (points, [&] (std::size_t at, std::size_t block, Index first, Index last) {
-      file (block).read (array, first * width, last * width, values + at * width);
-    });
-  }
-
-  template <typename T>
   std::vector<T> gather (const std::string& array, const std::vector<Index>& points,
                          std::size_t width = 1)
   {
     std::vector<T> values (points.size () * width);
-    gather (array, points, width, values.data ());
+    forEachRun (points, [&] (std::size_t at, std::size_t block, Index first, Index last) {
+      file (block).read (array, first * width, last * width, values.data () + at * width);
+    });
     return values;
   }
 
@@ -217,7 +210,7 @@ class StoredNeighbors
 public:
   StoredNeighbors (const StepContext& context, const std::vector<Index>& outliers,
                    const BlockRanges& ranges)
-      : are_renewed_ (!outliers.empty ()),
+      : ranges_ (ranges), are_renewed_ (!outliers.empty ()),
         width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
                                        ranges.points () - 1)),
         found_ (context.store, context.plan, ranges, "neighbors"),
@@ -232,9 +225,12 @@ public:
       return planes_.gatherLists ("renewed", points);
     CsrLists lists;
     lists.ids = found_.gather<Index> ("ids", points, width_);
+    if (!points.empty ())
+      found_.file (ranges_.blockOf (points.front ())).requireBelow (lists.ids, ranges_.points ());
     lists.offsets.resize (points.size () + 1);
     for (std::size_t i = 0; i <= points.size (); ++i)
-      lists.offsets[i] = static_cast<Index> (i * width_);
+      lists.offsets[i] = static_cast<Index> (i * width_); // modulo 2^32
+    lists.findWraps ();
     return lists;
   }
 
@@ -253,6 +249,7 @@ public:
   Slices& planes () { return planes_; }
 
 private:
+  const BlockRanges& ranges_;
   bool are_renewed_;
   std::size_t width_;
   Slices found_, planes_;

@@ -5,6 +5,7 @@
 
 #include "block_steps.h"
 #include "known_stages.h"
+#include "stored_cloud.h"
 
 #include <vector>
 
@@ -14,9 +15,7 @@ class StoredStages : public KnownStages
 {
 public:
   /// \param context must outlive this
-  /// \param freed   where the files of a step are removed when all of it that is needed has been
-  ///                read; nullptr: they stay
-  explicit StoredStages (const StepContext& context, const FolderStore* freed = nullptr);
+  explicit StoredStages (const StepContext& context);
 
   Points points (Report& report) override;
   std::vector<Index> outliers () override { return outliers_; }
@@ -25,17 +24,15 @@ public:
   Stars begunStars () override;
 
 private:
-  // Calls visit (file of a step, block) for all blocks.
-  template <typename Visit>
-  void forEachBlock (const char* step, Visit&& visit);
-
-  void remove (const char* step) const;
+  Slices slices (const char* step) const;
+  std::vector<Index> allPoints () const
+  {
+    return pointsFrom (0, static_cast<Index> (ranges_.points ()));
+  }
 
   const StepContext& context_;
-  const FolderStore* freed_;
   std::vector<Index> outliers_;
-  BlockRanges ranges_;  // without outliers
-  std::size_t own_ = 0; // points of the block that is visited
+  BlockRanges ranges_; // without outliers
 };
 
 } // namespace pcl::floater

@@ -6,13 +6,12 @@
 #include "cloud.h"
 #include "cloud_reader.h"
 #include "format.h"
-#include "large_arrays.h"
-#include "memory_limit.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
 #include "option_table.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"
+#include "scratch_arrays.h"
 #include "text_scanner.h"
 #include "usage_message.h"
 
@@ -50,7 +49,7 @@ describeException (const char* if_no_memory, std::string& message)
     return EXIT_OUTPUT;
   }
   catch (const std::bad_alloc&) {
-    message = largeArrayFailure ();
+    message = scratchFailure ();
     if (message.empty ())
       message = std::string ("not enough memory; ") + if_no_memory;
   }

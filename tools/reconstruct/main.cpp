@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
-#include "array_pool.h"
 #include "blas_threads.h"
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "format.h"
+#include "heap.h"
 #include "html_report.h"
-#include "large_arrays.h"
-#include "memory_limit.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
 #include "prepared_input.h"
@@ -17,36 +15,20 @@
 #include "reconstruct.h"
 #include "remaining_time.h"
 #include "run_report.h"
+#include "scratch_arrays.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <new>
 
-#include <sys/mman.h>
 #include <sys/resource.h>
-#include <unistd.h>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace pcl::floater {
 namespace {
 constexpr const char* PROGRAM = "pcl_floater_reconstruct";
-
-/// Gives the system what the heap has of earlier stages, and from now on what smaller arrays leave.
-void
-giveFreedBack ()
-{
-#ifdef __GLIBC__
-  mallopt (M_MMAP_THRESHOLD, 1 << 20);
-  malloc_trim (0);
-#endif
-}
 
 Result
 reconstructInput (Input input, Options options, const Limits& limits, Progress& progress)
@@ -193,9 +175,8 @@ int
 run (CommandLine line)
 {
   readNamed (line.input, [&] { checkPaths (line); });
-  std::optional<MemoryLimit> memory_limit;
   if (line.max_memory > 0)
-    memory_limit.emplace (line.max_memory, line.scratch);
+    keepLargeArraysIn (line.scratch, line.max_memory);
   Progress progress (!line.quiet);
   progress.show ("reading");
   auto start = std::chrono::steady_clock::now ();
@@ -220,8 +201,6 @@ run (CommandLine line)
     figures.input_fields.push_back (field.name);
 
   start = std::chrono::steady_clock::now ();
-  if (memory_limit)
-    line.options.task_callback = [&memory_limit] { memory_limit->makeRoom (); };
   Result result = reconstructInput (std::move (input), line.options, line.limits, progress);
   figures.reconstruct_seconds = secondsSince (start);
   cloud.single_precision = writesSingle (line, result.triangles, cloud);
@@ -278,42 +257,11 @@ isAddressSpaceLimited ()
   return ::getrlimit (RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
-#ifdef __GLIBC__
-/// Arrays of a large cloud go back to the system as soon as they are freed; smaller ones stay, and
-/// are used again without being cleared. By default glibc raises the threshold with the first array
-/// that is freed, and gives what is free at the end of the heap back each time. The heap begins in
-/// huge pages, where there are such: they come into memory much faster, and the processor finds
-/// them faster. Measured: a tenth of the time of clouds of 30,000 to 130,000 points.
-static void
-prepareHeap (bool are_addresses_limited)
-{
-  constexpr int THRESHOLD = 8 << 20, IN_HUGE_PAGES = 64 << 20;
-  constexpr std::uintptr_t MOST = 2 * static_cast<std::uintptr_t> (IN_HUGE_PAGES);
-  constexpr std::uintptr_t PAGE = pcl::floater::HUGE_PAGE;
-  mallopt (M_MMAP_THRESHOLD, THRESHOLD);
-  mallopt (M_TRIM_THRESHOLD, 4 * IN_HUGE_PAGES);
-#ifdef MADV_HUGEPAGE
-  if (!are_addresses_limited) {
-    mallopt (M_TOP_PAD, IN_HUGE_PAGES);
-    void* const begin = std::malloc (THRESHOLD / 2); // grows the heap
-    const auto first = (reinterpret_cast<std::uintptr_t> (begin) / PAGE + 1) * PAGE;
-    const auto last = reinterpret_cast<std::uintptr_t> (::sbrk (0));
-    if (first < last && last - first < MOST) // else it is no heap of glibc
-      ::madvise (reinterpret_cast<void*> (first), last - first, MADV_HUGEPAGE);
-    std::free (begin);
-  }
-#endif
-  mallopt (M_TOP_PAD, THRESHOLD / 2);
-}
-#endif
-
 int
 main (int argc, char** argv)
 {
   const bool may_lack_memory = isAddressSpaceLimited ();
-#ifdef __GLIBC__
-  prepareHeap (may_lack_memory);
-#endif
+  pcl::floater::prepareHeap (!may_lack_memory);
   if (!may_lack_memory)
     pcl::floater::endBlasThreads ();
   int code = pcl::floater::EXIT_INTERNAL;

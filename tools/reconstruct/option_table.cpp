@@ -3,8 +3,8 @@
 #include "option_table.h"
 
 #include "command_line.h"
-#include "memory_limit.h"
 #include "options/option_rows.h"
+#include "scratch_arrays.h"
 
 #include <algorithm>
 #include <functional>
@@ -283,7 +283,7 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
                                                       formatSize (leastMemory (0)) + " or more");
   };
   addParsed (app, "--max-memory", parse,
-             "limit on the memory in use, in bytes; arrays that "
+             "keep the memory in use near this, in bytes; arrays that "
              "are not in use are kept on disk; not for discs",
              "SIZE (no limit)", GENERAL);
   addPath (app, "--scratch", line.scratch,

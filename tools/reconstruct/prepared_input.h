@@ -6,8 +6,8 @@
 #include "cloud.h"
 #include "command_line.h"
 #include "format.h"
-#include "memory_limit.h"
 #include "run_report.h"
+#include "scratch_arrays.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

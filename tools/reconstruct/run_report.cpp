@@ -4,9 +4,8 @@
 
 #include "atomic_file.h"
 #include "format.h"
-#include "large_arrays.h"
-#include "memory_limit.h"
 #include "report_json.h"
+#include "scratch_arrays.h"
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -30,11 +29,9 @@ memoryLimitJson (const CommandLine& line)
 {
   if (line.max_memory == 0)
     return {};
-  const ScratchUse use = scratchUse ();
   return {{"bytes", line.max_memory},
           {"scratch", fileName (line.scratch)},
-          {"scratch_peak_bytes", use.peak},
-          {"dropped_bytes", use.dropped}};
+          {"scratch_peak_bytes", scratchUse ().peak}};
 }
 
 /// Null if no texture coordinates were asked for.
@@ -170,7 +167,7 @@ summaryLine (const CommandLine& line, const Report& report, const RunFigures& ru
 void
 reportMemory (const CommandLine& line, Report& report)
 {
-  if (const std::string failure = largeArrayFailure ();
+  if (const std::string failure = scratchFailure ();
       report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
     report.message = failure;
   if (line.max_memory == 0)

@@ -149,7 +149,7 @@ RowEvidence
 rowsOf (const Positions& positions)
 {
   const Points points = pointsOf (positions);
-  return findRows (points, findNeighbors (points, {}, 1), SAMPLES, 1);
+  return findRows (points, findNeighbors (points, {}, 1), SAMPLES);
 }
 
 // Sections of a cylinder along z: 20 circles of 200 points.

@@ -297,11 +297,6 @@ struct Options
   /// solvers, CGAL's triangulation and the caller's search are not interrupted; the run ends when
   /// they return.
   std::function<bool ()> cancelled_callback;
-
-  /// Called before each piece of work, by the thread that does it: from several threads at once, up
-  /// to some ten thousand times a second. For callers that watch resources such as memory, and free
-  /// some. Must not throw, and should be quick.
-  std::function<void ()> task_callback;
 };
 
 } // namespace pcl::floater

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The finished mesh in the work folder, and as tiles.
+// A mesh as tiles: one PLY file for each input file or block, and a manifest that tells how they
+// belong together.
 #pragma once
 
-#include "block_steps.h"
 #include "cloud.h"
 #include "store.h"
 
@@ -13,29 +13,6 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A mesh as `join` leaves it.
-struct FinishedMesh
-{
-  Triangles triangles;           ///< with cloud indices as corners
-  bool is_single = true;         ///< its coordinates are written as 32-bit floats
-  bool are_blocks_freed = false; ///< the files of the blocks have been removed
-};
-
-/// Writes it. With its file, the step is finished.
-void
-putMesh (FolderStore& folder, const Plan& plan, const FinishedMesh& mesh);
-
-/// Whether it is there, and the files of the blocks have been removed.
-bool
-areBlocksFreed (FolderStore& folder, const Plan& plan);
-
-/// Reads it.
-FinishedMesh
-readMesh (FolderStore& folder, const Plan& plan);
-
-// A mesh as tiles: one PLY file for each input file or block, and a manifest that tells how they
-// belong together.
-
 /// The manifest, in the folder of the tiles. It is written last.
 constexpr const char* TILES = "tiles.json";
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stored_mesh.h"
+#include "tiles.h"
 
 #include "atomic_file.h"
 #include "block_steps.h"
 #include "cloud.h"
 #include "core/csr_lists.h"
-#include "core/parallel.h"
 #include "mesh_writer.h"
 #include "stored_cloud.h"
 
@@ -19,37 +18,6 @@
 #include <tuple>
 
 namespace pcl::floater {
-void
-putMesh (FolderStore& folder, const Plan& plan, const FinishedMesh& mesh)
-{
-  ArrayWriter writer;
-  const std::vector<std::uint8_t> marks{static_cast<std::uint8_t> (mesh.is_single ? 1 : 0),
-                                        static_cast<std::uint8_t> (mesh.are_blocks_freed ? 1 : 0)};
-  writer.add ("marks", marks);
-  writer.add ("triangles", mesh.triangles);
-  folder.put (TRIANGLES, writer, plan.id);
-}
-
-bool
-areBlocksFreed (FolderStore& folder, const Plan& plan)
-{
-  return folder.has (TRIANGLES) &&
-         openArrays (folder, TRIANGLES, plan).read<std::uint8_t> ("marks", 1, 2).front () != 0;
-}
-
-FinishedMesh
-readMesh (FolderStore& folder, const Plan& plan)
-{
-  ArrayFile file = openArrays (folder, TRIANGLES, plan);
-  const std::vector<std::uint8_t> marks = file.read<std::uint8_t> ("marks", 0, 2);
-  FinishedMesh mesh;
-  mesh.is_single = marks[0] != 0;
-  mesh.are_blocks_freed = marks[1] != 0;
-  mesh.triangles = file.read<Triangle> ("triangles");
-  file.requireBelow (mesh.triangles, plan.cloud_size);
-  return mesh;
-}
-
 namespace {
 using Json = nlohmann::ordered_json;
 
@@ -84,20 +52,15 @@ struct Counts
 std::pair<std::uint64_t, std::string>
 sumOf (const std::filesystem::path& path)
 {
-  constexpr std::size_t AT_ONCE = std::size_t{1} << 20U;
-  const std::unique_ptr<ByteSource> file = openFile (path, false);
-  std::vector<char> bytes (AT_ONCE);
   uLong sum = 0;
-  for (std::uint64_t at = 0; at < file->size (); at += AT_ONCE) {
-    const auto count =
-        static_cast<std::size_t> (std::min<std::uint64_t> (AT_ONCE, file->size () - at));
-    file->read (at, count, bytes.data ());
-    sum = ::crc32 (sum, reinterpret_cast<const Bytef*> (bytes.data ()), static_cast<uInt> (count));
-  }
+  const std::uint64_t size =
+      forAllBytes (*openFile (path, false), [&sum] (const char* bytes, std::size_t count) {
+        sum = ::crc32 (sum, reinterpret_cast<const Bytef*> (bytes), static_cast<uInt> (count));
+      });
   constexpr std::size_t DIGITS = 8;
   std::array<char, DIGITS + 1> text{};
   std::snprintf (text.data (), text.size (), "%08lx", sum);
-  return {file->size (), text.data ()};
+  return {size, text.data ()};
 }
 
 // Runs of border vertices that one tile owns.

@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each array has a file of its own, so that the file goes when the array is freed. Its space is
+// reserved when it is made: a page without a block on the disk would be SIGBUS when it is written.
+// The descriptor is closed as soon as the file is mapped.
+#include "scratch_arrays.h"
+
+#include "atomic_file.h"
+#include "file_bytes.h"
+#include "text_scanner.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <new>
+#include <thread>
+
+namespace pcl::floater {
+namespace {
+// Pages are dropped above this fraction of the limit. The rest is filled while the thread that
+// drops them sleeps, waits for a processor, or works.
+constexpr double MOST_RESIDENT = 0.7;
+constexpr std::chrono::milliseconds BETWEEN_LOOKS{1};
+
+// Bytes that stay in memory: the program with its libraries and stacks, and arrays that are not
+// large.
+constexpr double FIXED = 20e6;
+
+constexpr std::size_t PAGE = 4096; // or a multiple; where mappings begin
+
+/// All arrays in files. Nothing may be freed while it is locked, because operator delete locks it as
+/// well. Nodes of the table can be allocated, because they are no large arrays.
+struct ScratchArrays
+{
+  std::mutex mutex;                   // guards all but the folder
+  std::map<void*, std::size_t> sizes; // by address
+  ScratchUse use;
+  std::string failure;
+  std::string folder; // set once, before there are arrays
+};
+
+// Never destroyed, because arrays may be freed until the process ends.
+ScratchArrays&
+scratchArrays ()
+{
+  static ScratchArrays& all = *new ScratchArrays;
+  return all;
+}
+
+std::atomic<bool> has_scratch{false};
+
+/// Makes a file without a name.
+/// \return its descriptor; -1 and errno if there is none
+int
+makeScratchFile (const std::string& folder)
+{
+#ifdef O_TMPFILE
+  constexpr mode_t OWNER = 0600;
+  const int file = ::open (folder.c_str (), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, OWNER);
+  if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
+    return file;
+#endif
+  std::string name = folder + "/.pcl_floater.scratch.XXXXXX";
+  const int named = ::mkostemp (name.data (), O_CLOEXEC);
+  if (named >= 0)
+    ::unlink (name.c_str ());
+  return named;
+}
+
+void
+describeFailure (std::size_t bytes, int error)
+{
+  const auto megabytes = [] (std::size_t count) {
+    return std::to_string (count / 1'000'000) + " MB";
+  };
+  ScratchArrays& all = scratchArrays ();
+  std::string failure = "no room in the scratch folder '" + all.folder +
+                        "': " + std::strerror (error) + "; it holds " +
+                        megabytes (scratchUse ().bytes) + ", and " + megabytes (bytes) +
+                        " more are needed" +
+                        (error == EFBIG ? "; raise the limit on file sizes (ulimit -f)"
+                                        : "; free some space or name another folder by --scratch");
+  const std::lock_guard<std::mutex> lock (all.mutex);
+  all.failure.swap (failure);
+}
+
+/// Maps a new file. The addresses come first: a size beyond all of them must not fill the disk.
+/// \return MAP_FAILED and errno if that is impossible
+void*
+mapNewFile (std::size_t bytes)
+{
+  const int file = makeScratchFile (scratchArrays ().folder);
+  void* array =
+      file < 0 ? MAP_FAILED : ::mmap (nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  int error = array == MAP_FAILED ? errno : EINTR;
+  while (error == EINTR)
+    error = ::posix_fallocate (file, 0, static_cast<off_t> (bytes));
+  if (error != 0 && array != MAP_FAILED)
+    ::munmap (array, bytes);
+  if (file >= 0)
+    ::close (file);
+  errno = error;
+  return error == 0 ? array : MAP_FAILED;
+}
+
+/// Makes an array in a file.
+/// \return nullptr if there is no room
+[[maybe_unused]] void*
+makeLargeArray (std::size_t size)
+{
+  if (size > PTRDIFF_MAX)
+    return nullptr;
+  void* const array = mapNewFile (size);
+  try {
+    if (array == MAP_FAILED)
+      return describeFailure (size, errno), nullptr;
+    ScratchArrays& all = scratchArrays ();
+    const std::lock_guard<std::mutex> lock (all.mutex);
+    all.sizes.emplace (array, size);
+    all.use.bytes += size;
+    all.use.peak = std::max (all.use.peak, all.use.bytes);
+    return array;
+  }
+  catch (const std::bad_alloc&) { // for the entry or the message
+    if (array != MAP_FAILED)
+      ::munmap (array, size);
+    return nullptr;
+  }
+}
+
+/// Frees an array with its file.
+/// \return false if the pointer is not one of these arrays
+[[maybe_unused]] bool
+freeLargeArray (void* pointer)
+{
+  if (!has_scratch || reinterpret_cast<std::uintptr_t> (pointer) % PAGE != 0)
+    return false;
+  ScratchArrays& all = scratchArrays ();
+  decltype (all.sizes)::node_type node; // freed without the lock
+  {
+    const std::lock_guard<std::mutex> lock (all.mutex);
+    node = all.sizes.extract (pointer);
+    if (node.empty ())
+      return false;
+    all.use.bytes -= node.mapped ();
+  }
+  ::munmap (pointer, node.mapped ());
+  return true;
+}
+
+/// Bytes of this process that are in memory; 0 if that is unknown.
+double
+residentSet (int statm)
+{
+  std::array<char, 128> text{};
+  const ssize_t size = ::pread (statm, text.data (), text.size () - 1, 0);
+  // The first number is the size of the program, the second its resident set, both in pages.
+  const char* const second = size > 0 ? std::strchr (text.data (), ' ') : nullptr;
+  return second == nullptr
+             ? 0.0
+             : std::strtod (second, nullptr) * static_cast<double> (::sysconf (_SC_PAGESIZE));
+}
+
+} // namespace
+
+void
+dropPages ()
+{
+  giveBackMappedFiles ();
+  ScratchArrays& all = scratchArrays ();
+  // Locked, so that no array is unmapped meanwhile and its addresses are used again.
+  const std::lock_guard<std::mutex> lock (all.mutex);
+  for (const auto& [array, size] : all.sizes)
+    ::madvise (array, size, MADV_DONTNEED); // of a shared mapping: the contents stay in the file
+}
+
+void
+keepLargeArraysIn (const std::filesystem::path& folder, std::size_t limit)
+{
+  const int file = makeScratchFile (folder.string ());
+  if (file < 0)
+    throw WriteError ("cannot use the scratch folder '" + folder.string () +
+                      "': " + std::strerror (errno));
+  ::close (file);
+  scratchArrays ().folder = folder.string ();
+  has_scratch = true;
+  std::thread ([most = MOST_RESIDENT * static_cast<double> (limit)] {
+    const int statm = ::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    for (;; std::this_thread::sleep_for (BETWEEN_LOOKS))
+      if (residentSet (statm) > most)
+        dropPages ();
+  }).detach ();
+}
+
+bool
+liesInMemory (const std::filesystem::path& folder)
+{
+  constexpr std::array<unsigned long, 2> IN_MEMORY{0x01021994UL, 0x858458f6UL}; // tmpfs, ramfs
+  struct statfs status = {};
+  return ::statfs (folder.c_str (), &status) == 0 &&
+         std::find (IN_MEMORY.begin (), IN_MEMORY.end (),
+                    static_cast<unsigned long> (status.f_type)) != IN_MEMORY.end ();
+}
+
+ScratchUse
+scratchUse ()
+{
+  ScratchArrays& all = scratchArrays ();
+  const std::lock_guard<std::mutex> lock (all.mutex);
+  return all.use;
+}
+
+std::string
+scratchFailure ()
+{
+  ScratchArrays& all = scratchArrays ();
+  const std::lock_guard<std::mutex> lock (all.mutex);
+  return all.failure;
+}
+
+bool
+parseSize (std::string_view word, std::size_t& bytes)
+{
+  constexpr std::string_view UNITS = "kKmMgGtT";
+  double unit = 1.0;
+  if (!word.empty () && UNITS.find (word.back ()) != std::string_view::npos) {
+    const std::size_t power = UNITS.find (word.back ()) / 2 + 1;
+    unit = std::pow (1000.0, static_cast<double> (power));
+    word.remove_suffix (1);
+  }
+  double number = 0.0;
+  constexpr double MOST = 9e18;
+  if (!parseNumber (word, number) || !(number >= 0.0) || number * unit > MOST)
+    return false;
+  bytes = static_cast<std::size_t> (std::llround (number * unit));
+  return true;
+}
+
+std::string
+formatSize (std::size_t bytes)
+{
+  constexpr std::size_t MEGABYTE = 1'000'000;
+  return std::to_string ((bytes + MEGABYTE - 1) / MEGABYTE) + "M";
+}
+
+std::size_t
+leastMemory (std::size_t points, double kept_per_point)
+{
+  return static_cast<std::size_t> ((FIXED + kept_per_point * static_cast<double> (points)) /
+                                   MOST_RESIDENT);
+}
+
+} // namespace pcl::floater
+
+// The other forms call these. Those for large alignments, which nothing here uses, stay as they are.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void*
+operator new (std::size_t size)
+{
+  using namespace pcl::floater;
+  void* const array = size >= LARGE_ARRAY && has_scratch
+                          ? makeLargeArray (size)
+                          : std::malloc (std::max<std::size_t> (size, 1));
+  if (array == nullptr)
+    throw std::bad_alloc ();
+  return array;
+}
+
+void
+operator delete (void* pointer) noexcept
+{
+  if (!pcl::floater::freeLargeArray (pointer))
+    std::free (pointer);
+}
+
+void
+operator delete (void* pointer, std::size_t /*size*/) noexcept
+{
+  operator delete (pointer);
+}
+#endif
