@@ -347,11 +347,8 @@ looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint&
   constexpr std::size_t DIRECTIONS = 200, COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
   const double least = std::cos (limits.all_sides * DEGREE);
-  const double golden_angle = PI * (3.0 - std::sqrt (5.0));
   for (std::size_t k = 0; k < DIRECTIONS; ++k) {
-    const double z = 1.0 - static_cast<double> (2 * k + 1) / DIRECTIONS;
-    const double radius = std::sqrt (1.0 - z * z), angle = static_cast<double> (k) * golden_angle;
-    const Eigen::Vector3d side (radius * std::cos (angle), radius * std::sin (angle), z);
+    const Eigen::Vector3d side = spiralDirection (k, DIRECTIONS);
     bool has_ray = false;
     for (std::size_t p = 0; p < positions.size () && !has_ray; p += step)
       has_ray = side.dot (rayTo (positions[p], viewpoint).direction) > least;
