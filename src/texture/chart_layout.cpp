@@ -6,8 +6,6 @@
 #include "texture/convex_layout.h"
 #include "texture/stretch.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace pcl::floater {
@@ -27,12 +25,11 @@ project (const ChartMesh& chart)
     normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
   for (const Eigen::Vector3d& p : chart.positions)
     middle += p / static_cast<double> (chart.positions.size ());
-  normal.normalize ();
-  const Eigen::Vector3d u = normal.unitOrthogonal (), v = normal.cross (u);
+  const TangentFrame frame (normal.normalized ());
   std::vector<Eigen::Vector2d> uv;
   uv.reserve (chart.positions.size ());
   for (const Eigen::Vector3d& p : chart.positions)
-    uv.emplace_back (u.dot (p - middle), v.dot (p - middle));
+    uv.push_back (frame.project (p - middle));
   return uv;
 }
 
