@@ -187,7 +187,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
     if (const std::optional<Problem> problem = reconstructFrom (
-            findViewpoint (points, planes.neighbors, samples, search, limits.view.evidence, run)))
+            findViewpoint (points, planes.neighbors, samples, false, search, limits.view.evidence, run)))
       return *problem;
   }
   const bool is_measured = options.denoise || dropsScatter (options);
@@ -211,8 +211,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
       is_measured ? scatterOf (points, geometry, noise, request) : std::vector<Index>{};
   // Errors along the rays of a scan look like noise and scatter.
   if (may_be_seen && (noise.is_strong || !scatter.empty ()))
-    if (const std::optional<Problem> problem = reconstructFrom (findViewpointOfEven (
-            points, geometry.neighbors, samples, search, limits.view.evidence, run)))
+    if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
+            points, geometry.neighbors, samples, true, search, limits.view.evidence, run)))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {
     geometry = {};

@@ -36,10 +36,11 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
       findPlanes (points, neighborSettings (request.options, nullptr), request);
   const std::vector<AreaSample> samples =
       takeAreaSamples (points, planes, starSettings (request), search.samples, run);
-  const std::optional<Viewpoint> found =
-      findViewpoint (points, planes.neighbors, samples, search, evidence, run);
-  return found ? found
-               : findViewpointOfEven (points, planes.neighbors, samples, search, evidence, run);
+  std::optional<Viewpoint> found;
+  for (const bool is_noisy : {false, true})
+    if (!found)
+      found = findViewpoint (points, planes.neighbors, samples, is_noisy, search, evidence, run);
+  return found;
 }
 
 std::optional<Viewpoint>

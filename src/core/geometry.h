@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
@@ -42,6 +43,16 @@ toCircumcentre (const Eigen::Vector3d& ab, const Eigen::Vector3d& ac, const Eige
 {
   return (ab.squaredNorm () * ac.cross (normal) + ac.squaredNorm () * normal.cross (ab)) /
          (2.0 * normal.squaredNorm ());
+}
+
+/// Direction k of `count` that are spread evenly over the sphere, on a spiral.
+inline Eigen::Vector3d
+spiralDirection (std::size_t k, std::size_t count)
+{
+  const double golden_angle = PI * (3.0 - std::sqrt (5.0));
+  const double z = 1.0 - static_cast<double> (2 * k + 1) / static_cast<double> (count);
+  const double radius = std::sqrt (1.0 - z * z), angle = static_cast<double> (k) * golden_angle;
+  return {radius * std::cos (angle), radius * std::sin (angle), z};
 }
 
 /// Whether the surface is folded at an edge: the normals of its two triangles are more than 120

@@ -15,6 +15,35 @@
 
 namespace pcl::floater {
 namespace {
+// Cells first to last of a row.
+struct CellRun
+{
+  Index first, last;
+};
+
+// A shape of cells: for each row its runs, in order, not adjacent.
+struct CellMask
+{
+  Index width = 0;
+  std::vector<std::vector<CellRun>> rows; // the lowest first
+  std::size_t cells = 0;
+};
+
+using TurnedMasks = std::array<CellMask, 4>; // of a shape in four directions
+
+// Position of a shape: the lower left cell of its box.
+struct CellPlace
+{
+  Index x = 0, y = 0;
+  std::uint8_t quarters = 0; // which of the four directions of the shape
+};
+
+struct CellPacking
+{
+  std::vector<CellPlace> places;
+  Index side = 0; // of the square, in cells
+};
+
 // Shapes up to this many cells wide and high are packed as boxes: the search for one can start
 // where the last one of its size was placed.
 constexpr std::size_t SMALL = 8;
@@ -166,8 +195,8 @@ boxOf (const CellMask& shape)
 
 // \return the positions; side is the height
 CellPacking
-packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vector<Index>& order,
-             Index width, const RunContext& run)
+packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& order, Index width,
+             const RunContext& run)
 {
   CellPacking packing;
   packing.places.resize (shapes.size ());
@@ -208,8 +237,9 @@ packInStrip (const std::vector<std::array<CellMask, 4>>& shapes, const std::vect
   return packing;
 }
 
-} // namespace
-
+// The cells that triangles touch, and all adjacent cells; so the shape begins one cell left of and
+// below the origin. O(triangles + cells).
+// \param uv per vertex, in cells, not negative
 CellMask
 makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
 {
@@ -250,16 +280,16 @@ makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::V
   return mask;
 }
 
+// Packs shapes into a small square: largest first, each at the lowest free position in a strip. The
+// width is varied until it equals the height.
 CellPacking
-packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, const RunContext& run)
+packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContext& run)
 {
   std::vector<Index> order (shapes.size ());
   std::iota (order.begin (), order.end (), Index{0});
-  const auto length = [&shapes] (Index s) {
-    return std::max<std::size_t> (shapes[s][0].width, shapes[s][0].rows.size ());
-  };
-  std::stable_sort (order.begin (), order.end (),
-                    [&] (Index a, Index b) { return length (a) > length (b); });
+  std::stable_sort (order.begin (), order.end (), [&shapes] (Index a, Index b) {
+    return shapes[a][0].cells > shapes[b][0].cells;
+  });
   std::size_t cells = 0;
   Index least_width = 1;
   for (const auto& shape : shapes) {
@@ -287,7 +317,6 @@ packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, con
   return best;
 }
 
-namespace {
 // Signed area.
 double
 planeArea (const ChartLayout& chart)
@@ -366,25 +395,13 @@ turnQuarters (std::vector<Eigen::Vector2d>& uv, int quarters)
   }
 }
 
-void
-fitOne (ChartLayout& chart, double gutter)
-{
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& p : chart.uv)
-    box.extend (p);
-  const double scale = (1.0 - gutter) / box.sizes ().maxCoeff ();
-  for (Eigen::Vector2d& p : chart.uv)
-    p = Eigen::Vector2d::Constant (0.5) + scale * (p - box.center ());
-}
-
 } // namespace
 
-Atlas
+double
 packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const RunContext& run)
 {
-  Atlas atlas;
   if (charts.empty ())
-    return atlas;
+    return 0.0;
   const double cells = std::max (
       static_cast<double> (limits.cells),
       std::ceil (limits.cells_per_chart * std::sqrt (static_cast<double> (charts.size ()))));
@@ -397,7 +414,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   for (const ChartLayout& chart : charts)
     total += weightOf (chart);
   const double cells_per_area = limits.first_fill * cells * cells / total;
-  std::vector<std::array<CellMask, 4>> masks (charts.size ());
+  std::vector<TurnedMasks> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
     std::vector<Eigen::Vector2d> uv = charts[c].uv;
@@ -406,11 +423,6 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
       turnQuarters (uv, 1);
     }
   });
-  if (charts.size () == 1) {
-    atlas.gutter = 2.0 / cells;
-    fitOne (charts.front (), atlas.gutter);
-    return atlas;
-  }
   const CellPacking packing = packCells (masks, limits.attempts, run);
   const double side = static_cast<double> (packing.side);
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
@@ -421,8 +433,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
     for (Eigen::Vector2d& p : charts[c].uv)
       p = (p + corner) / side;
   });
-  atlas.gutter = 2.0 / side;
-  return atlas;
+  return 2.0 / side;
 }
 
 } // namespace pcl::floater

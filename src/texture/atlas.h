@@ -4,52 +4,11 @@
 #pragma once
 
 #include "core/run_context.h"
-#include "core/types.h"
 #include "texture/chart_layout.h"
 
-#include <array>
 #include <vector>
 
 namespace pcl::floater {
-/// Cells first to last of a row.
-struct CellRun
-{
-  Index first, last;
-};
-
-/// A shape of cells: for each row its runs, in order, not adjacent.
-struct CellMask
-{
-  Index width = 0;
-  std::vector<std::vector<CellRun>> rows; ///< the lowest first
-  std::size_t cells = 0;
-};
-
-/// The cells that triangles touch, and all adjacent cells; so the shape begins one cell left of and
-/// below the origin. O(triangles + cells).
-/// \param uv per vertex, in cells, not negative
-CellMask
-makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
-
-/// Position of a shape: the lower left cell of its box.
-struct CellPlace
-{
-  Index x = 0, y = 0;
-  std::uint8_t quarters = 0; ///< which of the four directions of the shape
-};
-
-struct CellPacking
-{
-  std::vector<CellPlace> places;
-  Index side = 0; ///< of the square, in cells
-};
-
-/// Packs shapes into a small square: largest first, each at the lowest free position in a strip.
-/// The width is varied until it equals the height.
-/// \param shapes each in four directions
-CellPacking
-packCells (const std::vector<std::array<CellMask, 4>>& shapes, int attempts, const RunContext& run);
-
 /// Settings of the packing.
 struct AtlasLimits
 {
@@ -65,20 +24,15 @@ struct AtlasLimits
   int attempts = 4;         ///< number of tries for the width of the square
 };
 
-/// Layout of the unit square.
-struct Atlas
-{
-  double gutter = 0.0; ///< least distance of two charts, in sides of the square; half of it at the
-                       ///< border. Charts of about one cell may be nearer by rounding
-};
-
 /// Scales every chart to an area proportional to its area in space times its stretch (if that is at
 /// most 1000), which minimizes the total stretch, and to a length of a sixteenth of a cell to 4
 /// squares; rotates it to the smallest box; and packs all into the unit square,
 /// largest first, each in one of four directions, at the lowest free position. Free are cells that
 /// no triangle touches. The coordinates are then in the square. O(triangles + charts cells^2).
 /// \param[in,out] charts laid out, none empty
-Atlas
+/// \return least distance of two charts, in sides of the square; half of it at the border. Charts of
+///     about one cell may be nearer by rounding
+double
 packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

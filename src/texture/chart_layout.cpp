@@ -6,9 +6,6 @@
 #include "texture/convex_layout.h"
 #include "texture/stretch.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace pcl::floater {
@@ -28,61 +25,67 @@ project (const ChartMesh& chart)
     normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
   for (const Eigen::Vector3d& p : chart.positions)
     middle += p / static_cast<double> (chart.positions.size ());
-  normal.normalize ();
-  const Eigen::Vector3d u = normal.unitOrthogonal (), v = normal.cross (u);
+  const TangentFrame frame (normal.normalized ());
   std::vector<Eigen::Vector2d> uv;
   uv.reserve (chart.positions.size ());
   for (const Eigen::Vector3d& p : chart.positions)
-    uv.emplace_back (u.dot (p - middle), v.dot (p - middle));
+    uv.push_back (frame.project (p - middle));
   return uv;
 }
 
-// Measures the mean stretch, and the median by area.
-void
-measure (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv, ChartLayout& layout)
+double
+meanStretch (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)
 {
-  StretchSums sums;
-  std::vector<std::pair<double, double>> by_stretch; // squared stretch, area
-  for (const Triangle& t : chart.mesh.triangles) {
-    StretchSums one;
-    one.add ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
-             {uv[t[0]], uv[t[1]], uv[t[2]]});
-    sums.add (one);
-    if (one.area () > 0.0)
-      by_stretch.emplace_back (one.meanSquare (), one.area ());
-  }
-  layout.stretch = layout.median_stretch = sums.mean ();
-  std::sort (by_stretch.begin (), by_stretch.end ());
-  double area = 0.0;
-  for (const auto& [square, of_one] : by_stretch)
-    if ((area += of_one) >= 0.5 * sums.area ()) {
-      layout.median_stretch = std::sqrt (square * sums.planeArea () / sums.area ());
-      break;
-    }
+  const std::vector<Triangle>& triangles = chart.mesh.triangles;
+  return stretchOf (triangles, chart.positions, triangles, uv).mean ();
 }
 
-// The first valid layout of: the projection; the projection with small defects repaired; its
-// boundary, with convex combinations inside; a convex-combination map on the circle. Otherwise
-// empty.
+// The first valid layout of: the projection; the projection with small defects repaired; a
+// convex-combination map on the circle. Otherwise empty.
 std::vector<Eigen::Vector2d>
 beginLayout (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
              const RunContext& run)
 {
   std::vector<Eigen::Vector2d> uv = project (chart);
-  const bool is_simple = isSimple (chart.loop, uv);
-  if (is_simple && isUpright (chart.mesh.triangles, uv))
+  if (isLayout (chart, uv) || (untangle (chart, run, uv) && isLayout (chart, uv)))
     return uv;
-  std::vector<Eigen::Vector2d> mended = uv;
-  if (untangle (chart, {}, run, mended) && isLayout (chart, mended))
-    return mended;
-  if (is_simple) {
-    if (layOutWithin (chart, run, uv) && isUpright (chart.mesh.triangles, uv))
-      return uv;
-  }
   if (chart.mesh.triangles.size () > limits.most_on_circle)
     return {};
-  uv = layOutOnCircle (chart, rest, run).uv;
+  uv = layOutOnCircle (chart, rest, run);
   return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
+}
+
+// Lowers the distortion of a layout, unless that raises its stretch; sets its figures.
+void
+relax (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
+       const RunContext& run, ChartLayout& layout)
+{
+  layout.area = rest.area;
+  layout.stretch = meanStretch (chart, layout.uv);
+  std::vector<Eigen::Vector2d> uv = layout.uv;
+  descendDistortion (chart, rest, limits, run, uv);
+  if (!isLayout (chart, uv))
+    return;
+  if (const double stretch = meanStretch (chart, uv); stretch < layout.stretch) {
+    layout.stretch = stretch;
+    layout.uv = std::move (uv);
+  }
+}
+
+// Lays one triangle out by the lengths of its edges.
+void
+layOutTriangle (const ChartMesh& chart, ChartLayout& layout)
+{
+  constexpr double LEAST_HEIGHT_ALONE = 1.0 / 16.0;
+  const Triangle& c = chart.mesh.triangles.front ();
+  const FlatTriangle flat = layFlat (
+      {chart.positions[c[0]], chart.positions[c[1]], chart.positions[c[2]]}, LEAST_HEIGHT_ALONE);
+  layout.uv.resize (3);
+  for (std::size_t i = 0; i < 3; ++i)
+    layout.uv[c[i]] = flat.corners[i];
+  layout.stretch = meanStretch (chart, layout.uv);
+  layout.area = 0.5 * flat.longest * flat.longest *
+                cross (flat.corners[1] - flat.corners[0], flat.corners[2] - flat.corners[0]);
 }
 
 } // namespace
@@ -96,18 +99,14 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
   ChartLayout layout;
   ChartMesh chart = makeChartMesh (triangles, chart_triangles, positions);
   layout.triangles = std::move (chart_triangles);
-  if (!chart.loop.empty ()) {
+  if (layout.triangles.size () == 1)
+    layOutTriangle (chart, layout);
+  else if (!chart.loop.empty ()) {
     const RestShapes rest = makeRestShapes (chart);
     layout.area = rest.area;
-    std::vector<Eigen::Vector2d> uv = beginLayout (chart, rest, limits, run);
-    if (!uv.empty ()) {
-      std::vector<Eigen::Vector2d> even = uv;
-      descendDistortion (chart, rest, limits, run, even);
-      if (isLayout (chart, even))
-        uv = std::move (even);
-      measure (chart, uv, layout);
-      layout.uv = std::move (uv);
-    }
+    layout.uv = beginLayout (chart, rest, limits, run);
+    if (!layout.uv.empty ())
+      relax (chart, rest, limits, run, layout);
   }
   layout.points = std::move (chart.points);
   layout.corners = std::move (chart.mesh.triangles);
@@ -115,62 +114,12 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
   return layout;
 }
 
-ChartLayout
-layOutTriangle (const std::vector<Triangle>& triangles, Index triangle,
-                const std::vector<Eigen::Vector3d>& positions)
-{
-  constexpr double LEAST = 1.0 / 16.0; // height over length
-  const Triangle& corners = triangles[triangle];
-  ChartLayout layout;
-  layout.triangles = {triangle};
-  layout.points.assign (corners.begin (), corners.end ());
-  std::sort (layout.points.begin (), layout.points.end ());
-  layout.uv.resize (3);
-  std::array<Index, 3> place{};
-  for (std::size_t i = 0; i < 3; ++i)
-    place[i] =
-        static_cast<Index> (std::find (layout.points.begin (), layout.points.end (), corners[i]) -
-                            layout.points.begin ());
-  layout.corners = {place};
-  layout.loop.assign (place.begin (), place.end ());
-  std::size_t from = 0;
-  const auto edge = [&] (std::size_t i) -> Eigen::Vector3d {
-    return positions[corners[(i + 1) % 3]] - positions[corners[i % 3]];
-  };
-  for (const std::size_t i : {1, 2})
-    if (edge (i).norm () > edge (from).norm ())
-      from = i;
-  const double base = std::max (edge (from).norm (), std::numeric_limits<double>::min ());
-  const Eigen::Vector3d along = edge (from) / base, up = -edge (from + 2);
-  const double height = std::max (along.cross (up).norm (), LEAST * base);
-  layout.uv[place[from]] = {0.0, 0.0};
-  layout.uv[place[(from + 1) % 3]] = {1.0, 0.0};
-  layout.uv[place[(from + 2) % 3]] = {along.dot (up) / base, height / base};
-  layout.area = 0.5 * base * height;
-  return layout;
-}
-
-bool
+void
 refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
               const DescentLimits& limits, const RunContext& run, ChartLayout& layout)
 {
   const ChartMesh chart = makeChartMesh (triangles, layout.triangles, positions);
-  const RestShapes rest = makeRestShapes (chart);
-  std::vector<Eigen::Vector2d> uv = layout.uv;
-  ChartLayout refined;
-  measure (chart, uv, refined);
-  const double before = refined.stretch;
-  descendDistortion (chart, rest, limits, run, uv);
-  if (!isLayout (chart, uv))
-    return false;
-  measure (chart, uv, refined);
-  if (!(refined.stretch < before))
-    return false;
-  layout.uv = std::move (uv);
-  layout.area = rest.area;
-  layout.stretch = refined.stretch;
-  layout.median_stretch = refined.median_stretch;
-  return true;
+  relax (chart, makeRestShapes (chart), limits, run, layout);
 }
 
 } // namespace pcl::floater

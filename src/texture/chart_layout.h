@@ -22,14 +22,14 @@ struct ChartLayout
                                    ///< disc, or rounding failed
   double area = 0.0;               ///< of the chart in space, with minimum heights (LEAST_HEIGHT)
   double stretch = 1.0;            ///< mean (see StretchSums)
-  double median_stretch = 1.0;     ///< exceeded by half of the area
 };
 
 /// Lays a chart out without flipped triangles, and with a simple boundary: no point of the plane is
-/// covered twice. Starts with the projection along the mean normal, if valid; otherwise with convex
-/// combinations within the projected boundary; otherwise on a circle (layOutOnCircle). Then lowers
-/// the distortion (descendDistortion). Both properties are tested exactly. Takes 10 microseconds
-/// per triangle from a projection, and some 100 from a circle.
+/// covered twice. Starts with the projection along the mean normal, untangled if it has small
+/// defects; otherwise on a circle (layOutOnCircle). Then lowers the distortion (descendDistortion).
+/// Both properties are tested exactly. Takes 10 microseconds per triangle from a projection, and
+/// some 100 from a circle. One triangle keeps the lengths of its edges, but gets at least a sixteenth
+/// of its length as its height, as rounding may leave nothing else.
 /// \param triangles of the mesh
 /// \param chart     triangles of the chart, ascending
 /// \param positions of the points of the mesh
@@ -38,17 +38,10 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart,
              const std::vector<Eigen::Vector3d>& positions, const DescentLimits& limits,
              const RunContext& run);
 
-/// Lays one triangle out by the lengths of its edges, and at least a sixteenth as high as long: where
-/// rounding leaves nothing else.
-ChartLayout
-layOutTriangle (const std::vector<Triangle>& triangles, Index triangle,
-                const std::vector<Eigen::Vector3d>& positions);
-
 /// Lowers the distortion of a layout for other positions than its own: for the surface with its
-/// noise. Unchanged if that does not lower its stretch.
-/// \param[in,out] layout with coordinates
-/// \return whether it was changed; its figures are then for these positions
-bool
+/// noise. Keeps the coordinates if that does not lower its stretch.
+/// \param[in,out] layout with coordinates; its figures are then for these positions
+void
 refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
               const DescentLimits& limits, const RunContext& run, ChartLayout& layout);
 

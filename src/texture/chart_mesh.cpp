@@ -56,57 +56,46 @@ makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>&
   return result;
 }
 
-namespace {
-struct FlatTriangle
-{
-  std::array<Eigen::Vector2d, 3> corners;
-};
-
-// The longest edge is on the first axis.
 FlatTriangle
-layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_length)
+layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_height)
 {
+  FlatTriangle flat{{}, -1.0};
   std::size_t apex = 0; // opposite to the longest edge
-  double longest = -1.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double length = (place[(i + 2) % 3] - place[(i + 1) % 3]).norm ();
-    if (length > longest) {
-      longest = length;
+    if (length > flat.longest) {
+      flat.longest = length;
       apex = i;
     }
   }
   const std::size_t from = (apex + 1) % 3, to = (apex + 2) % 3;
-  const double base = std::max (longest, least_length);
-  const Eigen::Vector3d along = place[to] - place[from], up = place[apex] - place[from];
-  const double x = longest > 0.0 ? up.dot (along) / longest : 0.0;
-  const double height = longest > 0.0 ? along.cross (up).norm () / longest : 0.0;
-  FlatTriangle flat;
+  const double scale = flat.longest > 0.0 ? 1.0 / flat.longest : 0.0;
+  const Eigen::Vector3d along = scale * (place[to] - place[from]);
+  const Eigen::Vector3d up = scale * (place[apex] - place[from]);
   flat.corners[from] = Eigen::Vector2d::Zero ();
-  flat.corners[to] = {base, 0.0};
-  flat.corners[apex] = {x, std::max (height, LEAST_HEIGHT * base)};
+  flat.corners[to] = Eigen::Vector2d::UnitX ();
+  flat.corners[apex] = {up.dot (along), std::max (along.cross (up).norm (), least_height)};
   return flat;
 }
-
-} // namespace
 
 RestShapes
 makeRestShapes (const ChartMesh& chart)
 {
   RestShapes result;
-  const auto place = [&chart] (const Triangle& t) -> std::array<Eigen::Vector3d, 3> {
-    return {chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]};
-  };
+  std::vector<FlatTriangle> all;
+  all.reserve (chart.mesh.triangles.size ());
   double longest = 0.0;
-  for (const Triangle& t : chart.mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      longest =
-          std::max (longest, (chart.positions[t[i]] - chart.positions[t[(i + 1) % 3]]).norm ());
-  const double least = longest > 0.0 ? LEAST_HEIGHT * longest * LEAST_HEIGHT : 1.0;
-  result.shapes.reserve (chart.mesh.triangles.size ());
   for (const Triangle& t : chart.mesh.triangles) {
-    const FlatTriangle flat = layFlat (place (t), least);
+    all.push_back (layFlat ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
+                            LEAST_HEIGHT));
+    longest = std::max (longest, all.back ().longest);
+  }
+  const double least = longest > 0.0 ? LEAST_HEIGHT * longest : 1.0;
+  result.shapes.reserve (all.size ());
+  for (const FlatTriangle& flat : all) {
     Eigen::Matrix2d edges;
     edges << flat.corners[1] - flat.corners[0], flat.corners[2] - flat.corners[0];
+    edges *= std::max (flat.longest, least);
     result.shapes.push_back ({edges.inverse (), 0.5 * edges.determinant ()});
     result.area += result.shapes.back ().area;
   }

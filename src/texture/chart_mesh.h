@@ -5,6 +5,7 @@
 
 #include "mesh/triangle_mesh.h"
 
+#include <array>
 #include <vector>
 
 namespace pcl::floater {
@@ -25,6 +26,18 @@ struct ChartMesh
 ChartMesh
 makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>& chart,
                const std::vector<Eigen::Vector3d>& positions);
+
+/// A triangle in the plane, anti-clockwise, with its longest edge on the first axis. Lengths are
+/// relative to that edge.
+struct FlatTriangle
+{
+  std::array<Eigen::Vector2d, 3> corners;
+  double longest; ///< of its edges in space
+};
+
+/// \param least_height of the triangle; thinner ones get it
+FlatTriangle
+layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_height);
 
 /// A triangle laid flat: map from the edges at its first corner to the unit vectors.
 struct RestShape

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <queue>
@@ -20,33 +21,8 @@ struct Contact
   double offered = 0.0; // last offered cost of joining them
 };
 
-// Directions spread evenly: vertices of an icosahedron and middles of its edges.
-using Directions = std::array<Eigen::Vector3d, 42>;
-
-Directions
-makeDirections ()
-{
-  Directions directions;
-  std::size_t count = 0;
-  const double golden = 0.5 * (1.0 + std::sqrt (5.0));
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double a : {-1.0, 1.0})
-      for (const double b : {-golden, golden}) {
-        Eigen::Vector3d vertex = Eigen::Vector3d::Zero ();
-        vertex[(axis + 1) % 3] = a;
-        vertex[(axis + 2) % 3] = b;
-        directions[count++] = vertex;
-      }
-  for (std::size_t i = 0; i < 12; ++i)
-    for (std::size_t j = i + 1; j < 12; ++j)
-      if ((directions[i] - directions[j]).squaredNorm () < 4.1) // edges have a length of 2
-        directions[count++] = directions[i] + directions[j];
-  for (Eigen::Vector3d& direction : directions)
-    direction.normalize ();
-  return directions;
-}
-
-using Histogram = Eigen::Array<float, 42, 1>; // of area over directions
+constexpr std::size_t DIRECTIONS = 42;                // 30 degrees apart
+using Histogram = Eigen::Array<float, DIRECTIONS, 1>; // of area over directions
 
 struct Chart
 {
@@ -84,10 +60,12 @@ class ChartMerger
 public:
   ChartMerger (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const std::vector<Eigen::Vector3d>& area_vectors, const MeshParts& facets,
-               const ChartLimits& limits)
-      : mesh_ (mesh), facets_ (facets), limits_ (limits), charts_ (facets.count),
-        part_of_ (facets.count)
+               bool halves, const ChartLimits& limits)
+      : mesh_ (mesh), facets_ (facets), limits_ (limits), halves_ (halves), charts_ (facets.count),
+        part_of_ (facets.count), left_ (facets.count)
   {
+    for (std::size_t d = 0; d < DIRECTIONS; ++d)
+      directions_[d] = spiralDirection (d, DIRECTIONS);
     std::iota (part_of_.begin (), part_of_.end (), Index{0});
     for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
       Chart& chart = charts_[facets.of_triangle[t]];
@@ -121,10 +99,8 @@ public:
       }
   }
 
-  void merge (const ChartGrowth& growth, const RunContext& run)
+  void merge (const RunContext& run)
   {
-    growth_ = growth;
-    left_ = charts_.size ();
     for (Index a = 0; a < charts_.size (); ++a)
       offerAll (a);
     takeOffers (run);
@@ -208,22 +184,21 @@ private:
     const std::size_t triangles = one.triangles + other.triangles;
     if (triangles > limits_.most_triangles)
       return false;
-    if (growth_.charts > 1)
+    if (halves_)
       return true;
     if (is_for_crumbs_) {
       const Chart& small = one.area < other.area ? one : other;
       return small.triangles <= limits_.most_in_crumb &&
              small.area <= limits_.crumb_share * (one.area + other.area);
     }
-    return bendOf (a, b) <= (triangles <= limits_.large
-                                 ? growth_.deviation
-                                 : std::min (growth_.deviation, limits_.deviation_of_large));
+    return bendOf (a, b) <=
+           (triangles <= limits_.large ? limits_.deviation : limits_.deviation_of_large);
   }
 
   void takeOffers (const RunContext& run)
   {
     ProgressLoop progress (run, charts_.size ());
-    while (!offers_.empty () && left_ > growth_.charts) {
+    while (!offers_.empty () && left_ > (halves_ ? 2U : 1U)) {
       const Offer offer = offers_.top ();
       offers_.pop ();
       if (!isCurrent (offer))
@@ -318,37 +293,39 @@ private:
   const TriangleMesh& mesh_;
   const MeshParts& facets_;
   const ChartLimits& limits_;
-  Directions directions_ = makeDirections ();
-  ChartGrowth growth_;
+  std::array<Eigen::Vector3d, DIRECTIONS> directions_;
+  bool halves_; // until there are two, whatever the deviation
   std::vector<Chart> charts_;
   std::vector<Index> part_of_; // per facet: chart that it was joined to, transitively
   std::priority_queue<Offer> offers_;
-  std::size_t left_ = 0; // number of charts left
+  std::size_t left_; // number of charts
   bool is_for_crumbs_ = false;
   std::vector<Index> fan_;
 };
 
-// One sweep of straightenSeams ().
-class SeamStraightener
+// Moves triangles with two edges on a seam to the chart beyond it where this shortens the seam. Charts
+// stay discs, and none vanishes.
+void
+straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                 const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
+                 const RunContext& run, MeshParts& charts)
 {
-public:
-  SeamStraightener (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                    const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
-                    MeshParts& charts)
-      : mesh_ (mesh), positions_ (positions), area_vectors_ (area_vectors), limits_ (limits),
-        charts_ (charts)
-  {
-  }
-
-  // \return whether the triangle was moved
-  bool tryMove (Index t)
-  {
-    const Index own = charts_.of_triangle[t];
+  // Weight of a seam along an edge.
+  const auto weight = [&] (MeshEdge edge) {
+    const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
+    const Index other = mesh.neighbors[edge.triangle][edge.side];
+    const double cosine = 1.0 - oneMinusCosine (area_vectors[edge.triangle], area_vectors[other]);
+    return length * std::max (limits.least_seam_weight, cosine);
+  };
+  std::vector<Index> fan;
+  // Returns whether the triangle was moved.
+  const auto tryMove = [&] (Index t) {
+    const Index own = charts.of_triangle[t];
     std::uint8_t inner = 3; // the side towards the rest of its chart
     Index to = NONE;
     for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index other = mesh_.neighbors[t][side];
-      const Index beyond = other == NONE ? NONE : charts_.of_triangle[other];
+      const Index other = mesh.neighbors[t][side];
+      const Index beyond = other == NONE ? NONE : charts.of_triangle[other];
       if (beyond == own) {
         if (inner != 3)
           return false;
@@ -366,40 +343,13 @@ public:
     if (!(gain > 0.0))
       return false;
     // Without the triangle, its chart must not touch the corner that changes charts.
-    mesh_.fan (mesh_.corner ({t, inner}), fan_);
-    for (const Index around : fan_)
-      if (around != t && charts_.of_triangle[around] == own)
+    mesh.fan (mesh.corner ({t, inner}), fan);
+    for (const Index around : fan)
+      if (around != t && charts.of_triangle[around] == own)
         return false;
-    charts_.of_triangle[t] = to;
+    charts.of_triangle[t] = to;
     return true;
-  }
-
-private:
-  // Weight of a seam along an edge.
-  double weight (MeshEdge edge) const
-  {
-    const double length = (positions_[mesh_.to (edge)] - positions_[mesh_.from (edge)]).norm ();
-    const Index other = mesh_.neighbors[edge.triangle][edge.side];
-    const double cosine = 1.0 - oneMinusCosine (area_vectors_[edge.triangle], area_vectors_[other]);
-    return length * std::max (limits_.least_seam_weight, cosine);
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<Eigen::Vector3d>& area_vectors_;
-  const ChartLimits& limits_;
-  MeshParts& charts_;
-  std::vector<Index> fan_;
-};
-
-} // namespace
-
-void
-straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
-                 const RunContext& run, MeshParts& charts)
-{
-  SeamStraightener straightener (mesh, positions, area_vectors, limits, charts);
+  };
   std::vector<Index> waiting;
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     for (const Index other : mesh.neighbors[t])
@@ -411,7 +361,7 @@ straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& p
     ProgressLoop progress (run, waiting.size ());
     std::vector<Index> next;
     for (const Index t : waiting) {
-      if (straightener.tryMove (t))
+      if (tryMove (t))
         for (const Index other : mesh.neighbors[t])
           if (other != NONE)
             next.push_back (other);
@@ -421,14 +371,16 @@ straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& p
   }
 }
 
+} // namespace
+
 MeshParts
-findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const ChartGrowth& growth, const ChartLimits& limits, const RunContext& run)
+findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, bool halves,
+            const ChartLimits& limits, const RunContext& run)
 {
   const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
   const MeshParts facets = growFacets (mesh, positions, area_vectors, limits, run);
-  ChartMerger merger (mesh, positions, area_vectors, facets, limits);
-  merger.merge (growth, run);
+  ChartMerger merger (mesh, positions, area_vectors, facets, halves, limits);
+  merger.merge (run);
   MeshParts charts = merger.parts ();
   straightenSeams (mesh, positions, area_vectors, limits, run, charts);
   renumber (charts);

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace pcl::floater {
 namespace {
@@ -75,7 +74,9 @@ meanValueWeights (const ChartMesh& chart)
 struct LocalStretch
 {
   std::vector<double> of_vertex;
-  double mean = std::numeric_limits<double>::infinity (); // infinite if a triangle is flipped
+  double mean =
+      std::numeric_limits<double>::infinity (); // also if there is no layout, or a triangle
+                                                // is flipped
 };
 
 LocalStretch
@@ -83,6 +84,8 @@ measureLocally (const ChartMesh& chart, const RestShapes& rest,
                 const std::vector<Eigen::Vector2d>& uv)
 {
   LocalStretch result;
+  if (uv.empty ())
+    return result;
   std::vector<double> squares (uv.size (), 0.0), areas (uv.size (), 0.0);
   double sum = 0.0, plane_area = 0.0;
   for (std::size_t t = 0; t < chart.mesh.triangles.size (); ++t) {
@@ -133,227 +136,112 @@ solveWeights (const ChartMesh& chart, const Weights& weights,
 
 } // namespace
 
-PlaneLayout
+std::vector<Eigen::Vector2d>
 layOutOnCircle (const ChartMesh& chart, const RestShapes& rest, const RunContext& run)
 {
-  PlaneLayout layout;
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
   Weights weights = meanValueWeights (chart);
   std::vector<Eigen::Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
-  if (uv.empty ())
-    return layout;
   LocalStretch stretch = measureLocally (chart, rest, uv);
   if (std::isinf (stretch.mean)) {
     // Weights of long triangles are so different that rounding merges their ends.
     std::fill (weights.values.begin (), weights.values.end (), 1.0);
     uv = solveWeights (chart, weights, loop_uv, run);
-    if (uv.empty ())
-      return layout;
     stretch = measureLocally (chart, rest, uv);
     if (std::isinf (stretch.mean))
-      return layout;
+      return {};
   }
-  layout.uv = std::move (uv);
   if (chart.loop.size () == chart.positions.size ())
-    return layout; // no inner vertex
-  for (int step = 0; step < MOST_STEPS; ++step) {
+    return uv; // no inner vertex
+  bool goes_on = true;
+  for (int step = 0; step < MOST_STEPS && goes_on; ++step) {
     for (std::size_t i = 0; i < weights.values.size (); ++i)
       weights.values[i] /= stretch.of_vertex[weights.neighbors.ids[i]];
     std::vector<Eigen::Vector2d> next = solveWeights (chart, weights, loop_uv, run);
-    if (next.empty ())
-      break;
     LocalStretch next_stretch = measureLocally (chart, rest, next);
     if (!(next_stretch.mean < stretch.mean))
       break;
-    const bool goes_on = next_stretch.mean < LEAST_PROGRESS * stretch.mean;
-    layout.uv = std::move (next);
+    goes_on = next_stretch.mean < LEAST_PROGRESS * stretch.mean;
+    uv = std::move (next);
     stretch = std::move (next_stretch);
-    if (!goes_on)
-      break;
   }
-  return layout;
+  return uv;
 }
 
 bool
-layOutWithin (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv)
 {
-  std::vector<Eigen::Vector2d> loop_uv;
-  for (const Index p : chart.loop)
-    loop_uv.push_back (uv[p]);
-  std::vector<Eigen::Vector2d> solved =
-      solveWeights (chart, meanValueWeights (chart), loop_uv, run);
-  if (solved.empty ())
-    return false;
-  uv = std::move (solved);
-  return true;
-}
-
-namespace {
-constexpr double EAR_HEIGHT = 0.2; // of a triangle with two edges on the boundary, over its base
-
-class Untangler
-{
-public:
-  Untangler (const ChartMesh& chart, const UntanglingLimits& limits,
-             std::vector<Eigen::Vector2d>& uv)
-      : chart_ (chart), limits_ (limits), uv_ (uv), before_ (uv.size (), NONE),
-        after_ (uv.size (), NONE), corners_ (makeCsrLists (uv.size (), [&chart] (const auto& emit) {
-          for (Index t = 0; t < chart.mesh.triangles.size (); ++t)
-            for (std::uint8_t i = 0; i < 3; ++i)
-              emit (chart.mesh.triangles[t][i], 3 * t + i);
-        }))
-  {
-    for (std::size_t i = 0; i < chart.loop.size (); ++i) {
-      const Index p = chart.loop[i], next = chart.loop[i + 1 == chart.loop.size () ? 0 : i + 1];
-      after_[p] = next;
-      before_[next] = p;
-    }
+  constexpr int ROUNDS_AT_MOST = 60; // remaining defects are wider than 30 triangles and no details
+  // Moved are vertices of flipped triangles and some rings around them: one, plus one after this many
+  // rounds. A patch by means of neighbours is upright if the polygon around it is convex (Tutte 1963);
+  // a wider patch mostly has a better one.
+  constexpr int ROUNDS_PER_RING = 4;
+  constexpr int SWEEPS = 4;            // over these vertices in a round
+  constexpr double MOST_FLIPPED = 0.2; // share of flipped triangles; above, the whole is flipped
+  constexpr double EAR_HEIGHT = 0.2; // of a triangle with two edges on the boundary, over its base
+  const std::vector<Triangle>& triangles = chart.mesh.triangles;
+  // Per vertex: where it is a corner, as 3 triangle + corner.
+  const CsrLists corners = makeCsrLists (uv.size (), [&triangles] (const auto& emit) {
+    for (Index t = 0; t < triangles.size (); ++t)
+      for (std::uint8_t i = 0; i < 3; ++i)
+        emit (triangles[t][i], 3 * t + i);
+  });
+  std::vector<Index> before (uv.size (), NONE), after (uv.size (), NONE); // along the boundary
+  for (std::size_t i = 0; i < chart.loop.size (); ++i) {
+    const Index p = chart.loop[i], next = chart.loop[i + 1 == chart.loop.size () ? 0 : i + 1];
+    after[p] = next;
+    before[next] = p;
   }
-
-  bool untangle (const RunContext& run)
-  {
-    for (int round = 0; round < limits_.rounds; ++round) {
-      run.poll ();
-      bad_.clear ();
-      const std::size_t flipped = findFlipped ();
-      if (static_cast<double> (flipped) >
-          limits_.most_flipped * static_cast<double> (chart_.mesh.triangles.size ()))
-        break;
-      findCrossing ();
-      if (bad_.empty ())
-        return true;
-      markAround (1 + round / limits_.rounds_per_ring);
-      for (int sweep = 0; sweep < limits_.sweeps; ++sweep)
-        for (const Index p : marked_)
-          uv_[p] = targetOf (p);
-    }
-    return false;
-  }
-
-private:
-  // \return number of flipped triangles
-  std::size_t findFlipped ()
-  {
-    std::size_t flipped = 0;
-    for (const Triangle& t : chart_.mesh.triangles)
-      if (!(cross (Eigen::Vector2d (uv_[t[1]] - uv_[t[0]]),
-                   Eigen::Vector2d (uv_[t[2]] - uv_[t[0]])) > 0.0)) {
-        ++flipped;
-        bad_.insert (bad_.end (), t.begin (), t.end ());
-      }
-    return flipped;
-  }
-
-  // Boundary edges from left to right: an edge can only cross others that begin before it ends.
-  void findCrossing ()
-  {
-    const std::vector<Index>& loop = chart_.loop;
-    const std::size_t size = loop.size ();
-    const auto from = [&] (std::size_t i) -> const Eigen::Vector2d& { return uv_[loop[i]]; };
-    const auto to = [&] (std::size_t i) -> const Eigen::Vector2d& {
-      return uv_[loop[i + 1 == size ? 0 : i + 1]];
-    };
-    std::vector<std::size_t> order (size);
-    std::iota (order.begin (), order.end (), std::size_t{0});
-    const auto begin = [&] (std::size_t i) { return std::min (from (i).x (), to (i).x ()); };
-    std::sort (order.begin (), order.end (), [&] (std::size_t a, std::size_t b) {
-      return begin (a) != begin (b) ? begin (a) < begin (b) : a < b;
-    });
-    std::vector<std::size_t> open; // edges that have not ended yet
-    for (const std::size_t i : order) {
-      open.erase (std::remove_if (open.begin (), open.end (),
-                                  [&] (std::size_t j) {
-                                    return std::max (from (j).x (), to (j).x ()) < begin (i);
-                                  }),
-                  open.end ());
-      for (const std::size_t j : open)
-        if ((i + 1) % size != j && (j + 1) % size != i &&
-            haveCommon (from (i), to (i), from (j), to (j)))
-          for (const std::size_t edge : {i, j}) {
-            bad_.push_back (loop[edge]);
-            bad_.push_back (loop[edge + 1 == size ? 0 : edge + 1]);
-          }
-      open.push_back (i);
-    }
-  }
-
-  // Whether two segments have a point in common.
-  static bool haveCommon (const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                          const Eigen::Vector2d& c, const Eigen::Vector2d& d)
-  {
-    const auto side = [] (const Eigen::Vector2d& p, const Eigen::Vector2d& q,
-                          const Eigen::Vector2d& r) {
-      return cross (Eigen::Vector2d (q - p), Eigen::Vector2d (r - p));
-    };
-    if (std::max (a.y (), b.y ()) < std::min (c.y (), d.y ()) ||
-        std::max (c.y (), d.y ()) < std::min (a.y (), b.y ()))
-      return false;
-    return side (a, b, c) * side (a, b, d) <= 0.0 && side (c, d, a) * side (c, d, b) <= 0.0;
-  }
-
-  // Marks bad vertices and some rings around them, in addition to earlier marks.
-  void markAround (int rings)
-  {
-    std::vector<Index> found = bad_;
-    std::vector<std::uint8_t> is_found (uv_.size (), 0);
-    for (const Index p : found)
-      is_found[p] = 1;
-    for (int ring = 0; ring < rings; ++ring) {
-      const std::size_t before = found.size ();
-      for (std::size_t i = 0; i < before; ++i)
-        for (const Index id : corners_.row (found[i]))
-          for (const Index q : chart_.mesh.triangles[id / 3])
-            if (is_found[q] == 0) {
-              is_found[q] = 1;
-              found.push_back (q);
-            }
-    }
-    marked_.insert (marked_.end (), found.begin (), found.end ());
-    sortUnique (marked_);
-  }
-
   // The mean of the neighbours; on the boundary, of those along it.
-  Eigen::Vector2d targetOf (Index p) const
-  {
-    const Row row = corners_.row (p);
-    if (before_[p] == NONE) {
+  const auto targetOf = [&] (Index p) -> Eigen::Vector2d {
+    const Row row = corners.row (p);
+    if (before[p] == NONE) {
       Eigen::Vector2d sum = Eigen::Vector2d::Zero ();
       for (const Index id : row)
-        sum += cornerAfter (id, 1);
+        sum += uv[triangles[id / 3][(id + 1) % 3]];
       return sum / static_cast<double> (row.size ());
     }
-    const Eigen::Vector2d &before = uv_[before_[p]], &after = uv_[after_[p]];
-    const Eigen::Vector2d middle = 0.5 * (before + after);
+    const Eigen::Vector2d middle = 0.5 * (uv[before[p]] + uv[after[p]]);
     if (row.size () > 1)
       return middle;
     // A vertex of one triangle lies to the right of the line from the vertex before to the one
     // after it.
-    const Eigen::Vector2d way = after - before;
+    const Eigen::Vector2d way = uv[after[p]] - uv[before[p]];
     return middle + EAR_HEIGHT * Eigen::Vector2d (way.y (), -way.x ());
+  };
+  std::vector<Index> moved;
+  for (int round = 0; round < ROUNDS_AT_MOST; ++round) {
+    run.poll ();
+    std::vector<Index> bad; // vertices of flipped triangles, then those around
+    std::vector<std::uint8_t> is_bad (uv.size (), 0);
+    const auto add = [&] (const Triangle& t) {
+      for (const Index p : t)
+        if (is_bad[p] == 0) {
+          is_bad[p] = 1;
+          bad.push_back (p);
+        }
+    };
+    std::size_t flipped = 0;
+    for (const Triangle& t : triangles)
+      if (!(cross (uv[t[1]] - uv[t[0]], uv[t[2]] - uv[t[0]]) > 0.0)) {
+        ++flipped;
+        add (t);
+      }
+    if (flipped == 0)
+      return true;
+    if (static_cast<double> (flipped) > MOST_FLIPPED * static_cast<double> (triangles.size ()))
+      return false;
+    for (int ring = 0; ring < 1 + round / ROUNDS_PER_RING; ++ring)
+      for (std::size_t i = 0, size = bad.size (); i < size; ++i)
+        for (const Index id : corners.row (bad[i]))
+          add (triangles[id / 3]);
+    moved.insert (moved.end (), bad.begin (), bad.end ());
+    sortUnique (moved);
+    for (int sweep = 0; sweep < SWEEPS; ++sweep)
+      for (const Index p : moved)
+        uv[p] = targetOf (p);
   }
-
-  // Corner of a triangle, as 3 triangle + corner, after a number of steps.
-  const Eigen::Vector2d& cornerAfter (Index id, Index places) const
-  {
-    return uv_[chart_.mesh.triangles[id / 3][(id % 3 + places) % 3]];
-  }
-
-  const ChartMesh& chart_;
-  const UntanglingLimits& limits_;
-  std::vector<Eigen::Vector2d>& uv_;
-  std::vector<Index> before_, after_; // per vertex: those along the boundary, NONE if it is inside
-  CsrLists corners_;                  // per vertex: where it is a corner, as 3 triangle + corner
-  std::vector<Index> bad_;            // vertices, some more than once
-  std::vector<Index> marked_;         // to be moved
-};
-
-} // namespace
-
-bool
-untangle (const ChartMesh& chart, const UntanglingLimits& limits, const RunContext& run,
-          std::vector<Eigen::Vector2d>& uv)
-{
-  return Untangler (chart, limits, uv).untangle (run);
+  return false;
 }
 
 } // namespace pcl::floater

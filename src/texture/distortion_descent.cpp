@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 
 namespace pcl::floater {
@@ -20,10 +19,10 @@ namespace {
 // by rounding.
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
-using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2>; // one row for each vertex
+// One row for each vertex, as in a list of coordinates.
+using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 constexpr double MEAN_WEIGHT = 1e-8; // of all vertices in the Laplacian: it must not be singular
-constexpr std::size_t MEMORY = 6;    // steps that the direction is made from
 constexpr double SUFFICIENT = 1e-4;  // of the decrease predicted by the slope (Armijo)
 constexpr double SHORTEST = 1e-6;    // useful step
 constexpr int STEPS_PER_LOOK = 8;    // between tests of the boundary
@@ -51,14 +50,12 @@ public:
 
   void run (const RunContext& run, std::vector<Eigen::Vector2d>& uv)
   {
-    Plane x (static_cast<Eigen::Index> (uv.size ()), 2);
-    for (std::size_t i = 0; i < uv.size (); ++i)
-      x.row (static_cast<Eigen::Index> (i)) = uv[i].transpose ();
+    const auto vertices = static_cast<Eigen::Index> (uv.size ());
+    Plane x = Eigen::Map<const Plane> (uv.front ().data (), vertices, 2);
     scale (x);
     const auto accept = [&] {
       std::vector<Eigen::Vector2d> next (uv.size ());
-      for (std::size_t i = 0; i < uv.size (); ++i)
-        next[i] = x.row (static_cast<Eigen::Index> (i)).transpose ();
+      Eigen::Map<Plane> (next.front ().data (), vertices, 2) = x;
       if (!isSimple (chart_.loop, next))
         return false;
       uv = std::move (next);
@@ -70,12 +67,8 @@ public:
     if (solver_.info () != Eigen::Success)
       return;
     double energy = energyOf (x);
-    const double first = energy;
     descend (run, x, energy, accept);
-    // If a triangle is nearly degenerate, no step of L-BFGS is useful.
-    const bool is_stuck = first - energy <= limits_.least_progress * (first - 4.0);
-    if (energy > limits_.enough &&
-        (is_stuck || rest_.shapes.size () <= limits_.most_newton_triangles)) {
+    if (energy > limits_.enough) {
       newton (run, x, energy);
       if (accept ())
         descend (run, x, energy, accept);
@@ -99,10 +92,13 @@ private:
       x *= factor;
   }
 
-  // The length of a step that lowers the energy enough; 0 if there is none.
+  // A step along a direction that lowers the energy enough. Returns false if there is none.
   // \param[in,out] x, energy set to the end of the step
-  double goAlong (const Plane& direction, double slope, Plane& x, double& energy) const
+  bool goAlong (const Plane& direction, const Plane& gradient, Plane& x, double& energy) const
   {
+    const double slope = gradient.cwiseProduct (direction).sum ();
+    if (!(slope < 0.0))
+      return false;
     double length = std::min (1.0, limits_.safe_share * reach (x, direction));
     for (; length > SHORTEST; length *= 0.5) {
       Plane next = x + length * direction;
@@ -110,37 +106,24 @@ private:
       if (next_energy <= energy + SUFFICIENT * length * slope && next_energy < energy) {
         x = std::move (next);
         energy = next_energy;
-        return length;
+        return true;
       }
     }
-    return 0.0;
+    return false;
   }
 
-  // L-BFGS. Tests the boundary now and then, and returns if it crosses itself.
+  // Steps along the gradient with regard to the Laplacian. Tests the boundary now and then, and
+  // returns if it crosses itself.
   template <typename Accept>
-  void descend (const RunContext& run, Plane& x, double& energy, const Accept& accept)
+  void descend (const RunContext& run, Plane& x, double& energy, const Accept& accept) const
   {
-    changes_.clear ();
-    Plane gradient = gradientOf (x);
     for (int step = 1; step <= limits_.steps; ++step) {
       run.poll ();
-      Plane direction = directionOf (gradient);
-      double slope = gradient.cwiseProduct (direction).sum ();
-      if (!(slope < 0.0)) {
-        changes_.clear ();
-        direction = -solver_.solve (gradient);
-        slope = gradient.cwiseProduct (direction).sum ();
-      }
-      const Plane last = x;
+      const Plane gradient = gradientOf (x), direction = -solver_.solve (gradient);
       const double last_energy = energy;
-      if (!(slope < 0.0) || goAlong (direction, slope, x, energy) == 0.0)
-        return;
-      Plane next_gradient = gradientOf (x);
-      remember (x - last, next_gradient - gradient);
-      gradient = std::move (next_gradient);
-      if (last_energy - energy <= limits_.least_progress * (energy - 4.0))
-        return;
-      if (step % STEPS_PER_LOOK == 0 && !accept ())
+      if (!goAlong (direction, gradient, x, energy) ||
+          last_energy - energy <= limits_.least_progress * (energy - 4.0) ||
+          (step % STEPS_PER_LOOK == 0 && !accept ()))
         return;
     }
   }
@@ -160,8 +143,16 @@ private:
       is_analyzed = true;
       const Plane gradient = gradientOf (x);
       const double last_energy = energy;
+      const auto goByHessian = [&] {
+        solver.factorize (hessian);
+        if (solver.info () != Eigen::Success)
+          return false;
+        const Eigen::Map<const Eigen::VectorXd> slopes (gradient.data (), gradient.size ());
+        const Eigen::VectorXd down = -solver.solve (slopes);
+        return goAlong (Eigen::Map<const Plane> (down.data (), x.rows (), 2), gradient, x, energy);
+      };
       double damping = 0.0;
-      while (!goByHessian (solver, hessian, gradient, x, energy)) {
+      while (!goByHessian ()) {
         const double more = std::max (LEAST_DAMPING, MORE_DAMPING * damping);
         if (more > 1.0)
           return;
@@ -172,25 +163,6 @@ private:
           last_energy - energy <= limits_.least_newton_progress * (energy - 4.0))
         return;
     }
-  }
-
-  // One step of Newton's method. Returns false if none lowers the energy.
-  bool goByHessian (Cholesky& solver, const Eigen::SparseMatrix<double>& hessian,
-                    const Plane& gradient, Plane& x, double& energy) const
-  {
-    solver.factorize (hessian);
-    if (solver.info () != Eigen::Success)
-      return false;
-    // Coordinates of a vertex are adjacent.
-    Eigen::VectorXd right (2 * x.rows ());
-    for (Eigen::Index i = 0; i < x.rows (); ++i)
-      right.segment<2> (2 * i) = -gradient.row (i).transpose ();
-    const Eigen::VectorXd solution = solver.solve (right);
-    Plane direction (x.rows (), 2);
-    for (Eigen::Index i = 0; i < x.rows (); ++i)
-      direction.row (i) = solution.segment<2> (2 * i).transpose ();
-    const double slope = gradient.cwiseProduct (direction).sum ();
-    return slope < 0.0 && goAlong (direction, slope, x, energy) > 0.0;
   }
 
   Eigen::SparseMatrix<double> hessianOf (const Plane& x) const
@@ -336,45 +308,10 @@ private:
     return least;
   }
 
-  struct Change
-  {
-    Plane step, gradient;
-    double product;
-  };
-
-  void remember (Plane step, Plane gradient)
-  {
-    const double product = step.cwiseProduct (gradient).sum ();
-    if (!(product > 0.0))
-      return;
-    changes_.push_back ({std::move (step), std::move (gradient), product});
-    if (changes_.size () > MEMORY)
-      changes_.pop_front ();
-  }
-
-  // Two loops of L-BFGS (Nocedal 1980).
-  Plane directionOf (const Plane& gradient) const
-  {
-    Plane q = gradient;
-    std::vector<double> factors (changes_.size ());
-    for (std::size_t i = changes_.size (); i-- > 0;) {
-      factors[i] = changes_[i].step.cwiseProduct (q).sum () / changes_[i].product;
-      q -= factors[i] * changes_[i].gradient;
-    }
-    Plane direction = solver_.solve (q);
-    for (std::size_t i = 0; i < changes_.size (); ++i) {
-      const double factor =
-          factors[i] - changes_[i].gradient.cwiseProduct (direction).sum () / changes_[i].product;
-      direction += factor * changes_[i].step;
-    }
-    return -direction;
-  }
-
   const ChartMesh& chart_;
   const RestShapes& rest_;
   const DescentLimits& limits_;
   Cholesky solver_;
-  std::deque<Change> changes_;
 };
 
 } // namespace

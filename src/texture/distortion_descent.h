@@ -20,10 +20,6 @@ struct DescentLimits
   int newton_steps = 15;         ///< at most
   double least_newton_progress = 0.02; ///< as least_progress
 
-  /// Largest chart for Newton's method: a step takes 6 microseconds per triangle. If L-BFGS makes
-  /// no progress at all, it is used for any size.
-  std::size_t most_newton_triangles = 60'000;
-
   /// Largest chart that may start on a circle, from where the descent is slow and ends early. A
   /// larger one without valid projection gets no layout, and is cut.
   std::size_t most_on_circle = 5'000;
@@ -34,9 +30,9 @@ struct DescentLimits
 /// Moves all vertices, the boundary included, to lower the symmetric Dirichlet energy: the integral
 /// over the chart of the squared singular values of the map and of its inverse (4 if isometric). It
 /// is infinite where a triangle has no area, and no step goes so far: so no triangle is flipped
-/// (Smith and Schaefer 2015). The direction is from a quasi-Newton method (L-BFGS) with the
-/// Laplacian of the shapes in space, factorized once; a step takes 1 microsecond per triangle.
-/// Without progress, some steps of Newton's method follow.
+/// (Smith and Schaefer 2015). The direction is the gradient with regard to the Laplacian of the shapes
+/// in space, factorized once; a step takes 1 microsecond per triangle. Without progress, some steps
+/// of Newton's method follow. (A quasi-Newton method, L-BFGS, ends higher.)
 ///
 /// The boundary stays simple: the result is the last tested layout whose boundary does not cross
 /// itself.

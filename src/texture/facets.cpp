@@ -1,124 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/facets.h"
-
 #include "core/geometry.h"
 #include "core/parallel.h"
+#include "texture/charts.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pcl::floater {
-namespace {
-// Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
-// deviation: in flat regions, facets become round.
-constexpr double ROUNDNESS = 0.01;
-
-class FacetGrower
-{
-public:
-  FacetGrower (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
-               MeshParts& facets)
-      : mesh_ (mesh), positions_ (positions), area_vectors_ (area_vectors), limits_ (limits),
-        facets_ (facets), facet_of_point_ (positions.size (), NONE)
-  {
-  }
-
-  void grow (Index seed, std::size_t most)
-  {
-    sum_ = Eigen::Vector3d::Zero ();
-    middle_ = Eigen::Vector3d::Zero ();
-    area_ = 0.0;
-    size_ = 0;
-    border_.clear ();
-    add (seed);
-    while (size_ < most) {
-      const Index best = nextTriangle ();
-      if (best == NONE)
-        break;
-      add (best);
-    }
-    ++facets_.count;
-  }
-
-private:
-  Eigen::Vector3d middleOf (Index t) const
-  {
-    const Triangle& corners = mesh_.triangles[t];
-    return (positions_[corners[0]] + positions_[corners[1]] + positions_[corners[2]]) / 3.0;
-  }
-
-  void add (Index t)
-  {
-    facets_.of_triangle[t] = facets_.count;
-    for (const Index p : mesh_.triangles[t])
-      facet_of_point_[p] = facets_.count;
-    for (const Index other : mesh_.neighbors[t])
-      if (other != NONE && facets_.of_triangle[other] == NONE)
-        border_.push_back (other);
-    const double area = area_vectors_[t].norm ();
-    sum_ += area_vectors_[t];
-    middle_ += area * middleOf (t);
-    area_ += area;
-    ++size_;
-  }
-
-  // Whether a facet that is a disc stays one: its common border with the triangle is one path.
-  bool keepsDisc (Index t) const
-  {
-    std::size_t points = 0, edges = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      points += facet_of_point_[mesh_.triangles[t][i]] == facets_.count ? 1 : 0;
-      const Index other = mesh_.neighbors[t][i];
-      edges += other != NONE && facets_.of_triangle[other] == facets_.count ? 1 : 0;
-    }
-    return points == edges + 1;
-  }
-
-  // The flattest and nearest triangle beside the facet, NONE if none is flat enough.
-  Index nextTriangle ()
-  {
-    Index best = NONE;
-    double least = 0.0;
-    const double length = sum_.norm ();
-    for (std::size_t i = 0; i < border_.size ();) {
-      const Index t = border_[i];
-      if (facets_.of_triangle[t] != NONE) {
-        border_[i] = border_.back ();
-        border_.pop_back ();
-        continue;
-      }
-      ++i;
-      const double area = area_vectors_[t].norm ();
-      const double lengths = length * area;
-      const double deviation = lengths > 0.0 ? 1.0 - sum_.dot (area_vectors_[t]) / lengths : 0.0;
-      if (deviation > limits_.facet_deviation)
-        continue;
-      const double distance =
-          area_ > 0.0 ? (middleOf (t) - middle_ / area_).squaredNorm () / area_ : 0.0;
-      const double cost = deviation + ROUNDNESS * distance;
-      if ((best == NONE || cost < least || (cost == least && t < best)) && keepsDisc (t)) {
-        best = t;
-        least = cost;
-      }
-    }
-    return best;
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<Eigen::Vector3d>& area_vectors_;
-  const ChartLimits& limits_;
-  MeshParts& facets_;
-  std::vector<Index> facet_of_point_; // the latest one of each point
-  std::vector<Index> border_;         // triangles beside the facet; some may be taken already
-  Eigen::Vector3d sum_, middle_;
-  double area_ = 0.0;
-  std::size_t size_ = 0;
-};
-
-} // namespace
-
 std::vector<Eigen::Vector3d>
 areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const RunContext& run)
@@ -138,16 +27,82 @@ growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run)
 {
+  // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
+  // deviation: in flat regions, facets become round.
+  constexpr double ROUNDNESS = 0.01;
   MeshParts facets;
   facets.of_triangle.assign (mesh.triangles.size (), NONE);
   const std::size_t most =
       std::clamp<std::size_t> (mesh.triangles.size () / limits.facets, 1, limits.most_in_facet);
-  FacetGrower grower (mesh, positions, area_vectors, limits, facets);
+  std::vector<Index> facet_of_point (positions.size (), NONE); // the latest one of each point
+  std::vector<Index> border; // triangles beside the facet; some may be taken already
+  Eigen::Vector3d sum, middle;
+  double area = 0.0;
+  const auto middleOf = [&] (Index t) -> Eigen::Vector3d {
+    const Triangle& corners = mesh.triangles[t];
+    return (positions[corners[0]] + positions[corners[1]] + positions[corners[2]]) / 3.0;
+  };
+  const auto add = [&] (Index t) {
+    facets.of_triangle[t] = facets.count;
+    for (const Index p : mesh.triangles[t])
+      facet_of_point[p] = facets.count;
+    for (const Index other : mesh.neighbors[t])
+      if (other != NONE && facets.of_triangle[other] == NONE)
+        border.push_back (other);
+    const double of_triangle = area_vectors[t].norm ();
+    sum += area_vectors[t];
+    middle += of_triangle * middleOf (t);
+    area += of_triangle;
+  };
+  // Whether a facet that is a disc stays one: its common border with the triangle is one path.
+  const auto keepsDisc = [&] (Index t) {
+    std::size_t points = 0, edges = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      points += facet_of_point[mesh.triangles[t][i]] == facets.count ? 1 : 0;
+      const Index other = mesh.neighbors[t][i];
+      edges += other != NONE && facets.of_triangle[other] == facets.count ? 1 : 0;
+    }
+    return points == edges + 1;
+  };
+  // The flattest and nearest triangle beside the facet, NONE if none is flat enough.
+  const auto nextTriangle = [&] {
+    border.erase (std::remove_if (border.begin (), border.end (),
+                                  [&] (Index t) { return facets.of_triangle[t] != NONE; }),
+                  border.end ());
+    Index best = NONE;
+    double least = std::numeric_limits<double>::infinity ();
+    for (const Index t : border) {
+      const double lengths = sum.norm () * area_vectors[t].norm ();
+      const double deviation = lengths > 0.0 ? 1.0 - sum.dot (area_vectors[t]) / lengths : 0.0;
+      if (deviation > limits.facet_deviation)
+        continue;
+      const double distance =
+          area > 0.0 ? (middleOf (t) - middle / area).squaredNorm () / area : 0.0;
+      const double cost = deviation + ROUNDNESS * distance;
+      if ((cost < least || (cost == least && t < best)) && keepsDisc (t)) {
+        best = t;
+        least = cost;
+      }
+    }
+    return best;
+  };
   ProgressLoop progress (run, mesh.triangles.size ());
-  for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
-    if (facets.of_triangle[t] == NONE)
-      grower.grow (static_cast<Index> (t), most);
+  for (Index seed = 0; seed < mesh.triangles.size (); ++seed) {
     progress.next ();
+    if (facets.of_triangle[seed] != NONE)
+      continue;
+    sum.setZero ();
+    middle.setZero ();
+    area = 0.0;
+    border.clear ();
+    add (seed);
+    for (std::size_t size = 1; size < most; ++size) {
+      const Index t = nextTriangle ();
+      if (t == NONE)
+        break;
+      add (t);
+    }
+    ++facets.count;
   }
   return facets;
 }

@@ -3,7 +3,7 @@
 #include "texture/smoothing.h"
 
 #include "core/parallel.h"
-#include "texture/facets.h"
+#include "texture/charts.h"
 
 #include <Eigen/Geometry>
 

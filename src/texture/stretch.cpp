@@ -36,15 +36,6 @@ StretchSums::add (const std::array<Eigen::Vector3d, 3>& place,
   largest_ = std::max (largest_, std::sqrt (0.5 * (a + c + std::hypot (a - c, 2.0 * b))));
 }
 
-void
-StretchSums::add (const StretchSums& other)
-{
-  squares_ += other.squares_;
-  area_ += other.area_;
-  plane_area_ += other.plane_area_;
-  largest_ = std::max (largest_, other.largest_);
-}
-
 double
 StretchSums::mean () const
 {
@@ -59,6 +50,19 @@ StretchSums::largest () const
   if (std::isinf (largest_))
     return largest_;
   return area_ > 0.0 ? largest_ * std::sqrt (plane_area_ / area_) : 1.0;
+}
+
+StretchSums
+stretchOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+           const std::vector<Triangle>& corners, const std::vector<Eigen::Vector2d>& uv)
+{
+  StretchSums sums;
+  for (std::size_t t = 0; t < triangles.size (); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    const auto& [i, j, k] = corners[t];
+    sums.add ({positions[a], positions[b], positions[c]}, {uv[i], uv[j], uv[k]});
+  }
+  return sums;
 }
 
 namespace {

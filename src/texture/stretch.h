@@ -18,13 +18,7 @@ public:
   /// Adds a triangle in space and in the plane; ignored if it has no area in space.
   void add (const std::array<Eigen::Vector3d, 3>& place, const std::array<Eigen::Vector2d, 3>& uv);
 
-  void add (const StretchSums& other);
-
-  double area () const { return area_; }            ///< in space
-  double planeArea () const { return plane_area_; } ///< in the plane
-
-  /// Mean over the surface of the mean square of the two singular values of the map.
-  double meanSquare () const { return area_ > 0.0 ? squares_ / area_ : 0.0; }
+  double planeArea () const { return plane_area_; }
 
   /// L2 stretch: root mean square over the surface of the singular values of the map, times the
   /// root of the ratio of the areas. 1 if all lengths have the same ratio, or without triangles;
@@ -39,6 +33,12 @@ private:
   double area_ = 0.0, plane_area_ = 0.0;
   double largest_ = 0.0; // singular value
 };
+
+/// Sums over a mesh.
+/// \param corners of its triangles as indices of uv, parallel to triangles
+StretchSums
+stretchOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+           const std::vector<Triangle>& corners, const std::vector<Eigen::Vector2d>& uv);
 
 /// Moves corners of flipped triangles by a few steps of single precision, if this reduces the
 /// flipped triangles around them. Exact tests. O(triangles) if there are none. One thread,

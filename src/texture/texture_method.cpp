@@ -108,23 +108,6 @@ findSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
     }
 }
 
-void
-measure (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
-         TextureCoordinates& result)
-{
-  StretchSums sums;
-  for (std::size_t t = 0; t < triangles.size (); ++t) {
-    const auto uv = [&] (std::size_t i) -> Eigen::Vector2d {
-      return result.coordinates[result.corners[t][i]].cast<double> ();
-    };
-    sums.add ({positions[triangles[t][0]], positions[triangles[t][1]], positions[triangles[t][2]]},
-              {uv (0), uv (1), uv (2)});
-  }
-  result.stretch = sums.mean ();
-  result.largest_stretch = sums.largest ();
-  result.area_used = sums.planeArea ();
-}
-
 } // namespace
 
 Problem
@@ -165,9 +148,9 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
         kept.push_back (std::move (chart));
       else
         for (const Index t : chart.triangles)
-          kept.push_back (layOutTriangle (triangles, t, places));
+          kept.push_back (layOutChart (triangles, {t}, places, {}, run));
     charts = std::move (kept);
-    result.gutter = packCharts (charts, limits.atlas, run).gutter;
+    result.gutter = packCharts (charts, limits.atlas, run);
     takeCoordinates (charts, positions.size (), triangles.size (), result);
     flipped = repairRounding (result.corners, result.coordinates);
   }
@@ -175,7 +158,13 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   result.flipped = flipped.size ();
   findSeams (mesh, places, result);
   result.seam_length *= unit;
-  measure (triangles, places, result);
+  std::vector<Eigen::Vector2d> uv;
+  for (const Eigen::Vector2f& rounded : result.coordinates)
+    uv.push_back (rounded.cast<double> ());
+  const StretchSums sums = stretchOf (triangles, places, result.corners, uv);
+  result.stretch = sums.mean ();
+  result.largest_stretch = sums.largest ();
+  result.area_used = sums.planeArea ();
   return {};
 }
 

@@ -6,8 +6,8 @@
 #include "core/problem.h"
 #include "core/run_context.h"
 #include "texture/atlas.h"
+#include "texture/charts.h"
 #include "texture/distortion_descent.h"
-#include "texture/facets.h"
 #include "texture/smoothing.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
@@ -22,17 +22,8 @@ struct TextureLimits
   DescentLimits descent;
   AtlasLimits atlas;
 
-  /// Largest ratio of the stretch of the pieces, above 1, to that of a chart with uniform stretch
-  /// for which it is cut. The stretch by curvature falls to a quarter with half of the area; the
-  /// stretch by roughness stays.
-  double worthwhile = 0.7;
-
-  /// A chart has uniform stretch if half of its area has at least this share of the mean stretch,
-  /// above 1. For noise, with normals that scatter by 20 to 40 degrees, it is 0.4 and more; where a
-  /// small piece sticks out, near 0.
-  double even = 0.25;
-
-  /// A chart with more stretch is always cut: roughness that is left after smoothing has less.
+  /// Stretch above which charts of the true surface are cut: roughness that is left after smoothing
+  /// has less.
   double too_much = 1.5;
 
   /// Stretch of the true surface in the layout of the smoothed one, above which it is laid out
@@ -46,16 +37,7 @@ struct TextureLimits
   /// prevents convergence.
   int steps_to_noise = 20;
 
-  /// How often the deviation of the pieces is halved, before a chart is cut in two.
-  int halvings = 4;
-
-  /// These, and the bounds below, were chosen by hand on two noisy scans, for few charts and little
-  /// time; they do not decide whether a layout is right. A chart is cut in two if cutting by
-  /// deviation gives more than 8 parts, or one part with more than 90 % of the triangles: curvature
-  /// is then not the cause.
-  std::size_t most_parts = 8;
-  double largest_part = 0.9;
-  double half = 0.6; ///< share of the triangles in the larger half, at most
+  double half = 0.6; ///< share of the triangles in the larger half of a chart that is cut, at most
 
   /// Facets for cutting a chart: one for so many triangles, with a minimum. They decide the time of
   /// the search for each cut.

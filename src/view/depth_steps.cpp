@@ -148,9 +148,6 @@ private:
     places.clear ();
     for (const Index q : around)
       places.push_back (frame (q));
-    const auto cross = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-      return a.x () * b.y () - a.y () * b.x ();
-    };
     for (std::size_t e = 0; e < fan.size (); ++e) {
       const Eigen::Vector2d back = -places[e];
       for (std::size_t t = 0; t < fan.size (); ++t) {

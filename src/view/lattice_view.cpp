@@ -5,6 +5,7 @@
 #include "view/lattice_view.h"
 
 #include "core/exact.h"
+#include "core/geometry.h"
 #include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 
@@ -69,10 +70,8 @@ private:
   Corners cornersOf (std::size_t cell) const
   {
     const std::size_t first = cell / columns_ * width_ + cell % columns_;
-    const Corners corners{point_at_[first], point_at_[first + (is_mirrored_ ? width_ : 1)],
-                          point_at_[first + width_ + 1],
-                          point_at_[first + (is_mirrored_ ? 1 : width_)]};
-    return corners;
+    return {point_at_[first], point_at_[first + (is_mirrored_ ? width_ : 1)],
+            point_at_[first + width_ + 1], point_at_[first + (is_mirrored_ ? 1 : width_)]};
   }
 
   /// The cell beyond a side; cells () if there is none.
@@ -170,8 +169,8 @@ private:
       const Corners q = cornersOf (cell);
       if (std::find (q.begin (), q.end (), NONE) != q.end ())
         continue;
-      const Eigen::Vector2d u = places_[q[2]] - places_[q[0]], v = places_[q[3]] - places_[q[1]];
-      ++(u.x () * v.y () - u.y () * v.x () > 0.0 ? positive : negative);
+      ++(cross (places_[q[2]] - places_[q[0]], places_[q[3]] - places_[q[1]]) > 0.0 ? positive
+                                                                                    : negative);
     }
     return negative > positive;
   }

@@ -252,12 +252,13 @@ struct DensityEvidence
 {
   double near_share = 1.0, hidden_share = 1.0;
   double ray_spread = 0.0, point_spread = 0.0;
+  double depth = 0.0; // median of the rays
 };
 
 DensityEvidence
 findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
                      const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                     const EvidenceLimits& limits, const RunContext& run, double& median_depth)
+                     const EvidenceLimits& limits, const RunContext& run)
 {
   std::vector<std::vector<RayDensity>> of_patch (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
@@ -267,12 +268,11 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
   for (const std::vector<RayDensity>& rays : of_patch)
     for (const RayDensity& ray : rays)
       depths.push_back (ray.depth);
-  DensityEvidence evidence;
   if (depths.empty ())
-    return evidence;
-  median_depth = median (depths);
-  const double least = viewpoint.is_far ? -std::numeric_limits<double>::infinity ()
-                                        : limits.at_sensor * median_depth;
+    return {};
+  const double depth = median (depths);
+  const double least =
+      viewpoint.is_far ? -std::numeric_limits<double>::infinity () : limits.at_sensor * depth;
   std::size_t near = 0, hidden = 0;
   std::vector<double> of_rays, of_points;
   for (const std::vector<RayDensity>& rays : of_patch)
@@ -286,7 +286,7 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
     }
   const auto count = static_cast<double> (of_rays.size ());
   return {static_cast<double> (near) / count, static_cast<double> (hidden) / count,
-          spreadOf (of_rays), spreadOf (of_points)};
+          spreadOf (of_rays), spreadOf (of_points), depth};
 }
 
 } // namespace
@@ -296,9 +296,7 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits, const RunContext& run)
 {
-  double depth = 0.0;
-  const DensityEvidence found =
-      findDensityEvidence (positions, patches, viewpoint, limits, run, depth);
+  const DensityEvidence found = findDensityEvidence (positions, patches, viewpoint, limits, run);
   const double left = found.ray_spread / std::max (found.point_spread, limits.least_density_spread);
   if (!(found.point_spread >= limits.least_density_spread && left <= limits.density_regularity &&
         found.near_share <= limits.crossing_share &&
@@ -309,14 +307,12 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
   EvidenceLimits few = limits;
   few.patches = std::min (limits.patches_beside, limits.patches);
   const auto spreadAt = [&] (const Viewpoint& v) {
-    double unused = 0.0;
-    return findDensityEvidence (positions, findRayPatches (positions, v, few, run), v, few, run,
-                                unused)
+    return findDensityEvidence (positions, findRayPatches (positions, v, few, run), v, few, run)
         .ray_spread;
   };
   const double least = limits.less_beside * spreadAt (viewpoint);
   for (int axis = 0; axis < 3; ++axis)
-    for (const double aside : {-limits.beside * depth, limits.beside * depth})
+    for (const double aside : {-limits.beside * found.depth, limits.beside * found.depth})
       if (spreadAt ({viewpoint.place + aside * Eigen::Vector3d::Unit (axis), false}) < least)
         return false;
   return true;
@@ -326,9 +322,8 @@ bool
 hidesLittle (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
              const EvidenceLimits& limits, const RunContext& run)
 {
-  double unused = 0.0;
   return findDensityEvidence (positions, findRayPatches (positions, viewpoint, limits, run),
-                              viewpoint, limits, run, unused)
+                              viewpoint, limits, run)
              .hidden_share <= limits.hidden_if_told;
 }
 
@@ -339,11 +334,8 @@ looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint&
   constexpr std::size_t DIRECTIONS = 200, COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
   const double least = std::cos (limits.all_sides * DEGREE);
-  const double golden_angle = PI * (3.0 - std::sqrt (5.0));
   for (std::size_t k = 0; k < DIRECTIONS; ++k) {
-    const double z = 1.0 - static_cast<double> (2 * k + 1) / DIRECTIONS;
-    const double radius = std::sqrt (1.0 - z * z), angle = static_cast<double> (k) * golden_angle;
-    const Eigen::Vector3d side (radius * std::cos (angle), radius * std::sin (angle), z);
+    const Eigen::Vector3d side = spiralDirection (k, DIRECTIONS);
     bool has_ray = false;
     for (std::size_t p = 0; p < positions.size () && !has_ray; p += step)
       has_ray = side.dot (rayTo (positions[p], viewpoint).direction) > least;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/rays.h"
 
+#include "core/geometry.h"
 #include "core/parallel.h"
 
 #include <Eigen/Geometry>
@@ -20,14 +21,11 @@ constexpr std::size_t DIRECTIONS = 2000, COMPARED = 2000;
 Eigen::Vector3d
 emptyDirection (const std::vector<Eigen::Vector3d>& directions)
 {
-  const double golden_angle = M_PI * (3.0 - std::sqrt (5.0));
   const std::size_t step = std::max<std::size_t> (1, directions.size () / COMPARED);
   Eigen::Vector3d best = Eigen::Vector3d::UnitZ ();
   double best_cosine = std::numeric_limits<double>::infinity ();
   for (std::size_t k = 0; k < DIRECTIONS; ++k) {
-    const double z = 1.0 - static_cast<double> (2 * k + 1) / DIRECTIONS;
-    const double radius = std::sqrt (1.0 - z * z), angle = static_cast<double> (k) * golden_angle;
-    const Eigen::Vector3d tried (radius * std::cos (angle), radius * std::sin (angle), z);
+    const Eigen::Vector3d tried = spiralDirection (k, DIRECTIONS);
     double cosine = -1.0;
     for (std::size_t p = 0; p < directions.size () && cosine < best_cosine; p += step)
       cosine = std::max (cosine, tried.dot (directions[p]));

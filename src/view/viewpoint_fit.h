@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -21,81 +20,57 @@ struct RatedViewpoint
   Viewpoint viewpoint;
 };
 
-/// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or rotates the
-/// direction of a far one; repeats moves that lowered the cost, and otherwise halves the step.
-/// Steps are relative to the distance from the middle of the cloud, if that is above 1.
-/// \tparam Cost of a viewpoint: double (const Viewpoint&)
+/// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or rotates the direction
+/// of a far one; repeats moves that lowered the cost, and otherwise halves the step, until it is below
+/// the smallest one, or all evaluations of the cost are used. Steps are relative to the distance from
+/// the middle of the cloud, if that is above 1.
 template <typename Cost>
-class PatternSearch
+RatedViewpoint
+patternSearch (const Viewpoint& start, double step, double smallest_step,
+               const Eigen::Vector3d& middle, std::size_t evaluations, const Cost& cost)
 {
-public:
-  PatternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost cost)
-      : middle_ (middle), left_ (most_evaluations), cost_ (std::move (cost))
-  {
-  }
-
-  /// Descends from a start until the step is below the smallest one, or all evaluations are used.
-  RatedViewpoint run (const Viewpoint& start, double step, double smallest_step)
-  {
-    RatedViewpoint best{cost_ (start), start};
-    for (; step >= smallest_step && left_ > 0; step *= 0.5)
-      for (bool has_moved = true; has_moved && left_ > 0;) {
-        const RatedViewpoint before = best;
-        explore (best, step);
-        has_moved = best.cost < before.cost;
-        while (has_moved && left_ > 0) {
-          RatedViewpoint further = moved (best, best.viewpoint.place - before.viewpoint.place);
-          explore (further, step);
-          if (!(further.cost < best.cost))
-            break;
-          best = further;
-        }
-      }
-    return best;
-  }
-
-private:
-  RatedViewpoint moved (const RatedViewpoint& from, const Eigen::Vector3d& by)
-  {
+  const auto moved = [&] (const RatedViewpoint& from, const Eigen::Vector3d& by) -> RatedViewpoint {
     Viewpoint viewpoint = from.viewpoint;
     viewpoint.place += by;
     if (viewpoint.is_far)
       viewpoint.place.normalize ();
-    left_ -= left_ > 0 ? 1 : 0;
-    return {cost_ (viewpoint), viewpoint};
-  }
-
-  void explore (RatedViewpoint& at, double step)
-  {
+    evaluations -= evaluations > 0 ? 1 : 0;
+    return {cost (viewpoint), viewpoint};
+  };
+  // Changing axes: in a narrow valley of the cost, no fixed axis may lead down.
+  Eigen::Quaterniond axes = Eigen::Quaterniond::Identity ();
+  const Eigen::Quaterniond turn (0.8, 0.2, 0.33, 0.46); // an arbitrary rotation, by 74 degrees
+  const auto explore = [&] (RatedViewpoint& at) {
     const double unit =
-        at.viewpoint.is_far ? 1.0 : std::max (1.0, (at.viewpoint.place - middle_).norm ());
-    // Changing axes: in a narrow valley of the cost, no fixed axis may lead down.
-    axes_ = (axes_ * turn_).normalized ();
+        at.viewpoint.is_far ? 1.0 : std::max (1.0, (at.viewpoint.place - middle).norm ());
+    axes = (axes * turn).normalized ();
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {-1.0, 1.0}) {
-        if (left_ == 0)
+        if (evaluations == 0)
           return;
         const RatedViewpoint tried =
-            moved (at, sign * step * unit * (axes_ * Eigen::Vector3d::Unit (axis)));
+            moved (at, sign * step * unit * (axes * Eigen::Vector3d::Unit (axis)));
         if (tried.cost < at.cost) {
           at = tried;
           break;
         }
       }
-  }
-
-  Eigen::Vector3d middle_;
-  std::size_t left_; // remaining evaluations of the cost
-  Eigen::Quaterniond axes_ = Eigen::Quaterniond::Identity ();
-  Eigen::Quaterniond turn_{0.8, 0.2, 0.33, 0.46}; // an arbitrary rotation, by 74 degrees
-  Cost cost_;
-};
-
-template <typename Cost>
-PatternSearch<Cost>
-patternSearch (const Eigen::Vector3d& middle, std::size_t most_evaluations, Cost cost)
-{
-  return {middle, most_evaluations, std::move (cost)};
+  };
+  RatedViewpoint best{cost (start), start};
+  for (; step >= smallest_step && evaluations > 0; step *= 0.5)
+    for (bool has_moved = true; has_moved && evaluations > 0;) {
+      const RatedViewpoint before = best;
+      explore (best);
+      has_moved = best.cost < before.cost;
+      while (has_moved && evaluations > 0) {
+        RatedViewpoint further = moved (best, best.viewpoint.place - before.viewpoint.place);
+        explore (further);
+        if (!(further.cost < best.cost))
+          break;
+        best = further;
+      }
+    }
+  return best;
 }
 
 /// Fits a viewpoint to the rays of the patches: in each patch, the distances of the rays to the

@@ -92,8 +92,8 @@ public:
     parallelTasks (run_, descents.size (), [&] (std::size_t k) {
       std::vector<double> angles;
       const auto cost = [&] (const Viewpoint& v) { return areaSpread (samples_, v, angles); };
-      descents[k] = patternSearch (box_.center (), limits_.area_evaluations, cost)
-                        .run (descents[k].viewpoint, cell (), SMALLEST_AREA_STEP);
+      descents[k] = patternSearch (descents[k].viewpoint, cell (), SMALLEST_AREA_STEP,
+                                   box_.center (), limits_.area_evaluations, cost);
     });
     std::vector<RatedViewpoint> candidates;
     for (const RatedViewpoint& found : descents)
@@ -227,12 +227,8 @@ private:
       add ({centre + offset.cwiseProduct (size), false});
     }
     // On spheres around the box, the last of infinite radius.
-    const double golden_angle = PI * (3.0 - std::sqrt (5.0));
     for (std::size_t i = 0; i < limits_.directions; ++i) {
-      const double z =
-          1.0 - (2.0 * static_cast<double> (i) + 1.0) / static_cast<double> (limits_.directions);
-      const double angle = static_cast<double> (i) * golden_angle, r = std::sqrt (1.0 - z * z);
-      const Eigen::Vector3d direction (r * std::cos (angle), r * std::sin (angle), z);
+      const Eigen::Vector3d direction = spiralDirection (i, limits_.directions);
       for (const double distance : {1.5, 3.0, 6.0})
         add ({centre + distance * size.norm () * direction, false});
       add ({direction, true});
@@ -311,17 +307,22 @@ private:
                             viewpoint, evidence_, run_);
   }
 
+  Viewpoint searchByRays (const Viewpoint& start, double step, double smallest_step,
+                          const std::vector<RayPatch>& patches, bool with_rows) const
+  {
+    const auto cost = [&] (const Viewpoint& v) {
+      return costByRays (v, patches, with_rows, run_.threads ());
+    };
+    return patternSearch (start, step, smallest_step, box_.center (), limits_.ray_evaluations, cost)
+        .viewpoint;
+  }
+
   std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
   {
     constexpr double PRECISION = 1e-6; // a tenth of the spacing of a scan of 1e10 points
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, coarse_, run_);
-      const auto cost = [&] (const Viewpoint& v) {
-        return costByRays (v, patches, with_rows, run_.threads ());
-      };
-      viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
-                      .run (viewpoint, step, 0.2 * step)
-                      .viewpoint;
+      viewpoint = searchByRays (viewpoint, step, 0.2 * step, patches, with_rows);
       step *= 0.3;
       // If the first, coarse steps give no better evidence than this, finer ones rarely do.
       if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_),
@@ -352,12 +353,7 @@ private:
       for (step = SIDESTEP; step > SIDESTEP / 100.0; step *= 0.1) {
         const std::vector<RayPatch> patches =
             findRayPatches (positions_, viewpoint, evidence_, run_);
-        const auto cost = [&] (const Viewpoint& v) {
-          return costByRays (v, patches, with_rows, run_.threads ());
-        };
-        viewpoint = patternSearch (box_.center (), limits_.ray_evaluations, cost)
-                        .run (viewpoint, step, 0.05 * step)
-                        .viewpoint;
+        viewpoint = searchByRays (viewpoint, step, 0.05 * step, patches, with_rows);
       }
       evidence = evidenceAt (viewpoint);
     }
@@ -381,47 +377,28 @@ private:
   Eigen::AlignedBox3d box_;
 };
 
-// The limits for a cloud that fills fewer patches; nothing if they are too few.
-std::optional<EvidenceLimits>
-limitToCloud (EvidenceLimits limits, std::size_t points)
-{
-  constexpr std::size_t FEWEST_PATCHES = 16;
-  limits.patches = std::min (limits.patches, points / limits.patch_points);
-  if (limits.patches < FEWEST_PATCHES)
-    return {};
-  return limits;
-}
-
 } // namespace
 
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, const SearchLimits& limits,
+               const std::vector<AreaSample>& samples, bool is_noisy, const SearchLimits& limits,
                const EvidenceLimits& evidence, const RunContext& run)
 {
-  const std::optional<EvidenceLimits> filled = limitToCloud (evidence, points.size ());
-  if (!filled)
+  constexpr std::size_t FEWEST_PATCHES = 16;
+  EvidenceLimits filled = evidence;
+  filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
+  if (filled.patches < FEWEST_PATCHES)
     return {};
-  const ViewpointSearch search (points, neighbors, samples, limits, *filled, run);
-  const RowEvidence rows = findRows (points, neighbors, limits.samples);
-  if (rows.share > limits.rows && !rows.are_straight)
-    if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
-      return found;
-  if (4 * filled->patches < evidence.patches || !search.hasSamples () ||
-      search.spreadOfAreas () <= limits.even)
-    return {};
-  return search.find ();
-}
-
-std::optional<Viewpoint>
-findViewpointOfEven (const Points& points, const CsrLists& neighbors,
-                     const std::vector<AreaSample>& samples, const SearchLimits& limits,
-                     const EvidenceLimits& evidence, const RunContext& run)
-{
-  if (points.size () < evidence.patches * evidence.patch_points)
-    return {};
-  const ViewpointSearch search (points, neighbors, samples, limits, evidence, run);
-  if (!search.hasSamples () || search.spreadOfAreas () > limits.even)
+  const ViewpointSearch search (points, neighbors, samples, limits, filled, run);
+  if (!is_noisy) {
+    const RowEvidence rows = findRows (points, neighbors, limits.samples);
+    if (rows.share > limits.rows && !rows.are_straight)
+      if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
+        return found;
+  }
+  const std::size_t least_share = is_noisy ? 1 : 4; // a quarter of the patches
+  if (least_share * filled.patches < evidence.patches || !search.hasSamples () ||
+      (search.spreadOfAreas () <= limits.even) != is_noisy)
     return {};
   return search.find ();
 }

@@ -67,17 +67,12 @@ struct SearchLimits
 /// evidence.
 /// \param neighbors nearest first
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples
+/// \param is_noisy  the points are noisy: only evenly sampled clouds are searched, which need no view
+///     otherwise; without noise, only the others
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, const SearchLimits& limits,
+               const std::vector<AreaSample>& samples, bool is_noisy, const SearchLimits& limits,
                const EvidenceLimits& evidence, const RunContext& run);
-
-/// findViewpoint () for an evenly sampled cloud, which it skips: such a cloud needs a view only if
-/// it is noisy.
-std::optional<Viewpoint>
-findViewpointOfEven (const Points& points, const CsrLists& neighbors,
-                     const std::vector<AreaSample>& samples, const SearchLimits& limits,
-                     const EvidenceLimits& evidence, const RunContext& run);
 
 } // namespace pcl::floater

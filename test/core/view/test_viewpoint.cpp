@@ -74,9 +74,10 @@ TEST_P (RastersAndSeeds, TheViewpointIsFound)
       fitLocalPlanes (points, findNeighbors (points, {}, 2), std::nullopt, settings, 2);
   const std::vector<AreaSample> samples =
       takeAreaSamples (points, planes, settings, SearchLimits{}.samples, 2);
-  std::optional<Viewpoint> found = findViewpoint (points, planes.neighbors, samples, {}, {}, 2);
-  if (!found)
-    found = findViewpointOfEven (points, planes.neighbors, samples, {}, {}, 2);
+  std::optional<Viewpoint> found;
+  for (const bool is_noisy : {false, true})
+    if (!found)
+      found = findViewpoint (points, planes.neighbors, samples, is_noisy, {}, {}, 2);
   ASSERT_TRUE (found);
   if (found->is_far)
     EXPECT_GT (std::abs (found->place.dot (made.viewpoint)), 0.999);
