@@ -334,9 +334,12 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
   });
   if (cloud.kept.areAll ())
     return 0;
+  std::vector<std::uint32_t> numbers (cloud.rows);
+  for (std::uint32_t point = 0; point < cloud.size (); ++point)
+    numbers[cloud.row (point)] = point;
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
-      corner = cloud.kept.number (corner);
+      corner = numbers[corner];
   return not_finite;
 }
 

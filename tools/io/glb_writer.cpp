@@ -5,6 +5,7 @@
 // file in memory. The file is three numbers, a text in JSON and the arrays.
 #include "mesh_writer.h"
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -66,27 +67,6 @@ writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
     file.writeNumber (coordinate, ByteOrder::LITTLE);
 }
 
-/// The smallest and largest coordinates of all points.
-std::array<Eigen::Vector3f, 2>
-boundsOf (const Cloud& cloud)
-{
-  constexpr float LARGEST = std::numeric_limits<float>::max ();
-  std::array<Eigen::Vector3f, 2> bounds{Eigen::Vector3f::Constant (LARGEST),
-                                        Eigen::Vector3f::Constant (-LARGEST)};
-  for (std::size_t i = 0; i < cloud.size (); ++i) {
-    const Eigen::Vector3f position = cloud.position (i).cast<float> ();
-    bounds[0] = bounds[0].cwiseMin (position);
-    bounds[1] = bounds[1].cwiseMax (position);
-  }
-  return bounds;
-}
-
-Json
-asArray (const Eigen::Vector3f& vector)
-{
-  return Json::array ({vector.x (), vector.y (), vector.z ()});
-}
-
 } // namespace
 
 void
@@ -101,9 +81,11 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   Json attributes;
   const std::size_t positions = arrays.add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
   attributes["POSITION"] = positions;
-  const std::array<Eigen::Vector3f, 2> bounds = boundsOf (cloud);
-  arrays.accessors[positions]["min"] = asArray (bounds[0]);
-  arrays.accessors[positions]["max"] = asArray (bounds[1]);
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < cloud.size (); ++i)
+    box.extend (cloud.position (i).cast<float> ());
+  arrays.accessors[positions]["min"] = box.min ();
+  arrays.accessors[positions]["max"] = box.max ();
   if (normals[0])
     attributes["NORMAL"] = arrays.add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
   if (colors[0]) {

@@ -41,10 +41,12 @@ struct PlyHeader
 ScalarType
 plyType (const TextScanner& scanner, std::string_view name)
 {
-  for (std::size_t type = 0; type < TYPE_NAMES.size () && !name.empty (); ++type)
-    if (name == TYPE_NAMES[type].ply || name == TYPE_NAMES[type].sized_ply)
-      return static_cast<ScalarType> (type);
-  scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
+  const auto type = findType ([name] (const TypeNames& names, ScalarType) {
+    return !name.empty () && (name == names.ply || name == names.sized_ply);
+  });
+  if (!type)
+    scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
+  return *type;
 }
 
 Property
@@ -114,9 +116,8 @@ readPlyHeader (TextScanner& scanner)
 [[noreturn]] void
 failTruncated (const Element& element, std::size_t found)
 {
-  throw ReadError ("the header promises the element '" + element.name + "' " +
-                   counted (element.count, "time") + ", but the file has only " +
-                   std::to_string (found) + "; it is truncated or its header is wrong");
+  throw ReadError (brokenPromise (
+      "the element '" + element.name + "' " + counted (element.count, "time"), found));
 }
 
 std::vector<Field*>

@@ -141,13 +141,7 @@ private:
 
   static std::optional<ScalarType> typeOf (std::string_view name)
   {
-    constexpr std::array<std::string_view, 10> NAMES{"Int8",    "UInt8",  "Int16", "UInt16",
-                                                     "Int32",   "UInt32", "Int64", "UInt64",
-                                                     "Float32", "Float64"};
-    const auto found = std::find (NAMES.begin (), NAMES.end (), name);
-    if (found == NAMES.end ())
-      return std::nullopt;
-    return static_cast<ScalarType> (found - NAMES.begin ());
+    return findType ([name] (const TypeNames& names, ScalarType) { return name == names.vtp; });
   }
 
   std::uint64_t header (EncodedBytes& bytes) const
