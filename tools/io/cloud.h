@@ -163,17 +163,18 @@ pointersTo (std::vector<Field>& fields)
 
 /// Appends fields of one value each, columns of an array that they keep.
 /// \param values a vector of numbers, or of arrays of numbers
+/// \param width columns of the array; 0: as many as there are names
 template <typename Values>
 void
 addColumns (std::initializer_list<const char*> names, ScalarType type, Values values,
-            std::vector<Field>& fields)
+            std::vector<Field>& fields, std::size_t width = 0)
 {
   const auto kept = std::make_shared<const Values> (std::move (values));
   const auto* first = reinterpret_cast<const char*> (kept->data ());
   for (const char* name : names) {
     Field& field = fields.emplace_back (Field{name, type});
     field.first = {kept, first};
-    field.stride = names.size () * sizeOf (type);
+    field.stride = (width > 0 ? width : names.size ()) * sizeOf (type);
     first += sizeOf (type);
   }
 }

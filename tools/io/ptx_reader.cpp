@@ -7,6 +7,8 @@
 #include "format.h"
 #include "text_scanner.h"
 
+#include <Eigen/Geometry>
+
 #include <sstream>
 
 namespace pcl::floater {
