@@ -100,23 +100,16 @@ bool
 splitColumns (std::string_view line, char separator, Words& columns)
 {
   columns.clear ();
-  if (separator == ' ') {
-    for (std::size_t at = 0; at < line.size ();) {
-      const std::size_t first = at;
-      while (at < line.size () && !TextScanner::isBlank (line[at]))
-        ++at;
-      if (at > first)
-        columns.push_back (trim (line.substr (first, at - first)));
-      ++at; // a blank
-    }
-    return false;
+  const bool by_blanks = separator == ' ';
+  for (std::size_t first = 0, end = 0; first <= line.size (); first = end + 1) {
+    end = first;
+    while (end < line.size () &&
+           !(by_blanks ? TextScanner::isBlank (line[end]) : line[end] == separator))
+      ++end;
+    if (!by_blanks || end > first)
+      columns.push_back (trim (line.substr (first, end - first)));
   }
-  for (std::size_t first = 0; first <= line.size ();) {
-    const std::size_t end = std::min (line.find (separator, first), line.size ());
-    columns.push_back (trim (line.substr (first, end - first)));
-    first = end + 1;
-  }
-  const bool ends_empty = columns.back ().empty ();
+  const bool ends_empty = !by_blanks && columns.back ().empty ();
   if (ends_empty)
     columns.pop_back ();
   return ends_empty;
