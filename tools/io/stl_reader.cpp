@@ -6,8 +6,8 @@
 #include "text_scanner.h"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
+#include <string_view>
 
 namespace pcl::floater {
 namespace {
@@ -27,21 +27,21 @@ cloudOf (std::vector<std::array<Number, 3>> corners)
       coordinate += Number{0}; // -0 is 0
   std::vector<std::size_t> order (corners.size ());
   std::iota (order.begin (), order.end (), std::size_t{0});
-  const auto compare = [&corners] (std::size_t a, std::size_t b) {
-    return std::memcmp (&corners[a], &corners[b], sizeof (Corner));
+  const auto bytesOf = [&corners] (std::size_t corner) {
+    return std::string_view (reinterpret_cast<const char*> (&corners[corner]), sizeof (Corner));
   };
-  std::sort (order.begin (), order.end (), [&compare] (std::size_t a, std::size_t b) {
-    const int difference = compare (a, b);
+  std::sort (order.begin (), order.end (), [&bytesOf] (std::size_t a, std::size_t b) {
+    const int difference = bytesOf (a).compare (bytesOf (b));
     return difference != 0 ? difference < 0 : a < b;
   });
-  order.erase (
-      std::unique (order.begin (), order.end (),
-                   [&compare] (std::size_t a, std::size_t b) { return compare (a, b) == 0; }),
-      order.end ());
+  const auto areEqual = [&bytesOf] (std::size_t a, std::size_t b) {
+    return bytesOf (a) == bytesOf (b);
+  };
+  order.erase (std::unique (order.begin (), order.end (), areEqual), order.end ());
   std::sort (order.begin (), order.end ());
-  std::vector<Corner> points;
-  for (const std::size_t corner : order)
-    points.push_back (corners[corner]);
+  std::vector<Corner> points (order.size ());
+  std::transform (order.begin (), order.end (), points.begin (),
+                  [&corners] (std::size_t corner) { return corners[corner]; });
   const std::size_t size = points.size ();
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, sizeof (Number) == 4 ? ScalarType::FLOAT32 : ScalarType::FLOAT64,
