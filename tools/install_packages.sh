@@ -25,9 +25,9 @@ for argument in "$@"; do
   case "$argument" in
     --tools-only) library=() ;;
     # Files are read back with VTK, and the page of --html is shown by Chromium.
-    --tests) packages+=(libgtest-dev libgmock-dev libvtk9-dev pkg-config
-                         python3 python3-pytest python3-pip python3-setuptools python3-venv python3-wheel
-                         chromium) ;;
+    --tests) packages+=(libgtest-dev libgmock-dev pkg-config
+                         python3 python3-numpy python3-vtk9 python3-matplotlib python3-pytest python3-pip
+                         python3-setuptools python3-venv python3-wheel chromium) ;;
     --benchmarks) packages+=(python3 python3-numpy python3-scipy python3-matplotlib) ;;
     --lint) packages+=(clang-format-14 clang-tidy-14) ;;
     --packages) packages+=(dpkg-dev lintian debootstrap) ;;

@@ -20,7 +20,12 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
+
+try:
+    import numpy as np
+    from matplotlib import image
+except ImportError:
+    image = None
 
 GENERATE, PICTURE, BUILD = sys.argv[1:4]
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -77,29 +82,10 @@ class Case(unittest.TestCase):
         self.assertFalse([name for name in os.listdir(self.folder) if "tmp" in name])
         return done.stdout
 
-
     def pixels(self, name):
         """The rows of a picture, of (red, green, blue)."""
-        data = self.read(name)
-        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
-        width, height = struct.unpack(">II", data[16:24])
-        packed, at = b"", 8
-        while at < len(data):
-            length = struct.unpack(">I", data[at:at + 4])[0]
-            if data[at + 4:at + 8] == b"IDAT":
-                packed += data[at + 8:at + 8 + length]
-            at += length + 12
-        data, rows, above = zlib.decompress(packed), [], bytes(3 * width + 3)
-        self.assertEqual(len(data), height * (3 * width + 1))
-        for first in range(0, len(data), 3 * width + 1):
-            line = bytearray(3)  # a pixel to the left of the first
-            for i, value in enumerate(data[first + 1:first + 3 * width + 1], 3):
-                a, b, c = line[i - 3], above[i], above[i - 3]
-                nearest = min((a, b, c), key=lambda x, p=a + b - c: abs(p - x))
-                line.append((value + (0, a, b, (a + b) // 2, nearest)[data[first]]) % 256)
-            rows.append([tuple(line[i:i + 3]) for i in range(3, len(line), 3)])
-            above = line
-        return rows
+        data = image.imread(self.path(name))[:, :, :3]
+        return [list(map(tuple, row)) for row in np.round(255 * data).astype(int).tolist()]
 
 
 class Generate(Case):
@@ -115,11 +101,62 @@ class Generate(Case):
         self.assertEqual(ply_points, points)
         self.assertLess(max(map(abs, struct.unpack(f"<{777 * 3}f", points))), 30)
 
+    def points(self, surface, *options):
+        """The points of a sample, 1500 with a unit of area each, as NumPy has them."""
+        self.check(0, GENERATE, surface, "sample.ply", "--points", "1500", *options)
+        return np.frombuffer(self.read("sample.ply").split(b"end_header\n", 1)[1], "<f4").reshape(-1, 3).astype(float)
+
+    def test_samples_are_as_even_as_asked_for(self):
+        for surface in ("height-field", "hemisphere", "finger", "folded-sheet", "cut-out", "sphere", "torus"):
+            exact, uneven, noisy = (self.points(surface, *options) for options in (
+                (), ("--density-ratio", "25"), ("--noise", "0.3")))
+            self.assertFalse(np.array_equal(exact, self.points(surface, "--seed", "2")))
+
+            def nearest(points):
+                """The distance from each point to its nearest other point, ascending."""
+                squares = ((points[:, None] - points) ** 2).sum(2) + 1e9 * np.eye(len(points))
+                return np.sort(np.sqrt(squares.min(1)))
+            distances = nearest(exact)
+            self.assertTrue(0.25 < distances[0] and distances[-1] < 1.6, surface)
+            distances = nearest(uneven)
+            dense, sparse = distances[75], distances[-8]  # the spacings' ratio is 5 from end to end
+            self.assertTrue(dense > 0.2 and sparse / dense > 3, surface)
+            # The order differs, because the noise uses random numbers first; so moments are compared.
+            moments = [(points**2).sum(1).mean() for points in (exact, noisy)]
+            self.assertLess(abs(moments[1] - moments[0] - 3 * 0.09), 5 * 2 * 0.3 * (moments[0] / 1500) ** 0.5, surface)
+            self.assertNotEqual(*moments)
+
+    def test_samples_lie_on_their_surfaces(self):
+        radius, pi = lambda area: (1500 / area) ** 0.5, np.pi
+        x, y, z = self.points("sphere").T
+        self.assertLess(np.abs(np.hypot(np.hypot(x, y), z) - radius(4 * pi)).max(), 1e-4)
+        x, y, z = self.points("hemisphere").T
+        self.assertLess(np.abs(np.hypot(np.hypot(x, y), z) - radius(2 * pi)).max(), 1e-4)
+        self.assertGreater(z.min(), -0.5)
+        x, y, z = self.points("finger", "--length", "6").T  # a cylinder under a hemisphere
+        across = radius(2 * pi * 7)
+        self.assertLess(np.abs(np.hypot(np.hypot(x, y), np.maximum(0, z - 6 * across)) - across).max(), 1e-4)
+        self.assertGreater(z.min(), -0.5)
+        x, y, z = self.points("torus").T
+        self.assertLess(np.abs(np.hypot(np.hypot(x, y) - 2.5 * radius(10 * pi * pi), z) - radius(10 * pi * pi)).max(), 1e-4)
+        z = self.points("folded-sheet", "--gap", "3")[:, 2]
+        self.assertTrue(z.min() > -1e-4 and z.max() < 3 + 1e-4)
+        self.assertGreater(min((np.abs(z) < 1e-4).sum(), (np.abs(z - 3) < 1e-4).sum()), 600)
+        # One hole in the middle, with a radius of 0.3 of the side.
+        sheet, side = self.points("cut-out", "--holes", "1"), (1500 / (1 - pi * 0.09)) ** 0.5
+        hole = np.hypot(*(sheet[:, :2] - side / 2).T).min() - 0.3 * side
+        self.assertTrue(-1e-4 < hole < 1 and abs(sheet[:, :2].max() - side) < 0.02 * side)
+
     def test_generate_refuses_bad_command_lines(self):
         for arguments, says in (("", "required"), ("torus", "required"), ("cube a.pcd", "cube"),
                                 ("torus a.xyz", ".pcd or .ply"), ("torus a.pcd --size 3", "--size"),
                                 ("torus a.pcd --points -5", "--points"), ("torus a.pcd --points many", "--points"),
-                                ("torus a.pcd --noise -1", "noise")):
+                                ("torus a.pcd --points 49", "--points"), ("torus a.pcd --noise -1", "noise"),
+                                ("torus a.pcd --noise nan", "noise"), ("torus a.pcd --density-ratio 0.9", "ratio"),
+                                ("torus a.pcd --density-ratio 101", "ratio"),
+                                ("finger a.pcd --length -1", "length"), ("finger a.pcd --length 9999", "too long"),
+                                ("folded-sheet a.pcd --gap 0", "gap"), ("folded-sheet a.pcd --gap 1e4", "gap"),
+                                ("cut-out a.pcd --holes -1", "holes"), ("cut-out a.pcd --holes 9000", "too many holes")):
             self.check(1, GENERATE, *arguments.split(), says=says)
         self.assertEqual(os.listdir(self.folder), [])
         self.check(0, GENERATE, "--help", says="Exit codes")
@@ -403,6 +440,9 @@ class Browser(PageCase):
 
 
 if __name__ == "__main__":
+    if sys.argv[4] in ("Generate", "Picture", "Browser") and image is None:
+        print("NumPy or Matplotlib is missing")
+        sys.exit(77)
     if sys.argv[4] == "Browser" and BROWSER is None:
         print("Chromium is missing")
         sys.exit(77)

@@ -14,8 +14,6 @@
 #include <vector>
 
 namespace {
-using pcl::floater::SurfaceKind;
-
 constexpr std::size_t MOST_POINTS = 1000000000;
 
 enum ExitCode : int
@@ -24,13 +22,6 @@ enum ExitCode : int
   USAGE = 1,
   CANNOT_WRITE = 4
 };
-
-int
-fail (ExitCode code, const std::string& message)
-{
-  std::cerr << "pcl_floater_generate: " << message << "\n";
-  return code;
-}
 
 std::string
 pcdHeader (std::size_t points)
@@ -53,6 +44,7 @@ plyHeader (std::size_t points)
 int
 main (int argc, char** argv)
 {
+  using namespace pcl::floater;
   CLI::App app{
       "Writes points on a known surface, in random order, as a sample cloud (.pcd or .ply, "
       "binary).\n"
@@ -60,15 +52,15 @@ main (int argc, char** argv)
       "Exit codes: 0 success, 1 usage, 4 the output cannot be written.",
       "pcl_floater_generate"};
   std::string name, path;
-  pcl::floater::SurfaceSpec spec;
+  SurfaceSpec spec;
   std::vector<std::string> names;
-  for (const SurfaceKind kind : pcl::floater::surfaceKinds ())
-    names.emplace_back (pcl::floater::surfaceName (kind));
+  for (const SurfaceKind kind : surfaceKinds ())
+    names.emplace_back (surfaceName (kind));
   app.add_option ("surface", name, "kind of surface")->required ()->check (CLI::IsMember (names));
   app.add_option ("output", path, "file to write, .pcd or .ply")->required ();
   app.add_option ("--points", spec.points, "number of points")
       ->capture_default_str ()
-      ->check (CLI::Range (pcl::floater::MIN_SURFACE_POINTS, MOST_POINTS));
+      ->check (CLI::Range (MIN_SURFACE_POINTS, MOST_POINTS));
   app.add_option ("--seed", spec.seed, "seed of the random numbers")
       ->capture_default_str ()
       ->check (CLI::NonNegativeNumber);
@@ -89,28 +81,32 @@ main (int argc, char** argv)
     return app.exit (error) == 0 ? DONE : USAGE;
   }
 
+  const auto fail = [] (ExitCode code, const std::string& message) {
+    std::cerr << "pcl_floater_generate: " << message << "\n";
+    return code;
+  };
   const std::string extension = std::filesystem::path (path).extension ().string ();
   if (extension != ".pcd" && extension != ".ply")
     return fail (USAGE, "'" + path + "' must end in .pcd or .ply");
-  for (const SurfaceKind kind : pcl::floater::surfaceKinds ())
-    if (name == pcl::floater::surfaceName (kind))
+  for (const SurfaceKind kind : surfaceKinds ())
+    if (name == surfaceName (kind))
       spec.kind = kind;
-  if (const std::string error = pcl::floater::surfaceSpecError (spec); !error.empty ())
+  if (const std::string error = surfaceSpecError (spec); !error.empty ())
     return fail (USAGE, error);
 
   try {
-    pcl::floater::requireWritable (path);
-    pcl::floater::handleSignals ();
-    const std::vector<Eigen::Vector3d> points = pcl::floater::generateSurface (spec);
-    pcl::floater::AtomicFile file (path);
+    requireWritable (path);
+    handleSignals ();
+    const std::vector<Eigen::Vector3d> points = generateSurface (spec);
+    AtomicFile file (path);
     file.write (extension == ".pcd" ? pcdHeader (points.size ()) : plyHeader (points.size ()));
     for (const Eigen::Vector3d& point : points)
       for (const double coordinate : point)
-        file.writeNumber (static_cast<float> (coordinate), pcl::floater::ByteOrder::LITTLE);
+        file.writeNumber (static_cast<float> (coordinate), ByteOrder::LITTLE);
     file.close ();
     file.publish ();
   }
-  catch (const pcl::floater::WriteError& error) {
+  catch (const WriteError& error) {
     return fail (CANNOT_WRITE, error.what ());
   }
   catch (const std::bad_alloc&) {

@@ -296,15 +296,9 @@ surfaceName (SurfaceKind kind)
 int
 boundaryLoops (const SurfaceSpec& spec)
 {
-  switch (spec.kind) {
-  case SurfaceKind::SPHERE:
-  case SurfaceKind::TORUS:
-    return 0;
-  case SurfaceKind::CUT_OUT:
+  if (spec.kind == SurfaceKind::CUT_OUT)
     return 1 + spec.holes;
-  default:
-    return 1;
-  }
+  return spec.kind == SurfaceKind::SPHERE || spec.kind == SurfaceKind::TORUS ? 0 : 1;
 }
 
 int

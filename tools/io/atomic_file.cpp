@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "atomic_file.h"
 
+#include "cloud.h"
 #include "file_bytes.h"
 #include "format.h"
 
@@ -12,7 +13,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
@@ -89,6 +89,20 @@ sync (int descriptor)
     synced = ::fsync (descriptor);
   while (synced != 0 && errno == EINTR);
   return synced != 0 && errno != EINVAL ? errno : 0;
+}
+
+/// \return 0, or the number of the error
+int
+writeAll (int descriptor, std::string_view bytes)
+{
+  while (!bytes.empty ()) {
+    const ssize_t done = ::write (descriptor, bytes.data (), bytes.size ());
+    if (done > 0)
+      bytes.remove_prefix (static_cast<std::size_t> (done));
+    else if (done == 0 || errno != EINTR)
+      return done == 0 ? EIO : errno;
+  }
+  return 0;
 }
 
 [[noreturn]] void
@@ -225,48 +239,22 @@ AtomicFile::write (const void* bytes, std::size_t size)
   if (used_ + size > buffer_.size ())
     flush ();
   if (size > buffer_.size ()) {
-    writeThrough (static_cast<const char*> (bytes), size);
+    if (const int error = writeAll (descriptor_, {static_cast<const char*> (bytes), size}))
+      fail (error);
+    written_ += size;
     return;
   }
   std::memcpy (buffer_.data () + used_, bytes, size);
   used_ += size;
 }
 
-template <typename T>
-void
-AtomicFile::writeDecimal (T number)
-{
-  constexpr std::size_t LONGEST = 32;
-  char* first = room (LONGEST);
-  used_ += static_cast<std::size_t> (std::to_chars (first, first + LONGEST, number).ptr - first);
-}
-
-template void
-AtomicFile::writeDecimal<float> (float);
-template void
-AtomicFile::writeDecimal<double> (double);
-template void AtomicFile::writeDecimal<std::uint64_t> (std::uint64_t);
-
 void
 AtomicFile::flush ()
 {
-  writeThrough (buffer_.data (), used_);
+  if (const int error = writeAll (descriptor_, {buffer_.data (), used_}))
+    fail (error);
+  written_ += used_;
   used_ = 0;
-}
-
-void
-AtomicFile::writeThrough (const char* bytes, std::size_t size)
-{
-  while (size > 0) {
-    const ssize_t done = ::write (descriptor_, bytes, size);
-    if (done < 0 && errno == EINTR)
-      continue;
-    if (done <= 0)
-      fail (done < 0 ? errno : EIO);
-    bytes += done;
-    size -= static_cast<std::size_t> (done);
-    written_ += static_cast<std::size_t> (done);
-  }
 }
 
 void
@@ -290,8 +278,15 @@ AtomicFile::close (bool syncs)
 void
 AtomicFile::publish ()
 {
-  if (isStandardStream (path_)) {
-    copyToStandardOutput (); // the destructor removes the file
+  if (isStandardStream (path_)) { // the destructor removes the file
+    try {
+      if (const int error =
+              writeAll (STDOUT_FILENO, FileBytes (std::filesystem::path (temporary_)).view ()))
+        fail (error);
+    }
+    catch (const ReadError& error) {
+      failOn (path_, error.what ());
+    }
     return;
   }
   if (::rename (temporary_.c_str (), target_.c_str ()) != 0)
@@ -299,35 +294,6 @@ AtomicFile::publish ()
   temporary_.clear ();
   forget (slot_);
   slot_ = MOST_FILES;
-}
-
-void
-AtomicFile::copyToStandardOutput ()
-{
-  const int from = ::open (temporary_.c_str (), O_RDONLY | O_CLOEXEC);
-  if (from < 0)
-    fail (errno);
-  int error = 0;
-  while (error == 0) {
-    const ssize_t got = ::read (from, buffer_.data (), buffer_.size ());
-    if (got < 0 && errno == EINTR)
-      continue;
-    if (got < 0)
-      error = errno;
-    if (got == 0)
-      break;
-    for (ssize_t done = 0; done < got && error == 0;) {
-      const ssize_t put =
-          ::write (STDOUT_FILENO, buffer_.data () + done, static_cast<std::size_t> (got - done));
-      if (put >= 0)
-        done += put;
-      else if (errno != EINTR)
-        error = errno;
-    }
-  }
-  ::close (from);
-  if (error != 0)
-    fail (error);
 }
 
 void

@@ -5,10 +5,12 @@
 
 #include "byte_order.h"
 
+#include <charconv>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace pcl::floater {
@@ -66,9 +68,12 @@ public:
     used_ += sizeof (T);
   }
 
-  /// Appends the shortest decimal that reads back as the same number.
-  template <typename T>
-  void writeDecimal (T number);
+  /// Appends texts as they are, and numbers as the shortest decimals that read back as the same.
+  template <typename... Parts>
+  void print (const Parts&... parts)
+  {
+    (printOne (parts), ...);
+  }
 
   /// Writes all bytes and checks that they arrived.
   /// \param syncs whether to wait until they are on the disk; else see syncFile
@@ -79,6 +84,18 @@ public:
   void publish ();
 
 private:
+  template <typename T>
+  void printOne (const T& part)
+  {
+    constexpr std::size_t LONGEST = 32;
+    if constexpr (std::is_arithmetic_v<T>) {
+      char* const first = room (LONGEST);
+      used_ += static_cast<std::size_t> (std::to_chars (first, first + LONGEST, part).ptr - first);
+    }
+    else
+      write (std::string_view (part));
+  }
+
   /// Makes room in the buffer for `size` more bytes, which must be few.
   char* room (std::size_t size)
   {
@@ -88,10 +105,6 @@ private:
   }
 
   void flush ();
-
-  void writeThrough (const char* bytes, std::size_t size);
-
-  void copyToStandardOutput ();
 
   [[noreturn]] void fail (int error) const;
 

@@ -26,28 +26,23 @@ findTriple (const Cloud& cloud, const std::array<const char*, 3>& names)
   return triple;
 }
 
-std::string
-listNames (const std::vector<Field>& fields)
-{
-  std::string names;
-  for (const Field& field : fields)
-    names += (names.empty () ? "" : ", ") + field.name;
-  return names.empty () ? "none" : names;
-}
-
 std::size_t
 coordinateField (const std::vector<Field>& fields, const std::string& name)
 {
-  auto found = std::find_if (fields.begin (), fields.end (),
-                             [&] (const Field& field) { return field.name == name; });
-  if (found == fields.end ()) {
-    const std::string capital (1, static_cast<char> (name[0] - 'a' + 'A'));
-    found = std::find_if (fields.begin (), fields.end (),
-                          [&] (const Field& field) { return field.name == capital; });
-  }
+  const auto find = [&fields] (const std::string& called) {
+    return std::find_if (fields.begin (), fields.end (),
+                         [&] (const Field& field) { return field.name == called; });
+  };
+  auto found = find (name);
   if (found == fields.end ())
+    found = find (std::string (1, static_cast<char> (name[0] - 'a' + 'A')));
+  if (found == fields.end ()) {
+    std::string names;
+    for (const Field& field : fields)
+      names += (names.empty () ? "" : ", ") + field.name;
     throw ReadError ("the points have no coordinate '" + name +
-                     "' (fields of the file: " + listNames (fields) + ")");
+                     "' (fields of the file: " + (names.empty () ? "none" : names) + ")");
+  }
   if (found->count != 1)
     throw ReadError ("the coordinate '" + name + "' has more than one value for each point");
   if (found->type == ScalarType::INT64 || found->type == ScalarType::UINT64)
@@ -71,17 +66,6 @@ unpackColor (const Field& packed, bool with_alpha, std::vector<Field>& fields)
     field.stride = packed.stride;
     fields.push_back (std::move (field));
   }
-}
-
-std::string
-commonName (const std::string& name)
-{
-  static const std::array<std::array<const char*, 2>, 3> others{
-      {{"normal_x", "nx"}, {"normal_y", "ny"}, {"normal_z", "nz"}}};
-  for (const auto& other : others)
-    if (name == other[0])
-      return other[1];
-  return name;
 }
 
 /// A name for the second and each further field of the same name, or of that of a coordinate.
@@ -114,9 +98,6 @@ renameRepeated (Cloud& cloud)
   cloud.warnings.insert (cloud.warnings.end (), warnings.begin (), warnings.end ());
 }
 
-} // namespace
-
-namespace {
 /// The channels red, green and blue, and alpha if there is one, by the names that programs give
 /// them; empty if there is no colour.
 std::vector<Field*>
@@ -240,8 +221,9 @@ makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string>
       has_packed_color = true;
       continue;
     }
-    cloud.fields.push_back (std::move (fields[f]));
-    cloud.fields.back ().name = commonName (cloud.fields.back ().name);
+    std::string& name = cloud.fields.emplace_back (std::move (fields[f])).name;
+    if (name == "normal_x" || name == "normal_y" || name == "normal_z")
+      name = std::string ("n") + name.back ();
   }
   renameRepeated (cloud);
   narrowColors (cloud);
@@ -334,9 +316,12 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
   });
   if (cloud.kept.areAll ())
     return 0;
+  std::vector<std::uint32_t> numbers (cloud.rows);
+  for (std::uint32_t point = 0; point < cloud.size (); ++point)
+    numbers[cloud.row (point)] = point;
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
-      corner = cloud.kept.number (corner);
+      corner = numbers[corner];
   return not_finite;
 }
 

@@ -8,11 +8,14 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -82,24 +85,36 @@ sizeOf (ScalarType type)
 /// What formats call a type; empty if they do not have it.
 struct TypeNames
 {
-  std::string_view ply, sized_ply, vtk;
+  std::string_view ply, sized_ply, vtk, vtp;
   std::string_view pcd; // with the size
 };
-constexpr std::array<TypeNames, 10> TYPE_NAMES{{{"char", "int8", "signed_char", "I"},
-                                                {"uchar", "uint8", "unsigned_char", "U"},
-                                                {"short", "int16", "short", "I"},
-                                                {"ushort", "uint16", "unsigned_short", "U"},
-                                                {"int", "int32", "int", "I"},
-                                                {"uint", "uint32", "unsigned_int", "U"},
-                                                {"", "", "vtktypeint64", "I"},
-                                                {"", "", "vtktypeuint64", "U"},
-                                                {"float", "float32", "float", "F"},
-                                                {"double", "float64", "double", "F"}}};
+constexpr std::array<TypeNames, 10> TYPE_NAMES{
+    {{"char", "int8", "signed_char", "Int8", "I"},
+     {"uchar", "uint8", "unsigned_char", "UInt8", "U"},
+     {"short", "int16", "short", "Int16", "I"},
+     {"ushort", "uint16", "unsigned_short", "UInt16", "U"},
+     {"int", "int32", "int", "Int32", "I"},
+     {"uint", "uint32", "unsigned_int", "UInt32", "U"},
+     {"", "", "vtktypeint64", "Int64", "I"},
+     {"", "", "vtktypeuint64", "UInt64", "U"},
+     {"float", "float32", "float", "Float32", "F"},
+     {"double", "float64", "double", "Float64", "F"}}};
 
 inline const TypeNames&
 namesOf (ScalarType type)
 {
   return TYPE_NAMES[static_cast<std::size_t> (type)];
+}
+
+/// The first type whose names fit, if there is one.
+template <typename Fits>
+std::optional<ScalarType>
+findType (const Fits& fits)
+{
+  for (std::size_t type = 0; type < TYPE_NAMES.size (); ++type)
+    if (fits (TYPE_NAMES[type], static_cast<ScalarType> (type)))
+      return static_cast<ScalarType> (type);
+  return std::nullopt;
 }
 
 /// One named field of all points: a view of bytes, which it keeps alive. The `count` values of a
@@ -146,20 +161,21 @@ pointersTo (std::vector<Field>& fields)
   return pointers;
 }
 
-/// Appends three fields that share an array of three values for each point.
-/// \param first value of the first point, which `owner` keeps alive
-template <typename T>
+/// Appends fields of one value each, columns of an array that they keep.
+/// \param values a vector of numbers, or of arrays of numbers
+/// \param width columns of the array; 0: as many as there are names
+template <typename Values>
 void
-addColumns (const std::array<const char*, 3>& names, const std::shared_ptr<const void>& owner,
-            const T* first, std::vector<Field>& fields)
+addColumns (std::initializer_list<const char*> names, ScalarType type, Values values,
+            std::vector<Field>& fields, std::size_t width = 0)
 {
-  constexpr ScalarType TYPE = sizeof (T) == 1   ? ScalarType::UINT8
-                              : sizeof (T) == 4 ? ScalarType::FLOAT32
-                                                : ScalarType::FLOAT64;
-  for (std::size_t i = 0; i < 3; ++i) {
-    Field& field = fields.emplace_back (Field{names[i], TYPE});
-    field.first = {owner, reinterpret_cast<const char*> (first + i)};
-    field.stride = 3 * sizeof (T);
+  const auto kept = std::make_shared<const Values> (std::move (values));
+  const auto* first = reinterpret_cast<const char*> (kept->data ());
+  for (const char* name : names) {
+    Field& field = fields.emplace_back (Field{name, type});
+    field.first = {kept, first};
+    field.stride = (width > 0 ? width : names.size ()) * sizeOf (type);
+    first += sizeOf (type);
   }
 }
 
@@ -194,8 +210,7 @@ allocateRows (const std::vector<Field*>& fields, std::size_t points)
   return rows;
 }
 
-/// A subset of the rows of a file, renumbered from 0. Takes a fifth of a byte per row, and no
-/// memory if all rows are kept.
+/// A subset of the rows of a file, renumbered from 0. Takes no memory if all rows are kept.
 class KeptPoints
 {
 public:
@@ -206,64 +221,32 @@ public:
   template <typename Keep>
   KeptPoints (std::size_t rows, const Keep& keep)
   {
-    std::vector<Word> words ((rows + WORD_ROWS - 1) / WORD_ROWS);
-    for (std::size_t row = 0; row < rows; ++row) {
-      Word& word = words[row / WORD_ROWS];
-      if (row % WORD_ROWS == 0)
-        word.before = static_cast<std::uint32_t> (kept_);
-      if (keep (row)) {
-        word.bits |= std::uint64_t{1} << row % WORD_ROWS;
-        ++kept_;
-      }
-    }
-    if (kept_ < rows)
-      words_ = std::move (words);
+    for (std::uint32_t row = 0; row < rows; ++row)
+      if (keep (row))
+        rows_.push_back (row);
+    are_all_ = rows_.size () == rows;
+    if (are_all_)
+      rows_ = {};
   }
 
-  bool areAll () const { return words_.empty (); }
+  bool areAll () const { return are_all_; }
 
   /// Number of rows that are kept, unless all are.
-  std::size_t size () const { return kept_; }
+  std::size_t size () const { return rows_.size (); }
 
-  /// The new number of a row that is kept.
+  /// The new number of a row; of one that is not kept, that of the next. O(log rows).
   std::uint32_t number (std::uint32_t row) const
   {
-    if (areAll ())
-      return row;
-    const Word& word = words_[row / WORD_ROWS];
-    const std::uint64_t below = (std::uint64_t{1} << row % WORD_ROWS) - 1;
-    return word.before + static_cast<std::uint32_t> (__builtin_popcountll (word.bits & below));
+    const auto found = std::lower_bound (rows_.begin (), rows_.end (), row);
+    return are_all_ ? row : static_cast<std::uint32_t> (found - rows_.begin ());
   }
 
-  /// The row of a new number; 0 if it is not below size (). O(log rows) if not all rows are kept.
-  std::size_t row (std::size_t number) const
-  {
-    if (areAll ())
-      return number;
-    std::size_t first = 0;
-    for (std::size_t last = words_.size (); last - first > 1;) {
-      const std::size_t middle = first + (last - first) / 2;
-      (words_[middle].before <= number ? first : last) = middle;
-    }
-    std::uint64_t bits = words_[first].bits;
-    for (std::size_t i = words_[first].before; i < number; ++i)
-      bits &= bits - 1; // clears the lowest bit
-    if (bits == 0)
-      return 0; // beyond size ()
-    return first * WORD_ROWS + static_cast<std::size_t> (__builtin_ctzll (bits));
-  }
+  /// The row of a new number.
+  std::size_t row (std::size_t number) const { return are_all_ ? number : rows_[number]; }
 
 private:
-  static constexpr std::size_t WORD_ROWS = 64;
-
-  struct Word
-  {
-    std::uint64_t bits = 0;   // kept rows
-    std::uint32_t before = 0; // number of kept rows in the words before
-  };
-
-  std::vector<Word> words_;
-  std::size_t kept_ = 0;
+  std::vector<std::uint32_t> rows_; // ascending
+  bool are_all_ = true;
 };
 
 /// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)

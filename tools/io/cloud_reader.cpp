@@ -14,26 +14,13 @@ namespace pcl::floater {
 std::optional<CloudFormat>
 cloudFormatOf (const std::filesystem::path& path)
 {
-  static constexpr std::array<std::pair<const char*, CloudFormat>, 15> KNOWN{
-      {{".pcd", CloudFormat::PCD},
-       {".ply", CloudFormat::PLY},
-       {".obj", CloudFormat::OBJ},
-       {".stl", CloudFormat::STL},
-       {".vtk", CloudFormat::VTK},
-       {".vtp", CloudFormat::VTP},
-       {".las", CloudFormat::LAS},
-       {".bin", CloudFormat::BIN},
-       {".ptx", CloudFormat::PTX},
-       {".xyz", CloudFormat::XYZ},
-       {".txt", CloudFormat::XYZ},
-       {".csv", CloudFormat::XYZ},
-       {".asc", CloudFormat::XYZ},
-       {".pwn", CloudFormat::XYZ},
-       {".pts", CloudFormat::PTS}}};
   const std::string extension = lowerExtension (path);
-  for (const auto& [known, format] : KNOWN)
-    if (extension == known)
+  for (const auto& [name, format] : CLOUD_FORMATS)
+    if (extension == "." + std::string (name))
       return format;
+  for (const char* text : {".txt", ".csv", ".asc", ".pwn"})
+    if (extension == text)
+      return CloudFormat::XYZ;
   return std::nullopt;
 }
 
@@ -132,7 +119,6 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
     throw ReadError ("none of its points is of the classes that are taken: --classes chooses them");
 }
 
-namespace {
 Cloud
 parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options)
 {
@@ -168,8 +154,6 @@ parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& option
   }
   return parseTable (file, format == CloudFormat::PTS, options.columns);
 }
-
-} // namespace
 
 Cloud
 readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)

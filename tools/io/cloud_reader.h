@@ -65,6 +65,21 @@ enum class CloudFormat
   PTS  ///< the same, as scanners write it: the intensity comes before the colour
 };
 
+/// Their names, which are extensions as well; others are those of text.
+constexpr std::array<std::pair<const char*, std::optional<CloudFormat>>, 12> CLOUD_FORMATS{
+    {{"auto", std::nullopt},
+     {"pcd", CloudFormat::PCD},
+     {"ply", CloudFormat::PLY},
+     {"obj", CloudFormat::OBJ},
+     {"stl", CloudFormat::STL},
+     {"vtk", CloudFormat::VTK},
+     {"vtp", CloudFormat::VTP},
+     {"las", CloudFormat::LAS},
+     {"bin", CloudFormat::BIN},
+     {"ptx", CloudFormat::PTX},
+     {"xyz", CloudFormat::XYZ},
+     {"pts", CloudFormat::PTS}}};
+
 /// The extensions of clouds, for messages.
 constexpr const char* CLOUD_EXTENSIONS =
     ".pcd, .ply, .obj, .stl, .vtk, .vtp, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
@@ -104,6 +119,10 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes);
 /// \throws ReadError if the file is not a complete and valid cloud
 Cloud
 readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options = {});
+
+/// The same from the bytes of a file, which are not empty; of all classes.
+Cloud
+parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options);
 
 /// The same, in the format that the extension tells.
 /// \throws ReadError if the extension is unknown

@@ -96,4 +96,12 @@ counted (std::size_t count, const std::string& noun)
   return std::to_string (count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// Why a file cannot be read that has less than its header tells.
+inline std::string
+brokenPromise (const std::string& promised, std::size_t found)
+{
+  return "the header promises " + promised + ", but the file has only " + std::to_string (found) +
+         "; it is truncated or its header is wrong";
+}
+
 } // namespace pcl::floater

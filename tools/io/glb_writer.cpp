@@ -5,6 +5,7 @@
 // file in memory. The file is three numbers, a text in JSON and the arrays.
 #include "mesh_writer.h"
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -20,30 +21,6 @@ constexpr int FLOAT = 5126, UNSIGNED_BYTE = 5121, UNSIGNED_INT = 5125;
 constexpr int VERTICES = 34962, INDICES = 34963, TRIANGLES = 4;
 constexpr std::uint32_t MAGIC = 0x46546C67, JSON_CHUNK = 0x4E4F534A, BINARY_CHUNK = 0x004E4942;
 constexpr std::size_t ALIGNMENT = 4;
-
-/// The arrays of the file, one after the other.
-class Arrays
-{
-public:
-  /// \return the number of the array
-  std::size_t add (const char* type, int component, std::size_t count, std::size_t bytes_each,
-                   int target)
-  {
-    views.push_back (Json{{"buffer", 0},
-                          {"byteOffset", bytes},
-                          {"byteLength", count * bytes_each},
-                          {"target", target}});
-    accessors.push_back (Json{{"bufferView", views.size () - 1},
-                              {"componentType", component},
-                              {"count", count},
-                              {"type", type}});
-    bytes += count * bytes_each;
-    return accessors.size () - 1;
-  }
-
-  Json views = Json::array (), accessors = Json::array ();
-  std::size_t bytes = 0;
-};
 
 /// Normals must have length 1. Others are scaled, and those that are none point up.
 Eigen::Vector3f
@@ -66,27 +43,6 @@ writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
     file.writeNumber (coordinate, ByteOrder::LITTLE);
 }
 
-/// The smallest and largest coordinates of all points.
-std::array<Eigen::Vector3f, 2>
-boundsOf (const Cloud& cloud)
-{
-  constexpr float LARGEST = std::numeric_limits<float>::max ();
-  std::array<Eigen::Vector3f, 2> bounds{Eigen::Vector3f::Constant (LARGEST),
-                                        Eigen::Vector3f::Constant (-LARGEST)};
-  for (std::size_t i = 0; i < cloud.size (); ++i) {
-    const Eigen::Vector3f position = cloud.position (i).cast<float> ();
-    bounds[0] = bounds[0].cwiseMin (position);
-    bounds[1] = bounds[1].cwiseMax (position);
-  }
-  return bounds;
-}
-
-Json
-asArray (const Eigen::Vector3f& vector)
-{
-  return Json::array ({vector.x (), vector.y (), vector.z ()});
-}
-
 } // namespace
 
 void
@@ -97,21 +53,35 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   const Field* const alpha = cloud.find ("alpha");
   const bool has_alpha = alpha != nullptr && alpha->type == ScalarType::UINT8 && alpha->count == 1;
   constexpr std::size_t VECTOR = 3 * sizeof (float), TRIANGLE = 3 * sizeof (std::uint32_t);
-  Arrays arrays;
-  Json attributes;
-  const std::size_t positions = arrays.add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
+  Json attributes, views = Json::array (), accessors = Json::array ();
+  std::size_t bytes = 0; // of the arrays, which are one after the other
+  const auto add = [&] (const char* type, int component, std::size_t count, std::size_t bytes_each,
+                        int target) {
+    const std::size_t number = views.size ();
+    views.push_back ({{"buffer", 0},
+                      {"byteOffset", bytes},
+                      {"byteLength", count * bytes_each},
+                      {"target", target}});
+    accessors.push_back (
+        {{"bufferView", number}, {"componentType", component}, {"count", count}, {"type", type}});
+    bytes += count * bytes_each;
+    return number;
+  };
+  const std::size_t positions = add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
   attributes["POSITION"] = positions;
-  const std::array<Eigen::Vector3f, 2> bounds = boundsOf (cloud);
-  arrays.accessors[positions]["min"] = asArray (bounds[0]);
-  arrays.accessors[positions]["max"] = asArray (bounds[1]);
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < cloud.size (); ++i)
+    box.extend (cloud.position (i).cast<float> ());
+  accessors[positions]["min"] = box.min ();
+  accessors[positions]["max"] = box.max ();
   if (normals[0])
-    attributes["NORMAL"] = arrays.add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
+    attributes["NORMAL"] = add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
   if (colors[0]) {
-    attributes["COLOR_0"] = arrays.add ("VEC4", UNSIGNED_BYTE, cloud.size (), ALIGNMENT, VERTICES);
-    arrays.accessors.back ()["normalized"] = true;
+    attributes["COLOR_0"] = add ("VEC4", UNSIGNED_BYTE, cloud.size (), ALIGNMENT, VERTICES);
+    accessors.back ()["normalized"] = true;
   }
   const std::size_t indices =
-      arrays.add ("SCALAR", UNSIGNED_INT, 3 * triangles.size (), TRIANGLE / 3, INDICES);
+      add ("SCALAR", UNSIGNED_INT, 3 * triangles.size (), TRIANGLE / 3, INDICES);
 
   constexpr double HALF_ROOT = 0.70710678118654752440;
   Json asset{{"version", "2.0"}, {"generator", "pcl_floater_reconstruct"}};
@@ -129,14 +99,14 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
                  {"nodes", Json::array ({node})},
                  {"meshes", Json::array ({Json{{"primitives", Json::array ({primitive})}}})},
                  {"materials", Json::array ({material})},
-                 {"buffers", Json::array ({Json{{"byteLength", arrays.bytes}}})},
-                 {"bufferViews", arrays.views},
-                 {"accessors", arrays.accessors}};
+                 {"buffers", Json::array ({Json{{"byteLength", bytes}}})},
+                 {"bufferViews", views},
+                 {"accessors", accessors}};
   std::string text = all.dump ();
   text.resize ((text.size () + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
 
   constexpr std::size_t HEADER = 12, CHUNK_HEADER = 8;
-  const std::size_t size = HEADER + 2 * CHUNK_HEADER + text.size () + arrays.bytes;
+  const std::size_t size = HEADER + 2 * CHUNK_HEADER + text.size () + bytes;
   if (size > std::numeric_limits<std::uint32_t>::max ())
     throw WriteError (
         "cannot write the mesh as .glb, which holds 4 GB at most; write .ply or .vtk");
@@ -149,7 +119,7 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   write (text.size ());
   write (JSON_CHUNK);
   file.write (text);
-  write (arrays.bytes);
+  write (bytes);
   write (BINARY_CHUNK);
   for (std::size_t i = 0; i < cloud.size (); ++i)
     writeVector (file, cloud.position (i).cast<float> ());

@@ -185,9 +185,9 @@ parseLas (const FileBytes& file)
     throw ReadError ("it has no points");
   const std::size_t most = (bytes.size () - header.points_at) / header.record_size;
   if (header.count > most)
-    throw ReadError ("the header promises " + std::to_string (header.count) + " points of " +
-                     counted (header.record_size, "byte") + " each, but the file has only " +
-                     std::to_string (most) + "; it is truncated or its header is wrong");
+    throw ReadError (brokenPromise (std::to_string (header.count) + " points of " +
+                                        counted (header.record_size, "byte") + " each",
+                                    most));
   std::vector<Field> fields;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Field field = fieldAt (file, header, std::string (1, "xyz"[axis]), ScalarType::INT32,

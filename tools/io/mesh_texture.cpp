@@ -46,32 +46,6 @@ parsePng (const FileBytes& file)
 namespace {
 using Colour = Eigen::Vector3d;
 
-// Pixels whose middles are in the triangle, or within half a pixel of it.
-template <typename Paint>
-void
-visitPixels (const std::array<Eigen::Vector2d, 3>& corners, std::size_t side, const Paint& paint)
-{
-  const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
-  const double area = a.x () * b.y () - a.y () * b.x ();
-  if (!(area > 0.0))
-    return;
-  const Eigen::Vector2d low = corners[0].cwiseMin (corners[1]).cwiseMin (corners[2]);
-  const Eigen::Vector2d high = corners[0].cwiseMax (corners[1]).cwiseMax (corners[2]);
-  const auto pixelOf = [side] (double x) {
-    return static_cast<std::size_t> (std::clamp (x, 0.0, static_cast<double> (side - 1)));
-  };
-  for (std::size_t y = pixelOf (low.y () - 1.0); y <= pixelOf (high.y () + 1.0); ++y)
-    for (std::size_t x = pixelOf (low.x () - 1.0); x <= pixelOf (high.x () + 1.0); ++x) {
-      const Eigen::Vector2d p =
-          Eigen::Vector2d (static_cast<double> (x) + 0.5, static_cast<double> (y) + 0.5) -
-          corners[0];
-      const double v = (p.x () * b.y () - p.y () * b.x ()) / area;
-      const double w = (a.x () * p.y () - a.y () * p.x ()) / area;
-      if (v >= 0.0 && w >= 0.0 && v + w <= 1.0)
-        paint (x, y, Eigen::Vector3d (1.0 - v - w, v, w));
-    }
-}
-
 // Every pixel that has none gets the colour of the nearest that has, by steps to the side, up and
 // down.
 void
@@ -186,9 +160,12 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& 
       corners[i] = length * Eigen::Vector2d (uv.x (), 1.0 - uv.y ());
       colours[i] = colourOf (triangles[t][2 - i]);
     }
-    visitPixels (corners, side, [&] (std::size_t x, std::size_t y, const Eigen::Vector3d& shares) {
-      put (x, y, shares[0] * colours[0] + shares[1] * colours[1] + shares[2] * colours[2]);
-    });
+    const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
+    if (a.x () * b.y () - a.y () * b.x () > 0.0)
+      visitPixels (
+          corners, side, [&] (std::size_t x, std::size_t y, const Eigen::Vector3d& shares) {
+            put (x, y, shares[0] * colours[0] + shares[1] * colours[1] + shares[2] * colours[2]);
+          });
     // Triangles between the middles of pixels leave their colours at their corners.
     for (std::size_t i = 0; i < 3; ++i) {
       const auto x = std::min (static_cast<std::size_t> (std::max (corners[i].x (), 0.0)),

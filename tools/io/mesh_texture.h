@@ -6,6 +6,7 @@
 #include "cloud.h"
 #include "file_bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,34 @@ struct ColourImage
   std::size_t width = 0, height = 0;
   std::vector<Pixel> pixels;
 };
+
+/// Calls paint (x, y, shares of the corners) for each pixel whose middle is in a triangle.
+/// \param corners in pixels, with a finite area that is not 0
+/// \param side of the square image
+template <typename Paint>
+void
+visitPixels (const std::array<Eigen::Vector2d, 3>& corners, std::size_t side, const Paint& paint)
+{
+  constexpr double SLACK = 1e-9; // so that no pixel between two triangles is missed
+  const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
+  const double area = a.x () * b.y () - a.y () * b.x ();
+  const Eigen::Vector2d low = corners[0].cwiseMin (corners[1]).cwiseMin (corners[2]);
+  const Eigen::Vector2d high = corners[0].cwiseMax (corners[1]).cwiseMax (corners[2]);
+  const auto pixelOf = [side] (double x) {
+    return static_cast<std::size_t> (std::clamp (x, 0.0, static_cast<double> (side - 1)));
+  };
+  const std::size_t left = pixelOf (low.x () - 1.0), right = pixelOf (high.x () + 1.0);
+  for (std::size_t y = pixelOf (low.y () - 1.0); y <= pixelOf (high.y () + 1.0); ++y)
+    for (std::size_t x = left; x <= right; ++x) {
+      const Eigen::Vector2d p =
+          Eigen::Vector2d (static_cast<double> (x) + 0.5, static_cast<double> (y) + 0.5) -
+          corners[0];
+      const double v = (p.x () * b.y () - p.y () * b.x ()) / area;
+      const double w = (a.x () * p.y () - a.y () * p.x ()) / area;
+      if (v >= -SLACK && w >= -SLACK && v + w <= 1.0 + SLACK)
+        paint (x, y, Eigen::Vector3d (1.0 - v - w, v, w));
+    }
+}
 
 /// The bytes of a PNG file. \throws std::bad_alloc
 std::vector<unsigned char>

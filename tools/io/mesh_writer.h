@@ -7,7 +7,9 @@
 #include "cloud.h"
 #include "mesh_texture.h"
 
+#include <array>
 #include <optional>
+#include <utility>
 
 namespace pcl::floater {
 /// Formats of meshes.
@@ -20,6 +22,16 @@ enum class MeshFormat
   OFF,
   GLB
 };
+
+/// Their names, which are their extensions as well.
+constexpr std::array<std::pair<const char*, std::optional<MeshFormat>>, 7> MESH_FORMATS{
+    {{"auto", std::nullopt},
+     {"vtk", MeshFormat::VTK},
+     {"ply", MeshFormat::PLY},
+     {"obj", MeshFormat::OBJ},
+     {"stl", MeshFormat::STL},
+     {"off", MeshFormat::OFF},
+     {"glb", MeshFormat::GLB}}};
 
 /// The extensions of meshes, for messages.
 constexpr const char* MESH_EXTENSIONS = ".vtk, .ply, .obj, .stl, .off or .glb";

@@ -177,22 +177,17 @@ parseObj (const FileBytes& file)
   const std::size_t size = coordinates.size () / 3;
   std::vector<Field> fields;
   std::vector<std::string> warnings;
-  const auto add = [&fields] (const std::array<const char*, 3>& names, auto values) {
-    const auto kept = std::make_shared<const decltype (values)> (std::move (values));
-    addColumns (names, kept, kept->data (), fields);
-  };
-  add ({"x", "y", "z"}, std::move (coordinates));
+  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (coordinates), fields);
   if (colors.size () == 3 * size)
-    add ({"red", "green", "blue"}, std::move (colors));
+    addColumns ({"red", "green", "blue"}, ScalarType::FLOAT32, std::move (colors), fields);
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
   if (std::vector<double> matched = matchNormals (normals, faces, size, warnings);
       !matched.empty ())
-    add ({"nx", "ny", "nz"}, std::move (matched));
+    addColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT64, std::move (matched), fields);
   if (faces.count > 0)
     warnings.push_back (facesLeftOut (faces.count));
-  Cloud cloud = makeCloud (std::move (fields), size, std::move (warnings));
-  return cloud;
+  return makeCloud (std::move (fields), size, std::move (warnings));
 }
 
 } // namespace pcl::floater

@@ -17,18 +17,6 @@ namespace pcl::floater {
 namespace {
 const std::string PADDING = "_";
 
-std::optional<ScalarType>
-pcdType (const std::string& type, std::size_t size)
-{
-  for (std::size_t t = 0; t < TYPE_NAMES.size (); ++t) {
-    const auto scalar = static_cast<ScalarType> (t);
-    const bool is_known = type == TYPE_NAMES[t].pcd || (type == "B" && scalar == ScalarType::UINT8);
-    if (is_known && size == sizeOf (scalar))
-      return scalar;
-  }
-  return std::nullopt;
-}
-
 struct PcdHeader
 {
   // The lines, and what they are together.
@@ -93,7 +81,10 @@ makeFields (const TextScanner& scanner, PcdHeader& lines)
                                 "' of the PCD header has COUNT 0 and was left out");
       continue;
     }
-    const std::optional<ScalarType> type = pcdType (lines.types[f], lines.sizes[f]);
+    const auto type = findType ([&] (const TypeNames& names, ScalarType scalar) {
+      const bool is_byte = lines.types[f] == "B" && scalar == ScalarType::UINT8;
+      return (is_byte || lines.types[f] == names.pcd) && lines.sizes[f] == sizeOf (scalar);
+    });
     if (!type)
       scanner.fail ("field '" + lines.names[f] + "' has TYPE " + lines.types[f] + " and SIZE " +
                     std::to_string (lines.sizes[f]) + ", which is not a type of PCD");
@@ -203,9 +194,7 @@ readAscii (TextScanner& scanner, PcdHeader& header)
   char* to = rows.get ();
   for (std::size_t i = 0; i < header.points; ++i) {
     if (!std::exchange (has_line, false) && !scanner.nextFilledLine ())
-      throw ReadError ("the header promises " + counted (header.points, "point") +
-                       ", but the file has only " + std::to_string (i) +
-                       "; it is truncated or its header is wrong");
+      throw ReadError (brokenPromise (counted (header.points, "point"), i));
     for (const Field& field : header.fields) {
       if (field.name != PADDING)
         to = scanField (scanner, field, to);

@@ -41,10 +41,12 @@ struct PlyHeader
 ScalarType
 plyType (const TextScanner& scanner, std::string_view name)
 {
-  for (std::size_t type = 0; type < TYPE_NAMES.size () && !name.empty (); ++type)
-    if (name == TYPE_NAMES[type].ply || name == TYPE_NAMES[type].sized_ply)
-      return static_cast<ScalarType> (type);
-  scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
+  const auto type = findType ([name] (const TypeNames& names, ScalarType) {
+    return !name.empty () && (name == names.ply || name == names.sized_ply);
+  });
+  if (!type)
+    scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
+  return *type;
 }
 
 Property
@@ -114,9 +116,8 @@ readPlyHeader (TextScanner& scanner)
 [[noreturn]] void
 failTruncated (const Element& element, std::size_t found)
 {
-  throw ReadError ("the header promises the element '" + element.name + "' " +
-                   counted (element.count, "time") + ", but the file has only " +
-                   std::to_string (found) + "; it is truncated or its header is wrong");
+  throw ReadError (brokenPromise (
+      "the element '" + element.name + "' " + counted (element.count, "time"), found));
 }
 
 std::vector<Field*>
@@ -135,35 +136,49 @@ haveCorners (const Property& list)
   return list.field.name == "vertex_indices" || list.field.name == "vertex_index";
 }
 
+/// Reads a row of an element: stores its values, without lists, and goes on behind them.
+/// \param to nullptr: they are only passed over
+/// \param fans get the corners of faces; may be nullptr
+/// \param next next (T{}) is the next value, of the type T
+template <typename Next>
+void
+readRow (const Element& element, char*& to, PolygonFans* fans, const Next& next)
+{
+  for (const Property& property : element.properties) {
+    const bool are_corners = property.is_list && fans != nullptr && haveCorners (property);
+    std::size_t count = 1;
+    if (property.is_list)
+      count = visitType (property.length_type,
+                         [&] (auto tag) { return static_cast<std::size_t> (next (tag)); });
+    if (are_corners)
+      fans->begin ();
+    visitType (property.field.type, [&] (auto tag) {
+      for (; count > 0; --count) {
+        const auto value = next (tag);
+        if (are_corners)
+          fans->add (static_cast<double> (value));
+        else if (to != nullptr && !property.is_list) {
+          std::memcpy (to, &value, sizeof value);
+          to += sizeof value;
+        }
+      }
+    });
+  }
+}
+
 /// Reads an element.
-/// \param keep whether to store its values, without lists, in rows of its fields
-/// \param fans get the corners of faces, which are kept; may be nullptr
+/// \param keep whether to store its values in rows of its fields
 void
 readAscii (TextScanner& scanner, Element& element, bool keep, PolygonFans* fans)
 {
-  std::shared_ptr<char> rows;
-  if (keep)
-    rows = allocateRows (fieldsOf (element), element.count);
-  char* to = rows.get ();
+  char* to = keep ? allocateRows (fieldsOf (element), element.count).get () : nullptr;
   for (std::size_t i = 0; i < element.count; ++i) {
     if (!scanner.nextFilledLine ())
       failTruncated (element, i);
     if (!keep)
       continue;
-    for (const Property& property : element.properties) {
-      if (!property.is_list) {
-        to = scanField (scanner, property.field, to);
-        continue;
-      }
-      const bool are_corners = fans != nullptr && haveCorners (property);
-      if (are_corners)
-        fans->begin ();
-      for (auto left = scanner.number<std::uint32_t> (); left > 0; --left)
-        if (are_corners)
-          fans->add (scanner.number<double> ());
-        else if (scanner.word ().empty ())
-          scanner.fail ("the list '" + property.field.name + "' is shorter than its length");
-    }
+    readRow (element, to, fans,
+             [&scanner] (auto tag) { return scanner.number<decltype (tag)> (); });
     if (!scanner.word ().empty ())
       scanner.fail ("it has more values than there are properties");
   }
@@ -174,43 +189,15 @@ readAscii (TextScanner& scanner, Element& element, bool keep, PolygonFans* fans)
 std::string_view
 readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep, PolygonFans* fans)
 {
-  std::shared_ptr<char> rows;
-  if (keep)
-    rows = allocateRows (fieldsOf (element), element.count);
-  char* to = rows.get ();
-  const auto take = [&bytes, &element] (std::size_t size, std::size_t row) {
-    if (bytes.size () < size)
-      failTruncated (element, row);
-    const char* taken = bytes.data ();
-    bytes.remove_prefix (size);
-    return taken;
-  };
+  char* to = keep ? allocateRows (fieldsOf (element), element.count).get () : nullptr;
   for (std::size_t i = 0; i < element.count; ++i)
-    for (const Property& property : element.properties)
-      visitType (property.field.type, [&] (auto tag) {
-        using T = decltype (tag);
-        if (property.is_list) {
-          const std::size_t length = visitType (property.length_type, [&] (auto length_tag) {
-            using L = decltype (length_tag);
-            return static_cast<std::size_t> (readNumber<L> (take (sizeof (L), i), order));
-          });
-          if (length > bytes.size () / sizeof (T))
-            failTruncated (element, i);
-          const char* from = take (length * sizeof (T), i);
-          if (fans != nullptr && haveCorners (property)) {
-            fans->begin ();
-            for (std::size_t c = 0; c < length; ++c)
-              fans->add (static_cast<double> (readNumber<T> (from + c * sizeof (T), order)));
-          }
-        }
-        else {
-          const char* from = take (sizeof (T), i);
-          if (keep) {
-            copyNumber<T> (to, from, order);
-            to += sizeof (T);
-          }
-        }
-      });
+    readRow (element, to, fans, [&] (auto tag) {
+      if (bytes.size () < sizeof tag)
+        failTruncated (element, i);
+      tag = readNumber<decltype (tag)> (bytes.data (), order);
+      bytes.remove_prefix (sizeof tag);
+      return tag;
+    });
   return bytes;
 }
 

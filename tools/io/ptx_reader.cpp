@@ -7,6 +7,8 @@
 #include "format.h"
 #include "text_scanner.h"
 
+#include <Eigen/Geometry>
+
 #include <sstream>
 
 namespace pcl::floater {
@@ -84,17 +86,6 @@ addNormals (const PtxPixels& pixels, std::size_t first, std::size_t columns, std
   }
 }
 
-template <typename T>
-Field
-fieldOf (const char* name, ScalarType type, std::vector<T> values)
-{
-  const auto kept = std::make_shared<const std::vector<T>> (std::move (values));
-  Field field{name, type};
-  field.first = {kept, reinterpret_cast<const char*> (kept->data ())};
-  field.stride = sizeof (T);
-  return field;
-}
-
 } // namespace
 
 Cloud
@@ -131,19 +122,15 @@ parsePtx (const FileBytes& file)
   if (size == 0)
     throw ReadError ("it has no points");
   std::vector<Field> fields;
-  const auto addTriple = [&fields] (const std::array<const char*, 3>& names, auto values) {
-    const auto kept = std::make_shared<const decltype (values)> (std::move (values));
-    addColumns (names, kept, kept->data (), fields);
-  };
   std::vector<std::string> warnings;
-  addTriple ({"x", "y", "z"}, std::move (pixels.coordinates));
-  fields.push_back (fieldOf ("intensity", ScalarType::FLOAT32, std::move (pixels.intensities)));
+  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (pixels.coordinates), fields);
+  addColumns ({"intensity"}, ScalarType::FLOAT32, std::move (pixels.intensities), fields);
   if (pixels.colors.size () == 3 * size)
-    addTriple ({"red", "green", "blue"}, std::move (pixels.colors));
+    addColumns ({"red", "green", "blue"}, ScalarType::UINT8, std::move (pixels.colors), fields);
   else if (!pixels.colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
   if (scan > 1)
-    fields.push_back (fieldOf ("scan", ScalarType::UINT16, std::move (pixels.scans)));
+    addColumns ({"scan"}, ScalarType::UINT16, std::move (pixels.scans), fields);
   Cloud cloud = makeCloud (std::move (fields), size, std::move (warnings));
   cloud.notes.push_back (counted (scan, "scan") + ": " + scans.str ());
   if (scan == 1) {

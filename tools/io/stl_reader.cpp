@@ -5,69 +5,49 @@
 #include "format.h"
 #include "text_scanner.h"
 
-#include <random>
-#include <unordered_set>
+#include <algorithm>
+#include <numeric>
+#include <string_view>
 
 namespace pcl::floater {
 namespace {
 constexpr std::size_t STL_HEADER_BYTES = 80;
 constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
 
-/// Distinct points in the order in which they come first. Corners that have the same coordinates
-/// are one point, also those of a NaN.
-template <typename Number>
-class DistinctPoints
-{
-public:
-  using Point = std::array<Number, 3>;
-
-  void add (Point point)
-  {
-    Bits bits{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      point[axis] += Number{0}; // -0 is 0
-      std::memcpy (&bits[axis], &point[axis], sizeof (Number));
-    }
-    if (known_.insert (bits).second)
-      points_.push_back (point);
-  }
-
-  std::vector<Point> take () { return std::move (points_); }
-
-private:
-  using Bits = std::array<std::uint64_t, 3>;
-
-  // Of a number that is another one in each run: no file can have corners that share their hashes.
-  struct Hash
-  {
-    std::size_t operator() (const Bits& bits) const
-    {
-      std::uint64_t hash = seed;
-      for (const std::uint64_t coordinate : bits) {
-        hash = (hash ^ coordinate) * 0x9E3779B97F4A7C15U; // 2^64 over the golden ratio
-        hash ^= hash >> 32U;
-      }
-      return static_cast<std::size_t> (hash);
-    }
-
-    std::uint64_t seed = std::uint64_t{std::random_device () ()} << 32U | std::random_device () ();
-  };
-
-  std::unordered_set<Bits, Hash> known_;
-  std::vector<Point> points_;
-};
-
+/// The distinct corners of facets, in the order in which they come first. Corners that have the
+/// same coordinates are one point, also those of a NaN. By sorting, for whose time it does not
+/// matter what a file holds.
 template <typename Number>
 Cloud
-cloudOf (DistinctPoints<Number>& distinct, std::size_t facets)
+cloudOf (std::vector<std::array<Number, 3>> corners)
 {
-  const auto points = std::make_shared<const std::vector<std::array<Number, 3>>> (distinct.take ());
-  if (points->empty ())
-    throw ReadError ("it has no points");
+  using Corner = std::array<Number, 3>;
+  for (Corner& corner : corners)
+    for (Number& coordinate : corner)
+      coordinate += Number{0}; // -0 is 0
+  std::vector<std::size_t> order (corners.size ());
+  std::iota (order.begin (), order.end (), std::size_t{0});
+  const auto bytesOf = [&corners] (std::size_t corner) {
+    return std::string_view (reinterpret_cast<const char*> (&corners[corner]), sizeof (Corner));
+  };
+  std::sort (order.begin (), order.end (), [&bytesOf] (std::size_t a, std::size_t b) {
+    const int difference = bytesOf (a).compare (bytesOf (b));
+    return difference != 0 ? difference < 0 : a < b;
+  });
+  const auto areEqual = [&bytesOf] (std::size_t a, std::size_t b) {
+    return bytesOf (a) == bytesOf (b);
+  };
+  order.erase (std::unique (order.begin (), order.end (), areEqual), order.end ());
+  std::sort (order.begin (), order.end ());
+  std::vector<Corner> points (order.size ());
+  std::transform (order.begin (), order.end (), points.begin (),
+                  [&corners] (std::size_t corner) { return corners[corner]; });
+  const std::size_t size = points.size ();
   std::vector<Field> fields;
-  addColumns ({"x", "y", "z"}, points, points->front ().data (), fields);
-  Cloud cloud = makeCloud (std::move (fields), points->size ());
-  cloud.warnings.push_back (facesLeftOut (facets));
+  addColumns ({"x", "y", "z"}, sizeof (Number) == 4 ? ScalarType::FLOAT32 : ScalarType::FLOAT64,
+              std::move (points), fields);
+  Cloud cloud = makeCloud (std::move (fields), size);
+  cloud.warnings.push_back (facesLeftOut (corners.size () / 3));
   return cloud;
 }
 
@@ -78,20 +58,17 @@ parseBinary (std::string_view bytes)
       readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
   bytes.remove_prefix (STL_HEADER_BYTES + sizeof (std::uint32_t));
   if (facets > bytes.size () / FACET_BYTES)
-    throw ReadError ("the header promises " + counted (facets, "facet") +
-                     ", but the file has only " + std::to_string (bytes.size () / FACET_BYTES) +
-                     "; it is truncated or its header is wrong");
-  DistinctPoints<float> points;
+    throw ReadError (brokenPromise (counted (facets, "facet"), bytes.size () / FACET_BYTES));
+  std::vector<std::array<float, 3>> corners;
   for (std::size_t f = 0; f < facets; ++f)
     for (std::size_t corner = 1; corner <= 3; ++corner) {
-      std::array<float, 3> point{};
+      std::array<float, 3>& point = corners.emplace_back ();
       for (std::size_t axis = 0; axis < 3; ++axis)
         point[axis] = readNumber<float> (bytes.data () + f * FACET_BYTES +
                                              (3 * corner + axis) * sizeof (float),
                                          ByteOrder::LITTLE);
-      points.add (point);
     }
-  Cloud cloud = cloudOf (points, facets);
+  Cloud cloud = cloudOf (std::move (corners));
   if (bytes.size () > facets * FACET_BYTES)
     cloud.warnings.push_back ("the input file has more data than the " + counted (facets, "facet") +
                               " of its header; the rest was ignored");
@@ -101,8 +78,7 @@ parseBinary (std::string_view bytes)
 Cloud
 parseText (std::string_view text)
 {
-  DistinctPoints<double> points;
-  std::size_t corners = 0;
+  std::vector<std::array<double, 3>> corners;
   bool has_ended = false;
   TextScanner scanner (text);
   while (scanner.nextFilledLine ()) {
@@ -111,15 +87,12 @@ parseText (std::string_view text)
         isWord (key, "endsolid") || (isWord (key, "end") && isWord (scanner.word (), "solid"));
     if (!isWord (key, "vertex"))
       continue;
-    std::array<double, 3> point{};
-    for (double& coordinate : point)
+    for (double& coordinate : corners.emplace_back ())
       coordinate = scanner.number<double> ();
-    points.add (point);
-    ++corners;
   }
-  if (!has_ended || corners % 3 != 0)
+  if (!has_ended || corners.size () % 3 != 0)
     throw ReadError ("it does not end with 'endsolid' after a whole facet; it is truncated");
-  return cloudOf (points, corners / 3);
+  return cloudOf (std::move (corners));
 }
 
 } // namespace

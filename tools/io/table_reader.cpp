@@ -100,23 +100,16 @@ bool
 splitColumns (std::string_view line, char separator, Words& columns)
 {
   columns.clear ();
-  if (separator == ' ') {
-    for (std::size_t at = 0; at < line.size ();) {
-      const std::size_t first = at;
-      while (at < line.size () && !TextScanner::isBlank (line[at]))
-        ++at;
-      if (at > first)
-        columns.push_back (trim (line.substr (first, at - first)));
-      ++at; // a blank
-    }
-    return false;
+  const bool by_blanks = separator == ' ';
+  for (std::size_t first = 0, end = 0; first <= line.size (); first = end + 1) {
+    end = first;
+    while (end < line.size () &&
+           !(by_blanks ? TextScanner::isBlank (line[end]) : line[end] == separator))
+      ++end;
+    if (!by_blanks || end > first)
+      columns.push_back (trim (line.substr (first, end - first)));
   }
-  for (std::size_t first = 0; first <= line.size ();) {
-    const std::size_t end = std::min (line.find (separator, first), line.size ());
-    columns.push_back (trim (line.substr (first, end - first)));
-    first = end + 1;
-  }
-  const bool ends_empty = columns.back ().empty ();
+  const bool ends_empty = !by_blanks && columns.back ().empty ();
   if (ends_empty)
     columns.pop_back ();
   return ends_empty;
@@ -425,40 +418,34 @@ note (Column& column, std::string_view word, double value)
 class Table
 {
 public:
-  /// \param text after the first point. There are not more rows than its lines: each ends with a
-  /// newline, and a value takes a character
+  /// \param text after the first point; for as many rows as it has lines there is room
   Table (const TableHead& head, std::string_view text, char newline)
       : columns_ (head.columns), separator_ (head.separator), width_ (columns_.size ())
   {
-    const auto lines =
-        static_cast<std::size_t> (std::count (text.begin (), text.end (), newline)) + 1;
-    most_rows_ = std::min (lines, text.size () / width_ + 1) + 1;
-    values_.reset (new double[most_rows_ * width_], std::default_delete<double[]> ());
+    const auto lines = static_cast<std::size_t> (std::count (text.begin (), text.end (), newline));
+    values_->reserve ((std::min (lines, text.size () / width_) + 2) * width_);
   }
 
-  std::size_t rows () const { return rows_; }
+  std::size_t rows () const { return values_->size () / width_; }
 
   /// Reads a line with a point.
   /// \throws ReadError if it has other columns than those before it
   void readRow (const TextScanner& scanner, std::string_view line)
   {
-    if (rows_ == most_rows_)
-      scanner.fail ("it has more points than lines");
     if (splitColumns (line, separator_.separator, words_) && words_.size () + 1 == width_)
       words_.emplace_back ();
-    double* const to = values_.get () + rows_ * width_;
     for (std::size_t c = 0; c < std::min (words_.size (), width_); ++c) {
-      if (parseColumn (words_[c], separator_.has_decimal_comma, to[c]))
-        note (columns_[c], words_[c], to[c]);
+      double& value = values_->emplace_back ();
+      if (parseColumn (words_[c], separator_.has_decimal_comma, value))
+        note (columns_[c], words_[c], value);
       else if (columns_[c].is_number)
         scanner.fail (quoted (words_[c]) + " is not a number");
       else
-        to[c] = std::numeric_limits<double>::quiet_NaN ();
+        value = std::numeric_limits<double>::quiet_NaN ();
     }
     if (words_.size () != width_)
       scanner.fail ("it does not have " + counted (width_, "column") +
                     " like the lines before it; the file may be truncated");
-    ++rows_;
   }
 
   /// Decides what columns without names are, by what they hold: three columns of bytes are a
@@ -529,9 +516,9 @@ public:
       sources.push_back (c);
     }
     // No value is written beyond the one that it is made of.
-    auto* const bytes = reinterpret_cast<char*> (values_.get ());
+    auto* const bytes = reinterpret_cast<char*> (values_->data ());
     char* to = bytes;
-    for (std::size_t row = 0; row < rows_; ++row)
+    for (std::size_t row = 0; row < rows (); ++row)
       for (std::size_t f = 0; f < fields.size (); ++f)
         visitType (fields[f].type, [&] (auto narrow) {
           using T = decltype (narrow);
@@ -549,9 +536,9 @@ public:
   bool countsRows () const
   {
     constexpr std::size_t FEWEST = 10; // rows
-    bool counts = rows_ >= FEWEST && width_ > 3;
-    for (std::size_t row = 1; row < rows_ && counts; ++row)
-      counts = values_.get ()[row * width_] == values_.get ()[(row - 1) * width_] + 1.0;
+    bool counts = rows () >= FEWEST && width_ > 3;
+    for (std::size_t at = width_; at < values_->size () && counts; at += width_)
+      counts = (*values_)[at] == (*values_)[at - width_] + 1.0;
     return counts;
   }
 
@@ -560,8 +547,8 @@ public:
   {
     constexpr double ROUNDING = 0.02; // of two decimals each
     bool has_any = false;
-    for (std::size_t row = first_row; row < rows_ && column + 3 <= width_; ++row) {
-      const double* const v = values_.get () + row * width_ + column;
+    for (std::size_t row = first_row; row < rows () && column + 3 <= width_; ++row) {
+      const double* const v = values_->data () + row * width_ + column;
       const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
       if (std::isnan (square) || square == 0.0)
         continue;
@@ -576,9 +563,8 @@ private:
   std::vector<Column> columns_;
   ColumnSeparator separator_;
   std::size_t width_;
-  std::shared_ptr<double> values_; // rows_ of width_ values; later rows of other types
-  std::size_t most_rows_ = 0;
-  std::size_t rows_ = 0;
+  std::shared_ptr<std::vector<double>> values_ = // rows of width_; later rows of other types
+      std::make_shared<std::vector<double>> ();
   Words words_; // of a line
 };
 

@@ -12,16 +12,13 @@ constexpr std::size_t LONGEST_QUOTE = 40; // of a word in a message
 ScalarType
 vtkType (std::string_view name)
 {
-  static const std::array<std::pair<std::string_view, ScalarType>, 6> known{
-      {{"float", ScalarType::FLOAT32},
-       {"double", ScalarType::FLOAT64},
-       {"int", ScalarType::INT32},
-       {"vtkIdType", ScalarType::INT32},
-       {"long", ScalarType::INT64},
-       {"vtktypeint64", ScalarType::INT64}}};
-  for (const auto& [known_name, type] : known)
-    if (name == known_name)
-      return type;
+  if (name == "vtkIdType")
+    return ScalarType::INT32;
+  if (name == "long")
+    return ScalarType::INT64;
+  if (const auto type =
+          findType ([name] (const TypeNames& names, ScalarType) { return name == names.vtk; }))
+    return *type;
   throw ReadError ("it has coordinates or polygons of the type '" +
                    std::string (name.substr (0, LONGEST_QUOTE)) + "', which cannot be read");
 }

@@ -141,13 +141,7 @@ private:
 
   static std::optional<ScalarType> typeOf (std::string_view name)
   {
-    constexpr std::array<std::string_view, 10> NAMES{"Int8",    "UInt8",  "Int16", "UInt16",
-                                                     "Int32",   "UInt32", "Int64", "UInt64",
-                                                     "Float32", "Float64"};
-    const auto found = std::find (NAMES.begin (), NAMES.end (), name);
-    if (found == NAMES.end ())
-      return std::nullopt;
-    return static_cast<ScalarType> (found - NAMES.begin ());
+    return findType ([name] (const TypeNames& names, ScalarType) { return name == names.vtp; });
   }
 
   std::uint64_t header (EncodedBytes& bytes) const
@@ -186,7 +180,7 @@ private:
       return;
     const std::size_t bytes = points_ * each * sizeOf (*type);
     const std::string_view format = attributeOf (tag, "format");
-    const auto values = std::make_shared<std::string> ();
+    std::string values;
     ByteOrder order = order_;
     if (format == "ascii") {
       TextScanner scanner (text_.substr (at, text_.find ('<', at) - at));
@@ -195,7 +189,7 @@ private:
           throw ReadError ("an array ends before its values do; it is truncated");
         visitType (*type, [&] (auto number) {
           number = scanner.number<decltype (number)> ();
-          values->append (reinterpret_cast<const char*> (&number), sizeof number);
+          values.append (reinterpret_cast<const char*> (&number), sizeof number);
         });
       }
       order = HOST_BYTE_ORDER;
@@ -206,29 +200,29 @@ private:
       begin = std::min (text_.find ('_', begin), text_.size ());
       const std::size_t offset = countIn (tag, "offset", 0);
       const std::size_t left = text_.size () - begin;
-      *values = decode ({text_.substr (begin + std::min (left, offset + 1)), is_raw}, bytes);
+      values = decode ({text_.substr (begin + std::min (left, offset + 1)), is_raw}, bytes);
     }
     else
-      *values = decode ({text_.substr (at, text_.find ('<', at) - at), false}, bytes);
-    if (values->size () != bytes)
+      values = decode ({text_.substr (at, text_.find ('<', at) - at), false}, bytes);
+    if (values.size () != bytes)
       throw ReadError ("an array has not as many values as there are points");
-    std::vector<std::string> names;
     const std::string name (attributeOf (tag, "Name"));
-    const auto isCalled = [&name] (const char* word) { return isWord (name, word); };
-    if (is_place)
-      names = {"x", "y", "z"};
-    else if (each == 3 && isCalled ("Normals"))
-      names = {"nx", "ny", "nz"};
-    else if (each >= 3 && each <= 4 && *type == ScalarType::UINT8)
-      names = {"red", "green", "blue", "alpha"};
-    for (std::size_t c = 0;
-         c < (names.empty () ? 1 : each) && c < std::max<std::size_t> (names.size (), 1); ++c) {
-      Field field{names.empty () ? name : names[c], *type, names.empty () ? each : 1};
-      field.first = {values, values->data () + c * sizeOf (*type)};
-      field.stride = each * sizeOf (*type);
-      field.order = order;
-      fields.push_back (std::move (field));
+    const std::size_t before = fields.size ();
+    if (is_place && each >= 3)
+      addColumns ({"x", "y", "z"}, *type, std::move (values), fields, each);
+    else if (each == 3 && isWord (name, "Normals"))
+      addColumns ({"nx", "ny", "nz"}, *type, std::move (values), fields);
+    else if (each == 3 && *type == ScalarType::UINT8)
+      addColumns ({"red", "green", "blue"}, *type, std::move (values), fields);
+    else if (each == 4 && *type == ScalarType::UINT8)
+      addColumns ({"red", "green", "blue", "alpha"}, *type, std::move (values), fields);
+    else {
+      addColumns ({""}, *type, std::move (values), fields, each);
+      fields.back ().name = name;
+      fields.back ().count = each;
     }
+    for (std::size_t f = before; f < fields.size (); ++f)
+      fields[f].order = order;
   }
 
   std::string_view text_, root_;

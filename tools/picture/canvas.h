@@ -44,37 +44,20 @@ public:
   void fill (const std::array<Spot, 3>& corners, const Shade& shade)
   {
     constexpr double SMALLEST = 1e-6; // pixels; below, the shares would be noise
-    constexpr double SLACK = 1e-9;    // so that no pixel between two triangles is missed
     const auto& [a, b, c] = corners;
-    const double area = signedArea (corners);
-    if (!(std::abs (area) > SMALLEST && std::abs (area) < std::numeric_limits<double>::max ()))
+    const double area = std::abs (signedArea (corners));
+    if (!(area > SMALLEST && area < std::numeric_limits<double>::max ()))
       return;
-    const Eigen::Array3d weights (a.weight, b.weight, c.weight);
-    const Eigen::Array3d nearness (a.nearness, b.nearness, c.nearness);
-    const Eigen::Array3d slope (b.y - c.y, c.y - a.y, a.y - b.y); // of the shares along a row
-    const auto [top, bottom] = std::minmax ({a.y, b.y, c.y});
-    for (int y = firstPixel (top); y <= lastPixel (bottom); ++y) {
-      const double down = y + 0.5 - a.y;
-      Eigen::Array3d start (0.0, -down * (c.x - a.x), down * (b.x - a.x)); // shares below a
-      start[0] = area - start[1] - start[2];
-      double low = -std::numeric_limits<double>::max (), high = -low;
-      for (int i = 0; i < 3; ++i) {
-        const double rise = slope[i] / area, value = start[i] / area + SLACK;
-        if (rise > 0.0)
-          low = std::max (low, -value / rise);
-        else if (rise < 0.0)
-          high = std::min (high, -value / rise);
-        else if (value < 0.0)
-          high = -std::numeric_limits<double>::max ();
-      }
-      for (int x = firstPixel (a.x + low); x <= lastPixel (a.x + high); ++x) {
-        const Eigen::Array3d shares = (start + (x + 0.5 - a.x) * slope) / area;
-        if (!hide (at (x, y), (shares * nearness).sum ()))
-          continue;
-        const Eigen::Array3d weighted = shares * weights;
-        paint (at (x, y), shade (Eigen::Vector3d (weighted / weighted.sum ())));
-      }
-    }
+    const Eigen::Vector3d weights (a.weight, b.weight, c.weight);
+    const Eigen::Vector3d nearness (a.nearness, b.nearness, c.nearness);
+    visitPixels ({{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}}, side_,
+                 [&] (std::size_t x, std::size_t y, const Eigen::Vector3d& shares) {
+                   const std::size_t pixel = y * side_ + x;
+                   if (!hide (pixel, shares.dot (nearness)))
+                     return;
+                   const Eigen::Vector3d weighted = shares.cwiseProduct (weights);
+                   paint (pixel, shade (Eigen::Vector3d (weighted / weighted.sum ())));
+                 });
   }
 
   /// Twice the area of a triangle in pixels; negative if its corners run anticlockwise on the

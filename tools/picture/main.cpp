@@ -36,6 +36,7 @@ fail (ExitCode code, const std::string& message)
 int
 main (int argc, char** argv)
 {
+  using namespace pcl::floater;
   CLI::App app{
       "Draws a triangle mesh, and beside it its parameterization, into a PNG file.\n"
       "Front sides are blue, back sides orange, boundary edges red.\n"
@@ -74,55 +75,40 @@ main (int argc, char** argv)
   }
 
   const bool has_texture = has_checkerboard || !texture.empty ();
-  if (has_texture && files.size () == 3) {
-    std::cerr
-        << "pcl_floater_picture: give a PARAMETERIZATION, or --checkerboard or --texture, not "
-           "both\n";
-    return USAGE;
-  }
-
-  pcl::floater::handleSignals ();
-  try {
-    pcl::floater::requireWritable (files.back ());
-  }
-  catch (const pcl::floater::WriteError& error) {
-    return fail (CANNOT_WRITE, error.what ());
-  }
-  pcl::floater::PictureMesh mesh;
-  pcl::floater::PictureOptions options;
-  options.flat_shading = is_flat;
-  if (!viewpoint.empty ())
-    options.viewpoint.emplace (viewpoint[0], viewpoint[1], viewpoint[2]);
-  std::vector<unsigned char> png;
+  if (has_texture && files.size () == 3)
+    return fail (USAGE, "give a PARAMETERIZATION, or --checkerboard or --texture, not both");
   std::filesystem::path reading; // the file that is being read
   try {
-    mesh = pcl::floater::readPictureMesh (reading = files[0]);
+    handleSignals ();
+    requireWritable (files.back ());
+    PictureOptions options;
+    options.flat_shading = is_flat;
+    if (!viewpoint.empty ())
+      options.viewpoint.emplace (viewpoint[0], viewpoint[1], viewpoint[2]);
+    PictureMesh mesh = readPictureMesh (reading = files[0]);
     if (has_texture && mesh.coordinates.empty ())
-      throw pcl::floater::ReadError (
-          "it has no texture coordinates; pcl_floater_reconstruct --uv writes some");
+      throw ReadError ("it has no texture coordinates; pcl_floater_reconstruct --uv writes some");
     if (has_checkerboard)
-      options.texture = pcl::floater::makeCheckerboard ();
+      options.texture = makeCheckerboard ();
     else if (has_texture)
-      options.texture = pcl::floater::parsePng (pcl::floater::FileBytes (reading = texture));
+      options.texture = parsePng (FileBytes (reading = texture));
     if (files.size () == 3)
-      options.parameterization = pcl::floater::readPictureMesh (reading = files[1]);
-    png = pcl::floater::pngOf (
-        pcl::floater::drawMesh (std::move (mesh), static_cast<std::size_t> (height), options));
-  }
-  catch (const pcl::floater::ReadError& error) {
-    return fail (CANNOT_READ, "cannot read '" + reading.string () + "': " + error.what ());
-  }
-  catch (const std::bad_alloc&) {
-    return fail (NO_MEMORY, "there is not enough memory");
-  }
-  try {
-    pcl::floater::AtomicFile file (files.back ());
+      options.parameterization = readPictureMesh (reading = files[1]);
+    const std::vector<unsigned char> png =
+        pngOf (drawMesh (std::move (mesh), static_cast<std::size_t> (height), options));
+    AtomicFile file (files.back ());
     file.write (png.data (), png.size ());
     file.close ();
     file.publish ();
   }
-  catch (const pcl::floater::WriteError& error) {
+  catch (const ReadError& error) {
+    return fail (CANNOT_READ, "cannot read '" + reading.string () + "': " + error.what ());
+  }
+  catch (const WriteError& error) {
     return fail (CANNOT_WRITE, error.what ());
+  }
+  catch (const std::bad_alloc&) {
+    return fail (NO_MEMORY, "there is not enough memory");
   }
   return DONE;
 }

@@ -5,7 +5,8 @@
 #include "options/check_options.h"
 #include "options/option_rows.h"
 
-#include <limits>
+#include <pybind11/stl.h>
+
 #include <string>
 #include <type_traits>
 
@@ -39,43 +40,30 @@ class Keywords
 public:
   explicit Keywords (const py::dict& given) : left_ (given.attr ("copy") ()) {}
 
-  void take (const char* name, bool& value)
+  template <typename Number>
+  void take (const char* name, Number& value)
   {
-    if (const py::object given = take (name)) {
-      if (!isBool (given))
-        throw wrongType (name, "True or False", given);
-      value = given.cast<bool> ();
-    }
-  }
-
-  void take (const char* name, int& value)
-  {
+    constexpr bool IS_BOOL = std::is_same_v<Number, bool>, IS_WHOLE = std::is_same_v<Number, int>;
     const py::object given = take (name);
     if (!given)
       return;
-    if (isBool (given) || PyIndex_Check (given.ptr ()) == 0)
-      throw wrongType (name, "a whole number", given);
-    int is_too_large = 0;
-    const auto number = py::reinterpret_steal<py::object> (PyNumber_Index (given.ptr ()));
-    if (!number)
-      throw py::error_already_set ();
-    const long long wide = PyLong_AsLongLongAndOverflow (number.ptr (), &is_too_large);
-    if (is_too_large != 0 || wide > std::numeric_limits<int>::max () ||
-        wide < std::numeric_limits<int>::min ())
-      throw py::value_error (std::string (name) + " must be a number of 32 bits, not " +
-                             shown (given));
-    value = static_cast<int> (wide);
-  }
-
-  void take (const char* name, double& value)
-  {
-    if (const py::object given = take (name)) {
-      value = PyFloat_AsDouble (given.ptr ());
-      if (isBool (given) || PyErr_Occurred () != nullptr) {
-        PyErr_Clear ();
-        throw wrongType (name, "a number", given);
+    const bool fits = isBool (given) == IS_BOOL && (!IS_WHOLE || PyIndex_Check (given.ptr ()) != 0);
+    try {
+      if (fits) {
+        value = given.cast<Number> ();
+        return;
       }
     }
+    catch (const py::cast_error&) {
+      if (IS_WHOLE)
+        throw py::value_error (std::string (name) + " must be a number of 32 bits, not " +
+                               shown (given));
+    }
+    throw wrongType (name,
+                     IS_BOOL    ? "True or False"
+                     : IS_WHOLE ? "a whole number"
+                                : "a number",
+                     given);
   }
 
   /// One of several words.
@@ -172,22 +160,16 @@ struct TableKeywords
 std::array<double, 3>
 readPlace (const char* name, const py::handle& value)
 {
-  const auto wrong = [&] { return wrongType (name, "three numbers", value); };
-  if (PySequence_Check (value.ptr ()) == 0 || py::isinstance<py::str> (value))
-    throw wrong ();
-  const auto numbers = py::reinterpret_borrow<py::sequence> (value);
-  std::array<double, 3> place{};
-  if (numbers.size () != place.size ())
+  const bool is_list = PySequence_Check (value.ptr ()) != 0 && !py::isinstance<py::str> (value);
+  if (is_list && py::len (value) != 3)
     throw py::value_error (std::string (name) + " must be three numbers, not " + shown (value));
-  for (std::size_t axis = 0; axis < place.size (); ++axis) {
-    const py::object number = numbers[axis];
-    place[axis] = PyFloat_AsDouble (number.ptr ());
-    if (PyErr_Occurred () != nullptr) {
-      PyErr_Clear ();
-      throw wrong ();
-    }
+  try {
+    if (is_list)
+      return value.cast<std::array<double, 3>> ();
   }
-  return place;
+  catch (const py::cast_error&) { // is told below
+  }
+  throw wrongType (name, "three numbers", value);
 }
 
 GivenOptions

@@ -21,31 +21,11 @@ namespace py = pybind11;
 
 namespace pcl::floater {
 namespace {
-/// Numbers are signed and of 64 bits at least, as Python's are.
 py::object
 toPython (const nlohmann::ordered_json& json)
 {
-  if (json.is_boolean ())
-    return py::bool_ (json.get<bool> ());
-  if (json.is_number_integer ())
-    return py::int_ (json.get<std::int64_t> ());
-  if (json.is_number ())
-    return py::float_ (json.get<double> ());
-  if (json.is_string ())
-    return py::str (json.get<std::string> ());
-  if (json.is_array ()) {
-    py::list list;
-    for (const auto& item : json)
-      list.append (toPython (item));
-    return list;
-  }
-  if (json.is_object ()) {
-    py::dict dict;
-    for (const auto& [key, value] : json.items ())
-      dict[py::str (key)] = toPython (value);
-    return dict;
-  }
-  return py::none ();
+  const std::string text = json.dump (-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return py::module_::import ("json").attr ("loads") (text);
 }
 
 /// \throws pybind11::value_error

@@ -35,32 +35,20 @@ bufferOf (const ResultArray& array)
   return {first, size, array.format, static_cast<py::ssize_t> (shape.size ()), shape, strides};
 }
 
-// How many numbers of which type an element has; 0 is a number by itself.
-constexpr std::pair<const char*, std::size_t>
-formatOf (const std::uint32_t* /*element*/)
-{
-  return {"i", 0};
-}
-template <std::size_t N>
-constexpr std::pair<const char*, std::size_t>
-formatOf (const std::array<std::uint32_t, N>* /*element*/)
-{
-  return {"i", N};
-}
-template <typename Scalar, int N>
-constexpr std::pair<const char*, std::size_t>
-formatOf (const Eigen::Matrix<Scalar, N, 1>* /*element*/)
-{
-  return {sizeof (Scalar) == sizeof (float) ? "f" : "d", N};
-}
-
-// \param owner of the values
+/// \param owner of the values, which are numbers or arrays of numbers
 template <typename T>
 ResultArray
 arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
 {
-  const auto [format, columns] = formatOf (values.data ());
-  return {owner, values.data (), format, values.size (), columns};
+  if constexpr (std::is_arithmetic_v<T>)
+    return {owner, values.data (), "i", values.size (), 0};
+  else {
+    using Number = typename T::value_type;
+    const char* const format = std::is_same_v<Number, float>    ? "f"
+                               : std::is_same_v<Number, double> ? "d"
+                                                                : "i";
+    return {owner, values.data (), format, values.size (), sizeof (T) / sizeof (Number)};
+  }
 }
 
 } // namespace

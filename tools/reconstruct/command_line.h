@@ -127,27 +127,6 @@ setLimit (const std::string& setting, CommandLine& line);
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
 
-constexpr Choices<std::optional<CloudFormat>, 12> CLOUD_FORMAT_CHOICES{{{"auto", std::nullopt},
-                                                                        {"pcd", CloudFormat::PCD},
-                                                                        {"ply", CloudFormat::PLY},
-                                                                        {"obj", CloudFormat::OBJ},
-                                                                        {"stl", CloudFormat::STL},
-                                                                        {"vtk", CloudFormat::VTK},
-                                                                        {"vtp", CloudFormat::VTP},
-                                                                        {"las", CloudFormat::LAS},
-                                                                        {"bin", CloudFormat::BIN},
-                                                                        {"ptx", CloudFormat::PTX},
-                                                                        {"xyz", CloudFormat::XYZ},
-                                                                        {"pts", CloudFormat::PTS}}};
-
-constexpr Choices<std::optional<MeshFormat>, 7> MESH_FORMAT_CHOICES{{{"auto", std::nullopt},
-                                                                     {"vtk", MeshFormat::VTK},
-                                                                     {"ply", MeshFormat::PLY},
-                                                                     {"obj", MeshFormat::OBJ},
-                                                                     {"stl", MeshFormat::STL},
-                                                                     {"off", MeshFormat::OFF},
-                                                                     {"glb", MeshFormat::GLB}}};
-
 /// Parses the command line. Prints the help or the version if asked for.
 /// \return the exit code if there is nothing else to do
 /// \throws UsageError

@@ -61,47 +61,28 @@ histogramJson (std::vector<float> values, double unit, bool is_log)
           {"median", at (0.5)}, {"quantile_90", at (0.9)}, {"largest", at (1.0)}};
 }
 
-/// Numbers as base64, little end first.
-class Base64
+template <typename Number>
+void
+appendNumber (Number number, std::string& bytes)
 {
-public:
-  template <typename Number>
-  void add (Number number)
-  {
-    constexpr std::size_t SIZE = sizeof number;
-    std::array<unsigned char, SIZE> bytes;
-    copyNumber<Number> (bytes.data (), &number, ByteOrder::LITTLE);
-    for (const unsigned char byte : bytes) {
-      bits_ = bits_ << 8U | byte;
-      if (++bytes_ % 3 == 0)
-        flush ();
-    }
-  }
+  copyNumber<Number> (&number, &number, ByteOrder::LITTLE);
+  bytes.append (reinterpret_cast<const char*> (&number), sizeof number);
+}
 
-  std::string take ()
-  {
-    const std::size_t missing = (3 - bytes_ % 3) % 3;
-    if (missing > 0) {
-      bits_ <<= 8U * static_cast<unsigned> (missing);
-      flush ();
-      text_.replace (text_.size () - missing, missing, missing, '=');
-    }
-    return std::move (text_);
+std::string
+base64 (const std::string& bytes)
+{
+  constexpr const char* DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size (); i += 3) {
+    std::uint32_t bits = 0; // of three bytes, and zeros beyond the end
+    for (std::size_t k = i; k < i + 3; ++k)
+      bits = bits << 8U | (k < bytes.size () ? static_cast<unsigned char> (bytes[k]) : 0U);
+    for (unsigned k = 0; k < 4; ++k)
+      text += i + k > bytes.size () ? '=' : DIGITS[bits >> (18U - 6U * k) & 63U];
   }
-
-private:
-  void flush ()
-  {
-    for (int shift = 18; shift >= 0; shift -= 6)
-      text_ +=
-          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"[bits_ >> shift & 63U];
-    bits_ = 0;
-  }
-
-  std::string text_;
-  std::uint32_t bits_ = 0;
-  std::size_t bytes_ = 0;
-};
+  return text;
+}
 
 /// How positions are written: as steps of 16 bits within a box, if the spacing is many of these.
 struct Quantizer
@@ -115,14 +96,14 @@ struct Quantizer
       step = 1.0;
   }
 
-  void add (const Eigen::Vector3d& position, Base64& to) const
+  void append (const Eigen::Vector3d& position, std::string& bytes) const
   {
     for (int axis = 0; axis < 3; ++axis) {
       const double value = (position[axis] - origin[axis]) / step;
       if (is_fine)
-        to.add (static_cast<float> (value));
+        appendNumber (static_cast<float> (value), bytes);
       else
-        to.add (static_cast<std::uint16_t> (std::lround (value)));
+        appendNumber (static_cast<std::uint16_t> (std::lround (value)), bytes);
     }
   }
 
@@ -188,23 +169,24 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
   }
   const Quantizer quantizer (box, drawing.median_spacing);
   const auto written = [&quantizer] (const std::vector<Eigen::Vector3d>& positions) {
-    Base64 text;
+    std::string bytes;
     for (const Eigen::Vector3d& position : positions)
-      quantizer.add (position, text);
-    return text.take ();
+      quantizer.append (position, bytes);
+    return base64 (bytes);
   };
   const bool are_short = drawing.positions.size () <= 1U << 16U;
-  Base64 corners;
+  std::string corners;
   for (const Triangle& triangle : drawing.triangles)
     for (const Index p : triangle)
-      are_short ? corners.add (static_cast<std::uint16_t> (p)) : corners.add (p);
+      are_short ? appendNumber (static_cast<std::uint16_t> (p), corners)
+                : appendNumber (p, corners);
   Json flaws = Json::array (), dots_json = Json::array ();
   for (const Flaw& flaw : drawing.flaws) {
-    Base64 numbers;
+    std::string numbers;
     for (const Index t : flaw.triangles)
-      numbers.add (t);
+      appendNumber (t, numbers);
     flaws.push_back (
-        {{"name", flaw.name}, {"count", flaw.triangles.size ()}, {"triangles", numbers.take ()}});
+        {{"name", flaw.name}, {"count", flaw.triangles.size ()}, {"triangles", base64 (numbers)}});
   }
   for (const Dots& dots : all_dots)
     dots_json.push_back ({{"name", dots.name},
@@ -221,7 +203,7 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
           {"short", are_short},
           {"spacing", drawing.unit * drawing.median_spacing},
           {"positions", written (drawing.positions)},
-          {"corners", corners.take ()},
+          {"corners", base64 (corners)},
           {"flaws", flaws},
           {"dots", dots_json}};
 }

@@ -52,25 +52,19 @@ reconstructInput (Input input, Options options, const Limits& limits, Progress& 
   return reconstruct (std::move (input), options, limits);
 }
 
-/// The mesh in the plane z = 0. Its cloud refers to the parameters of the result, and has no
-/// normals, because these are those of the surface in space.
+/// The mesh in the plane z = 0, without normals, because these are those of the surface in space.
 std::pair<Cloud, Triangles>
 flatMesh (const Cloud& cloud, const Result& result, Precision precision)
 {
-  static const double zero = 0.0;
-  const std::vector<Eigen::Vector2d>& parameters = result.report.parameters;
+  std::vector<Eigen::Vector3d> places;
+  for (const Eigen::Vector2d& place : result.report.parameters)
+    places.emplace_back (place.x (), place.y (), 0.0);
   Cloud flat;
   flat.single_precision = precision != Precision::DOUBLE;
-  flat.rows = parameters.size ();
-  const auto view = [&flat] (std::size_t axis, const double* first, std::size_t stride) {
-    Field& field = flat.coordinates[axis];
-    field.type = ScalarType::FLOAT64;
-    field.first = {std::shared_ptr<const char> (), reinterpret_cast<const char*> (first)};
-    field.stride = stride;
-  };
-  view (0, parameters.front ().data (), sizeof (Eigen::Vector2d));
-  view (1, parameters.front ().data () + 1, sizeof (Eigen::Vector2d));
-  view (2, &zero, 0);
+  flat.rows = places.size ();
+  std::vector<Field> axes;
+  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (places), axes);
+  std::move (axes.begin (), axes.end (), flat.coordinates.begin ());
   const FieldTriple normals = normalFields (cloud);
   for (const Field& field : cloud.fields)
     if (std::find (normals.begin (), normals.end (), &field) == normals.end ())

@@ -15,17 +15,14 @@ namespace pcl::floater {
 void
 replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
 {
-  constexpr std::array<const char*, 3> NAMES{"nx", "ny", "nz"};
-  const auto normals = std::make_shared<const std::vector<Eigen::Vector3f>> (
-      vertexNormals (cloud.positions (), triangles, threads));
+  std::vector<Eigen::Vector3f> normals = vertexNormals (cloud.positions (), triangles, threads);
   cloud.file.giveBack ();
-  cloud.fields.erase (std::remove_if (cloud.fields.begin (), cloud.fields.end (),
-                                      [&NAMES] (const Field& field) {
-                                        return std::find (NAMES.begin (), NAMES.end (),
-                                                          field.name) != NAMES.end ();
-                                      }),
+  const auto isNormal = [] (const Field& field) {
+    return field.name == "nx" || field.name == "ny" || field.name == "nz";
+  };
+  cloud.fields.erase (std::remove_if (cloud.fields.begin (), cloud.fields.end (), isNormal),
                       cloud.fields.end ());
-  addColumns (NAMES, normals, normals->front ().data (), cloud.fields);
+  addColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT32, std::move (normals), cloud.fields);
 }
 
 namespace {

@@ -236,10 +236,10 @@ addFiles (CLI::App& app, CommandLine& line)
   positional ("OUTPUT", line.output,
               "mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; - is the standard output");
   const std::string files = "Files";
-  addChoice (app, "--input-format", line.input_format, CLOUD_FORMAT_CHOICES,
+  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
              "format of INPUT; auto: that of its extension; xyz: text with a point in each line",
              files);
-  addChoice (app, "--output-format", line.output_format, MESH_FORMAT_CHOICES,
+  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
              "format of OUTPUT; auto: that of its extension", files);
   const std::string output = "More output";
   app.add_flag (

@@ -5,8 +5,8 @@
 
 #include "command_line.h"
 #include "format.h"
-#include "suggestion.h"
 #include "text_scanner.h"
+#include "usage_message.h"
 
 #include <CLI/CLI.hpp>
 

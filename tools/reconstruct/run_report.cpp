@@ -205,46 +205,41 @@ printVerdict (std::FILE* to, const Verdict& verdict)
     std::fprintf (to, "           what helps: %s\n", verdict.remedy.c_str ());
 }
 
-/// Prints boundary loops that may have been wrongly kept open or filled, the least sure ones.
+/// Prints the decisions that a run is least sure of, each by a function.
+template <typename Decision, typename Print>
 void
-printLoopDecisions (std::FILE* to, const Report& report)
+printDecisions (std::FILE* to, const std::vector<Decision>& decisions, const char* what,
+                const char* noun, const Print& print)
 {
   constexpr std::size_t MOST = 10;
-  const std::size_t count = report.loop_decisions.size ();
+  const std::size_t count = decisions.size ();
   if (count == 0)
     return;
-  std::fprintf (to, "not sure   of %s%s\n", counted (count, "boundary loop").c_str (),
+  std::fprintf (to, "not sure   %s%s%s\n", what, counted (count, noun).c_str (),
                 count > MOST ? ", the least sure of them:" : "");
-  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
-    const LoopDecision& decision = report.loop_decisions[i];
-    std::fprintf (
-        to,
-        "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with a "
-        "probability of %.0f %%\n",
-        decision.points, decision.width_spacings, decision.at,
-        decision.stays_open ? "stays open" : "filled", 100.0 * decision.probability);
-  }
+  for (std::size_t i = 0; i < std::min (count, MOST); ++i)
+    print (decisions[i]);
 }
 
-/// Prints parts of the mesh whose front may be their back, the least sure ones.
 void
-printFacingDecisions (std::FILE* to, const Report& report)
+printUnsure (std::FILE* to, const Report& report)
 {
-  constexpr std::size_t MOST = 10;
-  const std::size_t count = report.facing_decisions.size ();
-  if (count == 0)
-    return;
-  std::fprintf (to, "not sure   which side is the front of %s%s\n",
-                counted (count, "part").c_str (), count > MOST ? ", the least sure of them:" : "");
-  for (std::size_t i = 0; i < std::min (count, MOST); ++i) {
-    const FacingDecision& decision = report.facing_decisions[i];
-    std::fprintf (
-        to,
-        "           of %zu triangles at point %u: by the rule '%s', with a certainty of %.0f "
-        "%%\n",
-        decision.triangles, decision.at, facingRuleName (decision.rule),
-        100.0 * decision.certainty);
-  }
+  printDecisions (
+      to, report.loop_decisions, "of ", "boundary loop", [to] (const LoopDecision& loop) {
+        std::fprintf (to,
+                      "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary "
+                      "with a probability of %.0f %%\n",
+                      loop.points, loop.width_spacings, loop.at,
+                      loop.stays_open ? "stays open" : "filled", 100.0 * loop.probability);
+      });
+  printDecisions (to, report.facing_decisions, "which side is the front of ", "part",
+                  [to] (const FacingDecision& part) {
+                    std::fprintf (to,
+                                  "           of %zu triangles at point %u: by the rule '%s', with "
+                                  "a certainty of %.0f %%\n",
+                                  part.triangles, part.at, facingRuleName (part.rule),
+                                  100.0 * part.certainty);
+                  });
 }
 
 /// Prints method, components, genus and boundary loops.
@@ -290,10 +285,8 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                                                               : "left out");
   std::fprintf (to, "triangles  %zu\n", statistics.triangles);
   printShape (to, report);
-  if (line.verbose) {
-    printLoopDecisions (to, report);
-    printFacingDecisions (to, report);
-  }
+  if (line.verbose)
+    printUnsure (to, report);
   if (statistics.trimmed_triangles > 0)
     std::fprintf (to, "cut off    %s (%zu to open crossings), %s, %s\n",
                   counted (statistics.trimmed_triangles, "triangle").c_str (),
@@ -337,12 +330,11 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                   counted (run.texture.chart_count, "chart").c_str (), run.texture.stretch,
                   100.0 * run.texture.area_used, run.texture_seconds,
                   line.texture.empty () ? "" : ": ", printable (line.texture.string ()).c_str ());
-  if (!line.parameterization.empty ())
-    std::fprintf (to, "flat mesh  %s\n", printable (line.parameterization.string ()).c_str ());
-  if (!line.report.empty ())
-    std::fprintf (to, "report     %s\n", printable (line.report.string ()).c_str ());
-  if (!line.html.empty ())
-    std::fprintf (to, "page       %s\n", printable (line.html.string ()).c_str ());
+  for (const auto& [what, path] :
+       {std::pair ("flat mesh  ", &line.parameterization), std::pair ("report     ", &line.report),
+        std::pair ("page       ", &line.html)})
+    if (!path->empty ())
+      std::fprintf (to, "%s%s\n", what, printable (path->string ()).c_str ());
 }
 
 } // namespace

@@ -3,15 +3,46 @@
 #include "usage_message.h"
 
 #include "option_table.h"
-#include "suggestion.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 namespace pcl::floater {
 namespace {
 using Words = std::vector<std::string>;
+
+/// A word in lower case and without dashes before it.
+std::string
+plain (const std::string& word)
+{
+  std::string text = word.substr (std::min (word.find_first_not_of ('-'), word.size ()));
+  std::transform (text.begin (), text.end (), text.begin (),
+                  [] (unsigned char c) { return std::tolower (c); });
+  return text;
+}
+
+/// Number of letters to insert, drop or replace, or of neighbours to swap, to make one word of the
+/// other.
+std::size_t
+editDistance (const std::string& a, const std::string& b)
+{
+  // Distances between the first letters of a and of b.
+  std::vector<std::vector<std::size_t>> table (a.size () + 1,
+                                               std::vector<std::size_t> (b.size () + 1));
+  for (std::size_t i = 0; i <= a.size (); ++i)
+    for (std::size_t j = 0; j <= b.size (); ++j) {
+      std::size_t& distance = table[i][j] = i + j;
+      if (i == 0 || j == 0)
+        continue;
+      distance = std::min ({table[i - 1][j] + 1, table[i][j - 1] + 1,
+                            table[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        distance = std::min (distance, table[i - 2][j - 2] + 1);
+    }
+  return table[a.size ()][b.size ()];
+}
 
 /// "-k" and "--neighbors".
 Words
@@ -110,6 +141,37 @@ mismatchMessage (const CLI::Option& option, const Words& arguments)
 }
 
 } // namespace
+
+std::string
+didYouMean (const std::string& word, const std::vector<std::string>& words)
+{
+  constexpr std::size_t LONGEST = 100; // letters; nobody mistypes more
+  constexpr std::size_t FEWEST = 3;    // letters that tell what they begin
+  constexpr std::size_t MOST = 4;      // more words are no help
+  const std::string typed = plain (word);
+  Words nearest;
+  std::size_t least = LONGEST;
+  for (const std::string& candidate : words) {
+    const std::string known = plain (candidate);
+    if (typed.empty () || typed.size () > LONGEST)
+      break;
+    std::size_t distance = editDistance (typed, known);
+    if (distance > 0 && typed.size () >= FEWEST && known.compare (0, typed.size (), typed) == 0)
+      distance = 1;
+    if (3 * distance > std::max (typed.size (), known.size ()) || distance > least)
+      continue;
+    if (distance < least)
+      nearest.clear ();
+    least = distance;
+    nearest.push_back (candidate);
+  }
+  if (nearest.empty () || nearest.size () > MOST)
+    return "";
+  std::string text = "; did you mean " + nearest.front ();
+  for (std::size_t i = 1; i < nearest.size (); ++i)
+    text += (i + 1 < nearest.size () ? ", " : " or ") + nearest[i];
+  return text + "?";
+}
 
 std::string
 usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)

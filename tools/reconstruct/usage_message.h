@@ -6,7 +6,6 @@
 #include "core/problem.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace CLI // NOLINT(readability-identifier-naming)
@@ -16,6 +15,11 @@ class ParseError;
 } // namespace CLI
 
 namespace pcl::floater {
+/// "; did you mean a or b?" with the words that a mistyped one begins, or else those at the least
+/// distance, of at most a third of the letters. Empty if there are none, or too many.
+std::string
+didYouMean (const std::string& word, const std::vector<std::string>& words);
+
 /// The message for a command line that could not be parsed. Options are named as they were typed.
 /// \param app that has refused it
 /// \param arguments as they were typed

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints what the reader makes of a file, as JSON: read_cloud FILE [X,Y,Z [CLASS,CLASS,...]]
+// read_cloud --prefixes FILE STEP: lengths of its beginnings that are not refused, the longest first.
+#include "cloud_reader.h"
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <sstream>
+
+namespace pcl::floater {
+namespace {
+using Json = nlohmann::ordered_json;
+
+/// All values of a field, which are null where they are no numbers.
+Json
+valuesOf (const Field& field, std::size_t rows)
+{
+  Json values = Json::array ();
+  visitType (field.type, [&] (auto tag) {
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t c = 0; c < field.count; ++c)
+        values.push_back (static_cast<double> (field.value<decltype (tag)> (row, c)));
+  });
+  return values;
+}
+
+Json
+describe (Cloud& cloud)
+{
+  Json points = Json::array (), fields = Json::array ();
+  for (const Eigen::Vector3d& p : cloud.positions ())
+    points.push_back ({p.x (), p.y (), p.z ()});
+  for (const Field& field : cloud.fields)
+    fields.push_back ({field.name, valuesOf (field, cloud.rows)});
+  Json all{{"points", points},
+           {"fields", fields},
+           {"is_single", cloud.single_precision},
+           {"has_colors", colorFields (cloud)[0] != nullptr},
+           {"may_be_degrees", cloud.may_be_degrees},
+           {"lattice_width", cloud.lattice_width},
+           {"sensor_origin", cloud.sensor_origin},
+           {"towards_sensors", cloud.towards_sensors.size ()},
+           {"left_out", cloud.left_out},
+           {"warnings", cloud.warnings},
+           {"notes", cloud.notes}};
+  Triangles none;
+  all["not_finite"] = removeNonFinitePoints (cloud, none);
+  all["kept"] = Json::array ();
+  for (std::size_t point = 0; point < cloud.size (); ++point)
+    all["kept"].push_back (cloud.row (point));
+  return all;
+}
+
+std::vector<int>
+numbersOf (const char* text)
+{
+  std::istringstream words (text);
+  std::vector<int> numbers;
+  for (std::string word; std::getline (words, word, ',');)
+    numbers.push_back (std::stoi (word));
+  return numbers;
+}
+
+Json
+readablePrefixes (const std::filesystem::path& path, std::size_t step)
+{
+  const FileBytes file (path);
+  Json lengths = Json::array ();
+  for (std::size_t length = file.view ().size (); length > 0; length -= std::min (length, step))
+    try {
+      // A copy, so that a sanitizer notices reads beyond the prefix.
+      const std::vector<char> prefix (file.view ().begin (), file.view ().begin () + length);
+      Cloud cloud = parseCloud (FileBytes (std::string_view (prefix.data (), length)),
+                                *cloudFormatOf (path), {true, {}, {}});
+      describe (cloud);
+      lengths.push_back (length);
+    }
+    catch (const ReadError& error) {
+      if (*error.what () == 0)
+        throw std::logic_error ("a message is empty");
+    }
+  return lengths;
+}
+
+} // namespace
+} // namespace pcl::floater
+
+int
+main (int argc, char** argv)
+{
+  using namespace pcl::floater;
+  Json result;
+  try {
+    if (argc > 3 && std::string (argv[1]) == "--prefixes")
+      result = readablePrefixes (argv[2], std::stoul (argv[3]));
+    else {
+      ReadOptions options;
+      for (std::size_t axis = 0; axis < 3 && argc > 2; ++axis)
+        options.columns[axis] = static_cast<std::size_t> (numbersOf (argv[2])[axis]);
+      if (argc > 3)
+        options.classes = numbersOf (argv[3]);
+      Cloud cloud = readCloud (argv[1], options);
+      result = describe (cloud);
+    }
+  }
+  catch (const ReadError& error) {
+    result = {{"error", error.what ()}};
+  }
+  std::cout << result.dump (-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clouds whose fields stay in the file, and the time that a run still takes.
+#include "cloud_reader.h"
+#include "remaining_time.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+namespace pcl::floater {
+namespace {
+TEST (MappedCloud, BinaryFieldsStayInTheFileWhoseChangesAreNoticed)
+{
+  const std::filesystem::path path = std::filesystem::temp_directory_path () /
+                                     ("pcl_floater_" + std::to_string (::getpid ()) + ".ply");
+  std::ofstream (path) << "ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty float x\n"
+                          "property float y\nproperty float z\nproperty uchar a\nend_header\n"
+                       << std::string (26, '\x40');
+  const Field x = readCloud (path).coordinates[0]; // outlives the cloud
+  EXPECT_EQ (x.asDouble (1), 3.0039215087890625);
+  const Cloud cloud = readCloud (path);
+  const std::vector<Eigen::Vector3d> positions = cloud.positions ();
+  cloud.file.giveBack ();
+  EXPECT_EQ (cloud.positions (), positions); // are read from the file again
+  EXPECT_TRUE (isInMappedFile (cloud.fields[0].first.get ()));
+  EXPECT_FALSE (cloud.file.hasChanged ());
+  std::ofstream (path, std::ios::app) << "more";
+  EXPECT_TRUE (cloud.file.hasChanged ());
+  const Cloud other = readCloud (path);
+  std::filesystem::remove (path);
+  std::ofstream (path) << "another file is no change of the old one";
+  EXPECT_FALSE (other.file.hasChanged ());
+  std::filesystem::remove (path);
+}
+
+TEST (RemainingTime, IsToldOfLongRunsAndExactOfASteadyOne)
+{
+  RemainingTime remaining;
+  remaining.update (1.0, 0.5);
+  EXPECT_EQ (remaining.text (), "");
+  remaining.update (4.0, 0.001);
+  EXPECT_EQ (remaining.text (), "");
+  RemainingTime steady;
+  for (double seconds = 0.0; seconds <= 190.5; seconds += 0.05) {
+    steady.update (seconds, seconds / 200.0);
+    if (std::abs (seconds - 49.95) < 0.01) {
+      EXPECT_EQ (steady.text (), "24 %, 3 min left");
+    }
+  }
+  EXPECT_EQ (steady.text (), "95 %, 10 s left");
+}
+
+// The second half of the run takes four times as long as the first.
+TEST (RemainingTime, IsSmooth)
+{
+  RemainingTime remaining;
+  double before = 0.0;
+  for (double seconds = 0.05; seconds <= 50.0; seconds += 0.05) {
+    remaining.update (seconds, seconds < 10.0 ? seconds / 20.0 : 0.5 + (seconds - 10.0) / 80.0);
+    const double left = remaining.left ().value_or (0.0);
+    EXPECT_TRUE (seconds <= 2.0 || std::abs (left - before) < 1.0);
+    before = left;
+  }
+  EXPECT_LT (before, 2.0);
+}
+
+} // namespace
+} // namespace pcl::floater
