@@ -6,7 +6,6 @@
 #include "core/index_limit.h"
 #include "core/types.h"
 
-#include <limits>
 #include <utility>
 
 namespace pcl::floater {
@@ -28,26 +27,10 @@ struct CsrLists
 {
   std::vector<Index> offsets; ///< one more than there are rows; empty if there is no row
   std::vector<Index> ids;
-  std::vector<Index> wraps; ///< rows from which on offsets need another 2^32; mostly none
 
   std::size_t rows () const { return offsets.empty () ? 0 : offsets.size () - 1; }
 
-  /// Where a row begins. For the number of rows: where the last row ends.
-  std::size_t begin (std::size_t r) const
-  {
-    return wraps.empty () ? offsets[r] : offsets[r] + lackingAt (r);
-  }
-  Row row (std::size_t r) const { return {ids.data () + begin (r), ids.data () + begin (r + 1)}; }
-
-  /// Finds the wraps of offsets that are correct modulo 2^32. Call it after setting the offsets of
-  /// a table that may have 2^32 entries or more. O(rows).
-  void findWraps ()
-  {
-    wraps.clear ();
-    for (std::size_t r = 1; r < offsets.size (); ++r)
-      if (offsets[r] < offsets[r - 1])
-        wraps.push_back (static_cast<Index> (r));
-  }
+  Row row (std::size_t r) const { return {ids.data () + offsets[r], ids.data () + offsets[r + 1]}; }
 
   /// The first `count` entries of a row, or all of them if there are fewer.
   Row first (std::size_t r, std::size_t count) const
@@ -55,17 +38,15 @@ struct CsrLists
     const Row whole = row (r);
     return {whole.first, whole.first + (count < whole.size () ? count : whole.size ())};
   }
-
-private:
-  std::size_t lackingAt (std::size_t r) const
-  {
-    constexpr unsigned INDEX_BITS = std::numeric_limits<Index>::digits;
-    std::size_t before = 0;
-    while (before < wraps.size () && wraps[before] <= r)
-      ++before;
-    return before << INDEX_BITS;
-  }
 };
+
+/// \throws IndexLimitReached if lists have so many entries that their offsets cannot count them
+inline void
+requireListed (std::size_t entries)
+{
+  requireCountable (entries, NONE - 1, "a table of points, neighbours or triangles",
+                    "use fewer points or fewer neighbours");
+}
 
 /// Makes lists by counting sort, O(rows + entries). `visit` is called twice. Both times it has to
 /// call its argument `emit (row, id)` for each entry, in the same order; each row keeps that order.
@@ -81,7 +62,7 @@ makeCsrLists (std::size_t rows, Visit&& visit)
     ++lists.offsets[row + 2];
     ++entries;
   });
-  requireCountable (entries, NONE - 1, "a table of points and triangles", "use fewer points");
+  requireListed (entries);
   for (std::size_t r = 2; r < lists.offsets.size (); ++r)
     lists.offsets[r] += lists.offsets[r - 1];
   lists.ids.resize (entries);

@@ -208,23 +208,23 @@ appendRows (const CsrLists& added, CsrLists& lists)
 {
   if (added.ids.empty ())
     return;
+  requireListed (lists.ids.size () + added.ids.size ());
   std::size_t last = lists.ids.size ();         // one past the entries not yet moved
   lists.ids.reserve (last + added.ids.size ()); // growing might double it
   lists.ids.resize (last + added.ids.size ());
   // From the last row to the first: entries move backwards, in runs of rows to which nothing is
   // added.
   for (std::size_t r = lists.rows (); r-- > 0;) {
-    const std::size_t end = lists.begin (r + 1), end_of_more = added.begin (r + 1);
-    lists.offsets[r + 1] = static_cast<Index> (end + end_of_more);
+    const Index end = lists.offsets[r + 1], end_of_more = added.offsets[r + 1];
+    lists.offsets[r + 1] = end + end_of_more;
     const Row more = added.row (r);
     if (more.size () == 0)
       continue;
     Index* const ids = lists.ids.data ();
     std::copy_backward (ids + end, ids + last, ids + last + end_of_more);
-    std::copy (more.begin (), more.end (), ids + end + added.begin (r));
+    std::copy (more.begin (), more.end (), ids + end + added.offsets[r]);
     last = end;
   }
-  lists.findWraps ();
 }
 
 double

@@ -158,7 +158,7 @@ checkOptions (const Options& options)
     return problem;
   if (Problem problem = checkView (options))
     return problem;
-  if (Problem problem = checkSolver (options.disc.solver.method, options.disc.solver.ordering))
+  if (Problem problem = checkSolver (options.disc.solver.method))
     return problem;
   if (!options.disc.boundary.loop.empty () && options.disc.boundary.loop.size () < 3)
     return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};

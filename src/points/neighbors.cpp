@@ -12,10 +12,6 @@
 
 namespace pcl::floater {
 namespace {
-// For error messages.
-constexpr const char* TABLE = "the table of neighbours";
-constexpr const char* REMEDY = "use fewer points or fewer neighbours";
-
 // Writes the k nearest points of `self` without itself, and NONE for missing ones. Points whose
 // squared distance underflows may push it out of the results.
 void
@@ -76,7 +72,7 @@ emptyLists (std::size_t points, std::size_t rows, int k)
 {
   const std::size_t count =
       std::min (static_cast<std::size_t> (k), std::max<std::size_t> (1, points) - 1);
-  requireCountable (rows * count, NONE - 1, TABLE, REMEDY);
+  requireListed (rows * count);
   CsrLists lists;
   lists.offsets.resize (rows + 1);
   for (std::size_t i = 0; i <= rows; ++i)
@@ -149,7 +145,7 @@ searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const Run
     search.nearest (rows[i], static_cast<std::size_t> (k), found);
     for (const Neighbor& neighbor : found)
       lists.ids.push_back (neighbor.point);
-    requireCountable (lists.ids.size (), NONE - 1, TABLE, REMEDY);
+    requireListed (lists.ids.size ());
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }
   return lists;

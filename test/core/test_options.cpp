@@ -114,7 +114,7 @@ TEST (CheckOptions, WhatCannotBeIsRefused)
   view.topology = Topology::DISC;
   expect (view, "no use for a disc");
 
-  Options loop, published, solver;
+  Options loop, published;
   for (const std::vector<Index>& few : {std::vector<Index>{1}, std::vector<Index>{1, 2}}) {
     loop.disc.boundary.loop = few;
     expect (loop, "fewer than 3", RunStatus::INVALID_LOOP);
@@ -127,8 +127,6 @@ TEST (CheckOptions, WhatCannotBeIsRefused)
   expect (loop, "if a boundary loop is given");
   published.disc = DiscOptions::tw385 ();
   expect (published, "TW 385 makes discs only");
-  solver.disc.solver.ordering = Ordering::COLAMD;
-  expect (solver, "ordering");
 }
 
 Report

@@ -140,11 +140,11 @@ chooseOutliersStep (const StepContext& context)
     const std::size_t own = std::min (k, context.limits.outliers.own);
     std::vector<std::uint8_t> apart;
     apart.reserve (n);
+    requireListed (n * own);
     CsrLists neighbors; // the nearest of each
     neighbors.offsets.resize (n + 1);
     for (std::size_t p = 0; p <= n; ++p)
       neighbors.offsets[p] = static_cast<Index> (p * own);
-    neighbors.findWraps ();
     neighbors.ids.reserve (n * own);
     for (std::size_t block = 0; block < ranges.blocks (); ++block) {
       const std::size_t points = ranges.last (block) - ranges.first (block);

@@ -54,6 +54,7 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
   forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
     const CsrLists lists = readLists (file (block), array, first, last, ranges_.points ());
     const Index before = all.offsets.back ();
+    requireListed (all.ids.size () + lists.ids.size ());
     all.ids.insert (all.ids.end (), lists.ids.begin (), lists.ids.end ());
     for (std::size_t r = 1; r < lists.offsets.size (); ++r)
       all.offsets.push_back (before + lists.offsets[r]);

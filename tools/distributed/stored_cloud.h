@@ -223,14 +223,14 @@ public:
   {
     if (are_renewed_)
       return planes_.gatherLists ("renewed", points);
+    requireListed (points.size () * width_);
     CsrLists lists;
     lists.ids = found_.gather<Index> ("ids", points, width_);
     if (!points.empty ())
       found_.file (ranges_.blockOf (points.front ())).requireBelow (lists.ids, ranges_.points ());
     lists.offsets.resize (points.size () + 1);
     for (std::size_t i = 0; i <= points.size (); ++i)
-      lists.offsets[i] = static_cast<Index> (i * width_); // modulo 2^32
-    lists.findWraps ();
+      lists.offsets[i] = static_cast<Index> (i * width_);
     return lists;
   }
 

@@ -140,22 +140,14 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
 } // namespace
 
 Problem
-checkSolver (Solver solver, Ordering ordering)
+checkSolver ([[maybe_unused]] Solver solver)
 {
-  if (solver == Solver::UMFPACK_UNSYMMETRIC || solver == Solver::EIGEN_SPARSE_LU)
-    return {RunStatus::SOLVER_UNAVAILABLE,
-            std::string (solver == Solver::EIGEN_SPARSE_LU ? "Eigen's SparseLU"
-                                                           : "UMFPACK's unsymmetric strategy") +
-                " is no longer part of pcl_floater; choose another solver, such as UMFPACK"};
 #ifndef PCL_FLOATER_HAS_SUPERLU
   if (solver == Solver::SUPERLU)
     return {RunStatus::SOLVER_UNAVAILABLE,
             "this build of pcl_floater does not have SuperLU; choose another solver, or build "
             "pcl_floater where that library is installed"};
 #endif
-  if (ordering == Ordering::COLAMD)
-    return {RunStatus::INVALID_OPTION, "the ordering COLAMD is no longer part of pcl_floater; "
-                                       "choose another ordering, such as AMD"};
   return {};
 }
 
@@ -217,9 +209,8 @@ Solution
 solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run)
 {
   Solution solution;
-  if (const Problem problem = checkSolver (options.method, options.ordering)) {
-    if (problem.status == RunStatus::SOLVER_UNAVAILABLE)
-      solution.outcome = Solution::Outcome::UNAVAILABLE;
+  if (const Problem problem = checkSolver (options.method)) {
+    solution.outcome = Solution::Outcome::UNAVAILABLE;
     solution.message = problem.message;
     return solution;
   }

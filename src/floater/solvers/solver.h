@@ -86,10 +86,9 @@ struct Solution
   std::size_t peak_bytes = 0;        ///< direct solvers: largest memory of the factorization
 };
 
-/// SOLVER_UNAVAILABLE if the library is without the solver, INVALID_OPTION for an ordering that no
-/// solver takes, OK otherwise.
+/// SOLVER_UNAVAILABLE if the library is without the solver, OK otherwise.
 Problem
-checkSolver (Solver solver, Ordering ordering);
+checkSolver (Solver solver);
 
 /// Solves for both coordinates with options.method in the order options.ordering. An empty system
 /// is OK. Every solver refuses a singular system: direct ones by a pivot of rounding errors, the

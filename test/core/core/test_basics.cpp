@@ -13,24 +13,6 @@
 
 namespace pcl::floater {
 namespace {
-TEST (CsrLists, BeginsBeyondFourBillionEntries)
-{
-  constexpr std::size_t LONG = 3'000'000'000; // a row so long that few rows have many entries
-  CsrLists lists;
-  std::vector<std::size_t> begins;
-  for (std::size_t r = 0; r <= 9; ++r) {
-    begins.push_back (r < 5 ? r * LONG : (r - 1) * LONG + 5); // row 4 has five entries
-    lists.offsets.push_back (static_cast<Index> (begins.back ()));
-  }
-  lists.findWraps ();
-  for (std::size_t r = 0; r <= 9; ++r)
-    EXPECT_EQ (lists.begin (r), begins[r]) << r;
-  lists.offsets = {0, 3, 3, 7};
-  lists.findWraps ();
-  EXPECT_TRUE (lists.wraps.empty ());
-  EXPECT_EQ (lists.begin (3), 7U);
-}
-
 TEST (Parallel, TasksAndRangesCoverAllOnce)
 {
   for (const int threads : {1, 2, 7})

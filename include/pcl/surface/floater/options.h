@@ -96,12 +96,10 @@ enum class Weighting
 /// Solver of the linear system (TW 385, section 4.2).
 enum class Solver
 {
-  UMFPACK,             ///< direct; symmetric strategy
-  UMFPACK_UNSYMMETRIC, ///< deprecated, SOLVER_UNAVAILABLE: until version 2 only
-  SUPERLU,             ///< direct; if built with SuperLU; ends the program if there is no memory
-  EIGEN_SPARSE_LU,     ///< deprecated, SOLVER_UNAVAILABLE: until version 2 only
-  BICGSTAB_ILUT,       ///< iterative, preconditioned by an incomplete LU factorization
-  GAUSS_SEIDEL         ///< iterative; converges for small clouds only
+  UMFPACK,       ///< direct; symmetric strategy
+  SUPERLU,       ///< direct; if built with SuperLU; ends the program if there is no memory
+  BICGSTAB_ILUT, ///< iterative, preconditioned by an incomplete LU factorization
+  GAUSS_SEIDEL   ///< iterative; converges for small clouds only
 };
 
 /// Order of the unknowns, of rows and columns alike.
@@ -111,7 +109,6 @@ enum class Ordering
              ///< iterative solvers: NATURAL
   AMD,       ///< approximate minimum degree
   METIS,     ///< nested dissection by METIS
-  COLAMD,    ///< deprecated, INVALID_OPTION: until version 2 only
   REVERSE_CUTHILL_MCKEE, ///< small bandwidth
   NATURAL                ///< as the points are stored: along a space-filling curve
 };
