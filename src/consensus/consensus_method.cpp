@@ -24,10 +24,10 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
       findBoundaryLoops (consensus.mesh, components, positions, geometry.spacing, run);
   HoleOptions keep_largest;
   keep_largest.policy = HolePolicy::KEEP_LARGEST;
-  const std::vector<LoopJudgement> judgements =
-      judgeLoops (consensus.mesh, loops, positions, geometry.neighbors, consensus.normals,
-                  limits.open_loops, run);
-  chooseOpenLoops (loops, judgements, components.count, keep_largest, 1.0);
+  chooseOpenLoops (loops,
+                   judgeLoops (consensus.mesh, loops, positions, geometry.neighbors,
+                               consensus.normals, limits.open_loops, run),
+                   components.count, keep_largest, 1.0);
 
   // Beyond a ragged boundary there are points with gaps in their stars.
   std::vector<Index> candidates;
@@ -35,18 +35,12 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
     candidates.push_back (gap.point);
   Boundary boundary;
   const auto largest = std::max_element (component_points.begin (), component_points.end ());
-  // The open loop of the largest component, or else the one that is most likely open.
-  std::size_t best = loops.size ();
-  for (std::size_t i = 0; i < loops.size (); ++i) {
-    candidates.insert (candidates.end (), loops[i].points.begin (), loops[i].points.end ());
-    if (loops[i].component != static_cast<Index> (largest - component_points.begin ()))
-      continue;
-    if (best == loops.size () || loops[i].keep_open ||
-        (!loops[best].keep_open && judgements[i].log_odds > judgements[best].log_odds))
-      best = i;
+  for (BoundaryLoop& loop : loops) {
+    candidates.insert (candidates.end (), loop.points.begin (), loop.points.end ());
+    if (loop.keep_open &&
+        loop.component == static_cast<Index> (largest - component_points.begin ()))
+      boundary.loop = std::move (loop.points);
   }
-  if (best < loops.size ())
-    boundary.loop = std::move (loops[best].points);
   sortUnique (candidates);
   boundary.candidates = candidates.size ();
   if (!boundary.loop.empty ())

@@ -23,10 +23,9 @@ struct ConsensusLoopLimits
 };
 
 /// Makes the consensus mesh and takes the loop of its largest component that
-/// HolePolicy::KEEP_LARGEST would keep open, or that is most likely open if there is none, the
-/// surface on the left. Then inserts points beside the loop that have a gap in their star (see
-/// refineLoop): a ragged boundary has points that no triangle connects to the rest. Of 144
-/// generated discs, 5 have no loop: fingers whose opening has a dozen points. O(n log n).
+/// HolePolicy::KEEP_LARGEST would keep open, the surface on the left. Then inserts points beside
+/// the loop that have a gap in their star (see refineLoop): a ragged boundary has points that no
+/// triangle connects to the rest. O(n log n).
 /// \param positions by which the geometry was made
 /// \return the loop; its candidates are the points with gaps and on any loop
 Boundary

@@ -28,8 +28,9 @@ constexpr Choices<Facing, 5> FACING_CHOICES{{{"auto", Facing::AUTO},
                                              {"normals", Facing::NORMALS}}};
 constexpr Choices<ScatterPolicy, 3> SCATTER_CHOICES{
     {{"auto", ScatterPolicy::AUTO}, {"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
-constexpr Choices<BoundaryMethod, 2> BOUNDARY_CHOICES{
-    {{"consensus", BoundaryMethod::CONSENSUS},
+constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{
+    {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
+     {"consensus", BoundaryMethod::CONSENSUS},
      {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
 constexpr Choices<Neighborhood, 4> NEIGHBORHOOD_CHOICES{
     {{"nearest-delaunay", Neighborhood::NEAREST_DELAUNAY},

@@ -167,8 +167,9 @@ visitOptions (AnyOptions& options, Visitor&& visit)
                    "drop neighbours on another sheet of the surface"},
          options.filter_sheets);
   visit (OptionRow{"boundary", BOUNDARY, "boundary.method", UsedFor::LOOP,
-                   "how the boundary loop is found: as the largest boundary loop of the consensus "
-                   "of the stars, or as in TW 385, section 3 (two-segments)"},
+                   "how the boundary loop is found: in a spanning tree of the boundary points; as "
+                   "the largest boundary loop of the consensus of the stars; or as in TW 385, "
+                   "section 3 (two-segments)"},
          disc.boundary.method, BOUNDARY_CHOICES);
   visit (OptionRow{"opening_angle", BOUNDARY, "boundary.opening_angle", UsedFor::TWO_SEGMENTS,
                    "two-segments: degrees; a boundary point has a wider sector without neighbours"},

@@ -260,7 +260,7 @@ TEST (Cancellation, IsSeenWithinStages)
   // All but DELAUNAY, which is a single call of CGAL.
   for (const Stage stage : {Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE})
     for (const BoundaryMethod method :
-         {BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
+         {BoundaryMethod::SPANNING_TREE, BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
       disc.disc.boundary.method = method;
       EXPECT_TRUE (isCancelledWithin (stage, surface (SurfaceKind::HEIGHT_FIELD, 5000), disc))
           << stageName (stage) << ", method " << static_cast<int> (method);

@@ -793,7 +793,7 @@ class Errors(Case):
         self.generate("torus", "--points", 400000)
         self.expect_failure(self.again("--max-memory", "30M"), USAGE, "too small", "400000 points")
         self.ok(self.command("--blocks", 3, "--max-memory", "34M", "--step", "plan", self.cloud, self.path("mesh.ply")))
-        self.expect_failure(self.step("join", "--max-memory", "33M"), USAGE, "too small", "34M")
+        self.expect_failure(self.step("join", "--max-memory", "34M"), USAGE, "too small", "43M")
         self.expect_no_mesh()
 
 

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "floater/boundary/neighbor_graph.h"
+#include "floater/boundary/spanning_tree_loop.h"
 #include "floater/boundary/two_segment_loop.h"
 #include "local/planar_star.h"
 
@@ -169,8 +170,12 @@ Boundary
 findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
               const RunContext& run, const LoopLimits& limits)
 {
-  return options.loop.empty () ? byTwoSegments (points, geometry, options, run, limits)
-                               : fromUser (points, options.loop);
+  if (!options.loop.empty ())
+    return fromUser (points, options.loop);
+  if (options.method == BoundaryMethod::TWO_SEGMENTS)
+    return byTwoSegments (points, geometry, options, run, limits);
+  return spanningTreeLoop (points.workingPositions (), geometry.stars, geometry.spacing, run,
+                           limits);
 }
 
 void

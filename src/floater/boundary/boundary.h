@@ -19,10 +19,29 @@ namespace pcl::floater {
 /// Thresholds for the loop of a disc. Lengths are in local spacings (see localSpacing ()) unless
 /// noted.
 ///
-/// The values of the refinement were chosen together on 33 real clouds. They were not varied one by
-/// one, so none of them is certain.
+/// The values of the spanning tree and of the refinement were chosen together on 33 real clouds; 28
+/// of these got the right loop. They were not varied one by one, so none of them is certain.
 struct LoopLimits
 {
+  // Spanning tree.
+
+  /// Circumradius ratios (circumradius over the mean spacing of the corners) above which a triangle
+  /// of a star counts as missing. Each gives one loop; the longest trusted loop wins. For
+  /// comparison: an equilateral triangle has a ratio of 0.58, half a square one of 0.71.
+  std::array<double, 3> circumradius_ratios{1.5, 2.0, 2.5};
+  /// Longest edge between two candidates.
+  double longest_edge = 6.0;
+  /// A loop without a longer step is trusted. The experiments used values from 3 to 5.
+  double largest_trusted_step = 4.0;
+  /// Cost per length of an edge whose ends are both at the end of the other's gap. An edge between
+  /// candidates that are only near each other costs 1 per length.
+  double mutual_cost = 0.05;
+  /// Cost per length of an edge where only one end is at the end of the other's gap.
+  double one_sided_cost = 0.4;
+  /// Factor of length by which a loop replaces an equally trustworthy earlier one. Keeps the
+  /// smaller circumradius ratio if loops differ little more than their jags.
+  double least_gain = 1.02;
+
   // Refinement.
 
   /// Longest detour over a candidate that is inserted.
@@ -92,8 +111,9 @@ struct Boundary
   Problem problem;            ///< NO_BOUNDARY or INVALID_LOOP
 };
 
-/// The loop in the options, or otherwise that of TWO_SEGMENTS; for CONSENSUS see consensusLoop ().
-/// May report INVALID_LOOP; for other problems call checkBoundary ().
+/// The loop in the options, or otherwise the one that their method finds (SPANNING_TREE or
+/// TWO_SEGMENTS; for CONSENSUS see consensus_loop.h). May report INVALID_LOOP; for other problems
+/// call checkBoundary ().
 Boundary
 findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
               const RunContext& run, const LoopLimits& limits = {});

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, both
 // finders of loops, and the stage as a whole.
-#include "consensus/consensus_method.h"
 #include "floater/boundary/boundary.h"
 #include "floater/boundary/neighbor_graph.h"
+#include "floater/boundary/spanning_tree_loop.h"
 #include "floater/boundary/two_segment_loop.h"
 #include "samples.h"
 
@@ -123,7 +123,7 @@ loopOf (const Positions& positions)
 {
   const Neighborhoods made = makeNeighborhoods (positions);
   const Boundary boundary =
-      consensusLoop (made.points.positions, made.geometry, 1);
+      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing, 1);
   EXPECT_FALSE (boundary.problem);
   return inCloud (made, boundary.loop);
 }
@@ -134,7 +134,7 @@ onCircle (double angle)
   return {std::cos (angle), std::sin (angle), 0.0};
 }
 
-TEST (ConsensusLoop, IsTheOuterBorderOfASheet)
+TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
 {
   struct Case
   {
@@ -277,9 +277,7 @@ TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
 Boundary
 find (const Neighborhoods& made, const BoundaryOptions& options)
 {
-  Boundary boundary = options.method == BoundaryMethod::CONSENSUS
-                          ? consensusLoop (made.points.positions, made.geometry, 1)
-                          : findBoundary (made.points, made.geometry, options, 1);
+  Boundary boundary = findBoundary (made.points, made.geometry, options, 1);
   checkBoundary (made.points, made.geometry.spacing, !options.loop.empty (), boundary);
   return boundary;
 }
@@ -297,7 +295,7 @@ TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
   const Neighborhoods open = makeNeighborhoods (sheet.positions);
   const Neighborhoods closed = makeNeighborhoods (sphere);
   for (const BoundaryMethod method :
-       {BoundaryMethod::CONSENSUS, BoundaryMethod::TWO_SEGMENTS}) {
+       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
     BoundaryOptions options;
     options.method = method;
     const Boundary boundary = find (open, options), none = find (closed, options);

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "floater/boundary/spanning_tree_loop.h"
+
+#include "core/disjoint_sets.h"
+#include "floater/boundary/boundary.h"
+#include "floater/boundary/two_segment_loop.h"
+#include "points/kd_tree.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+using Positions = std::vector<Eigen::Vector3d>;
+
+// Nearest candidates that are connected with a candidate, besides those at the ends of its gaps.
+constexpr std::size_t NEAR_CANDIDATES = 8;
+
+struct CandidateEdge
+{
+  Index a, b; // numbers of candidates, a < b
+  float length;
+  float cost;
+};
+
+// The points that have a gap, numbered.
+struct Candidates
+{
+  std::vector<Index> points;          // ascending
+  std::vector<Index> number_of_point; // NONE if the point is no candidate
+
+  Candidates (const std::vector<Gap>& gaps, std::size_t n) : number_of_point (n, NONE)
+  {
+    for (const Gap& gap : gaps)
+      if (number_of_point[gap.point] == NONE) {
+        number_of_point[gap.point] = static_cast<Index> (points.size ());
+        points.push_back (gap.point);
+      }
+  }
+};
+
+// Keeps the cheapest of several edges between the same candidates, and sorts by cost, then by the
+// candidates' numbers.
+void
+sortByCost (std::vector<CandidateEdge>& edges)
+{
+  std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
+    return std::tie (x.a, x.b, x.cost) < std::tie (y.a, y.b, y.cost);
+  });
+  edges.erase (std::unique (edges.begin (), edges.end (),
+                            [] (const CandidateEdge& x, const CandidateEdge& y) {
+                              return x.a == y.a && x.b == y.b;
+                            }),
+               edges.end ());
+  std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
+    return std::tie (x.cost, x.a, x.b) < std::tie (y.cost, y.a, y.b);
+  });
+}
+
+// \param gaps ordered by point
+// \return edges by cost
+std::vector<CandidateEdge>
+joinCandidates (const Positions& positions, const std::vector<float>& spacing,
+                const std::vector<Gap>& gaps, const Candidates& candidates, const RunContext& run,
+                const LoopLimits& limits)
+{
+  std::vector<CandidateEdge> edges;
+  const auto add = [&] (Index p, Index q, double cost_per_length) {
+    const Index a = candidates.number_of_point[p];
+    const Index b = candidates.number_of_point[q];
+    const double length = (positions[p] - positions[q]).norm ();
+    if (a == b || a == NONE || b == NONE ||
+        length > limits.longest_edge * 0.5 * (spacing[p] + spacing[q]))
+      return;
+    edges.push_back ({std::min (a, b), std::max (a, b), static_cast<float> (length),
+                      static_cast<float> (cost_per_length * length)});
+  };
+  const auto sees = [&] (Index p, Index q) {
+    const auto first =
+        std::lower_bound (gaps.begin (), gaps.end (), p,
+                          [] (const Gap& gap, Index point) { return gap.point < point; });
+    for (auto gap = first; gap != gaps.end () && gap->point == p; ++gap)
+      if (gap->first == q || gap->last == q)
+        return true;
+    return false;
+  };
+  ProgressLoop progress (run, gaps.size () + candidates.points.size ());
+  for (const Gap& gap : gaps) {
+    progress.next ();
+    for (const Index q : {gap.first, gap.last})
+      add (gap.point, q, sees (q, gap.point) ? limits.mutual_cost : limits.one_sided_cost);
+  }
+
+  Positions places;
+  places.reserve (candidates.points.size ());
+  for (Index p : candidates.points)
+    places.push_back (positions[p]);
+  const KdTree tree (places, run);
+  std::vector<Neighbor> found;
+  for (Index p : candidates.points) {
+    progress.next ();
+    tree.nearest (positions[p], NEAR_CANDIDATES + 1, found); // the candidate itself among them
+    for (const Neighbor& neighbor : found)
+      add (p, candidates.points[neighbor.point], 1.0);
+  }
+  sortByCost (edges);
+  return edges;
+}
+
+// A minimum spanning forest. Every node stores its ancestors 1, 2, 4, ... steps up, so the length
+// of the path between two nodes takes O(log nodes).
+class SpanningForest
+{
+public:
+  // Kruskal's algorithm.
+  // \param edges   by cost
+  // \param outside gets the edges that are not in the forest
+  SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges,
+                  std::vector<CandidateEdge>& outside, const RunContext& run)
+      : root_distance_ (nodes, 0.0), depth_ (nodes, 0), tree_ (nodes, NONE)
+  {
+    DisjointSets trees (nodes);
+    Adjacency adjacent (nodes);
+    ProgressLoop progress (run);
+    for (const CandidateEdge& edge : edges) {
+      progress.next ();
+      if (!trees.join (edge.a, edge.b)) {
+        outside.push_back (edge);
+        continue;
+      }
+      adjacent[edge.a].emplace_back (edge.b, edge.length);
+      adjacent[edge.b].emplace_back (edge.a, edge.length);
+    }
+    ancestors_.emplace_back (nodes, NONE);
+    for (Index root = 0; root < nodes; ++root)
+      if (tree_[root] == NONE)
+        growTree (root, adjacent, progress);
+    const Index deepest = nodes == 0 ? 0 : *std::max_element (depth_.begin (), depth_.end ());
+    for (Index step = 1; step <= deepest; step *= 2) {
+      const std::vector<Index>& half = ancestors_.back ();
+      std::vector<Index> whole (nodes);
+      for (Index x = 0; x < nodes; ++x)
+        whole[x] = half[half[x]];
+      ancestors_.push_back (std::move (whole));
+    }
+  }
+
+  double pathLength (Index a, Index b) const
+  {
+    return root_distance_[a] + root_distance_[b] -
+           2.0 * root_distance_[lowestCommonAncestor (a, b)];
+  }
+
+  // The nodes on the path from a to b, both included.
+  std::vector<Index> path (Index a, Index b) const
+  {
+    const Index top = lowestCommonAncestor (a, b);
+    std::vector<Index> up, down;
+    for (Index x = a; x != top; x = ancestors_[0][x])
+      up.push_back (x);
+    for (Index x = b; x != top; x = ancestors_[0][x])
+      down.push_back (x);
+    up.push_back (top);
+    up.insert (up.end (), down.rbegin (), down.rend ());
+    return up;
+  }
+
+private:
+  using Adjacency = std::vector<std::vector<std::pair<Index, float>>>; // node, length of the edge
+
+  // Sets parents, depths and distances of all nodes that are connected with the root.
+  void growTree (Index root, const Adjacency& adjacent, ProgressLoop& progress)
+  {
+    std::vector<Index> stack{root};
+    tree_[root] = root;
+    ancestors_[0][root] = root;
+    while (!stack.empty ()) {
+      progress.next ();
+      const Index x = stack.back ();
+      stack.pop_back ();
+      for (const auto& [y, length] : adjacent[x]) {
+        if (tree_[y] != NONE)
+          continue;
+        tree_[y] = root;
+        ancestors_[0][y] = x;
+        depth_[y] = depth_[x] + 1;
+        root_distance_[y] = root_distance_[x] + length;
+        stack.push_back (y);
+      }
+    }
+  }
+
+  // The lowest common ancestor of two nodes of one tree.
+  Index lowestCommonAncestor (Index a, Index b) const
+  {
+    if (depth_[a] < depth_[b])
+      std::swap (a, b);
+    for (std::size_t level = ancestors_.size (); level-- > 0;)
+      if (depth_[a] - depth_[b] >= (Index{1} << level))
+        a = ancestors_[level][a];
+    for (std::size_t level = ancestors_.size (); level-- > 0 && a != b;)
+      if (ancestors_[level][a] != ancestors_[level][b]) {
+        a = ancestors_[level][a];
+        b = ancestors_[level][b];
+      }
+    return a == b ? a : ancestors_[0][a];
+  }
+
+  std::vector<std::vector<Index>> ancestors_; // [l][x]: 2^l steps up from x; the root's is the root
+  std::vector<double> root_distance_;         // along the tree
+  std::vector<Index> depth_;                  // edges to the root
+  std::vector<Index> tree_;                   // the root of each node's tree
+};
+
+double
+perimeter (const std::vector<Index>& loop, const Positions& positions)
+{
+  double length = 0.0;
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    length += (positions[loop[i]] - positions[loop[(i + 1) % loop.size ()]]).norm ();
+  return length;
+}
+
+// The longest cycle that an edge outside of the forest closes, as points; empty if there is none.
+std::vector<Index>
+longestCycle (const SpanningForest& forest, const std::vector<CandidateEdge>& outside,
+              const Candidates& candidates, const RunContext& run)
+{
+  constexpr double ROUNDING =
+      1e-9; // smaller differences of length count as ties; the first edge wins
+  const CandidateEdge* closing = nullptr;
+  double longest = 0.0;
+  ProgressLoop progress (run);
+  for (const CandidateEdge& edge : outside) {
+    progress.next ();
+    const double length = forest.pathLength (edge.a, edge.b) + edge.length;
+    if (length > longest * (1.0 + ROUNDING)) {
+      longest = length;
+      closing = &edge;
+    }
+  }
+  std::vector<Index> cycle;
+  if (closing != nullptr)
+    for (Index candidate : forest.path (closing->a, closing->b))
+      cycle.push_back (candidates.points[candidate]);
+  if (cycle.size () < 3)
+    cycle.clear ();
+  return cycle;
+}
+
+Boundary
+findLoop (const Positions& positions, const Stars& stars, const std::vector<float>& spacing,
+          double circumradius_ratio, const RunContext& run, const LoopLimits& limits)
+{
+  Boundary boundary;
+  const std::vector<Gap> gaps = findGaps (stars, spacing, circumradius_ratio, run);
+  const Candidates candidates (gaps, positions.size ());
+  boundary.candidates = candidates.points.size ();
+  std::vector<CandidateEdge> outside;
+  const SpanningForest forest (candidates.points.size (),
+                               joinCandidates (positions, spacing, gaps, candidates, run, limits),
+                               outside, run);
+  boundary.loop = longestCycle (forest, outside, candidates, run);
+  if (boundary.loop.empty ())
+    return boundary;
+  refineLoop (positions, stars, spacing, candidates.points, boundary.loop, run, limits);
+  measureSteps (positions, spacing, boundary);
+  return boundary;
+}
+
+} // namespace
+
+Boundary
+spanningTreeLoop (const Positions& positions, const Stars& stars, const std::vector<float>& spacing,
+                  const RunContext& run, const LoopLimits& limits)
+{
+  Boundary best;
+  double best_length = 0.0;
+  for (const double ratio : limits.circumradius_ratios) {
+    Boundary boundary = findLoop (positions, stars, spacing, ratio, run, limits);
+    if (boundary.loop.empty () && !best.loop.empty ())
+      continue;
+    const double length = perimeter (boundary.loop, positions);
+    const bool is_trusted = boundary.largest_step <= limits.largest_trusted_step;
+    const bool is_best_trusted = best.largest_step <= limits.largest_trusted_step;
+    if (best.loop.empty () || (is_trusted && !is_best_trusted) ||
+        (is_trusted == is_best_trusted && length > limits.least_gain * best_length)) {
+      best = std::move (boundary);
+      best_length = length;
+    }
+  }
+  return best;
+}
+
+} // namespace pcl::floater
