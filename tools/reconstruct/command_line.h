@@ -119,7 +119,7 @@ struct CommandLine
   }
 };
 
-/// Changes the limit that a setting such as "parts.points=5000" names.
+/// Changes the limit that a setting such as "page.triangles=5000" names.
 /// \return why it cannot, if so
 std::optional<std::string>
 setLimit (const std::string& setting, CommandLine& line);
