@@ -3,6 +3,7 @@
 #include "mesh/vertex_splits.h"
 
 #include "core/geometry.h"
+#include "mesh/fan_cutter.h"
 #include "points/kd_tree.h"
 
 #include <Eigen/Geometry>
@@ -13,44 +14,13 @@
 
 namespace pcl::floater {
 namespace {
-// The triangles around a vertex and the places between them, anti-clockwise. Triangle k has the
-// places k and k + 1 as its other corners. Around a closed fan, places count on.
-struct Fan
-{
-  Index centre = NONE;
-  std::vector<Index> triangles;
-  std::vector<Index> ring;
-  bool is_closed = false;
-
-  std::size_t size () const { return triangles.size (); }
-  Index triangle (std::size_t k) const { return triangles[k % size ()]; }
-  Index at (std::size_t k) const { return ring[k % ring.size ()]; }
-  // The last place; around a closed fan, the first one again.
-  std::size_t last () const { return size (); }
-};
-
-// A part of the fan around a vertex, from one place to another.
-struct Cut
-{
-  double cost = std::numeric_limits<double>::infinity ();
-  Index vertex = NONE;
-  std::size_t from = 0, to = 0;
-  // Whether a triangle with both points closes the cut there; at the boundary, one is enough.
-  bool has_begin = true, has_end = true;
-};
-
-// Where a point was that was taken out: the places of its part, by their points.
-struct Return
-{
-  Index vertex = NONE, from = NONE, to = NONE; // NONE: no cut there
-};
-
 class VertexSplitter
 {
 public:
   VertexSplitter (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   const SplitLimits& limits, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), tree_ (positions, run)
+      : mesh_ (mesh), cutter_ (mesh), positions_ (positions), limits_ (limits),
+        tree_ (positions, run)
   {
     mesh_.triangle_of.resize (positions.size (), NONE);
   }
@@ -59,16 +29,15 @@ public:
   {
     const Cut cut = bestNear (p, limits_.near);
     if (cut.vertex != NONE)
-      split (cut, p);
+      cutter_.split (cut, p);
     return cut.vertex != NONE;
   }
 
   bool isAtFold (Index p);
   bool move (Index p);
-  void dropUnused (const RunContext& run);
+  void dropUnused (const RunContext& run) { cutter_.dropUnused (run); }
 
 private:
-  void setFan (Index v, Fan& fan) const;
   Eigen::Vector3d normal (Index a, Index b, Index c) const
   {
     return (positions_[b] - positions_[a]).cross (positions_[c] - positions_[a]).normalized ();
@@ -80,19 +49,13 @@ private:
   }
   Cut bestCut (Index v, Index p, const Return* given = nullptr);
   Cut bestNear (Index p, std::size_t near);
-  void split (const Cut& cut, Index p);
-  void splitAgain (const Return& place, Index p);
-  Return takeOut (Index p, Index v);
-  Cut cutAt (const Return& place) const;
-  Index newTriangle ();
-  void relink (Index t, Index before, Index now);
 
   TriangleMesh& mesh_;
+  FanCutter cutter_;
   const std::vector<Eigen::Vector3d>& positions_;
   const SplitLimits& limits_;
   KdTree tree_;
-  std::vector<Index> unused_; // triangles
-  Fan fan_, other_fan_;
+  Fan fan_;
   std::vector<Neighbor> found_;
   // Of bestCut: at each place, at v and at the new point.
   struct Place
@@ -108,27 +71,10 @@ private:
   std::vector<double> rims_, spokes_v_, spokes_p_; // sums of those before a place
 };
 
-void
-VertexSplitter::setFan (Index v, Fan& fan) const
-{
-  fan.centre = v;
-  mesh_.fan (v, fan.triangles);
-  fan.ring.clear ();
-  Index next = NONE;
-  for (const Index t : fan.triangles) {
-    const std::uint8_t side = mesh_.sideOf (t, v);
-    fan.ring.push_back (mesh_.triangles[t][TriangleMesh::next (side)]);
-    next = mesh_.triangles[t][TriangleMesh::previous (side)];
-  }
-  fan.is_closed = next == fan.ring.front ();
-  if (!fan.is_closed)
-    fan.ring.push_back (next);
-}
-
 Cut
 VertexSplitter::bestCut (Index v, Index p, const Return* given)
 {
-  setFan (v, fan_);
+  cutter_.setFan (v, fan_);
   const std::size_t m = fan_.size (), ring = fan_.ring.size (),
                     count = fan_.is_closed ? 2 * m : ring;
   const bool is_open = !fan_.is_closed;
@@ -219,7 +165,7 @@ VertexSplitter::bestCut (Index v, Index p, const Return* given)
       best = {cost, v, from, to, has_begin, has_end};
   };
   if (given != nullptr) {
-    const Cut cut = cutAt (*given);
+    const Cut cut = FanCutter::cutAt (fan_, *given);
     consider (cut.from, cut.to, cut.has_begin, cut.has_end);
     return best;
   }
@@ -234,25 +180,6 @@ VertexSplitter::bestCut (Index v, Index p, const Return* given)
       consider (0, k, false, true);
     }
   return best;
-}
-
-// The cut of fan_ that gives a point its part back.
-Cut
-VertexSplitter::cutAt (const Return& place) const
-{
-  const auto placeOf = [this] (Index p) {
-    return static_cast<std::size_t> (std::find (fan_.ring.begin (), fan_.ring.end (), p) -
-                                     fan_.ring.begin ());
-  };
-  Cut cut;
-  cut.vertex = place.vertex;
-  cut.has_begin = place.from != NONE;
-  cut.has_end = place.to != NONE;
-  cut.from = cut.has_begin ? placeOf (place.from) : 0;
-  cut.to = cut.has_end ? placeOf (place.to) : fan_.last ();
-  if (fan_.is_closed && cut.to <= cut.from)
-    cut.to += fan_.size ();
-  return cut;
 }
 
 Cut
@@ -274,148 +201,12 @@ VertexSplitter::bestNear (Index p, std::size_t near)
   return best;
 }
 
-Index
-VertexSplitter::newTriangle ()
-{
-  if (!unused_.empty ()) {
-    const Index t = unused_.back ();
-    unused_.pop_back ();
-    return t;
-  }
-  mesh_.triangles.emplace_back ();
-  mesh_.neighbors.push_back ({NONE, NONE, NONE});
-  return static_cast<Index> (mesh_.triangles.size () - 1);
-}
-
-// Replaces a neighbour of t.
-void
-VertexSplitter::relink (Index t, Index before, Index now)
-{
-  if (t != NONE)
-    for (Index& neighbor : mesh_.neighbors[t])
-      if (neighbor == before) {
-        neighbor = now;
-        return;
-      }
-}
-
-void
-VertexSplitter::split (const Cut& cut, Index p)
-{
-  const Index v = cut.vertex;
-  setFan (v, fan_);
-  const std::size_t m = fan_.size (), from = cut.from, to = cut.to;
-  // Triangles beside the ends of the part, outside and inside; NONE at the boundary.
-  const auto outside = [&] (std::size_t k) { return fan_.triangle (k); };
-  const Index before = from > 0 || fan_.is_closed ? outside (from + m - 1) : NONE;
-  const Index after = to < m || fan_.is_closed ? outside (to) : NONE;
-  const Index first = to > from ? outside (from) : NONE;
-  const Index last = to > from ? outside (to + m - 1) : NONE;
-  const Index from_point = fan_.at (from), to_point = fan_.at (to);
-  for (std::size_t k = from; k < to; ++k) {
-    Triangle& corners = mesh_.triangles[fan_.triangle (k)];
-    corners[mesh_.sideOf (fan_.triangle (k), v)] = p;
-  }
-  const Index begin = cut.has_begin ? newTriangle () : NONE;
-  const Index end = cut.has_end ? newTriangle () : NONE;
-  if (begin != NONE) {
-    mesh_.triangles[begin] = {v, from_point, p};
-    mesh_.neighbors[begin] = {first, end, before};
-    // The edge of `before` that follows its first corner on the ring.
-    if (before != NONE)
-      mesh_.neighbors[before][TriangleMesh::next (mesh_.sideOf (before, v))] = begin;
-    if (first != NONE)
-      mesh_.neighbors[first][TriangleMesh::previous (mesh_.sideOf (first, p))] = begin;
-  }
-  if (end != NONE) {
-    mesh_.triangles[end] = {v, p, to_point};
-    mesh_.neighbors[end] = {last, after, begin};
-    if (last != NONE)
-      mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, p))] = end;
-    if (after != NONE)
-      mesh_.neighbors[after][TriangleMesh::previous (mesh_.sideOf (after, v))] = end;
-  }
-  mesh_.triangle_of[v] = mesh_.triangle_of[p] = begin != NONE ? begin : end;
-}
-
-// Collapses p into its neighbour v.
-// \return how to undo it; vertex NONE if it would change the topology: nothing is done then
-Return
-VertexSplitter::takeOut (Index p, Index v)
-{
-  setFan (p, other_fan_);
-  setFan (v, fan_);
-  const auto place = std::find (other_fan_.ring.begin (), other_fan_.ring.end (), v);
-  const auto k = static_cast<std::size_t> (place - other_fan_.ring.begin ());
-  const std::size_t m = other_fan_.size ();
-  // The triangles that go: (p, v, from), which follows v around p, and (p, to, v) before it.
-  const Index begin = k < m ? other_fan_.triangles[k] : NONE;
-  const Index end = k > 0                  ? other_fan_.triangles[k - 1]
-                    : other_fan_.is_closed ? other_fan_.triangles[m - 1]
-                                           : NONE;
-  Return result;
-  result.from = begin != NONE ? other_fan_.at (k + 1) : NONE;
-  result.to = end != NONE ? other_fan_.at (k + other_fan_.ring.size () - 1) : NONE;
-  const bool is_boundary_edge = begin == NONE || end == NONE;
-  if (!other_fan_.is_closed && !is_boundary_edge)
-    return {};
-  if (m == 3 && fan_.size () == 3 && other_fan_.is_closed && fan_.is_closed)
-    return {};
-  for (const Index q : other_fan_.ring)
-    if (q != v && q != result.from && q != result.to &&
-        std::find (fan_.ring.begin (), fan_.ring.end (), q) != fan_.ring.end ())
-      return {};
-  // The two other edges of a triangle that goes must not both be of the boundary.
-  const auto across = [this] (Index t, Index corner) {
-    return mesh_.neighbors[t][mesh_.sideOf (t, corner)];
-  };
-  for (const Index t : {begin, end})
-    if (t != NONE && across (t, p) == NONE && across (t, v) == NONE)
-      return {};
-  if (begin != NONE && end != NONE && across (begin, p) == end)
-    return {};
-  for (const Index t : other_fan_.triangles)
-    mesh_.triangles[t][mesh_.sideOf (t, p)] = v;
-  Index left = NONE; // a triangle at v
-  for (const Index t : {begin, end}) {
-    if (t == NONE)
-      continue;
-    // Both corners are v now: the edges to the third corner are joined.
-    const Index third = t == begin ? result.from : result.to;
-    const Triangle corners = mesh_.triangles[t];
-    Index sides[2] = {NONE, NONE};
-    std::size_t found = 0;
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (corners[side] == v)
-        sides[found++] = mesh_.neighbors[t][side];
-    relink (sides[0], t, sides[1]);
-    relink (sides[1], t, sides[0]);
-    for (const Index other : sides)
-      if (other != NONE && other != begin && other != end) {
-        left = other;
-        mesh_.triangle_of[third] = other;
-      }
-    unused_.push_back (t);
-  }
-  mesh_.triangle_of[v] = left;
-  mesh_.triangle_of[p] = NONE;
-  result.vertex = v;
-  return result;
-}
-
-void
-VertexSplitter::splitAgain (const Return& place, Index p)
-{
-  setFan (place.vertex, fan_);
-  split (cutAt (place), p);
-}
-
 bool
 VertexSplitter::isAtFold (Index p)
 {
   if (mesh_.triangle_of[p] == NONE)
     return false;
-  setFan (p, fan_);
+  cutter_.setFan (p, fan_);
   for (std::size_t k = 0; k < fan_.size (); ++k) {
     const Index t = fan_.triangles[k];
     const Eigen::Vector3d here = normalOf (t);
@@ -432,12 +223,12 @@ VertexSplitter::isAtFold (Index p)
 bool
 VertexSplitter::move (Index p)
 {
-  setFan (p, fan_);
+  cutter_.setFan (p, fan_);
   const std::vector<Index> around = fan_.ring;
   double best = -1e-9 * (positions_[p] - positions_[around.front ()]).norm ();
   Index into = NONE;
   for (const Index v : around) {
-    const Return back = takeOut (p, v);
+    const Return back = cutter_.takeOut (p, v);
     if (back.vertex == NONE)
       continue;
     const double as_it_was =
@@ -447,30 +238,13 @@ VertexSplitter::move (Index p)
       best = gain;
       into = v;
     }
-    splitAgain (back, p);
+    cutter_.putBack (back, p);
   }
   if (into == NONE)
     return false;
-  takeOut (p, into);
-  split (bestNear (p, limits_.near_folds), p);
+  cutter_.takeOut (p, into);
+  cutter_.split (bestNear (p, limits_.near_folds), p);
   return true;
-}
-
-// Removes triangles that collapses left.
-void
-VertexSplitter::dropUnused (const RunContext& run)
-{
-  if (unused_.empty ())
-    return;
-  std::sort (unused_.begin (), unused_.end ());
-  std::size_t next = 0, kept = 0;
-  for (std::size_t t = 0; t < mesh_.triangles.size (); ++t)
-    if (next < unused_.size () && unused_[next] == t)
-      ++next;
-    else
-      mesh_.triangles[kept++] = mesh_.triangles[t];
-  mesh_.triangles.resize (kept);
-  mesh_.connect (positions_.size (), run);
 }
 
 } // namespace

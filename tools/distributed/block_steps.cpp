@@ -376,9 +376,9 @@ starsStep (const StepContext& context, std::size_t block)
     local.toPlaces (left_places);
     const Rows rows =
         is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
-    const OwnStars made = takeStars (
-        beginStars (positions, neighbors, normals, rows, settings, context.run, beyond), rows,
-        local);
+    const OwnStars made =
+        takeStars (beginStars (positions, neighbors, normals, rows, settings, context.run, beyond),
+                   rows, local);
     if (is_first)
       all = made;
     else
