@@ -53,7 +53,7 @@ def main():
     parser.add_argument("--processes", type=int, default=2, metavar="N", help="(%(default)s)")
     parser.add_argument("--max-memory", metavar="SIZE", help="limit of process 0 for the steps of the whole cloud")
     parser.add_argument("--alone", action="store_true", help="only the processes, with files: no reconstruction in "
-                        "memory, which takes 260 bytes for each point")
+                        "memory, which takes 270 bytes for each point")
     parser.add_argument("points", nargs="*", type=int, default=[1000000, 10000000, 30000000], metavar="POINTS")
     arguments = parser.parse_args()
     tools = bench.Tools(arguments.build, "pcl_floater_reconstruct", "pcl_floater_generate", "pcl_floater_distributed")

@@ -51,6 +51,12 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
   CsrLists all;
   all.offsets.reserve (points.size () + 1);
   all.offsets.push_back (0);
+  std::size_t entries = 0; // of whole blocks, which are most if all points are asked for
+  forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
+    if (last - first == ranges_.last (block) - ranges_.first (block))
+      entries += file (block).count<Index> (array);
+  });
+  all.ids.reserve (entries);
   forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
     const CsrLists lists = readLists (file (block), array, first, last, ranges_.points ());
     const Index before = all.offsets.back ();
