@@ -26,6 +26,7 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <system_error>
 #include <thread>
 
 namespace pcl::floater {
@@ -197,12 +198,18 @@ keepLargeArraysIn (const std::filesystem::path& folder, std::size_t limit)
   ::close (file);
   scratchArrays ().folder = folder.string ();
   has_scratch = true;
-  std::thread ([most = MOST_RESIDENT * static_cast<double> (limit)] {
-    const int statm = ::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-    for (;; std::this_thread::sleep_for (BETWEEN_LOOKS))
-      if (residentSet (statm) > most)
-        dropPages ();
-  }).detach ();
+  try {
+    std::thread ([most = MOST_RESIDENT * static_cast<double> (limit)] {
+      const int statm = ::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+      for (;; std::this_thread::sleep_for (BETWEEN_LOOKS))
+        if (residentSet (statm) > most)
+          dropPages ();
+    }).detach ();
+  }
+  catch (const std::system_error&) {
+    // No thread can be started: pages leave memory when the system needs it, and the report tells
+    // if the limit was exceeded.
+  }
 }
 
 bool
