@@ -186,8 +186,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (may_be_seen) {
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
-    if (const std::optional<Problem> problem = reconstructFrom (
-            findViewpoint (points, planes.neighbors, samples, false, search, limits.view.evidence, run)))
+    if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
+            points, planes.neighbors, samples, false, search, limits.view.evidence, run)))
       return *problem;
   }
   const bool is_measured = options.denoise || dropsScatter (options);

@@ -27,13 +27,11 @@ struct CrossingPair
   }
 };
 
-/// Pairs of crossing triangles, sorted; see SearchLimits.
+/// Pairs of crossing triangles, sorted; see PairSearchLimits.
 struct CrossingPairs : std::vector<CrossingPair>
 {
   std::vector<Index> untested; ///< triangles that may cross others as well, ascending: the search
                                ///< ended at its limit
-
-  bool areNone () const { return empty () && untested.empty (); }
 };
 
 /// Limit of a search for pairs, against quadratic work. Where points lie along lines, each triangle

@@ -50,7 +50,7 @@ struct TriangleMesh
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
   MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
-  /// For submeshes (see MeshBlock, MeshRegion); both are empty if the mesh is complete.
+  /// For submeshes (see MeshBlock); both are empty if the mesh is complete.
   std::vector<std::uint8_t> is_fixed;   ///< per triangle: it may not be changed
   std::vector<std::uint8_t> is_partial; ///< per point: triangles around it are missing
 

@@ -5,11 +5,11 @@
 
 #include "block_steps.h"
 #include "core/csr_lists.h"
+#include "core/order_statistics.h"
 #include "points/point_block.h"
 #include "store.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <string>
@@ -131,32 +131,6 @@ pointsFrom (Index first, Index last)
   std::vector<Index> points (last - first);
   std::iota (points.begin (), points.end (), first);
   return points;
-}
-
-inline void
-sortUnique (std::vector<Index>& points)
-{
-  std::sort (points.begin (), points.end ());
-  points.erase (std::unique (points.begin (), points.end ()), points.end ());
-}
-
-/// A range of points, and those of others that are not in it.
-/// \return ascending, each once
-inline std::vector<Index>
-joinPoints (Index first, Index last, std::initializer_list<const std::vector<Index>*> others)
-{
-  std::vector<Index> before, after;
-  for (const std::vector<Index>* points : others)
-    for (const Index p : *points)
-      if (p < first || p >= last)
-        (p < first ? before : after).push_back (p);
-  sortUnique (before);
-  sortUnique (after);
-  std::vector<Index> all = std::move (before);
-  for (Index p = first; p < last; ++p)
-    all.push_back (p);
-  all.insert (all.end (), after.begin (), after.end ());
-  return all;
 }
 
 /// The points of a run, in a file, and how they are cut.

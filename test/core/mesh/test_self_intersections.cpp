@@ -205,7 +205,7 @@ TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
   TrimmingOptions open;
   open.open_self_intersections = true;
   trimMesh (mesh, points, std::vector<float> (positions.size (), 1.0F), open, 1);
-  EXPECT_TRUE (findSelfIntersections (mesh.triangles, positions, 1).areNone ());
+  EXPECT_TRUE (findSelfIntersections (mesh.triangles, positions, 1).empty ());
 }
 
 TEST (SelfIntersections, AreInTheReportWithPlaces)
