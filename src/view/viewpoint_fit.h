@@ -62,12 +62,12 @@ patternSearch (const Viewpoint& start, double step, double smallest_step,
       const RatedViewpoint before = best;
       explore (best);
       has_moved = best.cost < before.cost;
-      while (has_moved && evaluations > 0) {
+      for (bool goes_on = has_moved; goes_on && evaluations > 0;) {
         RatedViewpoint further = moved (best, best.viewpoint.place - before.viewpoint.place);
         explore (further);
-        if (!(further.cost < best.cost))
-          break;
-        best = further;
+        goes_on = further.cost < best.cost;
+        if (goes_on)
+          best = further;
       }
     }
   return best;
