@@ -11,13 +11,11 @@
 #include "view/ray_evidence.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
 constexpr double HALO = 1.0; // width, see BlockCutter: neighbours are nearer
-constexpr std::size_t POINTS_OF_APART = 20, REACH_OF = 6; // neighbours that findApart looks at
 
 // Writes what a block has found. Without arrays: it has no points.
 void
@@ -27,77 +25,12 @@ put (const StepContext& context, const char* step, std::size_t block,
   context.store.put (blockFile (step, block), writer, context.plan.id);
 }
 
-// Whether points lie apart. The reach of the points around is needed, and these may be of other
-// blocks.
-std::vector<std::uint8_t>
-findOwnApart (const std::vector<Index>& own, const CsrLists& neighbors, BlockSearch& search,
-              const StepContext& context)
-{
-  struct Other
-  {
-    Index point, owner; // a point of another block, and an own one that it is a neighbour of
-  };
-  std::vector<Other> others;
-  for (std::size_t i = 0; i < own.size (); ++i)
-    for (const Index q : neighbors.first (i, POINTS_OF_APART))
-      if (q < own.front () || q > own.back ())
-        others.push_back ({q, own[i]});
-  std::stable_sort (others.begin (), others.end (),
-                    [] (const Other& a, const Other& b) { return a.point < b.point; });
-  others.erase (std::unique (others.begin (), others.end (),
-                             [] (const Other& a, const Other& b) { return a.point == b.point; }),
-                others.end ());
-  std::vector<Index> rows = own;
-  for (const Other& other : others)
-    rows.push_back (other.point);
-  sortUnique (rows);
-  CsrLists lists;
-  lookUntilInside (search, [&] (const LocalPoints& local,
-                                const std::vector<Eigen::Vector3d>& positions) {
-    lists = {};
-    lists.offsets.push_back (0);
-    std::vector<Neighbor> found;
-    auto other = others.begin ();
-    for (const Index p : rows) {
-      if (other == others.end () || other->point != p) {
-        const Row row = neighbors.row (p - own.front ());
-        lists.ids.insert (lists.ids.end (), row.begin (), row.end ());
-      }
-      else {
-        const Eigen::Vector3d& here = positions[local.placeOf (p)];
-        search.tree ().nearest (here, REACH_OF + 1, found);
-        const Eigen::Vector3d& owner = positions[local.placeOf (other->owner)];
-        search.watch ().looked (owner, found.size () == REACH_OF + 1
-                                           ? (here - owner).norm () +
-                                                 std::sqrt (found.back ().sqr_distance)
-                                           : KdTree::EVERYWHERE);
-        std::size_t count = 0;
-        for (const Neighbor& neighbor : found)
-          if (const Index q = search.block ().points[neighbor.point]; q != p && count < REACH_OF) {
-            lists.ids.push_back (q);
-            ++count;
-          }
-        ++other;
-      }
-      lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
-    }
-  });
-  const LocalPoints local (search.block ().points);
-  const CsrLists places = local.toPlaces (rows, lists);
-  local.toPlaces (rows);
-  std::vector<float> reach (local.size (), 0.0F);
-  const std::vector<Eigen::Vector3d>& positions = search.block ().positions;
-  findReaches (positions, places, Rows::of (rows), reach, context.run);
-  return findApart (positions, places, reach, Rows::range (search.ownFirst (), search.ownLast ()),
-                    context.limits.outliers, context.run);
-}
-
 } // namespace
 
 StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
                           const RunContext& context)
     : store (files), plan (of), options (effectiveOptions (line.options)),
-      limits (effectiveLimits (line.limits, line.options)), run (context)
+      limits (effectiveLimits ({}, line.options)), run (context)
 {
 }
 
@@ -111,61 +44,27 @@ neighborsStep (const StepContext& context, std::size_t block)
   BlockSearch search (cloud.cutter (), block, context.run, HALO);
   const CsrLists neighbors = findNearestOfBlock (search, Rows::range (first, last), cloud.points (),
                                                  context.options.neighbors.k, context.run);
-  std::vector<std::uint8_t> apart;
-  if (context.options.remove_outliers && mayHaveOutliers (cloud.points (), context.limits.outliers))
-    apart = findOwnApart (pointsFrom (first, last), neighbors, search, context);
-  const std::vector<std::uint64_t> count{
-      static_cast<std::uint64_t> (std::count (apart.begin (), apart.end (), 1))};
   ArrayWriter writer;
   writer.add ("ids", neighbors.ids);
-  writer.add ("apart", apart);
-  writer.add ("apart_count", count);
   put (context, "neighbors", block, writer);
 }
 
 void
-chooseOutliersStep (const StepContext& context)
+outliersStep (const StepContext& context)
 {
-  const std::size_t n = context.plan.points;
-  const BlockRanges ranges = blockRanges (context.plan, n);
-  Slices found (context.store, context.plan, ranges, "neighbors");
-  std::uint64_t apart_count = 0;
-  for (std::size_t block = 0; block < ranges.blocks (); ++block)
-    if (!ranges.isEmpty (block))
-      apart_count += found.file (block).read<std::uint64_t> ("apart_count", 0, 1).front ();
   std::vector<Index> outliers;
-  if (apart_count > 0) {
-    const std::size_t k =
-        std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k), n - 1);
-    const std::size_t own = std::min (k, context.limits.outliers.own);
-    std::vector<std::uint8_t> apart;
-    apart.reserve (n);
-    requireListed (n * own);
-    CsrLists neighbors; // the nearest of each
-    neighbors.offsets.resize (n + 1);
-    for (std::size_t p = 0; p <= n; ++p)
-      neighbors.offsets[p] = static_cast<Index> (p * own);
-    neighbors.ids.reserve (n * own);
-    for (std::size_t block = 0; block < ranges.blocks (); ++block) {
-      const std::size_t points = ranges.last (block) - ranges.first (block);
-      if (points == 0)
-        continue;
-      const auto ids = found.file (block).read<Index> ("ids", 0, points * k);
-      found.file (block).requireBelow (ids, n);
-      for (std::size_t i = 0; i < ids.size (); i += k)
-        neighbors.ids.insert (neighbors.ids.end (), ids.begin () + static_cast<std::ptrdiff_t> (i),
-                              ids.begin () + static_cast<std::ptrdiff_t> (i + own));
-      const std::vector<std::uint8_t> flags =
-          found.file (block).read<std::uint8_t> ("apart", 0, points);
-      apart.insert (apart.end (), flags.begin (), flags.end ());
-    }
-    outliers = chooseOutliers (neighbors, std::move (apart), context.limits.outliers);
-  }
-  if (!outliers.empty ()) {
+  if (context.options.remove_outliers) {
+    const BlockRanges ranges (context.plan, context.plan.points);
     std::vector<Index> gross_outliers;
     Points points = readPoints (context.store, POINTS, context.plan, gross_outliers);
-    removePoints (points, outliers);
-    writePoints (context.store, POINTS_LEFT, context.plan.id, points, gross_outliers, context.run);
+    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (ranges.points ()));
+    const CsrLists neighbors = StoredNeighbors (context, {}, ranges).nearest (all);
+    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
+    if (!outliers.empty ()) {
+      removePoints (points, outliers);
+      writePoints (context.store, POINTS_LEFT, context.plan.id, points, gross_outliers,
+                   context.run);
+    }
   }
   ArrayWriter writer;
   writer.add ("outliers", outliers);
@@ -193,7 +92,7 @@ numberBefore (Index point, const std::vector<Index>& removed)
 CsrLists
 renewOwn (const OwnBlock& own, BlockSearch& search, const StepContext& context)
 {
-  const BlockRanges before = blockRanges (context.plan, context.plan.points);
+  const BlockRanges before (context.plan, context.plan.points);
   StoredNeighbors found (context, {}, before);
   const Index first = numberBefore (own.first, own.outliers);
   const CsrLists lists =
@@ -253,7 +152,7 @@ planesStep (const StepContext& context, std::size_t block)
     keepOwn (spacing);
     keepOwn (normals);
   });
-  if (cloud.file ().count<Eigen::Vector3f> ("normals") > 0) {
+  if (cloud.file ().count ("normals") > 0) {
     std::vector<Eigen::Vector3f> given;
     cloud.file ().append ("normals", own.first, own.last, given);
     for (std::size_t i = 0; i < given.size (); ++i)
@@ -274,59 +173,30 @@ namespace {
 // spacings ahead, and are made again where that leaves the block.
 constexpr double STAR_HALO = 2.0;
 
-// The lists of some of the own points, by their numbers in the working set.
-struct OwnStars
+// Appends the star of a row to others.
+void
+appendStar (const Stars& from, std::size_t row, Stars& to)
 {
-  CsrLists stars, far;
-  std::vector<std::uint8_t> open;
-  std::vector<Eigen::Vector3f> normals;
-  std::vector<float> reach;
-};
-
-// \param rows places of the points whose stars are taken
-OwnStars
-takeStars (const Stars& stars, const Rows& rows, const LocalPoints& local)
-{
-  OwnStars own;
-  for (auto [from, to] :
-       {std::pair (&stars.neighbors, &own.stars), std::pair (&stars.far_neighbors, &own.far)}) {
-    for (std::size_t i = 0; i < rows.size (); ++i)
-      appendRow (from->row (rows[i]), *to);
-    local.toPoints (to->ids);
-  }
-  for (std::size_t i = 0; i < rows.size (); ++i) {
-    own.open.push_back (stars.open[rows[i]]);
-    own.normals.push_back (stars.normals[rows[i]]);
-    own.reach.push_back (stars.reach[rows[i]]);
-  }
-  return own;
+  appendRow (from.neighbors.row (row), to.neighbors);
+  appendRow (from.far_neighbors.row (row), to.far_neighbors);
+  to.open.push_back (from.open[row]);
+  to.normals.push_back (from.normals[row]);
+  to.reach.push_back (from.reach[row]);
 }
 
 // Puts the stars of some points in place of those that they had.
 // \param first the point of the first star of `all`
 void
-replaceStars (const std::vector<Index>& points, const OwnStars& more, Index first, OwnStars& all)
+replaceStars (const std::vector<Index>& points, const Stars& more, Index first, Stars& all)
 {
-  const auto replaceLists = [&] (const CsrLists& by, CsrLists& lists) {
-    CsrLists merged;
-    merged.ids.reserve (lists.ids.size () + by.ids.size ());
-    merged.offsets.reserve (lists.offsets.size ());
-    std::size_t next = 0;
-    for (std::size_t r = 0; r < lists.rows (); ++r) {
-      const bool is_replaced = next < points.size () && points[next] == first + r;
-      appendRow (is_replaced ? by.row (next) : lists.row (r), merged);
-      next += is_replaced ? 1 : 0;
-    }
-    lists = std::move (merged);
-  };
-  replaceLists (more.stars, all.stars);
-  replaceLists (more.far, all.far);
-  for (std::size_t i = 0; i < points.size (); ++i) {
-    const std::size_t at = points[i] - first;
-    all.open[at] = more.open[i];
-    all.normals[at] = more.normals[i];
-    all.reach[at] = more.reach[i];
-  }
+  Stars merged;
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < all.open.size (); ++row)
+    if (next < points.size () && points[next] == first + row)
+      appendStar (more, next++, merged);
+    else
+      appendStar (all, row, merged);
+  all = std::move (merged);
 }
 
 } // namespace
@@ -354,51 +224,55 @@ starsStep (const StepContext& context, std::size_t block)
                  centres.end ());
 
   BlockSearch search (cloud.cutter (), block, context.run, STAR_HALO);
-  OwnStars all;
+  Stars all;
   std::vector<Index> left; // points whose stars have to be made again
   std::vector<AreaSample> samples;
   bool is_first = true, are_sampled = false;
   takeIn (own, all_lists, cloud, search);
-  lookUntilInside (search, [&] (const LocalPoints& local,
-                                const std::vector<Eigen::Vector3d>& positions) {
-    const std::vector<Eigen::Vector3f> normals =
-        stored.planes ().gather<Eigen::Vector3f> ("normals", search.block ().points);
-    const CsrLists neighbors = local.toPlaces (own, all_lists);
-    const Index own_first = search.ownFirst ();
-    BesideLines beside;
-    beside.neighbors = local.toPlaces (own, beside_lists);
-    beside.reach.assign (local.size (), 0.0F);
-    std::copy (own_reach.begin (), own_reach.end (), beside.reach.begin () + own_first);
-    std::vector<float> spacing (local.size (), 0.0F);
-    std::copy (own_spacing.begin (), own_spacing.end (), spacing.begin () + own_first);
-    const BeyondNeighbors beyond{search.tree (), spacing, beside, settings.reach};
-    std::vector<Index> left_places = left;
-    local.toPlaces (left_places);
-    const Rows rows =
-        is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
-    const OwnStars made =
-        takeStars (beginStars (positions, neighbors, normals, rows, settings, context.run, beyond),
-                   rows, local);
-    if (is_first)
-      all = made;
-    else
-      replaceStars (left, made, first, all);
-    is_first = false;
-    left = search.left ();
-    if (!are_sampled) {
-      search.hasLeft ();
-      std::vector<Index> places = centres;
-      local.toPlaces (places);
-      const Stars stars =
-          makeStarsOf (places, positions, neighbors, normals, settings, context.run, &beyond);
-      are_sampled = !search.hasLeft ();
-      if (are_sampled)
-        samples = takeAreaSamples (places, positions, stars);
-    }
-  });
+  lookUntilInside (
+      search, [&] (const LocalPoints& local, const std::vector<Eigen::Vector3d>& positions) {
+        const std::vector<Eigen::Vector3f> normals =
+            stored.planes ().gather<Eigen::Vector3f> ("normals", search.block ().points);
+        const CsrLists neighbors = local.toPlaces (own, all_lists);
+        const Index own_first = search.ownFirst ();
+        BesideLines beside;
+        beside.neighbors = local.toPlaces (own, beside_lists);
+        beside.reach.assign (local.size (), 0.0F);
+        std::copy (own_reach.begin (), own_reach.end (), beside.reach.begin () + own_first);
+        std::vector<float> spacing (local.size (), 0.0F);
+        std::copy (own_spacing.begin (), own_spacing.end (), spacing.begin () + own_first);
+        const BeyondNeighbors beyond{search.tree (), spacing, beside, settings.reach};
+        std::vector<Index> left_places = left;
+        local.toPlaces (left_places);
+        const Rows rows =
+            is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
+        const Stars begun =
+            beginStars (positions, neighbors, normals, rows, settings, context.run, beyond);
+        Stars made;
+        for (std::size_t i = 0; i < rows.size (); ++i)
+          appendStar (begun, rows[i], made);
+        local.toPoints (made.neighbors.ids);
+        local.toPoints (made.far_neighbors.ids);
+        if (is_first)
+          all = made;
+        else
+          replaceStars (left, made, first, all);
+        is_first = false;
+        left = search.left ();
+        if (!are_sampled) {
+          search.hasLeft ();
+          std::vector<Index> places = centres;
+          local.toPlaces (places);
+          const Stars stars =
+              makeStarsOf (places, positions, neighbors, normals, settings, context.run, &beyond);
+          are_sampled = !search.hasLeft ();
+          if (are_sampled)
+            samples = takeAreaSamples (places, positions, stars);
+        }
+      });
   ArrayWriter writer;
-  writeLists ("stars", all.stars, writer);
-  writeLists ("far", all.far, writer);
+  writeLists ("stars", all.neighbors, writer);
+  writeLists ("far", all.far_neighbors, writer);
   writer.add ("open", all.open);
   writer.add ("normals", all.normals);
   writer.add ("reach", all.reach);

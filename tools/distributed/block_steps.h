@@ -6,6 +6,9 @@
 #pragma once
 
 #include "command_line.h"
+#include "core/run_context.h"
+#include "options/stage_limits.h"
+#include "points/points.h"
 #include "store.h"
 
 namespace pcl::floater {
@@ -22,14 +25,13 @@ struct StepContext
   RunContext run;
 };
 
-/// The nearest neighbours, and which points lie apart from all surfaces.
+/// The nearest neighbours.
 void
 neighborsStep (const StepContext& context, std::size_t block);
 
-/// Of all points at once: which of those that lie apart are outliers. Without these the points are
-/// written anew, if there are any.
+/// Of all points at once: the outliers. Without these the points are written anew, if there are any.
 void
-chooseOutliersStep (const StepContext& context);
+outliersStep (const StepContext& context);
 
 /// Spacing and tangent planes.
 void
@@ -44,7 +46,7 @@ enum class StepKind
 {
   PLAN,
   OF_BLOCK,
-  CHOOSE_OUTLIERS,
+  FIND_OUTLIERS,
   JOIN,
   WRITE
 };
@@ -62,7 +64,7 @@ struct Step
 inline constexpr std::array<Step, 7> STEPS{
     {{"plan", StepKind::PLAN, nullptr, MANIFEST},
      {"neighbors", StepKind::OF_BLOCK, neighborsStep, nullptr},
-     {"outliers", StepKind::CHOOSE_OUTLIERS, nullptr, OUTLIERS},
+     {"outliers", StepKind::FIND_OUTLIERS, nullptr, OUTLIERS},
      {"planes", StepKind::OF_BLOCK, planesStep, nullptr},
      {"stars", StepKind::OF_BLOCK, starsStep, nullptr},
      {"join", StepKind::JOIN, nullptr, TRIANGLES},
@@ -75,10 +77,6 @@ findStep (const std::string& name);
 /// Outliers that the second step has chosen, ascending.
 std::vector<Index>
 readOutliers (const StepContext& context);
-
-/// The blocks of so many points.
-BlockRanges
-blockRanges (const Plan& plan, std::size_t points);
 
 /// The name of the file of the points without outliers.
 const char*

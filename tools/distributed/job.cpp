@@ -5,14 +5,16 @@
 #include "atomic_file.h"
 #include "format.h"
 #include "input/input.h"
+#include "known_stages.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"
 #include "prepared_input.h"
+#include "report/report_cloud.h"
 #include "report_json.h"
 #include "run_report.h"
-#include "stored_stages.h"
+#include "stored_cloud.h"
 #include "tiles.h"
 
 #include <nlohmann/json.hpp>
@@ -26,26 +28,11 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
 constexpr const char* REPORT = "report.json";
 
 // Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
 // points: below, more time goes to pages that come back than to all else.
 constexpr double KEPT_BY_PLAN = 9.0;
-
-// What the report and the mesh need to know of the cloud.
-void
-describeCloud (const Cloud& cloud, const Input& input, Plan& plan)
-{
-  for (const Field& field : cloud.fields)
-    plan.fields.push_back (field.name);
-  plan.warnings = cloud.warnings;
-  plan.notes = cloud.notes;
-  plan.finite_points = static_cast<std::size_t> (
-      std::count_if (input.positions.begin (), input.positions.end (),
-                     [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
-  plan.is_single = cloud.single_precision;
-}
 
 // Calls visit (name) for the files of all blocks.
 template <typename Visit>
@@ -57,17 +44,79 @@ forBlockFiles (const Plan& plan, Visit&& visit)
       visit (blockFile (step.name, block));
 }
 
-void
-tellFailure (const Job& job, const Problem& problem, const Report& warnings)
+// What the blocks have found out, from the files of all, each when it is needed.
+class StoredStages : public KnownStages
 {
-  Report report = warnings;
-  report.status = problem.status;
-  report.message = problem.message;
-  printOutcome (job.line, report, {});
-}
+public:
+  /// \param context must outlive this
+  explicit StoredStages (const StepContext& context)
+      : context_ (context), outliers_ (readOutliers (context)),
+        ranges_ (context.plan, context.plan.points - outliers_.size ())
+  {
+  }
 
-} // namespace
+  Points points (Report& report) override
+  {
+    std::vector<Index> gross_outliers;
+    Points points = readPoints (context_.store, POINTS, context_.plan, gross_outliers);
+    report.statistics.cloud_points = context_.plan.cloudSize ();
+    report.statistics.selected_points = context_.plan.selected_points;
+    reportGrossOutliers (gross_outliers, report);
+    reportPoints (points, report);
+    return points;
+  }
 
+  std::vector<Index> outliers () override { return outliers_; }
+
+  LocalPlanes planes () override
+  {
+    const std::vector<Index> all = allPoints ();
+    StoredNeighbors stored (context_, outliers_, ranges_);
+    LocalPlanes planes;
+    planes.neighbors = stored.nearest (all);
+    appendRows (stored.beside (all), planes.neighbors);
+    planes.spacing = stored.planes ().gather<float> ("spacing", all);
+    planes.normals = stored.planes ().gather<Eigen::Vector3f> ("normals", all);
+    return planes;
+  }
+
+  std::vector<AreaSample> areaSamples () override
+  {
+    Slices stars (context_, ranges_, "stars");
+    std::vector<AreaSample> samples;
+    for (std::size_t block = 0; block < ranges_.blocks (); ++block)
+      if (ranges_.first (block) < ranges_.last (block)) {
+        const auto its = stars.file (block).read<AreaSample> ("areas");
+        samples.insert (samples.end (), its.begin (), its.end ());
+      }
+    return samples;
+  }
+
+  Stars begunStars () override
+  {
+    const std::vector<Index> all = allPoints ();
+    Slices stored (context_, ranges_, "stars");
+    Stars stars;
+    stars.neighbors = stored.gatherLists ("stars", all);
+    stars.far_neighbors = stored.gatherLists ("far", all);
+    stars.open = stored.gather<std::uint8_t> ("open", all);
+    stars.normals = stored.gather<Eigen::Vector3f> ("normals", all);
+    stars.reach = stored.gather<float> ("reach", all);
+    return stars;
+  }
+
+private:
+  std::vector<Index> allPoints () const
+  {
+    return pointsFrom (0, static_cast<Index> (ranges_.points ()));
+  }
+
+  const StepContext& context_;
+  std::vector<Index> outliers_;
+  BlockRanges ranges_; // without outliers
+};
+
+// What decides the result, as text.
 std::string
 parametersText (const Job& job)
 {
@@ -82,10 +131,26 @@ parametersText (const Job& job)
     json["columns"] = job.line.columns;
   if (!job.line.classes.empty ())
     json["classes"] = job.line.classes;
-  if (!job.line.changed_limits.empty ())
-    json["limits"] = job.line.changed_limits;
   return json.dump ();
 }
+
+// Compares a plan with the parameters of the job and with all bytes of its files.
+// \throws WorkError if they are others
+void
+requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
+{
+  std::vector<InputFile> inputs;
+  for (const std::filesystem::path& input : job.inputs)
+    inputs.push_back (describeInput (input));
+  if (plan.parameters != parametersText (job))
+    throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
+                     "'; give the same, or name another work folder");
+  if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
+    throw WorkError ("the input files or the number of blocks are not those of '" +
+                     store.describe (MANIFEST) + "'; give the same, or name another work folder");
+}
+
+} // namespace
 
 void
 prepareFolders (const Job& job)
@@ -113,12 +178,6 @@ prepareFolders (const Job& job)
     requireWritable (job.line.report);
 }
 
-std::size_t
-defaultBlocks (std::size_t points)
-{
-  return std::max<std::size_t> (1, (points + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK);
-}
-
 int
 planStep (const Job& job, FolderStore& store)
 {
@@ -131,16 +190,16 @@ planStep (const Job& job, FolderStore& store)
   for (const std::filesystem::path& input : job.inputs)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
-  Cloud cloud = readClouds (job.inputs, readOptionsOf (line));
-  checkMemory (line, cloud.size (), KEPT_BY_PLAN);
-  Input input = makeInput (cloud);
-  takeNormals (line, cloud, input);
-  warnOfDegrees (input.positions, cloud);
-  shiftOrigin (line, cloud, input);
-  describeCloud (cloud, input, plan);
+  std::vector<std::size_t> firsts;
+  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), firsts);
+  Input input = prepareInput (line, cloud, plan.figures, KEPT_BY_PLAN);
+  plan.warnings = cloud.warnings;
+  plan.figures.vertices = static_cast<std::size_t> (
+      std::count_if (input.positions.begin (), input.positions.end (),
+                     [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
   const RunContext run (job.join_threads);
   const Options options = effectiveOptions (line.options);
-  const Limits limits = effectiveLimits (line.limits, line.options);
+  const Limits limits = effectiveLimits ({}, line.options);
   Points points;
   Report report;
   const std::array<double, 3> sensor_origin = input.sensor_origin;
@@ -148,22 +207,22 @@ planStep (const Job& job, FolderStore& store)
   if (!problem)
     problem = checkPoints (points);
   if (problem) {
-    tellFailure (job, problem, report);
-    Report failed;
-    failed.status = problem.status;
-    return exitCode (failed, {});
+    report.status = problem.status;
+    report.message = problem.message;
+    printOutcome (line, report, {});
+    return exitCode (report, {});
   }
   plan.arguments = job.arguments;
   plan.parameters = parametersText (job);
   plan.points = points.size ();
-  plan.blocks = job.blocks > 0 ? job.blocks : defaultBlocks (points.size ());
-  plan.cloud_size = report.statistics.cloud_points;
+  constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
+  plan.blocks =
+      job.blocks > 0 ? job.blocks : (points.size () + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK;
   plan.selected_points = report.statistics.selected_points;
   plan.lattice_width = points.lattice_width;
   plan.scale = points.scale;
   plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
-  Eigen::Map<Eigen::Vector3d> (plan.shift.data ()) = cloud.shift;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
   store.finish ();
@@ -172,26 +231,12 @@ planStep (const Job& job, FolderStore& store)
 }
 
 Plan
-readPlan (const Job& job, const FolderStore& store)
+readPlan (const Job& job, FolderStore& store)
 {
-  Plan plan = parseManifest (store.readText (MANIFEST), store.describe (MANIFEST));
+  Plan plan = parseManifest (store.open (MANIFEST).text (), store.describe (MANIFEST));
   if (!job.is_from_manifest || (job.step != nullptr && job.step->kind == StepKind::JOIN))
     requirePlan (job, store, plan);
   return plan;
-}
-
-void
-requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
-{
-  std::vector<InputFile> inputs;
-  for (const std::filesystem::path& input : job.inputs)
-    inputs.push_back (describeInput (input));
-  if (plan.parameters != parametersText (job))
-    throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
-                     "'; give the same, or name another work folder");
-  if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
-    throw WorkError ("the input files or the number of blocks are not those of '" +
-                     store.describe (MANIFEST) + "'; give the same, or name another work folder");
 }
 
 int
@@ -200,35 +245,26 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
   const StepContext context (store, plan, line, job.join_threads);
-  checkMemory (line, plan.cloud_size);
+  checkMemory (line, plan.cloudSize ());
   StoredStages stages (context);
   forBlockFiles (plan, [&] (const std::string& name) { // missing ones are told before hours of work
     openArrays (store, name, plan);
   });
   Input input;
-  input.cloud_size = plan.cloud_size;
+  input.cloud_size = plan.cloudSize ();
   input.sensor_origin = plan.sensor_origin;
   input.lattice_width = plan.lattice_width;
   Options options = line.options;
   options.threads = job.join_threads;
-  Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -=
-      Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
-  Result result = reconstruct (std::move (input), options, line.limits, stages);
+  Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -= plan.shift ();
+  Result result = reconstruct (std::move (input), options, {}, stages);
   Report& report = result.report;
-  RunFigures figures;
+  RunFigures figures = plan.figures;
   figures.reconstruct_seconds = secondsSince (start);
-
-  figures.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
-  figures.input_points = plan.cloud_size;
-  figures.single_precision = plan.is_single;
-  figures.input_fields = plan.fields;
-  figures.notes = plan.notes;
   figures.writes_single = line.precision != Precision::DOUBLE;
   report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
   report.warnings.insert (report.warnings.begin (), plan.warnings.begin (), plan.warnings.end ());
   reportMemory (line, report);
-  if (report.status == RunStatus::SUCCESS)
-    figures.vertices = plan.finite_points;
   line.input = job.inputs.front ();
   store.putText (REPORT, reportText (line, report, figures));
   printOutcome (line, report, figures);
@@ -250,10 +286,10 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   const CommandLine& line = job.line;
   ArrayFile file = openArrays (store, TRIANGLES, plan);
   auto triangles = file.read<Triangle> ("triangles");
-  file.requireBelow (triangles, plan.cloud_size);
+  file.requireBelow (triangles, plan.cloudSize ());
   std::vector<std::size_t> firsts;
-  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), &firsts);
-  cloud.shift = Eigen::Map<const Eigen::Vector3d> (plan.shift.data ());
+  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), firsts);
+  cloud.shift = plan.shift ();
   cloud.single_precision = line.precision != Precision::DOUBLE;
   requirePlan (job, store, plan); // the bytes of now
   if (line.compute_normals)
@@ -262,14 +298,12 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   std::optional<AtomicFile> report;
   if (!line.report.empty ()) {
     report.emplace (line.report);
-    report->write (store.readText (REPORT));
+    report->write (store.open (REPORT).text ());
     report->close ();
   }
   std::vector<std::string> losses;
   if (job.writes_tiles)
-    losses = writeTiles (line.output, cloud, triangles,
-                         job.inputs.size () > 1 ? ownersByFile (cloud, firsts, job.inputs)
-                                                : ownersByBlock (cloud, store, plan));
+    losses = writeTiles (line.output, cloud, triangles, firsts, store, plan);
   else {
     AtomicFile mesh (line.output);
     losses = writeMesh (mesh, line.output, cloud, triangles, line.output_format);

@@ -40,18 +40,10 @@ struct Job
 std::optional<int>
 parseJob (const std::vector<std::string>& arguments, Job& job);
 
-/// What decides the result, as text.
-std::string
-parametersText (const Job& job);
-
 /// Makes the work folder, and checks that all outputs can be written.
 /// \throws WriteError
 void
 prepareFolders (const Job& job);
-
-/// Blocks of a cloud if no number is asked for.
-std::size_t
-defaultBlocks (std::size_t points);
 
 /// Reads the cloud, sorts its points along the curve and writes them and the manifest.
 /// \return EXIT_OK, or the exit code of what is wrong with the cloud, which has been printed
@@ -68,14 +60,10 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan);
 int
 writeStep (const Job& job, FolderStore& store, const Plan& plan);
 
-/// Reads the manifest, and calls requirePlan, but for a step other than `join` that has all from the
-/// manifest.
-Plan
-readPlan (const Job& job, const FolderStore& store);
-
-/// Compares a plan with the parameters of the job and with all bytes of its files.
+/// Reads the manifest. Compares it with the parameters of the job and with all bytes of its files, but
+/// for a step other than `join` that has all from the manifest.
 /// \throws WorkError if they are others
-void
-requirePlan (const Job& job, const FolderStore& store, const Plan& plan);
+Plan
+readPlan (const Job& job, FolderStore& store);
 
 } // namespace pcl::floater

@@ -4,7 +4,6 @@
 // or more processes of MPI, with all that is known on disk between the steps. What is finished is
 // known by its file alone, so that a run that was ended goes on where it was.
 #include "atomic_file.h"
-#include "blas_threads.h"
 #include "heap.h"
 #include "job.h"
 #include "messages.h"
@@ -14,15 +13,10 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <deque>
-#include <functional>
-#include <new>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
-constexpr const char* PROGRAM = "pcl_floater_distributed";
-
 void
 say (const Job& job, const std::string& text)
 {
@@ -43,38 +37,30 @@ isFinished (FolderStore& folder, const Step& step, std::size_t block, const Plan
 }
 
 // Calls work (), and makes of what it throws an exit code and a message.
+// \param to nullptr: the message is printed
 template <typename Work>
 int
-guarded (Work&& work, std::string& message)
+guarded (Work&& work, std::string* to = nullptr)
 {
+  std::string message;
+  int code = EXIT_WORK;
   try {
     return work ();
   }
   catch (const RemoteFailure& failure) {
     message = failure.what ();
-    return failure.code ();
+    code = failure.code;
   }
   catch (const WorkError& error) {
     message = error.what ();
-    return EXIT_WORK;
   }
   catch (...) {
-    return describeException ("use more blocks, or a machine with more", message);
+    code = describeException ("use more blocks, or a machine with more", message);
   }
-}
-
-int
-tell (int code, const std::string& message)
-{
-  return message.empty () ? code : fail (PROGRAM, code, message);
-}
-
-// Limits the memory of this process, if that is asked for.
-void
-limitMemory (const Job& job)
-{
-  if (job.line.max_memory > 0)
-    keepLargeArraysIn (job.line.scratch, job.line.max_memory);
+  if (to == nullptr)
+    return fail ("pcl_floater_distributed", code, message);
+  *to = message;
+  return code;
 }
 
 // A process that is not the first.
@@ -91,150 +77,91 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
       folder.finish ();
       return static_cast<int> (order.number);
     }
-    std::string message;
-    const int code = guarded (
+    Message outcome{Topic::DONE};
+    outcome.number = static_cast<std::uint64_t> (guarded (
         [&] {
           if (!plan && !job.sends_files && !folder.has (MANIFEST))
             throw WorkError ("'" + folder.describe (MANIFEST) +
                              "' is not there for all processes; name a work folder that they "
                              "share, or use --exchange messages");
-          if (!plan) {
-            const std::unique_ptr<ByteSource> source = store.open (MANIFEST);
-            std::string text (source->size (), '\0');
-            source->read (0, text.size (), text.data ());
-            plan = parseManifest (text, store.describe (MANIFEST));
-          }
-          findStep (order.text)
-              ->of_block ({store, *plan, job.line, job.line.options.threads}, order.number);
+          if (!plan)
+            plan = parseManifest (store.open (MANIFEST).text (), store.describe (MANIFEST));
+          const StepContext context (store, *plan, job.line, job.line.options.threads);
+          findStep (order.text)->of_block (context, order.number);
           return static_cast<int> (EXIT_OK);
         },
-        message);
-    if (code == EXIT_OK)
-      processes.send (0, {Topic::DONE});
-    else
-      processes.send (0, {Topic::FAIL, static_cast<std::uint64_t> (code), 0, message});
+        &outcome.text));
+    if (outcome.number != EXIT_OK)
+      outcome.topic = Topic::FAIL;
+    processes.send (0, outcome);
   }
 }
 
-// The time since it was made, as text.
-class Watch
-{
-public:
-  std::string time () const
-  {
-    constexpr std::size_t LONGEST = 32;
-    std::array<char, LONGEST> text{};
-    std::snprintf (text.data (), text.size (), "%.1f s", secondsSince (start_));
-    return text.data ();
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
-};
-
-// Does a step for those blocks that are not finished, with all processes if there is a dealer.
-void
-workOnBlocks (const Step& step, const StepContext& context, FolderStore& folder, Dealer* dealer,
-              const std::function<void (const std::string&)>& tellOf)
-{
-  std::deque<std::size_t> left;
-  for (std::size_t block = 0; block < context.plan.blocks; ++block)
-    if (!isFinished (folder, step, block, context.plan))
-      left.push_back (block);
-  const std::size_t count = left.size ();
-  if (dealer != nullptr)
-    dealer->run (context, step, std::move (left));
-  else
-    for (const std::size_t block : left)
-      step.of_block (context, block);
-  tellOf (std::string (step.name) + ": " + std::to_string (count) + " blocks done, " +
-          std::to_string (context.plan.blocks - count) + " finished before");
-}
-
-// Does a step of the whole cloud that is not finished.
+// Does a step of the whole cloud.
 int
-workOnAll (const Step& step, const Job& job, const StepContext& context, FolderStore& folder)
+workOnAll (const Step& step, const Job& job, const Plan& plan, FolderStore& folder)
 {
   if (step.kind == StepKind::JOIN)
-    return joinStep (job, folder, context.plan);
+    return joinStep (job, folder, plan);
   if (step.kind == StepKind::WRITE)
-    return writeStep (job, folder, context.plan);
-  chooseOutliersStep (context);
+    return writeStep (job, folder, plan);
+  outliersStep ({folder, plan, job.line, job.join_threads});
   return EXIT_OK;
 }
 
+// Does all steps that are not finished, or the one that is asked for.
+// \param dealer nullptr: there are no other processes
 int
-workAlone (const Job& job, FolderStore& folder, Dealer* dealer)
+workOnSteps (const Job& job, FolderStore& folder, Dealer* dealer)
 {
-  const Watch watch;
-  const auto tellOf = [&] (const std::string& text) { say (job, text + ", " + watch.time ()); };
-  prepareFolders (job);
-  limitMemory (job);
-  if (!folder.has (MANIFEST))
-    if (const int code = planStep (job, folder); code != EXIT_OK)
+  const auto start = std::chrono::steady_clock::now ();
+  const bool does_all = job.step == nullptr;
+  const auto tellOf = [&] (const std::string& text) {
+    if (does_all && !job.line.quiet)
+      std::fprintf (stderr, "%s, %.1f s\n", text.c_str (), secondsSince (start));
+  };
+  const bool plans = does_all || job.step->kind == StepKind::PLAN;
+  if (plans)
+    prepareFolders (job);
+  if (job.line.max_memory > 0)
+    keepLargeArraysIn (job.line.scratch, job.line.max_memory);
+  if (plans && !folder.has (MANIFEST))
+    if (const int code = planStep (job, folder); code != EXIT_OK || !does_all)
       return code;
   const Plan plan = readPlan (job, folder);
-  openArrays (folder, POINTS, plan).verify ();
+  if (job.has_block && job.block >= plan.blocks)
+    throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
+                      std::to_string (plan.blocks) + " blocks, which are numbered from 0");
+  if (does_all)
+    openArrays (folder, POINTS, plan).verify ();
   tellOf ("plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
           " blocks");
   const StepContext context (folder, plan, job.line, job.line.options.threads);
-  const bool is_mesh_known = isFinished (folder, *findStep ("join"), 0, plan);
+  const bool is_mesh_known = does_all && isFinished (folder, *findStep ("join"), 0, plan);
   for (const Step& step : STEPS) {
-    if (step.kind == StepKind::PLAN || (is_mesh_known && step.kind != StepKind::WRITE))
+    if (step.kind == StepKind::PLAN || !(does_all || job.step == &step) ||
+        (is_mesh_known && step.kind != StepKind::WRITE))
       continue;
-    if (step.kind == StepKind::OF_BLOCK) {
-      workOnBlocks (step, context, folder, dealer, tellOf);
+    if (step.of_block == nullptr) {
+      if (!isFinished (folder, step, 0, plan))
+        if (const int code = workOnAll (step, job, plan, folder); code != EXIT_OK)
+          return code;
+      tellOf (step.name);
       continue;
     }
-    if (!isFinished (folder, step, 0, plan))
-      if (const int code = workOnAll (step, job, context, folder); code != EXIT_OK)
-        return code;
-    tellOf (step.name);
+    std::vector<std::size_t> left;
+    for (std::size_t block = 0; block < plan.blocks; ++block)
+      if ((does_all || block == job.block) && !isFinished (folder, step, block, plan))
+        left.push_back (block);
+    if (dealer != nullptr)
+      dealer->run (context, step, left);
+    else
+      for (const std::size_t block : left)
+        step.of_block (context, block);
+    tellOf (std::string (step.name) + ": " + std::to_string (left.size ()) + " blocks done, " +
+            std::to_string (plan.blocks - left.size ()) + " finished before");
   }
   folder.finish ();
-  return EXIT_OK;
-}
-
-int
-runOnAll (const Job& job, FolderStore& folder, Processes& processes)
-{
-  if (processes.self () > 0) {
-    std::string message;
-    return tell (guarded ([&] { return workForOthers (job, folder, processes); }, message),
-                 message);
-  }
-  std::string message;
-  if (processes.count () == 1)
-    return tell (guarded ([&] { return workAlone (job, folder, nullptr); }, message), message);
-  Dealer dealer (processes, folder);
-  const int code = guarded ([&] { return workAlone (job, folder, &dealer); }, message);
-  tell (code, message);
-  dealer.end (code);
-  if (!job.line.quiet)
-    std::fprintf (stderr, "messages: %.1f MB\n",
-                  static_cast<double> (processes.exchangedBytes ()) / 1e6);
-  return code;
-}
-
-int
-doStep (const Job& job, FolderStore& folder)
-{
-  const Step& step = *job.step;
-  if (step.kind == StepKind::PLAN)
-    prepareFolders (job);
-  limitMemory (job);
-  if (step.kind == StepKind::PLAN && !folder.has (MANIFEST))
-    return planStep (job, folder);
-  const Plan plan = readPlan (job, folder);
-  if (step.of_block != nullptr && job.block >= plan.blocks)
-    throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
-                      std::to_string (plan.blocks) + " blocks, which are numbered from 0");
-  if (step.kind == StepKind::PLAN || isFinished (folder, step, job.block, plan))
-    return EXIT_OK;
-  const StepContext context (folder, plan, job.line, job.line.options.threads);
-  if (step.of_block == nullptr)
-    return workOnAll (step, job, context, folder);
-  step.of_block (context, job.block);
   return EXIT_OK;
 }
 
@@ -245,10 +172,20 @@ doStep (const Job& job, FolderStore& folder)
 int
 runAll (const Job& job, FolderStore& folder)
 {
-  int argc = 0;
-  char** argv = nullptr;
-  Processes processes (argc, argv);
-  const int code = runOnAll (job, folder, processes);
+  Processes processes;
+  Dealer dealer (processes, folder);
+  const bool is_first = processes.self () == 0, has_others = processes.count () > 1;
+  const int code = guarded ([&] {
+    return is_first ? workOnSteps (job, folder, has_others ? &dealer : nullptr)
+                    : workForOthers (job, folder, processes);
+  });
+  std::array<char, 64> text{};
+  if (is_first && has_others) {
+    dealer.end (code);
+    std::snprintf (text.data (), text.size (), "messages: %.1f MB",
+                   static_cast<double> (processes.exchangedBytes ()) / 1e6);
+    say (job, text.data ());
+  }
   constexpr std::size_t MEGABYTE = 1'000'000;
   if (code == EXIT_OK)
     say (job, "process " + std::to_string (processes.self ()) + ": peak memory " +
@@ -281,52 +218,29 @@ printSteps (const Job& job, FolderStore& folder)
 int
 run (Job job)
 {
-  const bool is_single_step = job.step != nullptr || job.prints_steps;
   FolderStore folder (job.work);
-  if (is_single_step && job.inputs.empty ()) {
+  if ((job.step != nullptr || job.prints_steps) && job.inputs.empty ()) {
     // The command line that made the plan; what belongs to this step comes from this one.
-    const Plan plan = parseManifest (folder.readText (MANIFEST), folder.describe (MANIFEST));
     Job planned;
-    parseJob (plan.arguments, planned);
-    planned.work = job.work;
-    planned.is_from_manifest = true;
-    planned.step = job.step;
-    planned.block = job.block;
-    planned.prints_steps = job.prints_steps;
+    parseJob (parseManifest (folder.open (MANIFEST).text (), folder.describe (MANIFEST)).arguments,
+              planned);
     planned.line.options.threads = job.line.options.threads;
-    planned.join_threads = job.join_threads;
-    planned.frees_disk = job.frees_disk;
     planned.line.max_memory = job.line.max_memory;
     planned.line.scratch = job.line.scratch;
     planned.line.quiet = job.line.quiet;
-    job = std::move (planned);
+    job.line = planned.line;
+    job.inputs = planned.inputs;
+    job.arguments = planned.arguments;
+    job.blocks = planned.blocks;
+    job.writes_tiles = planned.writes_tiles;
+    job.is_from_manifest = true;
   }
   if (job.line.scratch.empty ())
     job.line.scratch = job.work;
-  if (job.prints_steps) {
-    printSteps (job, folder);
-    return EXIT_OK;
-  }
-  if (job.step == nullptr)
-    return runAll (job, folder);
-  const int code = doStep (job, folder);
-  folder.finish ();
-  return code;
-}
-
-int
-runTool (const std::vector<std::string>& arguments)
-{
-  std::string message;
-  const int code = guarded (
-      [&arguments] {
-        handleSignals (EXIT_INPUT);
-        Job job;
-        const std::optional<int> done = parseJob (arguments, job);
-        return done ? *done : run (std::move (job));
-      },
-      message);
-  return tell (code, message);
+  if (!job.prints_steps)
+    return job.step == nullptr ? runAll (job, folder) : workOnSteps (job, folder, nullptr);
+  printSteps (job, folder);
+  return EXIT_OK;
 }
 
 } // namespace
@@ -335,7 +249,13 @@ runTool (const std::vector<std::string>& arguments)
 int
 main (int argc, char** argv)
 {
-  pcl::floater::prepareHeap (true);
-  pcl::floater::endBlasThreads ();
-  return pcl::floater::runTool ({argv + (argc > 0 ? 1 : 0), argv + argc});
+  using namespace pcl::floater;
+  prepareHeap (true);
+  endBlasThreads ();
+  return guarded ([&] {
+    handleSignals (EXIT_INPUT);
+    Job job;
+    const std::optional<int> done = parseJob ({argv + (argc > 0 ? 1 : 0), argv + argc}, job);
+    return done ? *done : run (std::move (job));
+  });
 }

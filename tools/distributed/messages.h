@@ -6,14 +6,13 @@
 #include "block_steps.h"
 #include "store.h"
 
+#include <chrono>
 #include <cstdint>
-#include <deque>
-#include <exception>
 #include <map>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -42,7 +41,7 @@ class Processes
 {
 public:
   /// Calls MPI_Init. Threads that call no function of this may run.
-  Processes (int& argc, char**& argv);
+  Processes ();
   ~Processes (); ///< calls MPI_Finalize
   Processes (const Processes&) = delete;
   Processes& operator= (const Processes&) = delete;
@@ -57,13 +56,15 @@ public:
   /// Waits for a message of a process.
   Message receive (int from);
 
-  /// A message of any process and who has sent it, if there is one.
-  std::optional<std::pair<int, Message>> poll ();
+  /// The process of which a message is there, if there is one.
+  std::optional<int> sender () const;
 
   /// Bytes of all messages that this process has sent and received.
   std::uint64_t exchangedBytes () const { return exchanged_; }
 
 private:
+  void pass (bool sends, int other, void* bytes, std::size_t size);
+
   int self_ = 0, count_ = 1;
   std::uint64_t exchanged_ = 0;
 };
@@ -75,7 +76,7 @@ public:
   explicit RemoteStore (Processes& processes) : processes_ (processes) {}
 
   std::string describe (const std::string& name) const override { return name + " of process 0"; }
-  std::unique_ptr<ByteSource> open (const std::string& name) override;
+  ByteSource open (const std::string& name) override;
   void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) override;
 
 private:
@@ -83,17 +84,25 @@ private:
 };
 
 /// Another process has failed, and has told why.
-class RemoteFailure : public std::exception
+struct RemoteFailure : std::runtime_error
+{
+  RemoteFailure (int exit_code, const std::string& message)
+      : std::runtime_error (message), code (exit_code)
+  {
+  }
+
+  int code;
+};
+
+/// Sleeps longer and longer, so that a quick answer comes quickly and a late one costs nothing.
+class Patience
 {
 public:
-  RemoteFailure (int code, std::string message) : code_ (code), message_ (std::move (message)) {}
-
-  int code () const { return code_; }
-  const char* what () const noexcept override { return message_.c_str (); }
+  void wait ();
 
 private:
-  int code_;
-  std::string message_;
+  int waits_ = 0;
+  std::chrono::microseconds sleep_{20};
 };
 
 /// Process 0 of several. It has two threads: one answers the others, one works on blocks.
@@ -102,29 +111,25 @@ class Dealer
 public:
   Dealer (Processes& processes, FolderStore& folder) : processes_ (processes), folder_ (folder) {}
 
-  int processes () const { return processes_.count (); }
-
   /// Deals out the blocks of a step, and works on some.
   /// \throws RemoteFailure, and whatever a block of its own throws
-  void run (const StepContext& context, const Step& step, std::deque<std::size_t> blocks);
+  void run (const StepContext& context, const Step& step, const std::vector<std::size_t>& blocks);
 
   /// Ends all other processes, and answers those that still work on something.
   void end (int code);
 
 private:
-  // Answers one message, or waits a little. Calls done () if another process has done a block.
-  template <typename Done>
-  void serve (Done&& done);
+  // Answers one message, or waits a little. Returns whether another process has done a block.
+  bool serve ();
 
   Message answerTo (const Message& wanted);
   void write (int process, const std::string& file);
-  ByteSource& source (const std::string& name);
 
   Processes& processes_;
   FolderStore& folder_;
   std::set<int> idle_;
-  std::map<std::string, std::unique_ptr<ByteSource>> sources_;
-  int wait_ = 20; // microseconds
+  std::map<std::string, ByteSource> sources_;
+  Patience patience_;
 };
 
 } // namespace pcl::floater

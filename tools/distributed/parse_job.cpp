@@ -10,8 +10,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-
 namespace pcl::floater {
 namespace {
 const char* const DESCRIPTION =
@@ -73,12 +71,8 @@ addSteps (CLI::App& app, Job& job)
              "do this step only: " + of_all.substr (2) +
                  "; or for a block: " + of_blocks.substr (2),
              "NAME (all)", group);
-  const auto setBlock = [&job] (const std::string& word) {
-    if (!parseNumber (word, job.block))
-      throw CLI::ValidationError ("--block", "'" + word + "' is not a whole number");
-    job.has_block = true;
-  };
-  addParsed (app, "--block", setBlock, "block of the step, from 0", "N", group);
+  addNumber (app, "--block", job.block, "block of the step, from 0", group);
+  app.get_option ("--block")->option_text ("N");
   app.add_flag ("--print-steps", job.prints_steps,
                 "print the commands of all steps after the plan, and exit")
       ->group (group);
@@ -104,7 +98,6 @@ addGeneral (CLI::App& app, Job& job)
              "same",
              general);
   addMemoryLimit (app, job.line);
-  addLimit (app, job.line);
   addCoordinates (app, job.line);
   app.add_flag ("-q,--quiet", job.line.quiet, "print errors only")->group (general);
 }
@@ -117,16 +110,11 @@ addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
                   "then the mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; with --tiles "
                   "a folder")
       ->option_text (" ");
-  const std::string output = "More output";
   app.add_flag ("--tiles", job.writes_tiles,
                 "write the mesh as a folder of .ply files: one for each file of points, or of a "
                 "single one for each block; and tiles.json, which tells what they share")
-      ->group (output);
-  app.add_flag ("--normals", job.line.compute_normals,
-                "give the vertices normals, made from the triangles; those of the input are "
-                "replaced")
-      ->group (output);
-  addPath (app, "--report", job.line.report, "write a report on the run as JSON", output);
+      ->group ("More output");
+  addOutputs (app, job.line);
 }
 
 // \throws UsageError, ReadError, WriteError
@@ -161,18 +149,11 @@ takeFiles (const std::vector<std::string>& files, Job& job)
 std::optional<int>
 parseJob (const std::vector<std::string>& arguments, Job& job)
 {
-  constexpr std::size_t NAME_COLUMN = 34;
-  CLI::App app (DESCRIPTION, "pcl_floater_distributed");
-  std::vector<std::string> files;
   job.line.options.threads = 1;
   job.line.program = "pcl_floater_distributed";
-  app.get_formatter ()->column_width (NAME_COLUMN);
-  app.get_formatter ()->label ("Positionals", "Arguments");
-  app.footer (FOOTER);
-  app.set_help_flag ("-h,--help", "print this and exit")->group ("General");
-  app.set_version_flag ("--version", "pcl_floater_distributed " PCL_FLOATER_VERSION,
-                        "print the version and exit")
-      ->group ("General");
+  CLI::App app ("", job.line.program);
+  std::vector<std::string> files;
+  prepareApp (app, DESCRIPTION, FOOTER);
   addSteps (app, job);
   addGeneral (app, job);
   addTableOptions (app, job.line, [] (const OptionRow& row) {
@@ -181,16 +162,9 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
            name == "sheet_filter";
   });
   addFiles (app, files, job);
-  wrapTexts (app);
-  try {
-    std::vector<std::string> reversed (arguments.rbegin (), arguments.rend ());
-    app.parse (std::move (reversed));
-  }
-  catch (const CLI::ParseError& error) {
-    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
-      return app.exit (error);
-    throw UsageError (usageMessage (app, error, arguments));
-  }
+  if (const std::optional<int> done = parseArguments (app, arguments))
+    return done;
+  job.has_block = app.count ("--block") > 0;
   job.arguments = arguments;
   if (job.work.string ().find_first_of ("\n\r") != std::string::npos)
     throw UsageError ("--work: the name has a line break in it; choose another one");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cloud_reader.h"
+#include "run_report.h"
 
 #include <array>
 #include <cstddef>
@@ -16,8 +17,8 @@ namespace pcl::floater {
 /// A file of points as it was when the plan was made.
 struct InputFile
 {
-  std::filesystem::path path;
-  std::uint64_t size = 0;
+  std::string file;
+  std::uint64_t bytes = 0;
   std::uint64_t checksum = 0; ///< of all bytes
 };
 
@@ -30,13 +31,14 @@ struct Plan
   std::string parameters;             ///< those that decide the result, as text
   std::size_t points = 0;             ///< of the working set, with outliers
   std::size_t blocks = 0;
-  std::size_t cloud_size = 0, selected_points = 0;
-  std::size_t lattice_width = 0;
-  std::array<double, 3> centre{}, sensor_origin{}, shift{};
+  std::size_t selected_points = 0, lattice_width = 0;
+  std::array<double, 3> centre{}, sensor_origin{};
   double scale = 1.0;
-  std::vector<std::string> fields, warnings, notes; ///< of the cloud, but for its coordinates
-  std::size_t finite_points = 0;                    ///< of the cloud
-  bool is_single = true;                            ///< its coordinates are 32-bit floats
+  std::vector<std::string> warnings; ///< of the cloud
+  RunFigures figures;                ///< what is known of the cloud
+
+  std::size_t cloudSize () const { return figures.input_points; }
+  Eigen::Vector3d shift () const { return Eigen::Vector3d (figures.shift.data ()); }
 };
 
 /// \throws ReadError if a file is missing
@@ -59,10 +61,10 @@ parseManifest (const std::string& text, const std::string& name);
 
 /// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
 /// are those that all files have with one type, and coordinates are doubles.
-/// \param[out] firsts if it is not nullptr, the first row of each file, and the number of all rows
+/// \param[out] firsts the first row of each file, and the number of all rows
 /// \throws ReadError, which names the file
 Cloud
 readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& options,
-            std::vector<std::size_t>* firsts = nullptr);
+            std::vector<std::size_t>& firsts);
 
 } // namespace pcl::floater

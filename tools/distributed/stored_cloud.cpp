@@ -12,37 +12,9 @@ Slices::file (std::size_t block)
   const auto known = files_.find (block);
   if (known != files_.end ())
     return known->second;
-  return files_.emplace (block, openArrays (store_, blockFile (step_, block), plan_)).first->second;
-}
-
-void
-writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer)
-{
-  writer.add (array, lists.ids);
-  // Where each list ends; the first begins at 0.
-  writer.add (array + ".ends", lists.offsets.data () + (lists.offsets.empty () ? 0 : 1),
-              lists.rows ());
-}
-
-CsrLists
-readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last,
-           std::size_t limit)
-{
-  CsrLists lists;
-  if (first == last)
-    return lists;
-  Index begin = 0;
-  if (first > 0)
-    file.read (array + ".ends", first - 1, first, &begin);
-  lists.offsets.resize (last - first + 1);
-  lists.offsets[0] = begin;
-  file.read (array + ".ends", first, last, lists.offsets.data () + 1);
-  file.require (std::is_sorted (lists.offsets.begin (), lists.offsets.end ()));
-  lists.ids = file.read<Index> (array, begin, lists.offsets.back ());
-  file.requireBelow (lists.ids, limit);
-  for (Index& offset : lists.offsets)
-    offset -= begin;
-  return lists;
+  return files_
+      .emplace (block, openArrays (context_.store, blockFile (step_, block), context_.plan))
+      .first->second;
 }
 
 CsrLists
@@ -52,18 +24,21 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
   all.offsets.reserve (points.size () + 1);
   all.offsets.push_back (0);
   std::size_t entries = 0; // of whole blocks, which are most if all points are asked for
-  forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
+  ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
     if (last - first == ranges_.last (block) - ranges_.first (block))
-      entries += file (block).count<Index> (array);
+      entries += file (block).count (array);
   });
   all.ids.reserve (entries);
-  forEachRun (points, [&] (std::size_t /*at*/, std::size_t block, Index first, Index last) {
-    const CsrLists lists = readLists (file (block), array, first, last, ranges_.points ());
-    const Index before = all.offsets.back ();
-    requireListed (all.ids.size () + lists.ids.size ());
-    all.ids.insert (all.ids.end (), lists.ids.begin (), lists.ids.end ());
-    for (std::size_t r = 1; r < lists.offsets.size (); ++r)
-      all.offsets.push_back (before + lists.offsets[r]);
+  ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
+    ArrayFile& its = file (block);
+    const auto offsets = its.read<Index> (array + ".offsets", first, last + std::size_t{1});
+    its.require (std::is_sorted (offsets.begin (), offsets.end ()));
+    const std::size_t before = all.ids.size ();
+    requireListed (before + (offsets.back () - offsets.front ()));
+    its.append (array, offsets.front (), offsets.back (), all.ids);
+    its.requireBelow (all.ids, ranges_.points (), before);
+    for (auto offset = offsets.begin () + 1; offset != offsets.end (); ++offset)
+      all.offsets.push_back (static_cast<Index> (before) + *offset - offsets.front ());
   });
   return all;
 }
@@ -100,15 +75,11 @@ LocalPoints::placeOf (Index point) const
   return (after - 1)->place + (point - (after - 1)->first);
 }
 
-bool
+void
 LocalPoints::toPlaces (std::vector<Index>& points) const
 {
-  bool are_all = true;
-  for (Index& point : points) {
+  for (Index& point : points)
     point = placeOf (point);
-    are_all = are_all && point != NONE;
-  }
-  return are_all;
 }
 
 CsrLists
@@ -145,15 +116,6 @@ takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& clou
                        search.watch ().looked (here, farthest);
                      }
                    });
-}
-
-BlockRanges
-blockRanges (const Plan& plan, std::size_t points)
-{
-  std::vector<std::size_t> firsts;
-  for (std::size_t block = 0; block <= plan.blocks; ++block)
-    firsts.push_back (BlockCutter::firstOf (block, plan.blocks, points));
-  return BlockRanges (std::move (firsts));
 }
 
 const char*
@@ -195,8 +157,8 @@ readPoints (Store& store, const std::string& name, const Plan& plan,
   points.duplicates = file.read<std::array<Index, 2>> ("duplicates");
   gross_outliers = file.read<Index> ("gross_outliers");
   for (const std::vector<Index>* list : {&points.cloud_index, &points.non_finite, &gross_outliers})
-    file.requireBelow (*list, plan.cloud_size);
-  file.requireBelow (points.duplicates, plan.cloud_size);
+    file.requireBelow (*list, plan.cloudSize ());
+  file.requireBelow (points.duplicates, plan.cloudSize ());
   const std::size_t count = points.positions.size ();
   file.require (count > 0 && count <= plan.points && points.cloud_index.size () == count);
   for (const std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})

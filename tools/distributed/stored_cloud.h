@@ -13,32 +13,69 @@
 #include <map>
 #include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
+/// Which points a block owns.
+class BlockRanges
+{
+public:
+  /// \param points with or without outliers
+  BlockRanges (const Plan& plan, std::size_t points) : blocks_ (plan.blocks), points_ (points) {}
+
+  std::size_t blocks () const { return blocks_; }
+  std::size_t points () const { return points_; }
+  Index first (std::size_t block) const { return BlockCutter::firstOf (block, blocks_, points_); }
+  Index last (std::size_t block) const { return first (block + 1); }
+
+  /// Calls visit (block, first, last), the latter two counted in the block, for points that follow
+  /// each other in one block.
+  /// \param points ascending
+  template <typename Visit>
+  void forEachRun (const std::vector<Index>& points, Visit&& visit) const
+  {
+    std::size_t block = 0;
+    for (std::size_t begin = 0, end = 0; begin < points.size (); begin = end) {
+      while (points[begin] >= last (block))
+        ++block;
+      const Index from = first (block), to = last (block);
+      for (end = begin + 1;
+           end < points.size () && points[end] < to && points[end] == points[end - 1] + 1;)
+        ++end;
+      visit (block, points[begin] - from, points[end - 1] + 1 - from);
+    }
+  }
+
+private:
+  std::size_t blocks_, points_;
+};
+
 /// What the blocks have written in one step.
 class Slices
 {
 public:
-  /// \param store, plan, ranges must outlive this
-  Slices (Store& store, const Plan& plan, const BlockRanges& ranges, const char* step)
-      : store_ (store), plan_ (plan), ranges_ (ranges), step_ (step)
+  /// \param context, ranges must outlive this
+  Slices (const StepContext& context, const BlockRanges& ranges, const char* step)
+      : context_ (context), ranges_ (ranges), step_ (step)
   {
   }
 
   /// The file of a block.
   ArrayFile& file (std::size_t block);
 
-  /// Values of some points, `width` for each.
+  /// Values of some points, `width` for each. If they are indices, these must be those of points.
   /// \param points ascending
   template <typename T>
   std::vector<T> gather (const std::string& array, const std::vector<Index>& points,
                          std::size_t width = 1)
   {
-    std::vector<T> values (points.size () * width);
-    forEachRun (points, [&] (std::size_t at, std::size_t block, Index first, Index last) {
-      file (block).read (array, first * width, last * width, values.data () + at * width);
+    std::vector<T> values;
+    values.reserve (points.size () * width);
+    ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
+      const std::size_t before = values.size ();
+      file (block).append (array, first * width, last * width, values);
+      if constexpr (std::is_same_v<T, Index>)
+        file (block).requireBelow (values, ranges_.points (), before);
     });
     return values;
   }
@@ -47,37 +84,19 @@ public:
   CsrLists gatherLists (const std::string& array, const std::vector<Index>& points);
 
 private:
-  // Calls visit (place in points, block, first, last), the latter two counted in the block, for
-  // points that follow each other in one block.
-  template <typename Visit>
-  void forEachRun (const std::vector<Index>& points, Visit&& visit)
-  {
-    for (std::size_t begin = 0, end = 0; begin < points.size (); begin = end) {
-      const std::size_t block = ranges_.blockOf (points[begin]);
-      const Index first = ranges_.first (block), last = ranges_.last (block);
-      for (end = begin + 1;
-           end < points.size () && points[end] < last && points[end] == points[end - 1] + 1;)
-        ++end;
-      visit (begin, block, points[begin] - first, points[end - 1] + 1 - first);
-    }
-  }
-
-  Store& store_;
-  const Plan& plan_;
+  const StepContext& context_;
   const BlockRanges& ranges_;
   const char* step_;
   std::map<std::size_t, ArrayFile> files_;
 };
 
-/// Lists as two arrays, the second of which is named "<array>.ends". All must outlive the writer.
-void
-writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer);
-
-/// Reads lists that writeLists has written, `first` to before `last`.
-/// \param limit all indices are below
-CsrLists
-readLists (ArrayFile& file, const std::string& array, std::size_t first, std::size_t last,
-           std::size_t limit);
+/// Lists as two arrays, the second of which is named "<array>.offsets". They must outlive the writer.
+inline void
+writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer)
+{
+  writer.add (array, lists.ids);
+  writer.add (array + ".offsets", lists.offsets);
+}
 
 /// Appends a list to others.
 void
@@ -96,8 +115,7 @@ public:
   Index placeOf (Index point) const;
 
   /// Replaces points by their places.
-  /// \return whether all are in the part
-  bool toPlaces (std::vector<Index>& points) const;
+  void toPlaces (std::vector<Index>& points) const;
 
   /// Replaces places by their points.
   void toPoints (std::vector<Index>& places) const
@@ -140,10 +158,9 @@ public:
   StoredCloud (const StepContext& context, const std::vector<Index>& outliers, bool with_outliers)
       : file_ (openArrays (context.store, with_outliers ? POINTS : pointsLeft (outliers),
                            context.plan)),
-        points_ (file_.count<Eigen::Vector3d> ("positions")),
-        ranges_ (blockRanges (context.plan, points_)),
+        ranges_ (context.plan, file_.count ("positions")),
         cutter_ (
-            points_, file_.read<Box> ("groups"), context.plan.blocks,
+            points (), file_.read<Box> ("groups"), context.plan.blocks,
             [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
               file_.append ("buckets", first, last, buckets);
             },
@@ -154,7 +171,7 @@ public:
   }
 
   ArrayFile& file () { return file_; }
-  std::size_t points () const { return points_; }
+  std::size_t points () const { return ranges_.points (); }
   const BlockRanges& ranges () const { return ranges_; }
   const BlockCutter& cutter () const { return cutter_; }
 
@@ -163,17 +180,15 @@ public:
   {
     std::vector<Eigen::Vector3d> positions;
     positions.reserve (points.size ());
-    for (std::size_t begin = 0, end = 0; begin < points.size (); begin = end) {
-      for (end = begin + 1; end < points.size () && points[end] == points[end - 1] + 1;)
-        ++end;
-      file_.append ("positions", points[begin], points[end - 1] + 1, positions);
-    }
+    ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
+      const Index before = ranges_.first (block);
+      file_.append ("positions", before + first, before + last, positions);
+    });
     return positions;
   }
 
 private:
   ArrayFile file_;
-  std::size_t points_;
   BlockRanges ranges_;
   BlockCutter cutter_;
 };
@@ -187,8 +202,7 @@ public:
       : ranges_ (ranges), are_renewed_ (!outliers.empty ()),
         width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
                                        ranges.points () - 1)),
-        found_ (context.store, context.plan, ranges, "neighbors"),
-        planes_ (context.store, context.plan, ranges, "planes")
+        found_ (context, ranges, "neighbors"), planes_ (context, ranges, "planes")
   {
   }
 
@@ -200,8 +214,6 @@ public:
     requireListed (points.size () * width_);
     CsrLists lists;
     lists.ids = found_.gather<Index> ("ids", points, width_);
-    if (!points.empty ())
-      found_.file (ranges_.blockOf (points.front ())).requireBelow (lists.ids, ranges_.points ());
     lists.offsets.resize (points.size () + 1);
     for (std::size_t i = 0; i <= points.size (); ++i)
       lists.offsets[i] = static_cast<Index> (i * width_);
@@ -211,13 +223,6 @@ public:
   CsrLists beside (const std::vector<Index>& points)
   {
     return planes_.gatherLists ("beside", points);
-  }
-
-  CsrLists all (const std::vector<Index>& points)
-  {
-    CsrLists lists = nearest (points);
-    appendRows (beside (points), lists);
-    return lists;
   }
 
   Slices& planes () { return planes_; }

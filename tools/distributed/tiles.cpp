@@ -3,9 +3,8 @@
 #include "tiles.h"
 
 #include "atomic_file.h"
-#include "block_steps.h"
-#include "cloud.h"
 #include "core/csr_lists.h"
+#include "core/order_statistics.h"
 #include "mesh_writer.h"
 #include "stored_cloud.h"
 
@@ -15,7 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <tuple>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -24,206 +23,47 @@ using Json = nlohmann::ordered_json;
 constexpr const char* TILES_FORMAT = "pcl_floater tiles";
 constexpr int VERSION = 1;
 
+/// The field that has the number of each vertex in the whole mesh. It is a double: PLY has no
+/// 64-bit integers, and a double holds all whole numbers up to 2^53.
+constexpr const char* VERTEX_NUMBER = "vertex_number";
+
 std::string
 tileName (std::size_t tile)
 {
   return "tile." + std::to_string (tile) + ".ply";
 }
 
-// A vertex of a tile that another tile owns.
-struct BorderVertex
+// The tile that owns each vertex.
+std::vector<std::uint32_t>
+findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, FolderStore& store,
+            const Plan& plan)
 {
-  std::uint32_t owner, vertex;
-
-  bool operator<(const BorderVertex& other) const
-  {
-    return std::tie (owner, vertex) < std::tie (other.owner, other.vertex);
-  }
-  bool operator== (const BorderVertex& other) const { return vertex == other.vertex; }
-};
-
-// What the tiles have that are written.
-struct Counts
-{
-  std::uint64_t points = 0, triangles = 0;
-};
-
-// Size and CRC-32 of a file, as they are read back.
-std::pair<std::uint64_t, std::string>
-sumOf (const std::filesystem::path& path)
-{
-  uLong sum = 0;
-  const std::uint64_t size =
-      forAllBytes (*openFile (path, false), [&sum] (const char* bytes, std::size_t count) {
-        sum = ::crc32 (sum, reinterpret_cast<const Bytef*> (bytes), static_cast<uInt> (count));
-      });
-  constexpr std::size_t DIGITS = 8;
-  std::array<char, DIGITS + 1> text{};
-  std::snprintf (text.data (), text.size (), "%08lx", sum);
-  return {size, text.data ()};
-}
-
-// Runs of border vertices that one tile owns.
-Json
-bordersJson (const std::vector<BorderVertex>& border, std::size_t own)
-{
-  Json borders = Json::array ();
-  for (std::size_t first = 0, last = 0; first < border.size (); first = last) {
-    while (last < border.size () && border[last].owner == border[first].owner)
-      ++last;
-    borders.push_back (
-        {{"tile", border[first].owner}, {"first", own + first}, {"points", last - first}});
-  }
-  return borders;
-}
-
-class TileWriter
-{
-public:
-  TileWriter (const std::filesystem::path& folder, const Cloud& cloud, const Triangles& triangles,
-              const TileOwners& owners)
-      : folder_ (folder), cloud_ (cloud), triangles_ (triangles), owners_ (owners)
-  {
-    const std::size_t tiles = owners.inputs.size ();
-    vertices_of_ = makeCsrLists (tiles, [&] (const auto& emit) {
-      for (Index v = 0; v < cloud.size (); ++v)
-        emit (owners.tile_of[v], v);
-    });
-    triangles_of_ = makeCsrLists (tiles, [&] (const auto& emit) {
-      for (Index t = 0; t < triangles.size (); ++t)
-        emit (owners.tile_of[*std::min_element (triangles[t].begin (), triangles[t].end ())], t);
-    });
-    place_of_.resize (cloud.size ());
-    for (std::size_t tile = 0; tile < tiles; ++tile) {
-      const Row own = vertices_of_.row (tile);
-      for (std::size_t i = 0; i < own.size (); ++i)
-        place_of_[own[i]] = static_cast<Index> (i);
+  std::vector<std::uint32_t> tile_of (cloud.size (), 0);
+  if (plan.inputs.size () > 1) {
+    std::uint32_t tile = 0;
+    for (std::size_t v = 0; v < cloud.size (); ++v) {
+      while (cloud.row (v) >= firsts[tile + 1])
+        ++tile;
+      tile_of[v] = tile;
     }
+    return tile_of;
   }
-
-  // Writes a tile. Returns what the manifest has of it.
-  Json write (std::size_t tile, std::vector<std::string>& losses)
-  {
-    const Row own = vertices_of_.row (tile);
-    const std::vector<BorderVertex> border = borderOf (tile);
-    std::vector<std::size_t> rows;
-    std::vector<double> numbers;
-    const auto add = [&] (Index vertex) {
-      rows.push_back (cloud_.row (vertex));
-      numbers.push_back (static_cast<double> (vertex));
-    };
-    for (const Index vertex : own)
-      add (vertex);
-    for (const BorderVertex& other : border)
-      add (other.vertex);
-    Field number;
-    number.name = VERTEX_NUMBER;
-    number.type = ScalarType::FLOAT64;
-    Cloud part = copyRows (cloud_, rows, {number});
-    setValues (part, VERTEX_NUMBER, numbers);
-
-    const std::filesystem::path path = folder_ / tileName (tile);
-    AtomicFile file (path);
-    losses = writeMesh (file, path, part, renumbered (tile, border), MeshFormat::PLY);
-    file.close ();
-    file.publish ();
-    const auto [bytes, sum] = sumOf (path);
-    const std::size_t triangles = triangles_of_.row (tile).size ();
-    Json json{{"file", tileName (tile)},
-              {"input", owners_.inputs[tile]},
-              {"bytes", bytes},
-              {"crc32", sum},
-              {"own_points", own.size ()},
-              {"points_before", before_.points},
-              {"border_points", border.size ()},
-              {"triangles", triangles},
-              {"triangles_before", before_.triangles},
-              {"borders", bordersJson (border, own.size ())}};
-    before_.points += own.size ();
-    before_.triangles += triangles;
-    return json;
-  }
-
-private:
-  std::vector<BorderVertex> borderOf (std::size_t tile) const
-  {
-    std::vector<BorderVertex> border;
-    for (const Index t : triangles_of_.row (tile))
-      for (const Index vertex : triangles_[t])
-        if (const std::uint32_t owner = owners_.tile_of[vertex]; owner != tile)
-          border.push_back ({owner, vertex});
-    std::sort (border.begin (), border.end ());
-    border.erase (std::unique (border.begin (), border.end ()), border.end ());
-    return border;
-  }
-
-  Triangles renumbered (std::size_t tile, const std::vector<BorderVertex>& border) const
-  {
-    const std::size_t own = vertices_of_.row (tile).size ();
-    const auto placeOf = [&] (Index vertex) {
-      const BorderVertex wanted{owners_.tile_of[vertex], vertex};
-      if (wanted.owner == tile)
-        return place_of_[vertex];
-      const auto place = std::lower_bound (border.begin (), border.end (), wanted);
-      return static_cast<Index> (own + static_cast<std::size_t> (place - border.begin ()));
-    };
-    Triangles local;
-    local.reserve (triangles_of_.row (tile).size ());
-    for (const Index t : triangles_of_.row (tile))
-      local.push_back (
-          {placeOf (triangles_[t][0]), placeOf (triangles_[t][1]), placeOf (triangles_[t][2])});
-    return local;
-  }
-
-  const std::filesystem::path& folder_;
-  const Cloud& cloud_;
-  const Triangles& triangles_;
-  const TileOwners& owners_;
-  CsrLists vertices_of_, triangles_of_; // of each tile, ascending
-  std::vector<Index> place_of_;         // of each vertex, in the tile that owns it
-  Counts before_;
-};
+  ArrayFile file = openArrays (store, POINTS, plan);
+  const std::vector<Index> cloud_index = file.read<Index> ("cloud_index");
+  const BlockRanges ranges (plan, plan.points);
+  for (std::uint32_t block = 0; block < ranges.blocks (); ++block)
+    for (Index p = ranges.first (block); p < ranges.last (block); ++p)
+      tile_of[cloud.pointOf (cloud_index[p])] = block;
+  for (const auto& [repeated, standing] : file.read<std::array<Index, 2>> ("duplicates"))
+    tile_of[cloud.pointOf (repeated)] = tile_of[cloud.pointOf (standing)];
+  return tile_of;
+}
 
 } // namespace
 
-TileOwners
-ownersByFile (const Cloud& cloud, const std::vector<std::size_t>& firsts,
-              const std::vector<std::filesystem::path>& inputs)
-{
-  TileOwners owners;
-  owners.tile_of.resize (cloud.size ());
-  const auto vertexOf = [&cloud] (std::size_t row) -> std::size_t {
-    return row < cloud.rows ? cloud.kept.number (static_cast<std::uint32_t> (row)) : cloud.size ();
-  };
-  for (std::size_t tile = 0; tile < inputs.size (); ++tile) {
-    owners.inputs.push_back (inputs[tile].string ());
-    for (std::size_t v = vertexOf (firsts[tile]); v < vertexOf (firsts[tile + 1]); ++v)
-      owners.tile_of[v] = static_cast<std::uint32_t> (tile);
-  }
-  return owners;
-}
-
-TileOwners
-ownersByBlock (const Cloud& cloud, FolderStore& store, const Plan& plan)
-{
-  ArrayFile file = openArrays (store, POINTS, plan);
-  const std::vector<Index> cloud_index = file.read<Index> ("cloud_index");
-  const BlockRanges ranges = blockRanges (plan, plan.points);
-  TileOwners owners;
-  owners.tile_of.assign (cloud.size (), 0);
-  for (std::size_t block = 0; block < ranges.blocks (); ++block) {
-    owners.inputs.push_back (plan.inputs.front ().path.string ());
-    for (Index p = ranges.first (block); p < ranges.last (block); ++p)
-      owners.tile_of[cloud.kept.number (cloud_index[p])] = static_cast<std::uint32_t> (block);
-  }
-  for (const auto& [repeated, standing] : file.read<std::array<Index, 2>> ("duplicates"))
-    owners.tile_of[cloud.kept.number (repeated)] = owners.tile_of[cloud.kept.number (standing)];
-  return owners;
-}
-
 std::vector<std::string>
 writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Triangles& triangles,
-            const TileOwners& owners)
+            const std::vector<std::size_t>& firsts, FolderStore& store, const Plan& plan)
 {
   std::error_code error;
   std::filesystem::create_directory (folder, error);
@@ -231,12 +71,74 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
   std::filesystem::remove (folder / TILES, error);
   if (error)
     throw WriteError ("cannot remove '" + (folder / TILES).string () + "': " + error.message ());
-  const std::size_t tiles = owners.inputs.size ();
+  const std::vector<std::uint32_t> tile_of = findOwners (cloud, firsts, store, plan);
+  const bool are_files = plan.inputs.size () > 1; // else blocks
+  const std::size_t tiles = are_files ? plan.inputs.size () : plan.blocks;
+  // Those of each tile, ascending.
+  const CsrLists own_vertices = makeCsrLists (tiles, [&] (const auto& emit) {
+    for (Index v = 0; v < cloud.size (); ++v)
+      emit (tile_of[v], v);
+  });
+  const CsrLists its_triangles = makeCsrLists (tiles, [&] (const auto& emit) {
+    for (Index t = 0; t < triangles.size (); ++t)
+      emit (tile_of[*std::min_element (triangles[t].begin (), triangles[t].end ())], t);
+  });
+  std::vector<Index> place_of (cloud.size ()); // of each vertex in the tile that is being written
   std::vector<std::string> losses;
   Json list = Json::array ();
-  TileWriter writer (folder, cloud, triangles, owners);
-  for (std::size_t tile = 0; tile < tiles; ++tile)
-    list.push_back (writer.write (tile, losses));
+  std::uint64_t points_before = 0, triangles_before = 0;
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const Row own = own_vertices.row (tile);
+    std::vector<std::pair<std::size_t, Index>> border; // vertices of other tiles, after the tile
+    for (const Index t : its_triangles.row (tile))
+      for (const Index vertex : triangles[t])
+        if (tile_of[vertex] != tile)
+          border.emplace_back (tile_of[vertex], vertex);
+    sortUnique (border);
+    std::vector<std::size_t> vertices (own.begin (), own.end ()), rows;
+    Json borders = Json::array (); // runs of them that one tile owns
+    for (const auto& [owner, vertex] : border) {
+      if (borders.empty () || borders.back ()["tile"] != owner)
+        borders.push_back ({{"tile", owner}, {"first", vertices.size ()}, {"points", 0}});
+      borders.back ()["points"] = borders.back ()["points"].get<std::size_t> () + 1;
+      vertices.push_back (vertex);
+    }
+    for (const std::size_t vertex : vertices) {
+      place_of[vertex] = static_cast<Index> (rows.size ());
+      rows.push_back (cloud.row (vertex));
+    }
+    Triangles local;
+    for (const Index t : its_triangles.row (tile)) {
+      const auto& [a, b, c] = triangles[t];
+      local.push_back ({place_of[a], place_of[b], place_of[c]});
+    }
+    Cloud part = copyRows (cloud, rows, {{VERTEX_NUMBER, ScalarType::FLOAT64}});
+    setValues<double> (*part.find (VERTEX_NUMBER), 0, rows.size (),
+                       [&vertices] (std::size_t i) { return static_cast<double> (vertices[i]); });
+
+    const std::filesystem::path path = folder / tileName (tile);
+    AtomicFile file (path);
+    losses = writeMesh (file, path, part, local, MeshFormat::PLY);
+    file.close ();
+    file.publish ();
+    const FileBytes written (path); // as it is read back
+    std::array<char, 9> sum{};
+    std::snprintf (sum.data (), sum.size (), "%08lx",
+                   ::crc32_z (0, reinterpret_cast<const Bytef*> (written.view ().data ()),
+                              written.view ().size ()));
+    list.push_back ({{"file", tileName (tile)},
+                     {"input", plan.inputs[are_files ? tile : 0].file},
+                     {"bytes", written.view ().size ()},
+                     {"crc32", sum.data ()},
+                     {"own_points", own.size ()},
+                     {"points_before", points_before},
+                     {"border_points", border.size ()},
+                     {"triangles", local.size ()},
+                     {"triangles_before", triangles_before},
+                     {"borders", borders}});
+    points_before += own.size ();
+    triangles_before += local.size ();
+  }
   for (std::size_t old = tiles; std::filesystem::remove (folder / tileName (old), error);)
     ++old;
   if (cloud.find (VERTEX_NUMBER) != nullptr)
@@ -249,10 +151,7 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
                       {"vertex_number", VERTEX_NUMBER},
                       {"shift", {cloud.shift.x (), cloud.shift.y (), cloud.shift.z ()}},
                       {"tiles", list}};
-  AtomicFile file (folder / TILES);
-  file.write (manifest.dump (2, ' ', false, Json::error_handler_t::replace) + "\n");
-  file.close ();
-  file.publish ();
+  writeFile (folder / TILES, manifest.dump (2, ' ', false, Json::error_handler_t::replace) + "\n");
   return losses;
 }
 

@@ -310,4 +310,21 @@ AtomicFile::fail (int error) const
   failOn (path_, std::strerror (error) + advice);
 }
 
+void
+writeFile (const std::filesystem::path& path, std::string_view bytes, bool is_private)
+{
+  AtomicFile file (path, is_private);
+  file.write (bytes);
+  file.close ();
+  file.publish ();
+}
+
+void
+stageFile (const std::filesystem::path& path, std::string_view bytes, OutputFiles& files)
+{
+  AtomicFile& file = files.emplace_back (path);
+  file.write (bytes);
+  file.close ();
+}
+
 } // namespace pcl::floater

@@ -6,6 +6,7 @@
 #include "byte_order.h"
 
 #include <charconv>
+#include <deque>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -117,5 +118,16 @@ private:
   std::size_t used_ = 0;    // bytes in the buffer
   std::size_t written_ = 0; // bytes passed to the system
 };
+
+/// Writes a file as AtomicFile does.
+void
+writeFile (const std::filesystem::path& path, std::string_view bytes, bool is_private = false);
+
+/// Files that become visible together.
+using OutputFiles = std::deque<AtomicFile>;
+
+/// Writes one of them under a temporary name.
+void
+stageFile (const std::filesystem::path& path, std::string_view bytes, OutputFiles& files);
 
 } // namespace pcl::floater

@@ -309,13 +309,17 @@ std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 {
   std::size_t not_finite = 0;
-  cloud.kept = KeptPoints (cloud.rows, [&cloud, &not_finite] (std::size_t row) {
-    const bool is_finite = cloud.positionOfRow (row).allFinite ();
-    not_finite += is_finite || cloud.isLeftOut (row) ? 0 : 1;
-    return is_finite && !cloud.isLeftOut (row);
-  });
-  if (cloud.kept.areAll ())
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t row = 0; row < cloud.rows; ++row)
+    if (!cloud.isLeftOut (row)) {
+      if (cloud.positionOfRow (row).allFinite ())
+        kept.push_back (row);
+      else
+        ++not_finite;
+    }
+  if (kept.size () == cloud.rows)
     return 0;
+  cloud.kept = std::move (kept);
   std::vector<std::uint32_t> numbers (cloud.rows);
   for (std::uint32_t point = 0; point < cloud.size (); ++point)
     numbers[cloud.row (point)] = point;
@@ -324,23 +328,6 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
       corner = numbers[corner];
   return not_finite;
 }
-
-namespace {
-void
-copyField (const Field& from, const std::vector<std::size_t>& rows, const Field& to)
-{
-  auto* bytes = const_cast<char*> (to.first.get ()); // just allocated
-  visitType (from.type, [&] (auto tag) {
-    using T = decltype (tag);
-    for (std::size_t i = 0; i < rows.size (); ++i)
-      for (std::size_t c = 0; c < from.count; ++c) {
-        const T value = from.value<T> (rows[i], c);
-        std::memcpy (bytes + i * to.stride + c * sizeof (T), &value, sizeof (T));
-      }
-  });
-}
-
-} // namespace
 
 Cloud
 copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows, const std::vector<Field>& added)
@@ -357,14 +344,12 @@ copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows, const std::v
       copied.fields.push_back (field);
   const std::vector<Field> sources (copied.fields);
   copied.fields.insert (copied.fields.end (), added.begin (), added.end ());
-  std::vector<Field*> fields = pointersTo (copied.fields);
-  fields.insert (fields.begin (),
-                 {&copied.coordinates[0], &copied.coordinates[1], &copied.coordinates[2]});
-  allocateRows (fields, rows.size ());
+  allocateRows (allFields (copied), rows.size ());
+  const auto rowOf = [&rows] (std::size_t i) { return rows[i]; };
   for (std::size_t axis = 0; axis < 3; ++axis)
-    copyField (cloud.coordinates[axis], rows, copied.coordinates[axis]);
+    copyValues (cloud.coordinates[axis], rows.size (), rowOf, copied.coordinates[axis]);
   for (std::size_t f = 0; f < sources.size (); ++f)
-    copyField (sources[f], rows, copied.fields[f]);
+    copyValues (sources[f], rows.size (), rowOf, copied.fields[f]);
   return copied;
 }
 

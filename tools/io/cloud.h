@@ -210,45 +210,6 @@ allocateRows (const std::vector<Field*>& fields, std::size_t points)
   return rows;
 }
 
-/// A subset of the rows of a file, renumbered from 0. Takes no memory if all rows are kept.
-class KeptPoints
-{
-public:
-  /// All rows.
-  KeptPoints () = default;
-
-  /// The rows for which keep (row) is true.
-  template <typename Keep>
-  KeptPoints (std::size_t rows, const Keep& keep)
-  {
-    for (std::uint32_t row = 0; row < rows; ++row)
-      if (keep (row))
-        rows_.push_back (row);
-    are_all_ = rows_.size () == rows;
-    if (are_all_)
-      rows_ = {};
-  }
-
-  bool areAll () const { return are_all_; }
-
-  /// Number of rows that are kept, unless all are.
-  std::size_t size () const { return rows_.size (); }
-
-  /// The new number of a row; of one that is not kept, that of the next. O(log rows).
-  std::uint32_t number (std::uint32_t row) const
-  {
-    const auto found = std::lower_bound (rows_.begin (), rows_.end (), row);
-    return are_all_ ? row : static_cast<std::uint32_t> (found - rows_.begin ());
-  }
-
-  /// The row of a new number.
-  std::size_t row (std::size_t number) const { return are_all_ ? number : rows_[number]; }
-
-private:
-  std::vector<std::uint32_t> rows_; // ascending
-  bool are_all_ = true;
-};
-
 /// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)
 /// of type UINT8, and normals are nx, ny, nz. All other fields keep their names. The fields have
 /// all rows of the file, also those of points that have been left out since.
@@ -266,16 +227,23 @@ struct Cloud
   std::vector<bool> left_out;            ///< rows that are no points of the mesh; or empty
   std::vector<Eigen::Vector3f>
       towards_sensors;               ///< of several scans: normals to the seen side; or empty
-  KeptPoints kept;                   ///< points that are left in an output
+  std::vector<std::uint32_t> kept;   ///< rows that are left in an output, ascending; empty: all
   std::vector<std::string> warnings; ///< oddities of the file, one sentence each
   std::vector<std::string> notes;    ///< what it holds and what was left out of it
   FileBytes file;                    ///< the file, if the fields refer to it
 
   /// Number of points that are left.
-  std::size_t size () const { return kept.areAll () ? rows : kept.size (); }
+  std::size_t size () const { return kept.empty () ? rows : kept.size (); }
 
   /// The row of a point.
-  std::size_t row (std::size_t point) const { return kept.row (point); }
+  std::size_t row (std::size_t point) const { return kept.empty () ? point : kept[point]; }
+
+  /// The point of a row that is left. O(log rows).
+  std::uint32_t pointOf (std::uint32_t row) const
+  {
+    const auto found = std::lower_bound (kept.begin (), kept.end (), row);
+    return kept.empty () ? row : static_cast<std::uint32_t> (found - kept.begin ());
+  }
 
   /// The coordinates, exactly as in the file if there is no shift.
   Eigen::Vector3d position (std::size_t point) const { return positionOfRow (row (point)); }
@@ -302,6 +270,16 @@ struct Cloud
     return nullptr;
   }
 };
+
+/// Pointers to the coordinates and all other fields.
+inline std::vector<Field*>
+allFields (Cloud& cloud)
+{
+  std::vector<Field*> fields = pointersTo (cloud.fields);
+  fields.insert (fields.begin (),
+                 {&cloud.coordinates[0], &cloud.coordinates[1], &cloud.coordinates[2]});
+  return fields;
+}
 
 /// Triangles as indices into a cloud.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -363,15 +341,35 @@ Cloud
 copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows,
           const std::vector<Field>& added);
 
-/// Sets the values of a field that copyRows has added. \tparam T the C++ type of the field
-template <typename T>
+/// Sets values of a field of which allocateRows has made the rows, from row `first` on.
+/// \tparam T the C++ type of the field
+template <typename T, typename ValueOf>
 void
-setValues (Cloud& copied, const std::string& name, const std::vector<T>& values)
+setValues (const Field& field, std::size_t first, std::size_t count, const ValueOf& valueOf)
 {
-  const Field& field = *copied.find (name);
-  auto* bytes = const_cast<char*> (field.first.get ()); // copyRows has allocated them
-  for (std::size_t i = 0; i < values.size (); ++i)
-    std::memcpy (bytes + i * field.stride, &values[i], sizeof (T));
+  auto* bytes = const_cast<char*> (field.first.get ()) + first * field.stride;
+  for (std::size_t i = 0; i < count; ++i) {
+    const T value = valueOf (i);
+    std::memcpy (bytes + i * field.stride, &value, sizeof (T));
+  }
+}
+
+/// Copies values to such a field of the same type and count.
+/// \param rowOf rowOf (i) is the row of the i-th of them
+template <typename RowOf>
+void
+copyValues (const Field& from, std::size_t count, const RowOf& rowOf, const Field& to,
+            std::size_t first = 0)
+{
+  visitType (from.type, [&] (auto tag) {
+    using T = decltype (tag);
+    Field each = to; // of the values of a point
+    for (std::size_t c = 0; c < from.count; ++c) {
+      setValues<T> (each, first, count,
+                    [&] (std::size_t i) { return from.value<T> (rowOf (i), c); });
+      each.first = {each.first, each.first.get () + sizeof (T)};
+    }
+  });
 }
 
 } // namespace pcl::floater

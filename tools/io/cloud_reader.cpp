@@ -76,6 +76,10 @@ readCloud (const std::filesystem::path& path, const ReadOptions& options)
   return readCloud (path, *format, options);
 }
 
+namespace {
+/// Leaves out the points of other classes than those, by the field `classification`; by default,
+/// those of low and high noise (7 and 18) of LAS. Always those of the field `withheld`.
+/// \throws ReadError if there are no classes, or no such points
 void
 chooseClasses (Cloud& cloud, const std::vector<int>& classes)
 {
@@ -118,6 +122,8 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
       static_cast<std::ptrdiff_t> (cloud.rows))
     throw ReadError ("none of its points is of the classes that are taken: --classes chooses them");
 }
+
+} // namespace
 
 Cloud
 parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options)

@@ -108,12 +108,6 @@ struct ReadOptions
   std::vector<int> classes{};           ///< of airborne scans; empty: all but those of noise
 };
 
-/// Leaves out the points of other classes than those, by the field `classification`; by default,
-/// those of low and high noise (7 and 18) of LAS. Always those of the field `withheld`.
-/// \throws ReadError if there are no classes, or no such points
-void
-chooseClasses (Cloud& cloud, const std::vector<int>& classes);
-
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input
 /// \throws ReadError if the file is not a complete and valid cloud

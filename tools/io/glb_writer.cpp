@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

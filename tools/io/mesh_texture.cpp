@@ -14,7 +14,7 @@
 #include <string>
 
 namespace pcl::floater {
-std::vector<unsigned char>
+std::string
 pngOf (const ColourImage& image)
 {
   lodepng::State state;
@@ -24,7 +24,7 @@ pngOf (const ColourImage& image)
   if (lodepng::encode (png, image.pixels.data ()->data (), static_cast<unsigned> (image.width),
                        static_cast<unsigned> (image.height), state) != 0)
     throw std::bad_alloc (); // nothing else can fail
-  return png;
+  return {png.begin (), png.end ()};
 }
 
 ColourImage
@@ -108,8 +108,9 @@ doubleSeamPoints (const Cloud& cloud, const MeshTexture& texture, Triangles& tri
   added[0].name = "s";
   added[1].name = "t";
   Cloud doubled = copyRows (cloud, rows, added);
-  setValues (doubled, "s", s);
-  setValues (doubled, "t", t);
+  for (const auto& [name, values] : {std::pair ("s", &s), std::pair ("t", &t)})
+    setValues<float> (*doubled.find (name), 0, values->size (),
+                      [values = values] (std::size_t i) { return (*values)[i]; });
   return doubled;
 }
 

@@ -52,7 +52,7 @@ visitPixels (const std::array<Eigen::Vector2d, 3>& corners, std::size_t side, co
 }
 
 /// The bytes of a PNG file. \throws std::bad_alloc
-std::vector<unsigned char>
+std::string
 pngOf (const ColourImage& image);
 
 /// Reads a PNG file, without its transparency.

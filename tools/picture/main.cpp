@@ -94,12 +94,8 @@ main (int argc, char** argv)
       options.texture = parsePng (FileBytes (reading = texture));
     if (files.size () == 3)
       options.parameterization = readPictureMesh (reading = files[1]);
-    const std::vector<unsigned char> png =
-        pngOf (drawMesh (std::move (mesh), static_cast<std::size_t> (height), options));
-    AtomicFile file (files.back ());
-    file.write (png.data (), png.size ());
-    file.close ();
-    file.publish ();
+    writeFile (files.back (),
+               pngOf (drawMesh (std::move (mesh), static_cast<std::size_t> (height), options)));
   }
   catch (const ReadError& error) {
     return fail (CANNOT_READ, "cannot read '" + reading.string () + "': " + error.what ());

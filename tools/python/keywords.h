@@ -13,19 +13,14 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Rows of three numbers in an array of NumPy, wherever they are in memory.
+/// Rows of three numbers in an array of NumPy, wherever they are in memory: of float or double, as
+/// _arrays.py makes sure.
 class PointRows
 {
 public:
   /// \throws pybind11::value_error
   explicit PointRows (const pybind11::buffer& buffer) : info_ (buffer.request ())
   {
-    // Memory that is not aligned has a sign before the letter.
-    const char type = info_.format.empty () ? ' ' : info_.format.back ();
-    const bool has_floats = (type == 'f' && info_.itemsize == sizeof (float)) ||
-                            (type == 'd' && info_.itemsize == sizeof (double));
-    if (info_.ndim != 2 || info_.shape[1] != 3 || !has_floats)
-      throw pybind11::value_error ("an array of the shape (n, 3) of floats is expected");
     if (info_.shape[0] > std::numeric_limits<std::int32_t>::max ())
       throw pybind11::value_error ("more than 2147483647 points; reconstruct parts of the cloud");
   }

@@ -8,7 +8,6 @@
 #include <pcl/surface/floater/texture_coordinates.h>
 #include <pcl/surface/floater/vertex_normals.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -16,6 +15,15 @@ namespace py = pybind11;
 
 namespace pcl::floater {
 namespace {
+struct ResultArray
+{
+  std::shared_ptr<const void> owner;
+  const void* first = nullptr;
+  const char* format = "i"; ///< of the elements: "i", "f" or "d"
+  std::size_t rows = 0;
+  std::size_t columns = 0; ///< 0: an array of one dimension
+};
+
 py::buffer_info
 bufferOf (const ResultArray& array)
 {
@@ -79,22 +87,13 @@ arraysOfResult (const std::shared_ptr<const Result>& result)
 namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// \throws pybind11::value_error
+/// \param buffer as _arrays.py makes it
 Triangles
 copyTriangles (const py::buffer& buffer)
 {
   const py::buffer_info info = buffer.request ();
-  const py::ssize_t size = sizeof (std::uint32_t);
-  const bool is_right = info.format == py::format_descriptor<std::uint32_t>::format () &&
-                        info.ndim == 2 && info.shape[1] == 3 && info.strides[1] == size &&
-                        info.strides[0] == 3 * size;
-  if (!is_right)
-    throw py::value_error ("a contiguous array of the shape (m, 3) of uint32 is expected");
-  Triangles triangles (static_cast<std::size_t> (info.shape[0]));
-  const auto* first = static_cast<const std::uint32_t*> (info.ptr);
-  for (std::size_t t = 0; t < triangles.size (); ++t)
-    std::copy (first + 3 * t, first + 3 * (t + 1), triangles[t].begin ());
-  return triangles;
+  const auto* first = static_cast<const Triangles::value_type*> (info.ptr);
+  return {first, first + info.shape[0]};
 }
 
 /// \return an array of the shape (n, 3) of float

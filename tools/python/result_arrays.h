@@ -9,18 +9,8 @@
 #include <memory>
 
 namespace pcl::floater {
-/// One array of a result. NumPy takes it by the buffer protocol, so that the module depends on no
-/// version of NumPy's C interface. Keeps the whole result alive.
-struct ResultArray
-{
-  std::shared_ptr<const void> owner;
-  const void* first = nullptr;
-  const char* format = "i"; ///< of the elements: "i", "f" or "d"
-  std::size_t rows = 0;
-  std::size_t columns = 0; ///< 0: an array of one dimension
-};
-
-/// Makes ResultArray known to Python.
+/// Makes the arrays known to Python. NumPy takes them by the buffer protocol, so that the module
+/// depends on no version of NumPy's C interface. Each keeps the whole result alive.
 void
 defineResultArray (pybind11::module_& module);
 

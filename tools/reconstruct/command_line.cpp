@@ -76,25 +76,6 @@ readLoop (const std::filesystem::path& path)
   return loop;
 }
 
-std::optional<std::string>
-setLimit (const std::string& setting, CommandLine& line)
-{
-  const std::size_t equals = setting.find ('=');
-  const std::string name = setting.substr (0, equals);
-  const std::string word = equals == std::string::npos ? "" : setting.substr (equals + 1);
-  std::optional<std::string> problem = "'" + setting + "' is no NAME=VALUE of a limit";
-  const auto offer = [&] (const char* offered, auto& limit, auto least) {
-    if (name != offered)
-      return;
-    if (parseNumber (word, limit) && limit >= least)
-      problem.reset ();
-    else
-      problem = "'" + word + "' is no value of " + name;
-  };
-  offer ("page.triangles", line.shown_triangles, std::size_t{100});
-  return problem;
-}
-
 namespace {
 /// \throws UsageError
 void
@@ -141,17 +122,11 @@ warnOfUnpublished (const CLI::App& app, const Options& given, const Options& eff
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line)
 {
-  CLI::App app ("", "pcl_floater_reconstruct");
+  CLI::App app ("", command_line.program);
   const std::vector<std::string> arguments (argv + (argc > 0 ? 1 : 0), argv + argc);
   addOptions (app, command_line);
-  try {
-    app.parse (argc, argv);
-  }
-  catch (const CLI::ParseError& error) {
-    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
-      return app.exit (error);
-    throw UsageError (usageMessage (app, error, arguments));
-  }
+  if (const std::optional<int> done = parseArguments (app, arguments))
+    return done;
   if (command_line.compute_normals && command_line.meshFormat () == MeshFormat::STL)
     command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
                                         "triangles only, write .ply, .vtk or "

@@ -6,7 +6,6 @@
 #include "cloud_reader.h"
 #include "mesh_writer.h"
 #include "options/choices.h"
-#include "options/stage_limits.h"
 
 #include <Eigen/Core>
 #include <pcl/surface/floater/options.h>
@@ -91,8 +90,6 @@ struct CommandLine
   bool use_input_normals = false;          ///< for tangent planes, and so for the facing
   bool compute_normals = false;            ///< of the vertices of the mesh
   Options options;                         ///< without the loop, which has not been read yet
-  std::vector<std::string> changed_limits; ///< NAME=VALUE
-  Limits limits;                           ///< with the changes
   bool quiet = false;
   bool verbose = false; ///< print all warnings, and what the run is not sure of
   bool json = false;
@@ -118,11 +115,6 @@ struct CommandLine
            (options.facing == Facing::AUTO && use_input_normals);
   }
 };
-
-/// Changes the limit that a setting such as "page.triangles=5000" names.
-/// \return why it cannot, if so
-std::optional<std::string>
-setLimit (const std::string& setting, CommandLine& line);
 
 constexpr Choices<Precision, 3> PRECISION_CHOICES{
     {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the C library allocates, in one place. Does nothing where it is not glibc.
+// What the tools do with the C library and with OpenBLAS before they begin. Does nothing where it is
+// another library.
 #pragma once
 
+#include <dlfcn.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #include <sys/mman.h>
@@ -53,6 +55,23 @@ giveFreedBack ()
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
   malloc_trim (0);
 #endif
+}
+
+/// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a
+/// tenth of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS
+/// would start them again if it were asked to use several threads. It is looked up at run time;
+/// with any other BLAS this does nothing.
+///
+/// To be called before any other thread is started, and not where the address space is limited: a
+/// worker that finds no memory never ends.
+inline void
+endBlasThreads ()
+{
+  // What OpenBLAS itself calls before a fork.
+  using Shutdown = int (*) ();
+  const auto shutdown = reinterpret_cast<Shutdown> (dlsym (RTLD_DEFAULT, "blas_thread_shutdown_"));
+  if (shutdown != nullptr)
+    shutdown ();
 }
 
 } // namespace pcl::floater

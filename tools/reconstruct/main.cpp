@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
-#include "blas_threads.h"
 #include "cloud_reader.h"
 #include "command_line.h"
 #include "format.h"
@@ -11,13 +10,13 @@
 #include "mesh_output.h"
 #include "mesh_writer.h"
 #include "prepared_input.h"
-#include "progress.h"
 #include "reconstruct.h"
 #include "remaining_time.h"
 #include "run_report.h"
 #include "scratch_arrays.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -25,13 +24,74 @@
 #include <new>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace pcl::floater {
 namespace {
-constexpr const char* PROGRAM = "pcl_floater_reconstruct";
+/// What a stage does, for people.
+const char*
+stageWords (Stage stage)
+{
+  constexpr std::array<const char*, static_cast<std::size_t> (Stage::COUNT)> WORDS{
+      "sorting points",
+      "searching neighbours",
+      "fitting planes",
+      "connecting points",
+      "finding the boundary",
+      "weighting neighbours",
+      "solving the linear system",
+      "triangulating",
+      "filling holes",
+      "repairing the mesh",
+      "checking the mesh"};
+  return WORDS[static_cast<std::size_t> (stage)];
+}
+
+/// Shows the current step on the standard error stream if that is a terminal that can erase a line.
+/// The line is erased at the end.
+class Progress
+{
+public:
+  explicit Progress (bool wanted)
+      : is_shown_ (wanted && ::isatty (STDERR_FILENO) == 1 && canErase (std::getenv ("TERM")))
+  {
+  }
+  ~Progress () { clear (); }
+  Progress (const Progress&) = delete;
+  Progress& operator= (const Progress&) = delete;
+  Progress (Progress&&) = delete;
+  Progress& operator= (Progress&&) = delete;
+
+  void show (const std::string& step)
+  {
+    if (is_shown_ && step != shown_) {
+      std::fprintf (stderr, "\r\033[K%s ...", step.c_str ());
+      std::fflush (stderr);
+      shown_ = step;
+    }
+  }
+
+  void clear ()
+  {
+    if (is_shown_ && !shown_.empty ()) {
+      std::fputs ("\r\033[K", stderr);
+      std::fflush (stderr);
+      shown_.clear ();
+    }
+  }
+
+private:
+  static bool canErase (const char* terminal)
+  {
+    return terminal != nullptr && *terminal != '\0' && std::string (terminal) != "dumb";
+  }
+
+  bool is_shown_;
+  std::string shown_;
+};
 
 Result
-reconstructInput (Input input, Options options, const Limits& limits, Progress& progress)
+reconstructInput (Input input, Options options, Progress& progress)
 {
   const auto start = std::chrono::steady_clock::now ();
   RemainingTime remaining;
@@ -49,7 +109,7 @@ reconstructInput (Input input, Options options, const Limits& limits, Progress& 
     const std::string text = remaining.text ();
     progress.show (name + (text.empty () ? "" : ": " + text));
   };
-  return reconstruct (std::move (input), options, limits);
+  return reconstruct (std::move (input), options);
 }
 
 /// The mesh in the plane z = 0, without normals, because these are those of the surface in space.
@@ -80,31 +140,15 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   return {std::move (flat), std::move (triangles)};
 }
 
-using Files = std::vector<std::unique_ptr<AtomicFile>>;
-
-void
-stageReports (const CommandLine& line, const Cloud& cloud, const Result& result,
-              const RunFigures& run, Files& files)
-{
-  const auto stage = [&files] (const std::filesystem::path& path, const std::string& text) {
-    AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (path));
-    file.write (text);
-    file.close ();
-  };
-  if (!line.report.empty ())
-    stage (line.report, reportText (line, result.report, run));
-  if (!line.html.empty ())
-    stage (line.html, htmlReport (line, cloud, result, run));
-}
-
 /// Writes all outputs under temporary names, so that none is visible yet.
 void
-stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
+stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run,
+              OutputFiles& files)
 {
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
                           const Triangles& triangles, std::optional<MeshFormat> format,
                           const MeshTexture* texture = nullptr) {
-    AtomicFile& file = *files.emplace_back (std::make_unique<AtomicFile> (path));
+    AtomicFile& file = files.emplace_back (path);
     for (std::string& loss : writeMesh (file, path, vertices, triangles, format, texture))
       result.report.warnings.push_back (std::move (loss));
     file.close ();
@@ -144,7 +188,8 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
 
 /// Writes the outputs, or only the report if there is no mesh, or if --strict refuses it.
 void
-stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run, Files& files)
+stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run,
+          OutputFiles& files)
 {
   Report& report = result.report;
   if (report.status == RunStatus::SUCCESS)
@@ -155,14 +200,10 @@ stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run
     files.clear ();
     report.message = objection + ", which --strict does not allow";
   }
-  stageReports (line, cloud, result, run, files);
-}
-
-void
-publish (const Files& files)
-{
-  for (const std::unique_ptr<AtomicFile>& file : files)
-    file->publish ();
+  if (!line.report.empty ())
+    stageFile (line.report, reportText (line, report, run), files);
+  if (!line.html.empty ())
+    stageFile (line.html, htmlReport (line, cloud, result, run), files);
 }
 
 int
@@ -179,23 +220,13 @@ run (CommandLine line)
   Cloud cloud = readNamed (line.input, [&] {
     return readCloud (line.input, *line.cloudFormat (), readOptionsOf (line));
   });
-  checkMemory (line, cloud.size ());
-  Input input = makeInput (cloud);
-  takeNormals (line, cloud, input);
   checkTextureColours (line, cloud);
-  warnOfDegrees (input.positions, cloud);
-  shiftOrigin (line, cloud, input);
   RunFigures figures;
-  figures.shift = cloud.shift;
-  figures.notes = cloud.notes;
+  Input input = prepareInput (line, cloud, figures);
   figures.read_seconds = secondsSince (start);
-  figures.input_points = cloud.size ();
-  figures.single_precision = cloud.single_precision;
-  for (const Field& field : cloud.fields)
-    figures.input_fields.push_back (field.name);
 
   start = std::chrono::steady_clock::now ();
-  Result result = reconstructInput (std::move (input), line.options, line.limits, progress);
+  Result result = reconstructInput (std::move (input), line.options, progress);
   figures.reconstruct_seconds = secondsSince (start);
   cloud.single_precision = writesSingle (line, result.triangles, cloud);
   figures.writes_single = cloud.single_precision;
@@ -214,12 +245,13 @@ run (CommandLine line)
   }
   progress.show ("writing");
   start = std::chrono::steady_clock::now ();
-  Files files;
+  OutputFiles files;
   stageAll (line, cloud, result, figures, files);
   figures.write_seconds = secondsSince (start);
   progress.clear ();
   printOutcome (line, report, figures);
-  publish (files);
+  for (AtomicFile& file : files)
+    file.publish ();
   return exitCode (report, figures);
 }
 
@@ -236,7 +268,7 @@ runTool (int argc, char** argv)
   catch (...) {
     std::string message;
     const int code = describeException ("use fewer points, or a machine with more", message);
-    return fail (PROGRAM, code, message);
+    return fail ("pcl_floater_reconstruct", code, message);
   }
 }
 

@@ -8,7 +8,6 @@
 #include <pcl/surface/floater/vertex_normals.h>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 namespace pcl::floater {
@@ -116,24 +115,18 @@ takeMeshTexture (const CommandLine& line, const Cloud& cloud, TextureCoordinates
   result.points = std::move (texture.points);
   result.corners = std::move (texture.corners);
   for (std::uint32_t& point : result.points)
-    point = cloud.kept.number (point);
+    point = cloud.pointOf (point);
   result.materials = materialsOf (line).filename ().string ();
   return result;
 }
 
 std::vector<std::string>
 stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
-              const MeshTexture& texture, double area_used,
-              std::vector<std::unique_ptr<AtomicFile>>& files)
+              const MeshTexture& texture, double area_used, OutputFiles& files)
 {
   std::vector<std::string> notes;
-  const auto stage = [&files] (const std::filesystem::path& path) -> AtomicFile& {
-    return *files.emplace_back (std::make_unique<AtomicFile> (path));
-  };
   if (isObj (line)) {
-    AtomicFile& file = stage (materialsOf (line));
-    file.write (materialsText (imageName (line)));
-    file.close ();
+    stageFile (materialsOf (line), materialsText (imageName (line)), files);
     if ((materialsOf (line).filename ().string () + imageName (line)).find (' ') !=
         std::string::npos)
       notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
@@ -143,10 +136,7 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
     const std::size_t side = line.texture_size > 0
                                  ? static_cast<std::size_t> (line.texture_size)
                                  : imageSideFor (texture.coordinates.size (), area_used);
-    const std::vector<unsigned char> png = pngOf (bakeColours (cloud, triangles, texture, side));
-    AtomicFile& file = stage (line.texture);
-    file.write (png.data (), png.size ());
-    file.close ();
+    stageFile (line.texture, pngOf (bakeColours (cloud, triangles, texture, side)), files);
   }
   return notes;
 }

@@ -11,7 +11,6 @@
 #include <pcl/surface/floater/reconstruct.h>
 #include <pcl/surface/floater/texture_coordinates.h>
 
-#include <memory>
 #include <vector>
 
 namespace pcl::floater {
@@ -43,8 +42,7 @@ takeMeshTexture (const CommandLine& line, const Cloud& cloud, TextureCoordinates
 /// \return what is odd about them, one sentence each
 std::vector<std::string>
 stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
-              const MeshTexture& texture, double area_used,
-              std::vector<std::unique_ptr<AtomicFile>>& files);
+              const MeshTexture& texture, double area_used, OutputFiles& files);
 
 /// The file of materials of an OBJ file, beside it.
 std::filesystem::path

@@ -33,6 +33,8 @@ toolName (std::string name)
   return "--" + name;
 }
 
+namespace {
+/// Breaks the texts of all options into lines.
 void
 wrapTexts (CLI::App& app)
 {
@@ -56,6 +58,8 @@ wrapTexts (CLI::App& app)
   }
 }
 
+/// Reads "1,-2.5,3".
+/// \return nothing if these are not three finite numbers
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word)
 {
@@ -70,8 +74,27 @@ parsePlace (const std::string& word)
   return is_good && place.allFinite () ? std::optional (place) : std::nullopt;
 }
 
+} // namespace
+
+std::optional<int>
+parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
+{
+  wrapTexts (app);
+  try {
+    app.parse (std::vector<std::string> (arguments.rbegin (), arguments.rend ()));
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError& error) {
+    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
+      return app.exit (error);
+    throw UsageError (usageMessage (app, error, arguments));
+  }
+}
+
 namespace {
 using option_group::GENERAL;
+
+const char* const OUTPUT_GROUP = "More output";
 
 const char* const DESCRIPTION =
     "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of\n"
@@ -191,7 +214,15 @@ void
 addGeneral (CLI::App& app, CommandLine& line)
 {
   addMemoryLimit (app, line);
-  addLimit (app, line);
+  const auto setLimit = [&line] (const std::string& setting) {
+    const std::size_t equals = std::min (setting.find ('='), setting.size ());
+    const std::string word = setting.substr (std::min (equals + 1, setting.size ()));
+    if (setting.substr (0, equals) != "page.triangles")
+      throw CLI::ValidationError ("--limit", "'" + setting + "' is no NAME=VALUE of a limit");
+    if (!parseNumber (std::string_view (word), line.shown_triangles) || line.shown_triangles < 100)
+      throw CLI::ValidationError ("--limit", "'" + word + "' is no value of page.triangles");
+  };
+  app.add_option_function<std::string> ("--limit", setLimit)->group (""); // for tests
   addCoordinates (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
@@ -241,35 +272,40 @@ addFiles (CLI::App& app, CommandLine& line)
              files);
   addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
              "format of OUTPUT; auto: that of its extension", files);
-  const std::string output = "More output";
-  app.add_flag (
-         "--normals", line.compute_normals,
-         "give the vertices normals, made from the triangles; those of the input are replaced")
-      ->group (output);
-  addPath (app, "--report", line.report, "write a report on the run as JSON", output);
+  addOutputs (app, line);
   addPath (app, "--html", line.html,
            "write the report as a page for a browser: figures, findings and the mesh, which turns",
-           output);
+           OUTPUT_GROUP);
   addPath (app, "--parameterization", line.parameterization,
            "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc",
-           output);
+           OUTPUT_GROUP);
   app.add_flag ("--uv", line.texture_coordinates,
                 "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of "
                 ".vtk")
-      ->group (output);
+      ->group (OUTPUT_GROUP);
   addPath (app, "--texture", line.texture,
            "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
            "its .mtl",
-           output);
+           OUTPUT_GROUP);
   app.add_option ("--texture-size", line.texture_size,
                   "side of the texture in pixels, 16 to 16384; by default a power of two, two "
                   "pixels for an edge")
       ->option_text ("N")
       ->check (CLI::Range (16, 16384))
-      ->group (output);
+      ->group (OUTPUT_GROUP);
 }
 
 } // namespace
+
+void
+addOutputs (CLI::App& app, CommandLine& line)
+{
+  app.add_flag (
+         "--normals", line.compute_normals,
+         "give the vertices normals, made from the triangles; those of the input are replaced")
+      ->group (OUTPUT_GROUP);
+  addPath (app, "--report", line.report, "write a report on the run as JSON", OUTPUT_GROUP);
+}
 
 void
 addMemoryLimit (CLI::App& app, CommandLine& line)
@@ -290,19 +326,6 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
            "--max-memory: folder where the arrays are kept; these files have no names and end "
            "with the run",
            GENERAL, "FOLDER (that of OUTPUT)");
-}
-
-void
-addLimit (CLI::App& app, CommandLine& line)
-{
-  const auto change = [&line] (const std::string& setting) {
-    if (const std::optional<std::string> problem = setLimit (setting, line))
-      throw CLI::ValidationError ("--limit", *problem);
-  };
-  app.add_option ("--limit", line.changed_limits)
-      ->allow_extra_args (false)
-      ->each (change)
-      ->group ("");
 }
 
 void
@@ -346,15 +369,7 @@ addCoordinates (CLI::App& app, CommandLine& line)
 void
 addOptions (CLI::App& app, CommandLine& line)
 {
-  constexpr std::size_t NAME_COLUMN = 34;
-  app.description (DESCRIPTION);
-  app.get_formatter ()->column_width (NAME_COLUMN);
-  app.get_formatter ()->label ("Positionals", "Arguments");
-  app.footer (FOOTER);
-  app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
-  app.set_version_flag ("--version", "pcl_floater_reconstruct " PCL_FLOATER_VERSION,
-                        "print the version and exit")
-      ->group (GENERAL);
+  prepareApp (app, DESCRIPTION, FOOTER);
   addTableOptions (app, line, [] (const OptionRow&) { return true; });
   addGeneral (app, line);
   addPath (app, "--loop", line.loop,
@@ -362,7 +377,20 @@ addOptions (CLI::App& app, CommandLine& line)
            "a disc",
            option_group::BOUNDARY);
   addFiles (app, line);
-  wrapTexts (app);
+}
+
+void
+prepareApp (CLI::App& app, const char* description, const char* footer)
+{
+  constexpr std::size_t NAME_COLUMN = 34;
+  app.description (description);
+  app.get_formatter ()->column_width (NAME_COLUMN);
+  app.get_formatter ()->label ("Positionals", "Arguments");
+  app.footer (footer);
+  app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
+  app.set_version_flag ("--version", app.get_name () + " " PCL_FLOATER_VERSION,
+                        "print the version and exit")
+      ->group (GENERAL);
 }
 
 } // namespace pcl::floater

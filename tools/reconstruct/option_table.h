@@ -76,19 +76,21 @@ addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
 std::string
 toolName (std::string name);
 
-/// Breaks the texts of all options into lines.
+/// Sets the texts around the options of a tool, and adds --help and --version.
 void
-wrapTexts (CLI::App& app);
+prepareApp (CLI::App& app, const char* description, const char* footer);
 
-/// Reads "1,-2.5,3".
-/// \return nothing if these are not three finite numbers
-std::optional<Eigen::Vector3d>
-parsePlace (const std::string& word);
+/// Parses a command line, after breaking the texts of all options into lines. Prints the help or the
+/// version if asked for.
+/// \return the exit code if there is nothing else to do
+/// \throws UsageError
+std::optional<int>
+parseArguments (CLI::App& app, const std::vector<std::string>& arguments);
 
 struct OptionRow;
 
-/// Adds every option, the two positional arguments and the text around them to \a app, which writes
-/// to \a line when it parses, and so has to end before it.
+/// Adds every option of pcl_floater_reconstruct and the two positional arguments to \a app, which
+/// writes to \a line when it parses, and so has to end before it.
 void
 addOptions (CLI::App& app, CommandLine& line);
 
@@ -97,13 +99,13 @@ void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes);
 
+/// --normals and --report.
+void
+addOutputs (CLI::App& app, CommandLine& line);
+
 /// --max-memory and --scratch.
 void
 addMemoryLimit (CLI::App& app, CommandLine& line);
-
-/// --limit, which the help does not show.
-void
-addLimit (CLI::App& app, CommandLine& line);
 
 /// --shift, --columns, --classes and --precision.
 void

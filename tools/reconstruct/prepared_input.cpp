@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -40,6 +39,7 @@ checkMemory (const CommandLine& line, std::size_t points, double kept_per_point)
                       counted (points, "point") + "; use " + formatSize (least) + " or more");
 }
 
+namespace {
 Input
 makeInput (const Cloud& cloud)
 {
@@ -90,6 +90,9 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
     input.facing_normals = std::move (normals);
 }
 
+// Warns if x and y seem to be degrees of longitude and latitude beside heights in metres, with the
+// command that projects them. They are in their range, and names or scales say so; or they are a
+// small area away from the origin, and their extents far below that of z. O(n).
 void
 warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud)
 {
@@ -123,6 +126,11 @@ warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud)
   cloud.warnings.push_back (std::string (DEGREES) + "; " + cloud.projection);
 }
 
+// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
+// bounding box of all finite points that are no gross outliers, rounded to the power of ten below
+// its diagonal. (0, 0, 0) if floats hold them well as they are: if the distance of two floats of
+// the size of the coordinates is below a hundredth of the spacing that the points would have on a
+// flat sheet as large as the box. O(n).
 Eigen::Vector3d
 chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
 {
@@ -151,6 +159,45 @@ chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads)
   return (unit * (box.center () / unit).array ().round () + 0.0).matrix (); // no -0
 }
 
+void
+shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
+{
+  // Unless doubles are asked for, floats are written: near zero they are fine enough.
+  line.auto_shift |= !line.shift && line.precision == Precision::AUTO && !cloud.single_precision;
+  if (line.auto_shift)
+    cloud.shift = chooseShift (input.positions, line.options.threads);
+  else if (line.shift)
+    cloud.shift = *line.shift;
+  if (cloud.shift.isZero (0.0))
+    return;
+  Eigen::Map<Eigen::Vector3d> (input.shift.data ()) = cloud.shift;
+  for (Eigen::Vector3d& position : input.positions)
+    position -= cloud.shift;
+  Eigen::Map<Eigen::Vector3d> (line.options.view.viewpoint.data ()) -= cloud.shift;
+  Eigen::Map<Eigen::Vector3d> sensor_origin (input.sensor_origin.data ());
+  if (!sensor_origin.isZero (0.0)) // else it is one that nobody told
+    sensor_origin -= cloud.shift;
+}
+
+} // namespace
+
+Input
+prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures, double kept_per_point)
+{
+  checkMemory (line, cloud.size (), kept_per_point);
+  Input input = makeInput (cloud);
+  takeNormals (line, cloud, input);
+  warnOfDegrees (input.positions, cloud);
+  shiftOrigin (line, cloud, input);
+  Eigen::Map<Eigen::Vector3d> (figures.shift.data ()) = cloud.shift;
+  figures.notes = cloud.notes;
+  figures.input_points = cloud.size ();
+  figures.single_precision = cloud.single_precision;
+  for (const Field& field : cloud.fields)
+    figures.input_fields.push_back (field.name);
+  return input;
+}
+
 bool
 writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
 {
@@ -170,26 +217,6 @@ writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
                                "into its points as 0: use --precision single or "
                                "another format for PCL");
   return false;
-}
-
-void
-shiftOrigin (CommandLine& line, Cloud& cloud, Input& input)
-{
-  // Unless doubles are asked for, floats are written: near zero they are fine enough.
-  line.auto_shift |= !line.shift && line.precision == Precision::AUTO && !cloud.single_precision;
-  if (line.auto_shift)
-    cloud.shift = chooseShift (input.positions, line.options.threads);
-  else if (line.shift)
-    cloud.shift = *line.shift;
-  if (cloud.shift.isZero (0.0))
-    return;
-  Eigen::Map<Eigen::Vector3d> (input.shift.data ()) = cloud.shift;
-  for (Eigen::Vector3d& position : input.positions)
-    position -= cloud.shift;
-  Eigen::Map<Eigen::Vector3d> (line.options.view.viewpoint.data ()) -= cloud.shift;
-  Eigen::Map<Eigen::Vector3d> sensor_origin (input.sensor_origin.data ());
-  if (!sensor_origin.isZero (0.0)) // else it is one that nobody told
-    sensor_origin -= cloud.shift;
 }
 
 } // namespace pcl::floater

@@ -42,35 +42,16 @@ readOptionsOf (const CommandLine& line)
   return {line.auto_shift || line.shift, line.columns, line.classes};
 }
 
-/// Copies the positions of the points that are not left out. The other fields of the cloud stay in its file until they are written.
+/// Makes the input of the core of a cloud: the positions of the points that are not left out, normals
+/// if the command line uses them, and its origin where that asks for it, or where floats are too
+/// coarse; the viewpoint of the line is moved as well. Warns of degrees beside metres. All other
+/// fields stay in the file.
+/// \param[out] figures what is known of the cloud
+/// \param kept_per_point see leastMemory
+/// \throws UsageError if there is too little memory, or if the cloud lacks normals
 Input
-makeInput (const Cloud& cloud);
-
-/// The normals of all points, for what the command line uses them; of several scans,
-/// those towards the sensors, for the facing.
-/// \throws UsageError if the cloud has none
-void
-takeNormals (const CommandLine& line, Cloud& cloud, Input& input);
-
-/// Warns if x and y seem to be degrees of longitude and latitude beside heights in metres, with the
-/// command that projects them. They are in their range, and names or scales say so; or they are a
-/// small area away from the origin, and their extents far below that of z. O(n).
-/// \param positions of the cloud, before any shift
-void
-warnOfDegrees (const std::vector<Eigen::Vector3d>& positions, Cloud& cloud);
-
-/// Where to move the origin so that 32-bit floats hold the coordinates well: the centre of the
-/// bounding box of all finite points that are no gross outliers, rounded to the power of ten below
-/// its diagonal. (0, 0, 0) if floats hold them well as they are: if the distance of two floats of
-/// the size of the coordinates is below a hundredth of the spacing that the points would have on a
-/// flat sheet as large as the box. O(n).
-Eigen::Vector3d
-chooseShift (const std::vector<Eigen::Vector3d>& positions, int threads);
-
-/// Subtracts the origin that was asked for, from the viewpoints as well; without one, that of
-/// chooseShift, unless the file has 32-bit numbers or a precision is asked for.
-void
-shiftOrigin (CommandLine& line, Cloud& cloud, Input& input);
+prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures,
+              double kept_per_point = KEPT_PER_POINT);
 
 /// Whether to write 32-bit floats: unless doubles are asked for, or floats would put corners of a
 /// triangle together, of which a warning tells.

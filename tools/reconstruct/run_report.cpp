@@ -47,6 +47,13 @@ textureJson (const CommandLine& line, const RunFigures& run)
           {"gutter", texture.gutter},        {"flipped", texture.flipped}};
 }
 
+/// Name of the status, or "REFUSED" if --strict refuses the mesh.
+std::string
+outcomeName (const Report& report, const RunFigures& run)
+{
+  return run.is_refused ? "REFUSED" : statusName (report.status);
+}
+
 } // namespace
 
 std::string
@@ -78,12 +85,6 @@ objectionTo (const Report& report)
                    (report.unused.size () == 1 ? " is" : " are") + " in no triangle";
 }
 
-std::string
-outcomeName (const Report& report, const RunFigures& run)
-{
-  return run.is_refused ? "REFUSED" : statusName (report.status);
-}
-
 nlohmann::ordered_json
 reportJson (const CommandLine& line, const Report& report, const RunFigures& run)
 {
@@ -96,7 +97,7 @@ reportJson (const CommandLine& line, const Report& report, const RunFigures& run
                 {"coordinates", run.single_precision ? "float" : "double"},
                 {"fields", run.input_fields},
                 {"notes", run.notes}}},
-              {"shift", {run.shift.x (), run.shift.y (), run.shift.z ()}},
+              {"shift", run.shift},
               {"output", is_ok ? Json{{"file", fileName (line.output)},
                                       {"coordinates", run.writes_single ? "float" : "double"},
                                       {"vertices", run.vertices},
@@ -137,6 +138,25 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
   return text + "\n}\n";
 }
 
+void
+reportMemory (const CommandLine& line, Report& report)
+{
+  if (const std::string failure = scratchFailure ();
+      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
+    report.message = failure;
+  if (line.max_memory == 0)
+    return;
+  if (liesInMemory (line.scratch))
+    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
+                               "' is in memory itself; use --scratch to name one on a disk");
+  const std::size_t peak = peakMemory ();
+  if (peak > line.max_memory)
+    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
+                               ", above --max-memory " + formatSize (line.max_memory));
+}
+
+namespace {
+// The most important figures as a JSON object on one line, without newline.
 std::string
 summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
 {
@@ -164,24 +184,6 @@ summaryLine (const CommandLine& line, const Report& report, const RunFigures& ru
                 {"output", is_ok ? fileName (line.output) : Json ()}});
 }
 
-void
-reportMemory (const CommandLine& line, Report& report)
-{
-  if (const std::string failure = scratchFailure ();
-      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
-    report.message = failure;
-  if (line.max_memory == 0)
-    return;
-  if (liesInMemory (line.scratch))
-    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
-                               "' is in memory itself; use --scratch to name one on a disk");
-  const std::size_t peak = peakMemory ();
-  if (peak > line.max_memory)
-    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
-                               ", above --max-memory " + formatSize (line.max_memory));
-}
-
-namespace {
 // Prints the warnings; without --verbose the first ones, which matter most.
 void
 printWarnings (const Report& report, bool is_verbose)
@@ -293,9 +295,9 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
                   statistics.opened_triangles,
                   counted (statistics.trimmed_components, "component").c_str (),
                   counted (statistics.trimmed_points, "point").c_str ());
-  if (!run.shift.isZero (0.0))
+  if (run.shift != std::array<double, 3>{})
     std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates%s\n",
-                  run.shift.x (), run.shift.y (), run.shift.z (),
+                  run.shift[0], run.shift[1], run.shift[2],
                   line.auto_shift ? ": 32-bit numbers are too coarse for them; --precision double "
                                     "keeps them"
                                   : "");

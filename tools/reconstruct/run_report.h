@@ -11,6 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
 #include <chrono>
 #include <string>
 
@@ -19,13 +20,13 @@ namespace pcl::floater {
 struct RunFigures
 {
   std::size_t input_points = 0;
-  std::vector<std::string> notes;                   ///< on the input, as Cloud has them
-  std::vector<std::string> input_fields;            ///< fields of the points but the coordinates
-  bool writes_single = true;                        ///< whether those of the mesh are
-  bool single_precision = true;                     ///< whether the coordinates are 32-bit floats
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero (); ///< subtracted from all coordinates
-  std::size_t vertices = 0;                         ///< vertices of the output
-  bool is_refused = false; ///< --strict: no mesh is written, see objectionTo
+  std::vector<std::string> notes;        ///< on the input, as Cloud has them
+  std::vector<std::string> input_fields; ///< fields of the points but the coordinates
+  bool writes_single = true;             ///< whether those of the mesh are
+  bool single_precision = true;          ///< whether the coordinates are 32-bit floats
+  std::array<double, 3> shift{};         ///< subtracted from all coordinates
+  std::size_t vertices = 0;              ///< vertices of the output
+  bool is_refused = false;               ///< --strict: no mesh is written, see objectionTo
   double read_seconds = 0.0;
   double reconstruct_seconds = 0.0;
   double write_seconds = 0.0;
@@ -51,10 +52,6 @@ reportMemory (const CommandLine& line, Report& report);
 std::string
 objectionTo (const Report& report);
 
-/// Name of the status, or "REFUSED" if --strict refuses the mesh.
-std::string
-outcomeName (const Report& report, const RunFigures& run);
-
 /// JSON on one line. It is UTF-8; in names of files, bytes that are not are replaced.
 std::string
 dump (const nlohmann::ordered_json& json);
@@ -66,10 +63,6 @@ reportJson (const CommandLine& command_line, const Report& report, const RunFigu
 /// The same as text, with one line for each of its keys.
 std::string
 reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
-
-/// The most important figures as a JSON object on one line, without newline.
-std::string
-summaryLine (const CommandLine& command_line, const Report& report, const RunFigures& run);
 
 /// Prints errors and warnings to the standard error stream, the summary and the line of --json to
 /// the standard output. Comes before any output file is visible: if nothing can be printed, no file

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -62,25 +63,39 @@ isFlag (const CLI::Option& option)
   return option.get_items_expected () == 0;
 }
 
-/// Whether an argument gives an option by this name: "-k", "-k20", "--neighbors=20".
-bool
-gives (const std::string& argument, const std::string& name)
+/// An option as it was typed: "-k", "-k20", "--neighbors=20".
+struct Typed
 {
-  const bool is_short = name.size () == 2;
-  return argument.compare (0, name.size (), name) == 0 &&
-         (argument.size () == name.size () || is_short || argument[name.size ()] == '=');
+  const CLI::Option* option;
+  std::string name, value; // what is behind =
+};
+
+std::vector<Typed>
+typedOptions (const CLI::App& app, const Words& arguments)
+{
+  std::vector<Typed> typed;
+  for (const std::string& argument : arguments)
+    for (const CLI::Option* const option : app.get_options ())
+      for (const std::string& name : namesOf (*option)) {
+        const std::size_t size = name.size ();
+        const bool begins = argument.compare (0, size, name) == 0;
+        if (begins && (argument.size () == size || argument[size] == '='))
+          typed.push_back ({option, name, argument.substr (std::min (size + 1, argument.size ()))});
+        else if (begins && size == 2) // one letter
+          typed.push_back ({option, name, ""});
+      }
+  return typed;
 }
 
-/// The name by which an option was typed last.
-std::string
-typedName (const CLI::Option& option, const Words& arguments)
+/// The name by which an option was typed last, and how often it was.
+std::pair<std::string, std::size_t>
+nameAndTimes (const CLI::Option& option, const std::vector<Typed>& typed)
 {
-  std::string typed = option.get_name ();
-  for (const std::string& argument : arguments)
-    for (const std::string& name : namesOf (option))
-      if (gives (argument, name))
-        typed = name;
-  return typed;
+  std::pair<std::string, std::size_t> result (option.get_name (), 0);
+  for (const Typed& one : typed)
+    if (one.option == &option)
+      result = {one.name, result.second + 1};
+  return result;
 }
 
 /// The option that a message begins with, by any of its names or all of them.
@@ -109,35 +124,6 @@ unknownOption (const CLI::App& app)
     if (word.size () > 1 && word.front () == '-' && word != "--")
       return word.substr (0, word.find ('='));
   return "";
-}
-
-std::string
-valueOf (const std::string& name, const Words& arguments)
-{
-  for (const std::string& argument : arguments)
-    if (argument.compare (0, name.size () + 1, name + "=") == 0)
-      return argument.substr (name.size () + 1);
-  return "";
-}
-
-/// An option with a value that has none, one with several, or a flag with a value.
-std::string
-mismatchMessage (const CLI::Option& option, const Words& arguments)
-{
-  const std::string typed = typedName (option, arguments);
-  if (isFlag (option))
-    return typed + " takes no value, but has '" + valueOf (typed, arguments) + "'";
-  const Words names = namesOf (option);
-  const auto times =
-      std::count_if (arguments.begin (), arguments.end (), [&names] (const std::string& argument) {
-        return std::any_of (names.begin (), names.end (), [&argument] (const std::string& name) {
-          return gives (argument, name);
-        });
-      });
-  if (times > 1)
-    return typed + " is given " + std::to_string (times) + " times; give it once";
-  const std::string& text = option.get_option_text ();
-  return typed + " needs a value, " + text.substr (0, text.find (" ("));
 }
 
 } // namespace
@@ -193,17 +179,23 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
     return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
   if (kind == CLI::ExitCodes::ExcludesError)
     return message;
+  const std::vector<Typed> typed = typedOptions (app, arguments);
+  const bool is_mismatch = kind == CLI::ExitCodes::ArgumentMismatch;
+  if (is_mismatch ||
+      kind == CLI::ExitCodes::ConversionError) // of which the parser converts flags only
+    for (const Typed& one : typed)
+      if (isFlag (*one.option) && !one.value.empty ())
+        return one.name + " takes no value, but has '" + one.value + "'";
   const CLI::Option* const option = optionOf (app, message);
-  if (kind == CLI::ExitCodes::ConversionError) // only flags are converted by the parser itself
-    for (const CLI::Option* const flag : app.get_options ())
-      if (isFlag (*flag) && !valueOf (typedName (*flag, arguments), arguments).empty ())
-        return mismatchMessage (*flag, arguments);
   if (option == nullptr)
     return message;
-  if (kind == CLI::ExitCodes::ArgumentMismatch)
-    return mismatchMessage (*option, arguments);
-  return typedName (*option, arguments) +
-         message.substr (std::min (message.find (": "), message.size ()));
+  const auto [name, times] = nameAndTimes (*option, typed);
+  if (!is_mismatch)
+    return name + message.substr (std::min (message.find (": "), message.size ()));
+  if (times > 1)
+    return name + " is given " + std::to_string (times) + " times; give it once";
+  const std::string& text = option->get_option_text ();
+  return name + " needs a value, " + text.substr (0, text.find (" ("));
 }
 
 std::string
@@ -212,7 +204,7 @@ rangeMessage (const CLI::App& app, const Problem& problem, const Words& argument
   const std::string name = toolName (problem.option);
   if (problem.option.empty () || app.get_option_no_throw (name) == nullptr)
     return problem.message;
-  return typedName (*app.get_option (name), arguments) +
+  return nameAndTimes (*app.get_option (name), typedOptions (app, arguments)).first +
          problem.message.substr (problem.option.size ());
 }
 
