@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,53 +55,41 @@ useCloud (Cloud& cloud)
       fail ("a point that is left is not finite");
 }
 
-using Parse = std::function<Cloud (const FileBytes&)>;
-
-/// The cloud of a mesh. Ends the program if the mesh does not hold together.
-template <typename ParseMesh>
-Cloud
-withCorners (ParseMesh&& parseMesh)
+std::vector<CloudFormat>
+chosenFormats ()
 {
-  Triangles triangles;
-  Cloud cloud = parseMesh (triangles);
-  for (const auto& triangle : triangles)
-    for (const std::uint32_t corner : triangle)
-      if (corner >= cloud.rows)
-        fail ("a triangle has a corner that is no point");
-  return cloud;
+  const char* const text = std::getenv ("FUZZED_FORMAT");
+  const std::string name = text == nullptr ? "" : text;
+  if (name == "table")
+    return {parseXyz, parsePts};
+  for (const auto& [known, format] : CLOUD_FORMATS)
+    if (name == known)
+      return {format};
+  fail ("FUZZED_FORMAT names no format");
 }
 
-const std::map<std::string, std::vector<Parse>> FORMATS{
-    {"pcd",
-     {[] (const FileBytes& file) { return parsePcd (file, false); },
-      [] (const FileBytes& file) { return parsePcd (file, true); }}},
-    {"ply",
-     {[] (const FileBytes& file) { return parsePly (file, false); },
-      [] (const FileBytes& file) { return parsePly (file, true); },
-      [] (const FileBytes& file) {
-        return withCorners ([&] (Triangles& mesh) { return parsePly (file, false, &mesh); });
-      }}},
-    {"vtk", {[] (const FileBytes& file) {
-       return withCorners ([&] (Triangles& mesh) { return parseVtk (file, mesh); });
-     }}},
-    {"obj", {[] (const FileBytes& file) { return parseObj (file); }}},
-    {"stl", {[] (const FileBytes& file) { return parseStl (file); }}},
-    {"las", {[] (const FileBytes& file) { return parseLas (file); }}},
-    {"vtp", {[] (const FileBytes& file) { return parseVtp (file); }}},
-    {"ptx", {[] (const FileBytes& file) { return parsePtx (file); }}},
-    {"bin", {[] (const FileBytes& file) { return parseBin (file); }}},
-    {"table",
-     {[] (const FileBytes& file) { return parseTable (file, false); },
-      [] (const FileBytes& file) { return parseTable (file, true); }}}};
-
-const std::vector<Parse>&
-chosenFormat ()
+/// Reads a file as points, with all digits, and as a mesh. Ends the program if the mesh does not hold
+/// together.
+void
+useFile (const FileBytes& file, CloudFormat format)
 {
-  const char* const name = std::getenv ("FUZZED_FORMAT");
-  const auto found = FORMATS.find (name == nullptr ? "" : name);
-  if (found == FORMATS.end ())
-    fail ("FUZZED_FORMAT names no format");
-  return found->second;
+  Triangles triangles;
+  ReadOptions digits, mesh;
+  digits.all_digits = true;
+  mesh.faces = &triangles;
+  for (const ReadOptions& options : {ReadOptions{}, digits, mesh})
+    try {
+      Cloud cloud = format (file, options);
+      for (const auto& triangle : triangles)
+        for (const std::uint32_t corner : triangle)
+          if (corner >= cloud.rows)
+            fail ("a triangle has a corner that is no point");
+      useCloud (cloud);
+    }
+    catch (const ReadError& error) {
+      if (*error.what () == '\0')
+        fail ("an error has no message");
+    }
 }
 
 } // namespace
@@ -113,18 +99,10 @@ extern "C" int
 LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size)
 {
   using namespace pcl::floater;
-  static const std::vector<Parse>& format = chosenFormat ();
+  static const std::vector<CloudFormat> formats = chosenFormats ();
   if (size == 0)
     return 0; // readCloud refuses an empty file
-  for (const Parse& parse : format)
-    try {
-      const FileBytes file (std::string_view (reinterpret_cast<const char*> (data), size));
-      Cloud cloud = parse (file);
-      useCloud (cloud);
-    }
-    catch (const ReadError& error) {
-      if (*error.what () == '\0')
-        fail ("an error has no message");
-    }
+  for (const CloudFormat format : formats)
+    useFile (FileBytes (std::string_view (reinterpret_cast<const char*> (data), size)), format);
   return 0;
 }

@@ -72,8 +72,8 @@ readablePrefixes (const std::filesystem::path& path, std::size_t step)
     try {
       // A copy, so that a sanitizer notices reads beyond the prefix.
       const std::vector<char> prefix (file.view ().begin (), file.view ().begin () + length);
-      Cloud cloud = parseCloud (FileBytes (std::string_view (prefix.data (), length)),
-                                *cloudFormatOf (path), {true, {}, {}});
+      Cloud cloud = cloudFormatOf (path) (FileBytes (std::string_view (prefix.data (), length)),
+                                          {true, {}, {}});
       describe (cloud);
       lengths.push_back (length);
     }

@@ -3,6 +3,7 @@
 #include "block_steps.h"
 
 #include "cloud_geometry.h"
+#include "job.h"
 #include "local/planes.h"
 #include "options/check_options.h"
 #include "points/neighbors.h"
@@ -37,7 +38,7 @@ StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
 void
 neighborsStep (const StepContext& context, std::size_t block)
 {
-  StoredCloud cloud (context, {}, true);
+  StoredCloud cloud (context, POINTS);
   const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
   if (first == last)
     return put (context, "neighbors", block);
@@ -49,9 +50,10 @@ neighborsStep (const StepContext& context, std::size_t block)
   put (context, "neighbors", block, writer);
 }
 
-void
-outliersStep (const StepContext& context)
+int
+outliersStep (const Job& job, FolderStore& store, const Plan& plan)
 {
+  const StepContext context (store, plan, job.line, job.join_threads);
   std::vector<Index> outliers;
   if (context.options.remove_outliers) {
     const BlockRanges ranges (context.plan, context.plan.points);
@@ -68,7 +70,8 @@ outliersStep (const StepContext& context)
   }
   ArrayWriter writer;
   writer.add ("outliers", outliers);
-  context.store.put (OUTLIERS, writer, context.plan.id);
+  store.put (OUTLIERS, writer, plan.id);
+  return EXIT_OK;
 }
 
 namespace {

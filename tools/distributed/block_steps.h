@@ -29,10 +29,6 @@ struct StepContext
 void
 neighborsStep (const StepContext& context, std::size_t block);
 
-/// Of all points at once: the outliers. Without these the points are written anew, if there are any.
-void
-outliersStep (const StepContext& context);
-
 /// Spacing and tangent planes.
 void
 planesStep (const StepContext& context, std::size_t block);
@@ -41,34 +37,42 @@ planesStep (const StepContext& context, std::size_t block);
 void
 starsStep (const StepContext& context, std::size_t block);
 
-/// What a step is for: each block, or the whole cloud.
-enum class StepKind
-{
-  PLAN,
-  OF_BLOCK,
-  FIND_OUTLIERS,
-  JOIN,
-  WRITE
-};
+struct Job;
 
-/// A step of a run.
+// The steps of the whole cloud return EXIT_OK, or the exit code of what is wrong, which has been printed.
+
+/// The outliers. Without these the points are written anew, if there are any.
+int
+outliersStep (const Job& job, FolderStore& store, const Plan& plan);
+
+/// Puts together what the blocks have found out.
+int
+joinStep (const Job& job, FolderStore& store, const Plan& plan);
+
+/// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
+/// block.
+int
+writeStep (const Job& job, FolderStore& store, const Plan& plan);
+
+/// A step of a run. Of `plan`, which makes the plan that the others need, both functions are nullptr.
 struct Step
 {
   const char* name;
-  StepKind kind;
-  void (*of_block) (const StepContext&, std::size_t block); ///< nullptr: it is for the whole cloud
+  void (*of_block) (const StepContext&, std::size_t block); ///< for each block
+  int (*of_all) (const Job&, FolderStore&, const Plan&);    ///< for the whole cloud
   const char* file; ///< which tells that it is finished; nullptr: nothing does, or see blockFile
+
+  bool isPlan () const { return of_block == nullptr && of_all == nullptr; }
 };
 
 /// All steps, in order. Each starts when the one before is complete for all blocks.
-inline constexpr std::array<Step, 7> STEPS{
-    {{"plan", StepKind::PLAN, nullptr, MANIFEST},
-     {"neighbors", StepKind::OF_BLOCK, neighborsStep, nullptr},
-     {"outliers", StepKind::FIND_OUTLIERS, nullptr, OUTLIERS},
-     {"planes", StepKind::OF_BLOCK, planesStep, nullptr},
-     {"stars", StepKind::OF_BLOCK, starsStep, nullptr},
-     {"join", StepKind::JOIN, nullptr, TRIANGLES},
-     {"write", StepKind::WRITE, nullptr, nullptr}}};
+inline constexpr std::array<Step, 7> STEPS{{{"plan", nullptr, nullptr, MANIFEST},
+                                            {"neighbors", neighborsStep, nullptr, nullptr},
+                                            {"outliers", nullptr, outliersStep, OUTLIERS},
+                                            {"planes", planesStep, nullptr, nullptr},
+                                            {"stars", starsStep, nullptr, nullptr},
+                                            {"join", nullptr, joinStep, TRIANGLES},
+                                            {"write", nullptr, writeStep, nullptr}}};
 
 /// The step of this name; nullptr if there is none.
 const Step*

@@ -234,7 +234,7 @@ Plan
 readPlan (const Job& job, FolderStore& store)
 {
   Plan plan = parseManifest (store.open (MANIFEST).text (), store.describe (MANIFEST));
-  if (!job.is_from_manifest || (job.step != nullptr && job.step->kind == StepKind::JOIN))
+  if (!job.is_from_manifest || (job.step != nullptr && job.step->of_all == joinStep))
     requirePlan (job, store, plan);
   return plan;
 }

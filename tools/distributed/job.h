@@ -50,16 +50,6 @@ prepareFolders (const Job& job);
 int
 planStep (const Job& job, FolderStore& store);
 
-/// Puts together what the blocks have found out.
-/// \return EXIT_OK, or the exit code of what is wrong, which has been printed
-int
-joinStep (const Job& job, FolderStore& store, const Plan& plan);
-
-/// Writes the mesh, or its tiles: of several input files one for each, of one file one for each
-/// block.
-int
-writeStep (const Job& job, FolderStore& store, const Plan& plan);
-
 /// Reads the manifest. Compares it with the parameters of the job and with all bytes of its files, but
 /// for a step other than `join` that has all from the manifest.
 /// \throws WorkError if they are others

@@ -27,7 +27,7 @@ say (const Job& job, const std::string& text)
 bool
 isFinished (FolderStore& folder, const Step& step, std::size_t block, const Plan& plan)
 {
-  if (step.kind == StepKind::WRITE) // is always done again
+  if (step.of_all == writeStep) // is always done again
     return false;
   const std::string name = step.file != nullptr ? step.file : blockFile (step.name, block);
   if (!folder.has (name))
@@ -97,18 +97,6 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   }
 }
 
-// Does a step of the whole cloud.
-int
-workOnAll (const Step& step, const Job& job, const Plan& plan, FolderStore& folder)
-{
-  if (step.kind == StepKind::JOIN)
-    return joinStep (job, folder, plan);
-  if (step.kind == StepKind::WRITE)
-    return writeStep (job, folder, plan);
-  outliersStep ({folder, plan, job.line, job.join_threads});
-  return EXIT_OK;
-}
-
 // Does all steps that are not finished, or the one that is asked for.
 // \param dealer nullptr: there are no other processes
 int
@@ -120,7 +108,7 @@ workOnSteps (const Job& job, FolderStore& folder, Dealer* dealer)
     if (does_all && !job.line.quiet)
       std::fprintf (stderr, "%s, %.1f s\n", text.c_str (), secondsSince (start));
   };
-  const bool plans = does_all || job.step->kind == StepKind::PLAN;
+  const bool plans = does_all || job.step->isPlan ();
   if (plans)
     prepareFolders (job);
   if (job.line.max_memory > 0)
@@ -139,12 +127,12 @@ workOnSteps (const Job& job, FolderStore& folder, Dealer* dealer)
   const StepContext context (folder, plan, job.line, job.line.options.threads);
   const bool is_mesh_known = does_all && isFinished (folder, *findStep ("join"), 0, plan);
   for (const Step& step : STEPS) {
-    if (step.kind == StepKind::PLAN || !(does_all || job.step == &step) ||
-        (is_mesh_known && step.kind != StepKind::WRITE))
+    if (step.isPlan () || !(does_all || job.step == &step) ||
+        (is_mesh_known && step.of_all != writeStep))
       continue;
     if (step.of_block == nullptr) {
       if (!isFinished (folder, step, 0, plan))
-        if (const int code = workOnAll (step, job, plan, folder); code != EXIT_OK)
+        if (const int code = step.of_all (job, folder, plan); code != EXIT_OK)
           return code;
       tellOf (step.name);
       continue;
@@ -204,13 +192,13 @@ printSteps (const Job& job, FolderStore& folder)
     work += c == '\'' ? "'\\''" : std::string (1, c);
   const std::string command = "pcl_floater_distributed --work '" + work + "' --step ";
   for (const Step& step : STEPS) {
-    if (step.kind == StepKind::PLAN)
+    if (step.isPlan ())
       continue;
     for (std::size_t block = 0; step.of_block != nullptr && block < plan.blocks; ++block)
       std::printf ("%s%s --block %zu\n", command.c_str (), step.name, block);
     if (step.of_block == nullptr)
       std::printf ("%s%s\n", command.c_str (), step.name);
-    if (step.kind != StepKind::WRITE)
+    if (step.of_all != writeStep)
       std::printf ("\n");
   }
 }

@@ -64,8 +64,7 @@ addSteps (CLI::App& app, Job& job)
   }
   const auto choose = [&job, names] (const std::string& word) {
     job.step = findStep (word);
-    if (job.step == nullptr)
-      throw CLI::ValidationError ("--step", "'" + word + "' is no step" + didYouMean (word, names));
+    return job.step != nullptr ? "" : "is no step" + didYouMean (word, names);
   };
   addParsed (app, "--step", choose,
              "do this step only: " + of_all.substr (2) +
@@ -129,7 +128,7 @@ takeFiles (const std::vector<std::string>& files, Job& job)
   for (const std::filesystem::path& input : job.inputs) {
     if (isStandardStream (input))
       throw UsageError ("the points cannot come from the standard input: they are read twice");
-    if (!cloudFormatOf (input))
+    if (cloudFormatOf (input) == nullptr)
       throw ReadError ("cannot read " + inputName (input) + ": its extension is unknown; use " +
                        CLOUD_EXTENSIONS);
   }
@@ -179,8 +178,7 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
                           ? std::string ("--block is for a --step that is done for each block")
                           : std::string ("--step ") + job.step->name +
                                 " is done for one block: give --block");
-  const bool needs_files =
-      job.step == nullptr ? !job.prints_steps : job.step->kind == StepKind::PLAN;
+  const bool needs_files = job.step == nullptr ? !job.prints_steps : job.step->isPlan ();
   if (needs_files || !files.empty ())
     takeFiles (files, job);
   return std::nullopt;

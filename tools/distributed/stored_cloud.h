@@ -155,9 +155,9 @@ pointsFrom (Index first, Index last)
 class StoredCloud
 {
 public:
-  StoredCloud (const StepContext& context, const std::vector<Index>& outliers, bool with_outliers)
-      : file_ (openArrays (context.store, with_outliers ? POINTS : pointsLeft (outliers),
-                           context.plan)),
+  /// \param name POINTS, or pointsLeft (outliers)
+  StoredCloud (const StepContext& context, const char* name)
+      : file_ (openArrays (context.store, name, context.plan)),
         ranges_ (context.plan, file_.count ("positions")),
         cutter_ (
             points (), file_.read<Box> ("groups"), context.plan.blocks,
@@ -238,7 +238,7 @@ private:
 struct OwnBlock
 {
   OwnBlock (const StepContext& context, std::size_t block)
-      : outliers (readOutliers (context)), cloud (context, outliers, false),
+      : outliers (readOutliers (context)), cloud (context, pointsLeft (outliers)),
         first (cloud.ranges ().first (block)), last (cloud.ranges ().last (block))
   {
   }

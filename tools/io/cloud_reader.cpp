@@ -11,7 +11,7 @@
 #include <sstream>
 
 namespace pcl::floater {
-std::optional<CloudFormat>
+CloudFormat
 cloudFormatOf (const std::filesystem::path& path)
 {
   const std::string extension = lowerExtension (path);
@@ -20,8 +20,8 @@ cloudFormatOf (const std::filesystem::path& path)
       return format;
   for (const char* text : {".txt", ".csv", ".asc", ".pwn"})
     if (extension == text)
-      return CloudFormat::XYZ;
-  return std::nullopt;
+      return parseXyz;
+  return nullptr;
 }
 
 void
@@ -36,7 +36,7 @@ requireReadable (const std::filesystem::path& path)
 }
 
 Cloud
-parseBin (const FileBytes& file)
+parseBin (const FileBytes& file, const ReadOptions& /*options*/)
 {
   constexpr double FARTHEST = 1e6; // metres
   constexpr double MOST_RINGS = 256.0;
@@ -68,12 +68,12 @@ parseBin (const FileBytes& file)
 Cloud
 readCloud (const std::filesystem::path& path, const ReadOptions& options)
 {
-  const std::optional<CloudFormat> format = cloudFormatOf (path);
+  const CloudFormat format = cloudFormatOf (path);
   requireReadable (path);
   if (!format)
     throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
                      CLOUD_EXTENSIONS);
-  return readCloud (path, *format, options);
+  return readCloud (path, format, options);
 }
 
 namespace {
@@ -126,49 +126,15 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
 } // namespace
 
 Cloud
-parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options)
-{
-  if (options.columns[0] > 0 && format != CloudFormat::XYZ && format != CloudFormat::PTS)
-    throw ReadError ("--columns is for text with a point in each line");
-  switch (format) {
-  case CloudFormat::PCD:
-    return parsePcd (file, options.all_digits);
-  case CloudFormat::PLY:
-    return parsePly (file, options.all_digits);
-  case CloudFormat::OBJ:
-    return parseObj (file);
-  case CloudFormat::STL:
-    return parseStl (file);
-  case CloudFormat::VTK: {
-    Triangles faces;
-    Cloud cloud = parseVtk (file, faces);
-    if (!faces.empty ())
-      cloud.warnings.push_back (facesLeftOut (faces.size ()));
-    return cloud;
-  }
-  case CloudFormat::VTP:
-    return parseVtp (file);
-  case CloudFormat::LAS:
-    return parseLas (file);
-  case CloudFormat::BIN:
-    return parseBin (file);
-  case CloudFormat::PTX:
-    return parsePtx (file);
-  case CloudFormat::XYZ:
-  case CloudFormat::PTS:
-    break;
-  }
-  return parseTable (file, format == CloudFormat::PTS, options.columns);
-}
-
-Cloud
 readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
 {
   const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
                                              : "the file is empty");
-  Cloud cloud = parseCloud (file, format, options);
+  if (options.columns[0] > 0 && format != parseXyz && format != parsePts)
+    throw ReadError ("--columns is for text with a point in each line");
+  Cloud cloud = format (file, options);
   chooseClasses (cloud, options.classes);
   return cloud;
 }

@@ -49,37 +49,6 @@ private:
   std::uint32_t first_ = 0, last_ = 0;
 };
 
-/// Formats of clouds.
-enum class CloudFormat
-{
-  PCD,
-  PLY,
-  OBJ,
-  STL,
-  VTK,
-  VTP, ///< VTK's format in XML
-  LAS,
-  BIN, ///< floats of a spinning lidar
-  PTX,
-  XYZ, ///< text with a point in each line
-  PTS  ///< the same, as scanners write it: the intensity comes before the colour
-};
-
-/// Their names, which are extensions as well; others are those of text.
-constexpr std::array<std::pair<const char*, std::optional<CloudFormat>>, 12> CLOUD_FORMATS{
-    {{"auto", std::nullopt},
-     {"pcd", CloudFormat::PCD},
-     {"ply", CloudFormat::PLY},
-     {"obj", CloudFormat::OBJ},
-     {"stl", CloudFormat::STL},
-     {"vtk", CloudFormat::VTK},
-     {"vtp", CloudFormat::VTP},
-     {"las", CloudFormat::LAS},
-     {"bin", CloudFormat::BIN},
-     {"ptx", CloudFormat::PTX},
-     {"xyz", CloudFormat::XYZ},
-     {"pts", CloudFormat::PTS}}};
-
 /// The extensions of clouds, for messages.
 constexpr const char* CLOUD_EXTENSIONS =
     ".pcd, .ply, .obj, .stl, .vtk, .vtp, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
@@ -94,10 +63,6 @@ constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read
 void
 requireReadable (const std::filesystem::path& path);
 
-/// The format that the extension of a file tells, in upper or lower case.
-std::optional<CloudFormat>
-cloudFormatOf (const std::filesystem::path& path);
-
 /// How to read a cloud.
 struct ReadOptions
 {
@@ -106,7 +71,91 @@ struct ReadOptions
   bool all_digits = false;
   std::array<std::size_t, 3> columns{}; ///< of x, y and z in text, from 1; zeros: found
   std::vector<int> classes{};           ///< of airborne scans; empty: all but those of noise
+  Triangles* faces = nullptr;           ///< get those of PLY and VTK, polygons as several
 };
+
+/// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
+/// skipped. The origin of the viewpoint is read; coordinates are not transformed. A header without
+/// SIZE, TYPE or COUNT is one of floats.
+Cloud
+parsePcd (const FileBytes& file, const ReadOptions& options);
+
+/// PLY, ascii and binary in both byte orders: the element "vertex", without its list properties, and
+/// "face" if faces are asked for. Without it, elements after the vertices are ignored.
+Cloud
+parsePly (const FileBytes& file, const ReadOptions& options);
+
+/// VTK's legacy format: points with colours, normals, and texture coordinates as the fields s and t;
+/// of POLYDATA, the polygons (both layouts). All other data are left out.
+Cloud
+parseVtk (const FileBytes& file, const ReadOptions& options);
+
+/// VTK's format in XML, of one piece: points and their arrays, as text, in base64 or raw, also compressed
+/// by zlib.
+Cloud
+parseVtp (const FileBytes& file, const ReadOptions& options);
+
+/// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
+/// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other
+/// lines are ignored. A line that ends with \ goes on in the next.
+Cloud
+parseObj (const FileBytes& file, const ReadOptions& options);
+
+/// STL, binary and text: the corners of the facets, equal ones once.
+Cloud
+parseStl (const FileBytes& file, const ReadOptions& options);
+
+/// Floats, as KITTI and nuScenes store what a spinning lidar has seen: x, y, z and intensity of each
+/// point, and the ring, a whole number, where there are five.
+Cloud
+parseBin (const FileBytes& file, const ReadOptions& options);
+
+/// PTX: all scans of the file, in their common frame, with intensity and colour. Pixels without a
+/// return are left out. A single scan is organized and has the place of its sensor; of several, each
+/// point has the number of its scan.
+Cloud
+parsePtx (const FileBytes& file, const ReadOptions& options);
+
+/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity, colour, returns, class,
+/// the flags synthetic and withheld, source and time. A colour is the higher 8 of its 16 bits, or
+/// the lower ones if none is above 255.
+Cloud
+parseLas (const FileBytes& file, const ReadOptions& options);
+
+/// Text with a point in each line, as many columns as in the first. They are separated by blanks,
+/// tabs, commas or semicolons, and named by a line before them, which may be a comment; columns
+/// without names are x, y, z, and others by what they hold. Lines before the first point that are
+/// no points are skipped, with a warning; a single whole number is how many points there are. Lines
+/// that begin with #, // or % are comments.
+/// \throws ReadError also if the first column counts the points, or a header names no coordinates
+Cloud
+parseXyz (const FileBytes& file, const ReadOptions& options);
+
+/// The same, as scanners write it: of columns without names, where a colour could begin in the fourth or
+/// the fifth, the intensity comes before it.
+Cloud
+parsePts (const FileBytes& file, const ReadOptions& options);
+
+/// A format of clouds: what makes a cloud of the bytes of a file, which are not empty. Of all classes.
+using CloudFormat = Cloud (*) (const FileBytes&, const ReadOptions&);
+
+/// Their names, which are extensions as well; others are those of text.
+constexpr std::array<std::pair<const char*, CloudFormat>, 12> CLOUD_FORMATS{{{"auto", nullptr},
+                                                                             {"pcd", parsePcd},
+                                                                             {"ply", parsePly},
+                                                                             {"obj", parseObj},
+                                                                             {"stl", parseStl},
+                                                                             {"vtk", parseVtk},
+                                                                             {"vtp", parseVtp},
+                                                                             {"las", parseLas},
+                                                                             {"bin", parseBin},
+                                                                             {"ptx", parsePtx},
+                                                                             {"xyz", parseXyz},
+                                                                             {"pts", parsePts}}};
+
+/// The format that the extension of a file tells, in upper or lower case; nullptr if it is unknown.
+CloudFormat
+cloudFormatOf (const std::filesystem::path& path);
 
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input
@@ -114,75 +163,9 @@ struct ReadOptions
 Cloud
 readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options = {});
 
-/// The same from the bytes of a file, which are not empty; of all classes.
-Cloud
-parseCloud (const FileBytes& file, CloudFormat format, const ReadOptions& options);
-
 /// The same, in the format that the extension tells.
 /// \throws ReadError if the extension is unknown
 Cloud
 readCloud (const std::filesystem::path& path, const ReadOptions& options = {});
-
-/// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
-/// skipped. The origin of the viewpoint is read; coordinates are not transformed. A header without
-/// SIZE, TYPE or COUNT is one of floats.
-Cloud
-parsePcd (const FileBytes& file, bool all_digits = false);
-
-/// PLY, ascii and binary in both byte orders: the element "vertex", without its list properties.
-/// \param triangles gets the element "face", polygons as several; without it, elements after the
-/// vertices are ignored
-Cloud
-parsePly (const FileBytes& file, bool all_digits = false, Triangles* triangles = nullptr);
-
-/// VTK's legacy format: points with colours, normals, and texture coordinates as the fields s and t;
-/// of POLYDATA, the polygons (both layouts). All other data are left out.
-Cloud
-parseVtk (const FileBytes& file, Triangles& triangles);
-
-/// VTK's format in XML, of one piece: points and their arrays, as text, in base64 or raw, also compressed
-/// by zlib.
-Cloud
-parseVtp (const FileBytes& file);
-
-/// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
-/// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other
-/// lines are ignored. A line that ends with \ goes on in the next.
-Cloud
-parseObj (const FileBytes& file);
-
-/// STL, binary and text: the corners of the facets, equal ones once.
-Cloud
-parseStl (const FileBytes& file);
-
-/// Floats, as KITTI and nuScenes store what a spinning lidar has seen: x, y, z and intensity of each
-/// point, and the ring, a whole number, where there are five.
-Cloud
-parseBin (const FileBytes& file);
-
-/// PTX: all scans of the file, in their common frame, with intensity and colour. Pixels without a
-/// return are left out. A single scan is organized and has the place of its sensor; of several, each
-/// point has the number of its scan.
-Cloud
-parsePtx (const FileBytes& file);
-
-/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity, colour, returns, class,
-/// the flags synthetic and withheld, source and time. A colour is the higher 8 of its 16 bits, or
-/// the lower ones if none is above 255.
-Cloud
-parseLas (const FileBytes& file);
-
-/// Text with a point in each line, as many columns as in the first. They are separated by blanks,
-/// tabs, commas or semicolons, and named by a line before them, which may be a comment; columns
-/// without names are x, y, z, and others by what they hold. Lines before the first point that are
-/// no points are skipped, with a warning; a single whole number is how many points there are. Lines
-/// that begin with #, // or % are comments.
-/// \param is_intensity_first of columns without names, where a colour could begin in the fourth or
-/// the fifth
-/// \param columns of x, y and z, from 1, if not zero
-/// \throws ReadError also if the first column counts the points, or a header names no coordinates
-Cloud
-parseTable (const FileBytes& file, bool is_intensity_first = false,
-            const std::array<std::size_t, 3>& columns = {});
 
 } // namespace pcl::floater

@@ -177,7 +177,7 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
 } // namespace
 
 Cloud
-parseLas (const FileBytes& file)
+parseLas (const FileBytes& file, const ReadOptions& /*options*/)
 {
   const std::string_view bytes = file.view ();
   const LasHeader header = readHeader (bytes);

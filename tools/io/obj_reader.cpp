@@ -141,7 +141,7 @@ matchNormals (const std::vector<double>& normals, const ObjFaces& faces, std::si
 } // namespace
 
 Cloud
-parseObj (const FileBytes& file)
+parseObj (const FileBytes& file, const ReadOptions& /*options*/)
 {
   constexpr std::size_t WITH_COLOR = 6;
   std::vector<double> coordinates;

@@ -271,7 +271,7 @@ readCompressed (std::string_view bytes, PcdHeader& header)
 } // namespace
 
 Cloud
-parsePcd (const FileBytes& file, bool all_digits)
+parsePcd (const FileBytes& file, const ReadOptions& options)
 {
   TextScanner scanner (file.view ());
   PcdHeader header = readPcdHeader (scanner);
@@ -279,7 +279,7 @@ parsePcd (const FileBytes& file, bool all_digits)
   if (header.points == 0)
     throw ReadError ("it has no points");
   const bool is_widened =
-      all_digits && header.data == "ascii" && widenCoordinates (fieldsToKeep (header));
+      options.all_digits && header.data == "ascii" && widenCoordinates (fieldsToKeep (header));
   if (header.data == "ascii")
     has_more = readAscii (scanner, header);
   else if (header.data == "binary")

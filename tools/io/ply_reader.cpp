@@ -130,12 +130,6 @@ fieldsOf (Element& element)
   return fields;
 }
 
-bool
-haveCorners (const Property& list)
-{
-  return list.field.name == "vertex_indices" || list.field.name == "vertex_index";
-}
-
 /// Reads a row of an element: stores its values, without lists, and goes on behind them.
 /// \param to nullptr: they are only passed over
 /// \param fans get the corners of faces; may be nullptr
@@ -145,7 +139,9 @@ void
 readRow (const Element& element, char*& to, PolygonFans* fans, const Next& next)
 {
   for (const Property& property : element.properties) {
-    const bool are_corners = property.is_list && fans != nullptr && haveCorners (property);
+    const bool are_corners =
+        property.is_list && fans != nullptr &&
+        (property.field.name == "vertex_indices" || property.field.name == "vertex_index");
     std::size_t count = 1;
     if (property.is_list)
       count = visitType (property.length_type,
@@ -235,15 +231,16 @@ checkCount (const Element& element, bool is_ascii, std::size_t bytes)
 } // namespace
 
 Cloud
-parsePly (const FileBytes& file, bool all_digits, Triangles* triangles)
+parsePly (const FileBytes& file, const ReadOptions& options)
 {
   TextScanner scanner (file.view ());
   PlyHeader header = readPlyHeader (scanner);
   std::string_view rest = scanner.rest ();
   Element& vertices = *header.find ("vertex");
   const Element* const faces = header.find ("face");
+  Triangles* const triangles = options.faces;
   const bool is_widened =
-      all_digits && !header.byte_order && widenCoordinates (fieldsOf (vertices));
+      options.all_digits && !header.byte_order && widenCoordinates (fieldsOf (vertices));
   Triangles none;
   PolygonFans fans (vertices.count, triangles == nullptr ? none : *triangles);
   const Element* const last =

@@ -89,7 +89,7 @@ addNormals (const PtxPixels& pixels, std::size_t first, std::size_t columns, std
 } // namespace
 
 Cloud
-parsePtx (const FileBytes& file)
+parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
 {
   TextScanner scanner (file.view ());
   PtxPixels pixels;

@@ -98,7 +98,7 @@ parseText (std::string_view text)
 } // namespace
 
 Cloud
-parseStl (const FileBytes& file)
+parseStl (const FileBytes& file, const ReadOptions& /*options*/)
 {
   const std::string_view bytes = file.view ();
   const bool is_long = bytes.size () >= STL_HEADER_BYTES + sizeof (std::uint32_t);

@@ -49,10 +49,10 @@ public:
       : columns_ (head.columns), separator_ (head.separator), width_ (columns_.size ())
   {
     const auto lines = static_cast<std::size_t> (std::count (text.begin (), text.end (), newline));
-    values_->reserve ((std::min (lines, text.size () / width_) + 2) * width_);
+    values_.reserve ((std::min (lines, text.size () / width_) + 2) * width_);
   }
 
-  std::size_t rows () const { return values_->size () / width_; }
+  std::size_t rows () const { return values_.size () / width_; }
 
   /// Reads a line with a point.
   /// \throws ReadError if it has other columns than those before it
@@ -61,7 +61,7 @@ public:
     if (splitColumns (line, separator_.separator, words_) && words_.size () + 1 == width_)
       words_.emplace_back ();
     for (std::size_t c = 0; c < std::min (words_.size (), width_); ++c) {
-      double& value = values_->emplace_back ();
+      double& value = values_.emplace_back ();
       if (parseColumn (words_[c], separator_.has_decimal_comma, value))
         note (columns_[c], words_[c], value);
       else if (columns_[c].is_number)
@@ -116,15 +116,14 @@ public:
                           "names them");
   }
 
-  /// Narrows the columns to their types, in place, and makes fields of them.
-  std::vector<Field> fields (std::vector<std::string>& warnings)
+  /// Narrows the columns to their types, and makes fields of them.
+  std::vector<Field> fields (std::vector<std::string>& warnings) const
   {
     const bool are_bytes =
         std::all_of (columns_.begin (), columns_.end (), [] (const Column& column) {
           return !column.isColor () || (column.is_number && column.are_bytes);
         });
     std::vector<Field> fields;
-    std::vector<std::size_t> sources; // columns
     for (std::size_t c = 0; c < width_; ++c) {
       const Column& column = columns_[c];
       const std::string number = std::to_string (c + 1);
@@ -135,26 +134,17 @@ public:
         continue;
       }
       const std::string other = column.name.empty () ? "column_" + number : column.name;
-      fields.push_back ({column.kind < OTHER ? std::string (KNOWN[column.kind][0]) : other,
-                         column.isColor () && are_bytes         ? ScalarType::UINT8
-                         : column.kind > Z && column.fits_float ? ScalarType::FLOAT32
-                                                                : ScalarType::FLOAT64});
-      sources.push_back (c);
+      const std::string name = column.kind < OTHER ? std::string (KNOWN[column.kind][0]) : other;
+      const ScalarType type = column.isColor () && are_bytes         ? ScalarType::UINT8
+                              : column.kind > Z && column.fits_float ? ScalarType::FLOAT32
+                                                                     : ScalarType::FLOAT64;
+      visitType (type, [&] (auto tag) {
+        std::vector<decltype (tag)> narrowed (rows ());
+        for (std::size_t row = 0; row < narrowed.size (); ++row)
+          narrowed[row] = static_cast<decltype (tag)> (values_[row * width_ + c]);
+        addColumns ({name.c_str ()}, type, std::move (narrowed), fields);
+      });
     }
-    // No value is written beyond the one that it is made of.
-    auto* const bytes = reinterpret_cast<char*> (values_->data ());
-    char* to = bytes;
-    for (std::size_t row = 0; row < rows (); ++row)
-      for (std::size_t f = 0; f < fields.size (); ++f)
-        visitType (fields[f].type, [&] (auto narrow) {
-          using T = decltype (narrow);
-          const auto number = readNumber<double> (
-              bytes + (row * width_ + sources[f]) * sizeof (double), HOST_BYTE_ORDER);
-          narrow = static_cast<T> (number);
-          std::memcpy (to, &narrow, sizeof narrow);
-          to += sizeof narrow;
-        });
-    viewRows (pointersTo (fields), {values_, bytes}, HOST_BYTE_ORDER);
     return fields;
   }
 
@@ -163,8 +153,8 @@ public:
   {
     constexpr std::size_t FEWEST = 10; // rows
     bool counts = rows () >= FEWEST && width_ > 3;
-    for (std::size_t at = width_; at < values_->size () && counts; at += width_)
-      counts = (*values_)[at] == (*values_)[at - width_] + 1.0;
+    for (std::size_t at = width_; at < values_.size () && counts; at += width_)
+      counts = values_[at] == values_[at - width_] + 1.0;
     return counts;
   }
 
@@ -174,7 +164,7 @@ public:
     constexpr double ROUNDING = 0.02; // of two decimals each
     bool has_any = false;
     for (std::size_t row = first_row; row < rows () && column + 3 <= width_; ++row) {
-      const double* const v = values_->data () + row * width_ + column;
+      const double* const v = values_.data () + row * width_ + column;
       const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
       if (std::isnan (square) || square == 0.0)
         continue;
@@ -189,9 +179,8 @@ private:
   std::vector<Column> columns_;
   ColumnSeparator separator_;
   std::size_t width_;
-  std::shared_ptr<std::vector<double>> values_ = // rows of width_; later rows of other types
-      std::make_shared<std::vector<double>> ();
-  Words words_; // of a line
+  std::vector<double> values_; // rows of width_
+  Words words_;                // of a line
 };
 
 void
@@ -206,8 +195,6 @@ checkCount (const TableHead& head, std::size_t rows, std::vector<std::string>& w
   warnings.push_back ("the first line of the input file promises " + std::to_string (*head.count) +
                       " points, but there are " + std::to_string (rows) + "; all were taken");
 }
-
-} // namespace
 
 Cloud
 parseTable (const FileBytes& file, bool is_intensity_first,
@@ -272,6 +259,20 @@ parseTable (const FileBytes& file, bool is_intensity_first,
   Cloud cloud = makeCloud (std::move (fields), points, std::move (warnings));
   cloud.may_be_degrees = may_be_degrees;
   return cloud;
+}
+
+} // namespace
+
+Cloud
+parseXyz (const FileBytes& file, const ReadOptions& options)
+{
+  return parseTable (file, false, options.columns);
+}
+
+Cloud
+parsePts (const FileBytes& file, const ReadOptions& options)
+{
+  return parseTable (file, true, options.columns);
 }
 
 } // namespace pcl::floater

@@ -199,9 +199,13 @@ private:
 } // namespace
 
 Cloud
-parseVtk (const FileBytes& file, Triangles& triangles)
+parseVtk (const FileBytes& file, const ReadOptions& options)
 {
-  return VtkParser (file).parse (triangles);
+  Triangles left_out;
+  Cloud cloud = VtkParser (file).parse (options.faces != nullptr ? *options.faces : left_out);
+  if (!left_out.empty ())
+    cloud.warnings.push_back (facesLeftOut (left_out.size ()));
+  return cloud;
 }
 
 } // namespace pcl::floater

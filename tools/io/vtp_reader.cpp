@@ -139,11 +139,6 @@ private:
     return text_.substr (begin, end - begin);
   }
 
-  static std::optional<ScalarType> typeOf (std::string_view name)
-  {
-    return findType ([name] (const TypeNames& names, ScalarType) { return name == names.vtp; });
-  }
-
   std::uint64_t header (EncodedBytes& bytes) const
   {
     return has_long_headers_ ? readNumber<std::uint64_t> (bytes.read (8).data (), order_)
@@ -174,7 +169,10 @@ private:
 
   void addArray (std::string_view tag, std::size_t at, bool is_place, std::vector<Field>& fields)
   {
-    const std::optional<ScalarType> type = typeOf (attributeOf (tag, "type"));
+    const std::optional<ScalarType> type =
+        findType ([of = attributeOf (tag, "type")] (const TypeNames& names, ScalarType) {
+          return of == names.vtp;
+        });
     const std::size_t each = countIn (tag, "NumberOfComponents", 1);
     if (!type || each == 0 || each > 256 || points_ > text_.size () * 1100) // what zlib can do
       return;
@@ -234,7 +232,7 @@ private:
 } // namespace
 
 Cloud
-parseVtp (const FileBytes& file)
+parseVtp (const FileBytes& file, const ReadOptions& /*options*/)
 {
   return VtpParser (file.view ()).parse ();
 }

@@ -20,10 +20,11 @@ readPictureMesh (const std::filesystem::path& path)
   const std::string extension = lowerExtension (path);
   if (extension != ".vtk" && extension != ".ply")
     throw ReadError ("its extension must be .vtk or .ply");
-  const FileBytes file (path);
   PictureMesh mesh;
   Triangles all;
-  const Cloud cloud = extension == ".vtk" ? parseVtk (file, all) : parsePly (file, false, &all);
+  ReadOptions options;
+  options.faces = &all;
+  const Cloud cloud = cloudFormatOf (path) (FileBytes (path), options);
   const std::vector<Eigen::Vector3d> positions = cloud.positions ();
   const Field *s = cloud.find ("s"), *t = cloud.find ("t");
 

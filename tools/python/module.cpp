@@ -71,7 +71,7 @@ makeInput (const PointRows& rows, const py::object& normals, const py::object& s
 }
 
 /// \param lattice_width of an organized cloud: points of a row; else 0
-/// \return status, message, warnings, the part of the report that the core knows, and the arrays
+/// \return status, message, what strict objects to, warnings, the part of the report that the core knows, and the arrays
 py::tuple
 run (const py::buffer& points, std::size_t lattice_width, const py::object& normals,
      const py::object& sensor_origin, const py::dict& keywords, const py::object& progress)
@@ -107,8 +107,8 @@ run (const py::buffer& points, std::size_t lattice_width, const py::object& norm
   known.update (resultJson (report));
   known["seconds"] = secondsJson (report.statistics);
   known["seconds"]["reconstruction"] = seconds;
-  return py::make_tuple (statusName (report.status), report.message, report.warnings,
-                         toPython (known), arraysOfResult (result));
+  return py::make_tuple (statusName (report.status), report.message, objectionTo (report),
+                         report.warnings, toPython (known), arraysOfResult (result));
 }
 
 } // namespace

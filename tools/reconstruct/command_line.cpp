@@ -183,7 +183,7 @@ unknownExtension (const std::filesystem::path& path)
 void
 checkPaths (const CommandLine& line)
 {
-  if (!line.cloudFormat ()) {
+  if (line.cloudFormat () == nullptr) {
     if (isStandardStream (line.input))
       throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
                         "--input-format pcd");

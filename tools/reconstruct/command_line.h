@@ -78,7 +78,7 @@ struct CommandLine
   std::filesystem::path texture;           ///< image of the colours of the points
   int texture_size = 0;                    ///< of its side, in pixels; 0: chosen by the points
   bool texture_coordinates = false;        ///< --uv; also if a texture is asked for
-  std::optional<CloudFormat> input_format; ///< nothing: that of its extension
+  CloudFormat input_format = nullptr;      ///< nullptr: that of its extension
   std::optional<MeshFormat> output_format; ///< nothing: that of its extension
   std::array<std::size_t, 3> columns{};    ///< of x, y and z in text, from 1; zeros: found
   std::vector<int> classes;                ///< of airborne scans; empty: all but noise
@@ -96,10 +96,10 @@ struct CommandLine
   bool strict = false;                 ///< write no poor mesh, and none with points left out
   std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
 
-  /// The format of the input, if anything tells it.
-  std::optional<CloudFormat> cloudFormat () const
+  /// The format of the input, if anything tells it, else nullptr.
+  CloudFormat cloudFormat () const
   {
-    return input_format ? input_format : cloudFormatOf (input);
+    return input_format != nullptr ? input_format : cloudFormatOf (input);
   }
 
   /// The format of the mesh, if anything tells it.

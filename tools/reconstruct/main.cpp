@@ -12,6 +12,7 @@
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "remaining_time.h"
+#include "report_json.h"
 #include "run_report.h"
 #include "scratch_arrays.h"
 
@@ -218,7 +219,7 @@ run (CommandLine line)
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   Cloud cloud = readNamed (line.input, [&] {
-    return readCloud (line.input, *line.cloudFormat (), readOptionsOf (line));
+    return readCloud (line.input, line.cloudFormat (), readOptionsOf (line));
   });
   checkTextureColours (line, cloud);
   RunFigures figures;

@@ -11,19 +11,25 @@
 
 namespace pcl::floater {
 void
-addParsed (CLI::App& app, const std::string& name,
-           const std::function<void (const std::string&)>& parse, const std::string& text,
+addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
            const std::string& kind, const std::string& group)
 {
-  app.add_option_function<std::string> (name, parse, text)->option_text (kind)->group (group);
+  const auto take = [name, parse] (const std::string& word) {
+    if (const std::string cause = parse (word); !cause.empty ())
+      throw CLI::ValidationError (name, "'" + word + "' " + cause);
+  };
+  app.add_option_function<std::string> (name, take, text)->option_text (kind)->group (group);
 }
 
 void
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind)
 {
-  addParsed (
-      app, name, [&path] (const std::string& word) { path = word; }, description, kind, group);
+  const auto take = [&path] (const std::string& word) {
+    path = word;
+    return "";
+  };
+  addParsed (app, name, take, description, kind, group);
 }
 
 std::string
@@ -143,10 +149,9 @@ addShift (CLI::App& app, CommandLine& line)
   const auto parse = [&line] (const std::string& word) {
     line.auto_shift = word == "auto";
     line.shift = parsePlace (word);
-    if (!line.auto_shift && !line.shift)
-      throw CLI::ValidationError ("--shift", "'" + word +
-                                                 "' is neither auto nor three numbers, such as "
-                                                 "500000,5500000,0");
+    return line.auto_shift || line.shift
+               ? ""
+               : "is neither auto nor three numbers, such as 500000,5500000,0";
   };
   addParsed (
       app, "--shift", parse,
@@ -178,29 +183,26 @@ struct TableOptions
   void operator() (const OptionRow& row, bool& value) { (*this) (row, value, SWITCH_CHOICES); }
   void operator() (const OptionRow& row, HoleOptions& holes, LengthUnit unit)
   {
-    const std::string name = nameOf (row);
-    const auto parse = [&holes, name, unit] (const std::string& word) {
-      if (!parseNumber (word, holes.largest_hole))
-        throw CLI::ValidationError (name, "'" + word + "' is not a number");
+    const auto parse = [&holes, unit] (const std::string& word) {
       holes.unit = unit;
+      return parseNumber (word, holes.largest_hole) ? "" : "is not a number";
     };
     if (takes (row))
-      addParsed (app, name, parse, row.text, "X", row.group);
+      addParsed (app, nameOf (row), parse, row.text, "X", row.group);
   }
   void operator() (const OptionRow& row, ViewOptions& view)
   {
-    const std::string name = nameOf (row);
-    const auto parse = [&view, name] (const std::string& word) {
+    const auto parse = [&view] (const std::string& word) {
       const std::optional<Eigen::Vector3d> place = parsePlace (word);
-      if (!place && word != "auto" && word != "none")
-        throw CLI::ValidationError (
-            name, "'" + word + "' is neither auto, none, nor three numbers, such as 0,0,1.5");
       view.use = place ? ViewUse::GIVEN : word == "auto" ? ViewUse::AUTO : ViewUse::NEVER;
       Eigen::Map<Eigen::Vector3d> (view.viewpoint.data ()) =
           place.value_or (Eigen::Vector3d::Zero ());
+      return place || word == "auto" || word == "none"
+                 ? ""
+                 : "is neither auto, none, nor three numbers, such as 0,0,1.5";
     };
     if (takes (row))
-      addParsed (app, name, parse, row.text, "X,Y,Z, auto or none (auto)", row.group);
+      addParsed (app, nameOf (row), parse, row.text, "X,Y,Z, auto or none (auto)", row.group);
   }
 
   // "-k,--neighbors"
@@ -214,15 +216,17 @@ void
 addGeneral (CLI::App& app, CommandLine& line)
 {
   addMemoryLimit (app, line);
-  const auto setLimit = [&line] (const std::string& setting) {
-    const std::size_t equals = std::min (setting.find ('='), setting.size ());
-    const std::string word = setting.substr (std::min (equals + 1, setting.size ()));
-    if (setting.substr (0, equals) != "page.triangles")
-      throw CLI::ValidationError ("--limit", "'" + setting + "' is no NAME=VALUE of a limit");
-    if (!parseNumber (std::string_view (word), line.shown_triangles) || line.shown_triangles < 100)
-      throw CLI::ValidationError ("--limit", "'" + word + "' is no value of page.triangles");
+  const auto setLimit = [&line] (const std::string& setting) { // for tests
+    const std::string name = "page.triangles";
+    const std::string word = setting.substr (std::min (name.size () + 1, setting.size ()));
+    if (setting.substr (0, setting.find ('=')) != name)
+      return "is no NAME=VALUE of a limit";
+    return parseNumber (std::string_view (word), line.shown_triangles) &&
+                   line.shown_triangles >= 100
+               ? ""
+               : "is no value of page.triangles";
   };
-  app.add_option_function<std::string> ("--limit", setLimit)->group (""); // for tests
+  addParsed (app, "--limit", setLimit, "", "", "");
   addCoordinates (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
@@ -310,13 +314,12 @@ addOutputs (CLI::App& app, CommandLine& line)
 void
 addMemoryLimit (CLI::App& app, CommandLine& line)
 {
-  const auto parse = [&line] (const std::string& word) {
+  const auto parse = [&line] (const std::string& word) -> std::string {
     if (!parseSize (word, line.max_memory))
-      throw CLI::ValidationError ("--max-memory",
-                                  "'" + word + "' is not a size, such as 500M or 2G");
-    if (line.max_memory < leastMemory (0))
-      throw CLI::ValidationError ("--max-memory", "'" + word + "' is too small; it must be " +
-                                                      formatSize (leastMemory (0)) + " or more");
+      return "is not a size, such as 500M or 2G";
+    return line.max_memory < leastMemory (0)
+               ? "is too small; it must be " + formatSize (leastMemory (0)) + " or more"
+               : "";
   };
   addParsed (app, "--max-memory", parse,
              "keep the memory in use near this, in bytes; arrays that "
@@ -332,19 +335,18 @@ void
 addCoordinates (CLI::App& app, CommandLine& line)
 {
   addShift (app, line);
+  const auto parseColumns = [&line] (const std::string& word) {
+    const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
+    for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
+      line.columns[static_cast<std::size_t> (axis)] =
+          static_cast<std::size_t> (std::max (0.0, (*numbers)[axis]));
+    const auto& [x, y, z] = line.columns;
+    return !numbers || x == 0 || y == 0 || z == 0 || x == y || y == z || z == x
+               ? "is no three different numbers of columns, such as 2,3,4"
+               : "";
+  };
   addParsed (
-      app, "--columns",
-      [&line] (const std::string& word) {
-        const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
-        for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
-          line.columns[static_cast<std::size_t> (axis)] =
-              static_cast<std::size_t> (std::max (0.0, (*numbers)[axis]));
-        const auto& [x, y, z] = line.columns;
-        if (!numbers || x == 0 || y == 0 || z == 0 || x == y || y == z || z == x)
-          throw CLI::ValidationError ("--columns", "'" + word +
-                                                       "' is no three different numbers of "
-                                                       "columns, such as 2,3,4");
-      },
+      app, "--columns", parseColumns,
       "columns of x, y and z in text with a point in each line, from 1; by default those that the "
       "first line names, or the first three",
       "X,Y,Z", GENERAL);
@@ -352,8 +354,8 @@ addCoordinates (CLI::App& app, CommandLine& line)
     std::stringstream words (word);
     for (std::string one; std::getline (words, one, ',');)
       if (!parseNumber (std::string_view (one), line.classes.emplace_back ()))
-        throw CLI::ValidationError ("--classes",
-                                    "'" + word + "' are no numbers of classes, such as 2,6");
+        return "are no numbers of classes, such as 2,6";
+    return "";
   };
   addParsed (app, "--classes", parse,
              "classes of an airborne scan that are taken, such as 2,6 for ground and buildings; by "

@@ -18,11 +18,14 @@ namespace pcl::floater {
 // Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
 // where it is told, shows the default in the help, and refuses a malformed word by name.
 
+/// Takes the word of an option.
+/// \return what is wrong with it, such as "is not a number"; empty if nothing is
+using ParseWord = std::function<std::string (const std::string& word)>;
+
 /// An option whose word `parse` takes.
 /// \param kind of the value, and its default, for the help
 void
-addParsed (CLI::App& app, const std::string& name,
-           const std::function<void (const std::string&)>& parse, const std::string& text,
+addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
            const std::string& kind, const std::string& group);
 
 /// An option whose value is one of several words.
@@ -37,14 +40,13 @@ addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<En
     words += (words.empty () ? "" : ", ") + std::string (choice.first);
     known.emplace_back (choice.first);
   }
-  const auto choose = [&value, choices, words, known, name] (const std::string& word) {
+  const auto choose = [&value, choices, words, known] (const std::string& word) -> std::string {
     for (const auto& choice : choices)
       if (word == choice.first) {
         value = choice.second;
-        return;
+        return "";
       }
-    throw CLI::ValidationError (name,
-                                "'" + word + "' is none of: " + words + didYouMean (word, known));
+    return "is none of: " + words + didYouMean (word, known);
   };
   addParsed (app, name, choose, description + ":\n" + words,
              std::string ("NAME (") + choiceName (choices, value) + ")", group);
@@ -56,11 +58,10 @@ void
 addNumber (CLI::App& app, const std::string& name, Number& value, const std::string& description,
            const std::string& group)
 {
-  const auto parse = [&value, name] (const std::string& word) {
-    if (!parseNumber (word, value))
-      throw CLI::ValidationError (name,
-                                  "'" + word + "' is not a " +
-                                      (std::is_integral_v<Number> ? "whole number" : "number"));
+  const auto parse = [&value] (const std::string& word) {
+    return parseNumber (word, value)    ? ""
+           : std::is_integral_v<Number> ? "is not a whole number"
+                                        : "is not a number";
   };
   std::ostringstream text;
   text << (std::is_integral_v<Number> ? "N (" : "X (") << value << ")";

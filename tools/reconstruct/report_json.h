@@ -8,6 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
+
 namespace pcl::floater {
 /// The options of a run, by the names of the tool.
 nlohmann::ordered_json
@@ -26,6 +28,11 @@ viewpointJson (const Report& report);
 /// the times, and the lists of points.
 nlohmann::ordered_json
 resultJson (const Report& report);
+
+/// Why a mesh is refused where that is asked for: it is poor, or points are in no triangle. Empty if
+/// there is no reason.
+std::string
+objectionTo (const Report& report);
 
 /// Seconds of each stage.
 nlohmann::ordered_json

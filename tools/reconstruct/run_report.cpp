@@ -72,19 +72,6 @@ peakMemory ()
                                                 : 0;
 }
 
-std::string
-objectionTo (const Report& report)
-{
-  if (report.status != RunStatus::SUCCESS)
-    return "";
-  if (report.verdict.value == Quality::POOR)
-    return "the mesh is poor: " + report.verdict.cause;
-  return report.unused.empty ()
-             ? ""
-             : counted (report.unused.size (), "point") +
-                   (report.unused.size () == 1 ? " is" : " are") + " in no triangle";
-}
-
 nlohmann::ordered_json
 reportJson (const CommandLine& line, const Report& report, const RunFigures& run)
 {

@@ -48,10 +48,6 @@ peakMemory ();
 void
 reportMemory (const CommandLine& line, Report& report);
 
-/// Why --strict refuses a mesh: it is poor, or points are in no triangle. Empty if it does not.
-std::string
-objectionTo (const Report& report);
-
 /// JSON on one line. It is UTF-8; in names of files, bytes that are not are replaced.
 std::string
 dump (const nlohmann::ordered_json& json);

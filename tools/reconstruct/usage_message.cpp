@@ -57,12 +57,6 @@ namesOf (const CLI::Option& option)
   return names;
 }
 
-bool
-isFlag (const CLI::Option& option)
-{
-  return option.get_items_expected () == 0;
-}
-
 /// An option as it was typed: "-k", "-k20", "--neighbors=20".
 struct Typed
 {
@@ -184,7 +178,7 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
   if (is_mismatch ||
       kind == CLI::ExitCodes::ConversionError) // of which the parser converts flags only
     for (const Typed& one : typed)
-      if (isFlag (*one.option) && !one.value.empty ())
+      if (one.option->get_items_expected () == 0 && !one.value.empty ())
         return one.name + " takes no value, but has '" + one.value + "'";
   const CLI::Option* const option = optionOf (app, message);
   if (option == nullptr)

@@ -196,17 +196,12 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
     if not isinstance(strict, (bool, np.bool_)):
         raise TypeError(f"strict must be True or False, not {strict!r}")
     array, columns = _as_list("points", points)
-    status, message, warnings, known, arrays = _core.run(
+    status, message, objection, warnings, known, arrays = _core.run(
         array, columns, None if normals is None else _as_list("normals", normals)[0], sensor_origin,
         options, progress)
     arrays = {name: None if values is None else np.asarray(values) for name, values in arrays.items()}
-    if strict and status == "SUCCESS":
-        unused = len(arrays["unused"])
-        if known["verdict"]["value"] == "poor":
-            status, message = "REFUSED", f"the mesh is poor: {known['verdict']['cause']}, which strict does not allow"
-        elif unused:
-            status = "REFUSED"
-            message = f"{unused} point{' is' if unused == 1 else 's are'} in no triangle, which strict does not allow"
+    if strict and objection:
+        status, message = "REFUSED", f"{objection}, which strict does not allow"
     report = {
         "version": __version__,
         "input": {"points": len(array), "coordinates": "float" if array.itemsize == 4 else "double"},
