@@ -334,62 +334,36 @@ keepLargeClusters (const std::vector<Arc>& arcs, std::size_t largest_cluster,
 
 } // namespace
 
-void
-findReaches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const Rows& rows, std::vector<float>& reach, const RunContext& run)
-{
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Row row = neighbors.row (rows[i]);
-      if (row.size () > 0)
-        reach[rows[i]] = static_cast<float> (
-            distance (positions, rows[i], row[std::min (REACH_OF, row.size ()) - 1]));
-    }
-  });
-}
-
-std::vector<std::uint8_t>
-findApart (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<float>& reach, const Rows& rows, const OutlierLimits& limits,
-           const RunContext& run)
-{
-  std::vector<std::uint8_t> apart (rows.size (), 0);
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    ApartTest test (positions, neighbors, reach, limits);
-    for (std::size_t i = first; i < last; ++i)
-      apart[i] = test.isApart (rows[i]) ? 1 : 0;
-  });
-  return apart;
-}
-
-std::vector<Index>
-chooseOutliers (const CsrLists& neighbors, std::vector<std::uint8_t> apart,
-                const OutlierLimits& limits)
-{
-  std::vector<Index> outliers;
-  if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
-    return outliers;
-  const std::vector<Arc> arcs = arcsToApart (neighbors, apart, limits);
-  keepReached (arcs, apart);
-  keepLargeClusters (arcs, limits.cluster, apart);
-  for (std::size_t p = 0; p < apart.size (); ++p)
-    if (apart[p] != 0)
-      outliers.push_back (static_cast<Index> (p));
-  return outliers;
-}
-
 std::vector<Index>
 findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const RunContext& run, const OutlierLimits& limits)
 {
   const std::size_t n = positions.size ();
-  if (!mayHaveOutliers (n, limits))
-    return {};
-  const Rows all = Rows::all (n);
-  std::vector<float> reach (n, 0.0F);
-  findReaches (positions, neighbors, all, reach, run);
-  return chooseOutliers (neighbors, findApart (positions, neighbors, reach, all, limits, run),
-                         limits);
+  std::vector<Index> outliers;
+  if (n < 3 * limits.cluster)
+    return outliers;
+  std::vector<float> reach (n, 0.0F); // distance to the 6th nearest neighbour; 0 if there are none
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p)
+      if (const Row row = neighbors.row (p); row.size () > 0)
+        reach[p] = static_cast<float> (distance (positions, static_cast<Index> (p),
+                                                 row[std::min (REACH_OF, row.size ()) - 1]));
+  });
+  std::vector<std::uint8_t> apart (n, 0);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    ApartTest test (positions, neighbors, reach, limits);
+    for (std::size_t p = first; p < last; ++p)
+      apart[p] = test.isApart (static_cast<Index> (p)) ? 1 : 0;
+  });
+  if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
+    return outliers;
+  const std::vector<Arc> arcs = arcsToApart (neighbors, apart, limits);
+  keepReached (arcs, apart);
+  keepLargeClusters (arcs, limits.cluster, apart);
+  for (std::size_t p = 0; p < n; ++p)
+    if (apart[p] != 0)
+      outliers.push_back (static_cast<Index> (p));
+  return outliers;
 }
 
 } // namespace pcl::floater

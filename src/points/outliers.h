@@ -6,7 +6,6 @@
 #include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "core/types.h"
-#include "points/neighbors.h"
 
 #include <vector>
 
@@ -57,35 +56,6 @@ struct OutlierLimits
   std::size_t own = 12;    ///< number of nearest neighbours that count as close
   std::size_t owners = 4;  ///< a point is kept if at least this many points count it as close
 };
-
-/// Whether a cloud has enough points to detect outliers.
-inline bool
-mayHaveOutliers (std::size_t points, const OutlierLimits& limits)
-{
-  return points >= 3 * limits.cluster;
-}
-
-/// Distance of points to their 6th nearest neighbour; 0 if they have none.
-/// \param neighbors  of the points in `rows`, nearest first
-/// \param[out] reach of the points in `rows`; other entries stay unchanged
-void
-findReaches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const Rows& rows, std::vector<float>& reach, const RunContext& run);
-
-/// Whether points lie apart, 1 or 0 for each of the rows: first step of findOutliers ().
-/// \param neighbors of the points in `rows`
-/// \param reach     of these, and of their 20 nearest neighbours
-std::vector<std::uint8_t>
-findApart (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<float>& reach, const Rows& rows, const OutlierLimits& limits,
-           const RunContext& run);
-
-/// The outliers among the points that lie apart, ascending: second step of findOutliers ().
-/// \param neighbors of all points, at least the 12 nearest of each
-/// \param apart     of all points
-std::vector<Index>
-chooseOutliers (const CsrLists& neighbors, std::vector<std::uint8_t> apart,
-                const OutlierLimits& limits);
 
 /// Outliers, ascending. An outlier lies apart in one of two ways:
 /// - it and at most 6 others are farther from all else than 5 times the reach of the points there;
