@@ -6,7 +6,6 @@
 #include "option_table.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"
-#include "usage_message.h"
 
 #include <CLI/CLI.hpp>
 

@@ -13,7 +13,6 @@
 #include "options/option_rows.h"
 #include "scratch_arrays.h"
 #include "text_scanner.h"
-#include "usage_message.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,7 +4,6 @@
 
 #include "core/order_statistics.h"
 #include "html_template.h"
-#include "mesh_drawing.h"
 #include "report/findings.h"
 
 #include <Eigen/Geometry>

@@ -40,30 +40,6 @@ toolName (std::string name)
 }
 
 namespace {
-/// Breaks the texts of all options into lines.
-void
-wrapTexts (CLI::App& app)
-{
-  constexpr std::size_t COLUMNS = 55;
-  for (CLI::Option* const option : app.get_options ()) {
-    std::string text = option->get_description ();
-    std::size_t begin = 0; // of the line
-    for (std::size_t i = 0, space = 0; i < text.size (); ++i) {
-      if (text[i] == '\n')
-        begin = i + 1;
-      else if (text[i] == ' ')
-        space = i;
-      // The words of a choice stay on one line, behind a colon.
-      const bool is_choice = begin >= 2 && text[begin - 2] == ':';
-      if (i - begin >= COLUMNS && space > begin && !is_choice) {
-        text[space] = '\n';
-        begin = space + 1;
-      }
-    }
-    option->description (text);
-  }
-}
-
 /// Reads "1,-2.5,3".
 /// \return nothing if these are not three finite numbers
 std::optional<Eigen::Vector3d>
@@ -80,24 +56,6 @@ parsePlace (const std::string& word)
   return is_good && place.allFinite () ? std::optional (place) : std::nullopt;
 }
 
-} // namespace
-
-std::optional<int>
-parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
-{
-  wrapTexts (app);
-  try {
-    app.parse (std::vector<std::string> (arguments.rbegin (), arguments.rend ()));
-    return std::nullopt;
-  }
-  catch (const CLI::ParseError& error) {
-    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
-      return app.exit (error);
-    throw UsageError (usageMessage (app, error, arguments));
-  }
-}
-
-namespace {
 using option_group::GENERAL;
 
 const char* const OUTPUT_GROUP = "More output";

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "command_line.h"
+#include "core/problem.h"
 #include "format.h"
 #include "text_scanner.h"
-#include "usage_message.h"
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +15,11 @@
 #include <string>
 
 namespace pcl::floater {
+/// "; did you mean a or b?" with the words that a mistyped one begins, or else those at the least
+/// distance, of at most a third of the letters. Empty if there are none, or too many.
+std::string
+didYouMean (const std::string& word, const std::vector<std::string>& words);
+
 // Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
 // where it is told, shows the default in the help, and refuses a malformed word by name.
 
@@ -87,6 +92,12 @@ prepareApp (CLI::App& app, const char* description, const char* footer);
 /// \throws UsageError
 std::optional<int>
 parseArguments (CLI::App& app, const std::vector<std::string>& arguments);
+
+/// The message for an option that is out of its range.
+/// \param problem of checkOptions ()
+std::string
+rangeMessage (const CLI::App& app, const Problem& problem,
+              const std::vector<std::string>& arguments);
 
 struct OptionRow;
 

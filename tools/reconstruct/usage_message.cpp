@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "usage_message.h"
-
+// What is wrong with a command line, in words of the user.
 #include "option_table.h"
 
 #include <CLI/CLI.hpp>
@@ -153,6 +152,8 @@ didYouMean (const std::string& word, const std::vector<std::string>& words)
   return text + "?";
 }
 
+namespace {
+/// The message for a command line that could not be parsed. Options are named as they were typed.
 std::string
 usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
 {
@@ -190,6 +191,47 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
     return name + " is given " + std::to_string (times) + " times; give it once";
   const std::string& text = option->get_option_text ();
   return name + " needs a value, " + text.substr (0, text.find (" ("));
+}
+
+/// Breaks the texts of all options into lines.
+void
+wrapTexts (CLI::App& app)
+{
+  constexpr std::size_t COLUMNS = 55;
+  for (CLI::Option* const option : app.get_options ()) {
+    std::string text = option->get_description ();
+    std::size_t begin = 0; // of the line
+    for (std::size_t i = 0, space = 0; i < text.size (); ++i) {
+      if (text[i] == '\n')
+        begin = i + 1;
+      else if (text[i] == ' ')
+        space = i;
+      // The words of a choice stay on one line, behind a colon.
+      const bool is_choice = begin >= 2 && text[begin - 2] == ':';
+      if (i - begin >= COLUMNS && space > begin && !is_choice) {
+        text[space] = '\n';
+        begin = space + 1;
+      }
+    }
+    option->description (text);
+  }
+}
+
+} // namespace
+
+std::optional<int>
+parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
+{
+  wrapTexts (app);
+  try {
+    app.parse (std::vector<std::string> (arguments.rbegin (), arguments.rend ()));
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError& error) {
+    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
+      return app.exit (error);
+    throw UsageError (usageMessage (app, error, arguments));
+  }
 }
 
 std::string
