@@ -377,7 +377,7 @@ starsStep (const StepContext& context, std::size_t block)
     const Rows rows =
         is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
     const OwnStars made =
-        takeStars (beginStars (positions, neighbors, normals, rows, settings, context.run, beyond),
+        takeStars (beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond),
                    rows, local);
     if (is_first)
       all = made;
