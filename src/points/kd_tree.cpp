@@ -165,6 +165,29 @@ KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
   return points.size () <= most;
 }
 
+std::size_t
+KdTree::count (const Eigen::Vector3d& query, double radius) const
+{
+  const double sqr_radius = radius * radius;
+  std::size_t found = 0;
+  std::vector<Index> waiting (nodes_.empty () ? 0 : 1, 0);
+  while (!waiting.empty ()) {
+    const Index node = waiting.back ();
+    waiting.pop_back ();
+    const Node& here = nodes_[node];
+    const Eigen::Vector3d farthest =
+        (query - here.box.min ()).cwiseAbs ().cwiseMax ((query - here.box.max ()).cwiseAbs ());
+    if (farthest.squaredNorm () <= sqr_radius)
+      found += here.last - here.first;
+    else if (here.right == NONE)
+      for (Index i = here.first; i < here.last; ++i)
+        found += (items_[i].position - query).squaredNorm () <= sqr_radius ? 1 : 0;
+    else if (here.sqrDistance (query) <= sqr_radius)
+      waiting.insert (waiting.end (), {node + 1, here.right});
+  }
+  return found;
+}
+
 namespace {
 // Points that share a ball. Larger groups need fewer balls, with more points in each. On a height
 // field, this and the next two were the fastest of five choices: 16 or 24 points, margins of 1.3 to
