@@ -117,29 +117,6 @@ KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighb
   visit.end ();
 }
 
-void
-KdTree::within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const
-{
-  struct Within
-  {
-    std::vector<Neighbor>& found;
-    double sqr_radius;
-
-    double reach () const { return sqr_radius; }
-    void add (const Neighbor& candidate)
-    {
-      if (candidate.sqr_distance <= sqr_radius)
-        found.push_back (candidate);
-    }
-  };
-  result.clear ();
-  if (nodes_.empty ())
-    return;
-  Within visit{result, radius * radius};
-  search (0, query, visit);
-  std::sort (result.begin (), result.end ());
-}
-
 bool
 KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
                  std::vector<Index>& points) const

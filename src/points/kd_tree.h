@@ -80,9 +80,6 @@ public:
   /// result. O(k + log n) on clouds of bounded density.
   void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
 
-  /// All points within `radius` of `query` (that distance included), nearest first.
-  void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
-
   /// All points within `radius` of `query` (that distance included), unordered.
   /// \return false if there are more than `most`; then some are missing
   bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
