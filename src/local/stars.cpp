@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -175,8 +176,11 @@ public:
   void add (std::size_t first, std::size_t p, const std::vector<PlanarNeighbor>& star)
   {
     stars.neighbors.offsets[p + 1] = static_cast<Index> (star.size ());
+    std::vector<Index>& ids = ids_.of (first);
+    if (ids.empty ())
+      ids.reserve (7 * RANGE_LENGTH); // stars have 6 neighbours on average
     for (const PlanarNeighbor& neighbor : star) {
-      ids_.of (first).push_back (neighbor.point);
+      ids.push_back (neighbor.point);
       if (with_offsets_)
         offsets_.of (first).push_back (neighbor.offset);
     }
